@@ -1,0 +1,1 @@
+"""The theory itself in plain numbers without units, compiled."""

@@ -1,0 +1,160 @@
+"""Rebounds of many impacts at once."""
+
+import os
+import warnings
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, Literal, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from carom.dimensionless._jit import kernel
+from carom.dimensionless.motion import PSI
+from carom.dimensionless.phases import Status, new_work, run_phases
+from carom.dimensionless.record import Record, new_record
+from carom.dimensionless.stretches import Work
+
+Array = NDArray[np.float64]
+
+TOLERANCE = 3e-11  # of one Taylor step; keeps psi_2 to 1e-12 for chi <= 10, to 1e-11 for chi <= 60
+LINEAR = 1e-6  # below, psi_2 is taken proportional to psi_1: rounding would cost more
+BLOCK = 256
+
+
+@kernel
+def outgoing(psi: float, chi: float, work: Work, record: Record) -> tuple[float, int]:
+    """Return psi_2 of one impact, of either sign, and its status."""
+    speed = abs(psi)
+    scale = 1.0
+    if 0.0 < speed < LINEAR:
+        scale = speed / LINEAR
+        speed = LINEAR
+    status = run_phases(speed, chi, TOLERANCE, work, record)
+    if status != Status.SOLVED:
+        return np.nan, status
+    result = scale * work.series[0, PSI] if speed > 0.0 else 0.0
+    return -result if np.signbit(psi) else result, status
+
+
+@kernel
+def fill(
+    psi: Array,
+    chi: Array,
+    work: Work,
+    record: Record,
+    psi_out: Array,
+    status: NDArray[np.int8],
+) -> None:
+    """Write psi_2 and the status of every impact."""
+    for i in range(psi.size):
+        psi_out[i], status[i] = outgoing(psi[i], chi[i], work, record)
+
+
+@overload
+def rebound(
+    psi: ArrayLike,
+    chi: ArrayLike,
+    *,
+    threads: int | None = ...,
+    return_status: Literal[False] = ...,
+) -> Any: ...
+
+
+@overload
+def rebound(
+    psi: ArrayLike, chi: ArrayLike, *, threads: int | None = ..., return_status: Literal[True]
+) -> tuple[Any, Any]: ...
+
+
+def rebound(
+    psi: ArrayLike,
+    chi: ArrayLike,
+    *,
+    threads: int | None = None,
+    return_status: bool = False,
+) -> Any:
+    """Return the tangential velocity of the contact point after an oblique elastic impact.
+
+    psi_2 = psi_2(psi_1, chi) of Maw, Barber & Fawcett (1976), with the stick phase of Barber's
+    equations (15)-(37) and the slip ring that follows it, to 1e-10 max(1, |psi_1|) for
+    0.05 <= chi <= 10 and ten times that for chi <= 60.
+
+    Parameters
+    ----------
+    psi : array_like
+        psi_1 = kappa V_x / (mu V_1), tangential velocity of the contact point before the impact;
+        dimensionless, any sign.
+    chi : array_like
+        chi = (kappa/2) (m_n/m_t), dimensionless, positive; broadcast against `psi`.
+    threads : int, optional
+        How many threads to use, all cores by default. The result does not depend on it.
+    return_status : bool
+        Return also an array of `Status` values, one per impact.
+
+    Returns
+    -------
+    float or ndarray
+        psi_2, in the shape of the broadcast arguments. NaN where an argument is out of range, with
+        one RuntimeWarning that says where and why unless `return_status` is set.
+
+    Examples
+    --------
+    >>> import carom
+    >>> round(carom.rebound(0.5, 1.44), 10)
+    0.0471310838
+    >>> carom.rebound([0.5, 1.5, 3.5, 6.0], 1.44).round(6)
+    array([ 0.047131, -0.429967, -1.477247,  0.24    ])
+    """
+    psi_in, chi_in = np.broadcast_arrays(
+        np.asarray(psi, dtype=np.float64), np.asarray(chi, dtype=np.float64)
+    )
+    flat_psi, flat_chi = psi_in.ravel(), chi_in.ravel()
+    psi_out = np.empty(flat_psi.size)
+    status = np.empty(flat_psi.size, dtype=np.int8)
+    _fill_blocks(flat_psi, flat_chi, psi_out, status, threads)
+    shape = psi_in.shape
+    result = psi_out.reshape(shape) if shape else float(psi_out[0])
+    if return_status:
+        return result, status.reshape(shape) if shape else int(status[0])
+    _warn_of_unsolved(status.reshape(shape))
+    return result
+
+
+def _fill_blocks(
+    psi: Array, chi: Array, psi_out: Array, status: NDArray[np.int8], threads: int | None
+) -> None:
+    def block(start: int) -> None:
+        part = slice(start, start + BLOCK)
+        fill(psi[part], chi[part], new_work(), new_record(False), psi_out[part], status[part])
+
+    starts = range(0, psi.size, BLOCK)
+    workers = min(threads or available_cores(), len(starts))
+    if workers <= 1:
+        for start in starts:
+            block(start)
+        return
+    block(0)  # compiles, if need be, in one thread
+    with ThreadPoolExecutor(workers) as pool:
+        list(pool.map(block, starts[1:]))
+
+
+def available_cores() -> int:
+    """Return the number of cores this process may use."""
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:  # not on every system
+        return os.cpu_count() or 1
+
+
+def _warn_of_unsolved(status: NDArray[np.int8]) -> None:
+    unsolved = np.argwhere(status != Status.SOLVED)
+    if unsolved.size or (status.ndim == 0 and status != Status.SOLVED):
+        first = tuple(int(i) for i in unsolved[0]) if status.ndim else ()
+        reason = Status(int(status[first])).message
+        where = f"first at index {first}: {reason}" if first else reason
+        warnings.warn(
+            f"{len(unsolved)} of {status.size} impacts give NaN ({where}); "
+            "return_status=True tells each",
+            RuntimeWarning,
+            stacklevel=3,
+        )
