@@ -38,7 +38,8 @@ from carom.dimensionless.stretches import (
     run_stretch,
 )
 
-GROSS, RETRACED = 5, 6  # modes of nodes that need no integration
+# Modes of a recorded step that need no integration.
+GROSS, RETRACED = 3, 4
 
 
 class Kind(IntEnum):

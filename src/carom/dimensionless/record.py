@@ -87,3 +87,16 @@ def note_change(record: Record, kind: int, sign: int, cause: int, series: Series
         record.changes[row, AT_B] = series[0, B]
         record.changes[row, AT_V] = series[0, V]
         record.counts[2] = row + 1
+
+
+def trimmed(record: Record) -> Record:
+    """Return the filled part of a record."""
+    nodes, stretches, changes = (int(count) for count in record.counts)
+    return Record(
+        nodes=record.nodes[:nodes].copy(),
+        series=record.series[:nodes].copy(),
+        stacks=record.stacks[:stretches].copy(),
+        depths=record.depths[:stretches].copy(),
+        changes=record.changes[:changes].copy(),
+        counts=record.counts.copy(),
+    )

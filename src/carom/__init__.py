@@ -1,0 +1,77 @@
+"""Carom: how an elastic sphere leaves an oblique impact, and what happens inside the contact.
+
+Names are loaded when they are first used, so that `import carom` costs nothing.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from carom.bodies import (
+        Cup,
+        HalfSpace,
+        Material,
+        Sphere,
+        material,
+        material_sources,
+        materials,
+    )
+    from carom.dimensionless.phases import Status
+    from carom.dimensionless.rebounds import rebound
+    from carom.dimensionless.solution import Solution, solve
+    from carom.impacts import Impact, impact
+    from carom.pairs import Pair
+    from carom.quantities import InputError
+
+_HOMES = {
+    "carom.bodies": (
+        "Cup",
+        "HalfSpace",
+        "Material",
+        "Sphere",
+        "material",
+        "material_sources",
+        "materials",
+    ),
+    "carom.pairs": ("Pair",),
+    "carom.quantities": ("InputError",),
+    "carom.impacts": ("Impact", "impact"),
+    "carom.dimensionless.phases": ("Status",),
+    "carom.dimensionless.rebounds": ("rebound",),
+    "carom.dimensionless.solution": ("Solution", "solve"),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+__all__ = [
+    "Cup",
+    "HalfSpace",
+    "Impact",
+    "InputError",
+    "Material",
+    "Pair",
+    "Solution",
+    "Sphere",
+    "Status",
+    "impact",
+    "material",
+    "material_sources",
+    "materials",
+    "rebound",
+    "solve",
+]
+
+
+def __getattr__(name: str) -> object:
+    if name == "__version__":
+        from carom.results import carom_version
+
+        return carom_version()
+    if name not in _HOME_OF:
+        raise AttributeError(f"module 'carom' has no attribute {name!r}")
+    value = getattr(import_module(_HOME_OF[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

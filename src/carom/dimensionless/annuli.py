@@ -1,0 +1,101 @@
+"""The memory of a contact at one instant, ready to be asked."""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from carom.dimensionless import dense
+from carom.dimensionless.memory import MADE, OUTER, SLIP_SIGN
+from carom.dimensionless.motion import STICK, B
+from carom.dimensionless.phases import RETRACED
+from carom.dimensionless.record import MODE, SIGN, STRETCH, Record
+
+Array = NDArray[np.float64]
+
+
+class Annulus(NamedTuple):
+    """Part of a contact: laid in stick (sign 0), or brought to its limit by slip of one sign."""
+
+    inner: float
+    outer: float
+    sign: int
+    limit: float
+
+
+@dataclass(frozen=True)
+class Memory:
+    """The memory of a contact at one instant, from which every traction follows.
+
+    g = -dq/ds, |g| <= 1, is the paper's function in (6); q(s) is the density of the transformed
+    traction, |q| <= d - s; s = r^2/(R* d_max).
+    """
+
+    time: float
+    penetration: float
+    displacement: float
+    annuli: tuple[Annulus, ...]
+    _record: Record
+    _moved: Array
+    _mirror: int
+
+    def g(self, s: ArrayLike) -> Array:
+        """Return g at the given s >= 0, zero outside the contact."""
+        return self._mirror * self._read(s)[0]
+
+    def q(self, s: ArrayLike) -> Array:
+        """Return q at the given s >= 0, zero outside the contact."""
+        return self._mirror * self._read(s)[1]
+
+    def _read(self, s: ArrayLike) -> tuple[Array, Array]:
+        places = np.asarray(s, dtype=np.float64)
+        g, q = np.zeros(places.shape), np.zeros(places.shape)
+        for index in np.ndindex(places.shape):
+            place = places[index]
+            for annulus in self.annuli:
+                if annulus.inner**2 <= place <= annulus.outer**2:
+                    g[index], q[index] = self._inside(annulus, float(place))
+                    break
+        return g, q
+
+    def _inside(self, annulus: Annulus, s: float) -> tuple[float, float]:
+        if annulus.sign:
+            return annulus.sign, self.displacement + annulus.sign * (annulus.limit - s)
+        record = self._record
+        g, laid = dense.loading_state(record.nodes, record.series, self._moved, np.sqrt(s))
+        return g, self.displacement - laid
+
+
+def memory_at(
+    record: Record, times: Array, moved: Array, now: dict[str, float], mirror: int
+) -> Memory:
+    """Return the memory at the instant that `now` describes."""
+    d, u = now["penetration"], mirror * now["displacement"]
+    step = int(np.searchsorted(times, now["time"], side="right")) - 1
+    node = record.nodes[step]
+    stretch = int(node[STRETCH])
+    front = now["stick_radius"]
+    annuli = []
+    inner = 0.0
+    for row in record.stacks[stretch, : record.depths[stretch]]:
+        outer = min(float(row[OUTER]), front)
+        if outer > inner:
+            annuli.append(Annulus(inner, outer, int(row[SLIP_SIGN]), _limit(record, moved, row)))
+            inner = outer
+    if node[MODE] in (STICK, RETRACED):
+        annuli.append(Annulus(inner, now["contact_radius"], 0, np.nan))
+    else:
+        sign = int(node[SIGN])
+        annuli.append(Annulus(inner, now["contact_radius"], sign, d - sign * u))
+    return Memory(now["time"], d, u, tuple(annuli), record, moved, mirror)
+
+
+def _limit(record: Record, moved: Array, row: Array) -> float:
+    """Return l = d - sigma U when slip made the annulus."""
+    made = int(row[MADE])
+    if row[SLIP_SIGN] == 0.0 or made >= len(record.series):
+        return np.nan
+    return float(record.series[made, 0, B] ** 2 - row[SLIP_SIGN] * moved[made, 0])
+
+

@@ -1,0 +1,202 @@
+"""One impact in plain numbers: its phases, and its state at any time."""
+
+from dataclasses import dataclass, field, fields
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from carom.dimensionless import dense, hertz
+from carom.dimensionless.annuli import Memory, memory_at
+from carom.dimensionless.phases import Cause, Kind, Status, new_work, run_phases
+from carom.dimensionless.rebounds import TOLERANCE, outgoing
+from carom.dimensionless.record import (
+    AT_B,
+    AT_V,
+    CAUSE,
+    KIND,
+    KIND_SIGN,
+    Record,
+    new_record,
+    trimmed,
+)
+
+Array = NDArray[np.float64]
+
+KIND_NAMES = {Kind.STICK: "stick", Kind.SLIP: "slip", Kind.GROSS_SLIP: "gross slip"}
+CAUSE_NAMES = {
+    Cause.EDGE_AT_LIMIT: "edge reaches friction limit",
+    Cause.SLIP_STOPS: "slip stops",
+    Cause.RING_CLOSES: "slip ring closes",
+    Cause.FRONT_AT_CENTRE: "slip front reaches centre",
+    Cause.SEPARATION: "separation",
+    Cause.UNRESOLVED: "not resolved",
+}
+SHORTEST = 1e-12  # of a phase, in units of d_max/V_1; what is shorter is rounding
+
+
+class Phase(NamedTuple):
+    """A phase of an impact: its kind, sign of slip (0 in stick), times, and what ended it."""
+
+    kind: str
+    sign: int
+    start: float
+    end: float
+    cause: str
+
+
+@dataclass(frozen=True)
+class History:
+    """An impact at some times, in the dimensionless units of `Solution`."""
+
+    time: Array
+    penetration: Array
+    speed: Array
+    psi: Array
+    displacement: Array
+    force: Array
+    stick_radius: Array
+    contact_radius: Array
+    stored: Array
+    dissipated: Array
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+
+@dataclass(frozen=True)
+class Solution:
+    """One oblique impact solved exactly; made by `solve`.
+
+    Time in units of d_max/V_1, penetration and squares of radii in units of d_max and R* d_max,
+    tangential displacement U in mu d_max/kappa, tangential force as Q = (2/3) F_x/(mu P_max), psi
+    in mu V_1/kappa; energies such that the kinetic one is psi^2/2.
+
+    Examples
+    --------
+    >>> import carom
+    >>> s = carom.solve(0.5, 1.44)
+    >>> round(s.psi_out, 10)
+    0.0471310838
+    >>> [(phase.kind, phase.sign) for phase in s.phases]
+    [('stick', 0), ('slip', -1), ('gross slip', -1)]
+    >>> s.history(5).psi.round(4)
+    array([ 0.5   ,  0.3999, -0.2119, -0.1157,  0.0471])
+    """
+
+    psi_in: float
+    chi: float
+    psi_out: float
+    status: Status
+    phases: tuple[Phase, ...]
+    _record: Record = field(repr=False)
+    _times: Array = field(repr=False)
+    _moved: Array = field(repr=False)
+
+    @property
+    def duration(self) -> float:
+        """Time from the first touch to the last."""
+        return hertz.DURATION
+
+    @property
+    def mirror(self) -> int:
+        """-1 where psi_1 is negative: the impact is stored for its absolute value."""
+        return -1 if np.signbit(self.psi_in) else 1
+
+    def at(self, time: ArrayLike) -> History:
+        """Return the state at the given times, 0 <= time <= duration.
+
+        Raises ValueError for a time outside the contact.
+        """
+        wanted = np.atleast_1d(np.asarray(time, dtype=np.float64))
+        if not np.all((wanted >= 0.0) & (wanted <= self.duration)):
+            outside = wanted[~((wanted >= 0.0) & (wanted <= self.duration))][0]
+            raise ValueError(f"time: {outside:g} is outside the contact, 0 to {self.duration:.6g}")
+        rows = np.empty((wanted.size, dense.COLUMNS))
+        record = self._record
+        dense.sample(record.nodes, record.series, self.chi, self._times, self._moved, wanted, rows)
+        psi = rows[:, dense.AT_PSI]
+        dissipated = 3.75 * self.chi * rows[:, dense.AT_W]
+        return History(
+            time=wanted,
+            penetration=rows[:, dense.AT_D],
+            speed=rows[:, dense.AT_V],
+            psi=self.mirror * psi,
+            displacement=self.mirror * rows[:, dense.AT_U],
+            force=self.mirror * rows[:, dense.AT_Q],
+            stick_radius=rows[:, dense.AT_STICK],
+            contact_radius=rows[:, dense.AT_CONTACT],
+            stored=0.5 * self.psi_in**2 - 0.5 * psi**2 - dissipated,
+            dissipated=dissipated,
+        )
+
+    def history(self, n: int = 200) -> History:
+        """Return the impact at n times, evenly spaced from the first touch to the last."""
+        return self.at(np.linspace(0.0, self.duration, n))
+
+    def memory(self, time: float) -> Memory:
+        """Return the memory of the contact at a time: g(s), q(s) and the annuli it consists of."""
+        now = self.at(time)
+        return memory_at(self._record, self._times, self._moved, now_at(now), self.mirror)
+
+
+def now_at(history: History) -> dict[str, float]:
+    """Return the only row of a history as numbers."""
+    return {item.name: float(getattr(history, item.name)[0]) for item in fields(history)}
+
+
+def solve(psi: float, chi: float) -> Solution:
+    """Solve one oblique impact of elastic bodies exactly, phase by phase.
+
+    psi'' = -(15/4) chi Q' with Q' as in the phase of the moment: stick (Barber's (15)), slip ring,
+    gross slip (33).
+
+    Parameters
+    ----------
+    psi : float
+        psi_1 = kappa V_x / (mu V_1), any finite number.
+    chi : float
+        chi = (kappa/2) (m_n/m_t), positive.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> for phase in carom.solve(1.5, 1.44).phases:
+    ...     print(f"{phase.kind:10s} {phase.sign:+d} until {phase.end:.4f}: {phase.cause}")
+    gross slip +1 until 0.8199: slip stops
+    stick      +0 until 1.2027: edge reaches friction limit
+    slip       -1 until 2.4976: slip front reaches centre
+    gross slip -1 until 2.9433: separation
+    """
+    psi, chi = float(psi), float(chi)
+    work, record = new_work(), new_record(True)
+    psi_out, _ = outgoing(psi, chi, work, new_record(False))
+    status = Status(run_phases(abs(psi), chi, TOLERANCE, work, record))
+    if status in (Status.PSI_NOT_FINITE, Status.CHI_NOT_POSITIVE):
+        name, value = ("psi", psi) if status is Status.PSI_NOT_FINITE else ("chi", chi)
+        raise ValueError(f"{name}: {value:g} is not allowed; {status.message}")
+    record = trimmed(record)
+    times, moved = np.zeros(len(record.nodes)), np.zeros((len(record.nodes) + 1, 2))
+    dense.tabulate(record.nodes, record.series, chi, times, moved)
+    mirror = -1 if np.signbit(psi) else 1
+    return Solution(psi, chi, psi_out, status, _phases(record, mirror), record, times, moved)
+
+
+def _phases(record: Record, mirror: int) -> tuple[Phase, ...]:
+    found: list[Phase] = []
+    for row, following in zip(record.changes[:-1], record.changes[1:], strict=True):
+        start, end = (float(hertz.time(r[AT_B] ** 2, r[AT_V])) for r in (row, following))
+        kind, cause = KIND_NAMES[Kind(int(row[KIND]))], CAUSE_NAMES[Cause(int(following[CAUSE]))]
+        sign = mirror * int(row[KIND_SIGN])
+        if end - start <= SHORTEST:
+            continue
+        start = found[-1].end if found else 0.0
+        if found and (found[-1].kind, found[-1].sign) == (kind, sign):
+            start = found.pop().start
+        found.append(Phase(kind, sign, start, end, cause))
+    return tuple(found)

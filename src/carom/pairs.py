@@ -1,0 +1,143 @@
+"""A pair of bodies: what of them enters an impact, and the scales that make it dimensionless."""
+
+from dataclasses import dataclass
+from math import inf, pi, sqrt
+from typing import NamedTuple
+
+from carom.bodies import Cup, HalfSpace, Material, Sphere, Value
+from carom.quantities import InputError, not_negative, refusal
+
+Counterbody = Sphere | HalfSpace | Cup
+
+
+class Scales(NamedTuple):
+    """What a dimensionless impact is multiplied by, in SI units."""
+
+    time: float
+    length: float
+    radius: float
+    force: float
+    energy: float
+    tangential_speed: float
+    tangential_length: float
+    tangential_force: float
+
+
+@dataclass(frozen=True, init=False)
+class Pair:
+    """Two bodies that meet: a sphere, and a sphere, half-space or cup; with their friction.
+
+    1/E* = sum (1 - nu^2)/E, 1/G* = sum (2 - nu)/(4 G), 1/R* = sum of curvatures, 1/m_n = sum 1/M,
+    1/m_t = sum (1/M)(1 + R^2/K^2), kappa = G*/E*, chi = (kappa/2)(m_n/m_t). For equal materials chi
+    is Barber's (16).
+
+    Raises InputError for a negative friction, a sphere that does not fit its cup, or two rigid
+    materials.
+
+    Examples
+    --------
+    >>> import carom
+    >>> steel = carom.material("steel")
+    >>> ball = carom.Sphere(radius="5 mm", material=steel)
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material=steel), friction=0.2)
+    >>> round(pair.chi, 4), round(pair.kappa, 4)
+    (1.4412, 0.8235)
+    """
+
+    first: Sphere
+    second: Counterbody
+    friction: float
+
+    def __init__(self, first: Sphere, second: Counterbody, friction: Value) -> None:
+        if not isinstance(first, Sphere):
+            raise refusal("first body", first, "must be a Sphere; give the half-space or cup second")
+        if not isinstance(second, Sphere | HalfSpace | Cup):
+            raise refusal("second body", second, "must be a Sphere, HalfSpace or Cup")
+        if isinstance(second, Cup) and not second.radius > first.radius:
+            raise InputError(
+                f"radius: a cup of {second.radius:g} m cannot take a sphere of {first.radius:g} m; "
+                "the cup must be the larger"
+            )
+        if first.material.is_rigid and second.material.is_rigid:
+            raise InputError("material: both bodies are rigid; one of them must deform")
+        object.__setattr__(self, "first", first)
+        object.__setattr__(self, "second", second)
+        object.__setattr__(self, "friction", not_negative("friction", friction))
+
+    @property
+    def effective_modulus(self) -> float:
+        """E* in Pa."""
+        return 1.0 / sum((1.0 - m.poisson**2) / m.young for m in self._materials)
+
+    @property
+    def effective_shear_modulus(self) -> float:
+        """G* in Pa."""
+        return 1.0 / sum((2.0 - m.poisson) / (4.0 * m.shear_modulus) for m in self._materials)
+
+    @property
+    def effective_radius(self) -> float:
+        """R* in m."""
+        return 1.0 / (self.first.curvature + self.second.curvature)
+
+    @property
+    def normal_mass(self) -> float:
+        """m_n in kg."""
+        return 1.0 / sum(1.0 / body.mass for body in self.moving)
+
+    @property
+    def tangential_mass(self) -> float:
+        """m_t in kg."""
+        return 1.0 / sum((1.0 + 1.0 / body.gyration_ratio) / body.mass for body in self.moving)
+
+    @property
+    def kappa(self) -> float:
+        """Ratio of tangential to normal contact stiffness, G*/E*."""
+        return self.effective_shear_modulus / self.effective_modulus
+
+    @property
+    def chi(self) -> float:
+        """(kappa/2)(m_n/m_t), the one parameter of the dimensionless impact."""
+        return 0.5 * self.kappa * self.normal_mass / self.tangential_mass
+
+    @property
+    def dundurs_beta(self) -> float:
+        """Dundurs' second parameter; zero where normal and tangential contact do not couple."""
+        one, two = ((1.0 - 2.0 * m.poisson) / m.shear_modulus for m in self._materials)
+        whole = sum((1.0 - m.poisson) / m.shear_modulus for m in self._materials)
+        return 0.5 * (one - two) / whole
+
+    @property
+    def moving(self) -> tuple[Sphere, ...]:
+        """The bodies that move: the spheres."""
+        return tuple(body for body in (self.first, self.second) if isinstance(body, Sphere))
+
+    def scales(self, normal_speed: float) -> Scales:
+        """Return the scales of an impact at this normal speed (Hertz 1882; Johnson 1985, 11.4)."""
+        stiffness = self.effective_modulus * sqrt(self.effective_radius)
+        length = (15.0 * self.normal_mass * normal_speed**2 / (16.0 * stiffness)) ** 0.4
+        force = 4.0 / 3.0 * stiffness * length**1.5
+        return Scales(
+            time=length / normal_speed,
+            length=length,
+            radius=sqrt(self.effective_radius * length),
+            force=force,
+            energy=0.5 * self.normal_mass * normal_speed**2,
+            tangential_speed=self.friction * normal_speed / self.kappa,
+            tangential_length=self.friction * length / self.kappa,
+            tangential_force=1.5 * self.friction * force,
+        )
+
+    def psi(self, contact_velocity: float, normal_speed: float) -> float:
+        """Return kappa V_x/(mu V_1), infinite without friction."""
+        if self.friction == 0.0:
+            return inf if contact_velocity > 0.0 else -inf if contact_velocity < 0.0 else 0.0
+        return self.kappa * contact_velocity / (self.friction * normal_speed)
+
+    def peak_pressure(self, normal_speed: float) -> float:
+        """Return the largest contact pressure in Pa, 3 P_max/(2 pi a_max^2)."""
+        scales = self.scales(normal_speed)
+        return 1.5 * scales.force / (pi * scales.radius**2)
+
+    @property
+    def _materials(self) -> tuple[Material, Material]:
+        return self.first.material, self.second.material
