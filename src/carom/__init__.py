@@ -16,6 +16,7 @@ if TYPE_CHECKING:
         material_sources,
         materials,
     )
+    from carom.curves import curve
     from carom.dimensionless.phases import Status
     from carom.dimensionless.rebounds import rebound
     from carom.dimensionless.solution import Solution, solve
@@ -33,6 +34,7 @@ _HOMES = {
         "material_sources",
         "materials",
     ),
+    "carom.curves": ("curve",),
     "carom.pairs": ("Pair",),
     "carom.quantities": ("InputError",),
     "carom.impacts": ("Impact", "impact"),
@@ -52,6 +54,7 @@ __all__ = [
     "Solution",
     "Sphere",
     "Status",
+    "curve",
     "impact",
     "material",
     "material_sources",

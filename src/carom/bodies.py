@@ -16,6 +16,7 @@ from carom.quantities import (
 )
 
 Value = float | str
+VALUES = ("young", "poisson", "density", "yield_strength")
 
 
 def _set(record: object, **values: object) -> None:
@@ -99,7 +100,8 @@ class Material:
 @lru_cache(maxsize=1)
 def _catalogue() -> dict[str, dict[str, Any]]:
     text = files("carom").joinpath("data/materials.toml").read_text(encoding="utf-8")
-    return tomllib.loads(text)
+    catalogue: dict[str, dict[str, Any]] = tomllib.loads(text)
+    return catalogue
 
 
 def materials() -> dict[str, Material]:
@@ -135,7 +137,7 @@ def material(name: str) -> Material:
         return Material(young=math.inf, poisson=0.0, name="rigid")
     for key, entry in _catalogue().items():
         if wanted in (key, *entry.get("aliases", ())):
-            values = {k: entry.get(k) for k in ("young", "poisson", "density", "yield_strength")}
+            values: dict[str, Any] = {k: entry.get(k) for k in VALUES}
             return Material(**values, name=key)
     known = [alias for key, entry in _catalogue().items() for alias in (key, *entry["aliases"])]
     hint = nearest(wanted, [*known, "rigid"]) or "carom materials lists what there is"

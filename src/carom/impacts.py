@@ -19,6 +19,25 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+RESULTS = (
+    "psi_in",
+    "psi_out",
+    "duration",
+    "max_penetration",
+    "max_force",
+    "max_radius",
+    "max_pressure",
+    "rebound_speed",
+    "rebound_angle",
+    "spin_out",
+    "spin2_out",
+    "normal_restitution",
+    "tangential_restitution",
+    "contact_restitution",
+    "dissipated_energy",
+)
+
+
 @dataclass(frozen=True)
 class Impact:
     """The result of `impact`: the rebound, every phase, and histories on request; SI units.
@@ -206,13 +225,8 @@ class Impact:
 
     def scalars(self) -> dict[str, float]:
         """Return the numbers of the result by name."""
-        names = (
-            "psi_in psi_out duration max_penetration max_force max_radius max_pressure "
-            "rebound_speed rebound_angle spin_out spin2_out normal_restitution "
-            "tangential_restitution contact_restitution dissipated_energy"
-        ).split()
-        numbers = {name: float(getattr(self, name)) for name in names}
-        numbers |= {"chi": self.pair.chi, "kappa": self.pair.kappa}
+        numbers = {name: float(getattr(self, name)) for name in RESULTS}
+        numbers |= {"friction": self.pair.friction, "chi": self.pair.chi, "kappa": self.pair.kappa}
         return numbers | {"dundurs_beta": self.pair.dundurs_beta}
 
     def inputs(self) -> dict[str, Any]:
@@ -313,7 +327,7 @@ def _angle(angle: Value) -> float:
     if abs(slope) < pi / 2:
         return slope
     if isinstance(angle, str) and any(letter.isalpha() for letter in angle):
-        raise refusal("angle", angle, "must be below 90 deg from the normal: the bodies must approach")
+        raise refusal("angle", angle, "must be below 90 deg: the bodies must approach")
     raise refusal("angle", angle, f"a bare angle is in radians, below pi/2; write '{angle} deg'")
 
 

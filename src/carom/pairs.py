@@ -50,7 +50,7 @@ class Pair:
 
     def __init__(self, first: Sphere, second: Counterbody, friction: Value) -> None:
         if not isinstance(first, Sphere):
-            raise refusal("first body", first, "must be a Sphere; give the half-space or cup second")
+            raise refusal("first body", first, "must be a Sphere; the other one comes second")
         if not isinstance(second, Sphere | HalfSpace | Cup):
             raise refusal("second body", second, "must be a Sphere, HalfSpace or Cup")
         if isinstance(second, Cup) and not second.radius > first.radius:

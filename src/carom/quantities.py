@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 
 class InputError(ValueError):
-    """What was given cannot be used; the message names it, the value, what is allowed, what to do."""
+    """What was given cannot be used; the message names it, its value, and what is allowed."""
 
 
 class Quantity(NamedTuple):
@@ -82,7 +82,9 @@ GLOSSARY = {
     "max_pressure": Quantity("$p_0$", "Pa", "largest contact pressure"),
     "max_tangential_force": Quantity("$F_{max}$", "N", "largest tangential force"),
     "rebound_speed": Quantity("$V'$", "m/s", "speed of the centres after the impact"),
-    "rebound_angle": Quantity(r"$\theta'$", "rad", "angle of rebound of the centres, from the normal"),
+    "rebound_angle": Quantity(
+        r"$\theta'$", "rad", "angle of rebound of the centres, from the normal"
+    ),
     "rebound_tangential_speed": Quantity("$v_t'$", "m/s", "tangential speed of the centres after"),
     "spin_out": Quantity(r"$\omega'$", "rad/s", "spin of the first body after"),
     "spin2_out": Quantity(r"$\omega_2'$", "rad/s", "spin of the second body after"),
@@ -188,7 +190,9 @@ def _parsed(name: str, text: str, unit: str) -> float:
         unknown = error.unit_names if isinstance(error.unit_names, str) else error.unit_names[0]
         raise refusal(name, text, f"unit {unknown!r} is not known; {_expected(unit)}") from None
     except pint.DimensionalityError as error:
-        kind = f"that is in {error.units1}, not a value in {unit}" if unit != "1" else "it has a unit"
+        kind = (
+            f"that is in {error.units1}, not a value in {unit}" if unit != "1" else "it has a unit"
+        )
         raise refusal(name, text, f"{kind}; {_expected(unit)}") from None
     except Exception:  # pint lets errors of the tokenizer through
         raise refusal(name, text, _expected(unit)) from None

@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+TABLES = (".nc", ".csv")
+FIGURES = (".png", ".pdf", ".svg")
+
+
 class Finding(NamedTuple):
     """One number that tells whether the theory holds: value, limit, and a plain verdict."""
 
@@ -73,8 +77,7 @@ def labelled(
     import xarray as xr
 
     data: dict[str, Any] = {
-        name: (dimension, np.asarray(values), attributes(name))
-        for name, values in columns.items()
+        name: (dimension, np.asarray(values), attributes(name)) for name, values in columns.items()
     }
     data |= {name: ((), value, attributes(name)) for name, value in scalars.items()}
     coordinate = {dimension: data.pop(dimension)}
@@ -113,7 +116,7 @@ def save(dataset: "xr.Dataset", path: str | Path) -> Path:
 
     Raises InputError if the name ends otherwise or the file cannot be written.
     """
-    target = checked_output(path, (".nc", ".csv"))
+    target = checked_output(path, TABLES)
 
     def write(where: Path) -> None:
         if target.suffix == ".nc":
@@ -125,16 +128,20 @@ def save(dataset: "xr.Dataset", path: str | Path) -> Path:
 
 
 def as_csv(dataset: "xr.Dataset") -> str:
-    """Return the columns of a dataset as CSV, with units and inputs in comment lines."""
-    (dimension,) = (name for name in dataset.dims if name != "phase")
-    names = [str(dimension)] + [
-        str(name) for name, item in dataset.data_vars.items() if item.dims == (dimension,)
-    ]
+    """Return the columns of a dataset as CSV, with units and inputs in comment lines.
+
+    The columns are those variables that have as many dimensions as any.
+    """
+    longest = max((item.dims for item in dataset.data_vars.values()), key=_extent(dataset))
+    names = [str(name) for name, item in dataset.data_vars.items() if item.dims == longest]
+    frame = dataset[names].to_dataframe().reset_index()
     head = [f"# {key}: {value}" for key, value in dataset.attrs.items()]
-    head += [f"# {n}: {dataset[n].long_name} ({dataset[n].units})" for n in names]
-    rows = np.column_stack([dataset[name].values for name in names])
-    body = [",".join(repr(float(value)) for value in row) for row in rows]
-    return "\n".join([*head, ",".join(names), *body]) + "\n"
+    head += [f"# {n}: {dataset[n].long_name} ({dataset[n].units})" for n in frame.columns]
+    return "\n".join(head) + "\n" + str(frame.to_csv(index=False))
+
+
+def _extent(dataset: "xr.Dataset") -> Any:
+    return lambda dims: int(np.prod([dataset.sizes[name] for name in dims]))
 
 
 def checked_output(path: str | Path, endings: tuple[str, ...]) -> Path:

@@ -97,5 +97,3 @@ def _limit(record: Record, moved: Array, row: Array) -> float:
     if row[SLIP_SIGN] == 0.0 or made >= len(record.series):
         return np.nan
     return float(record.series[made, 0, B] ** 2 - row[SLIP_SIGN] * moved[made, 0])
-
-

@@ -7,7 +7,8 @@ from carom.dimensionless import hertz
 from carom.dimensionless._jit import kernel
 from carom.dimensionless.motion import FRONT, PSI, SLOWER, STICK, A, B, Q, Series, V
 from carom.dimensionless.phases import GROSS, RETRACED
-from carom.dimensionless.record import CLOCK, MODE, SIGN, STEP
+from carom.dimensionless.record import AT_B, CLOCK, MODE, SIGN, STEP
+from carom.dimensionless.record import AT_V as CHANGE_V
 from carom.dimensionless.stretches import evaluate, evaluate_slope
 
 Array = NDArray[np.float64]
@@ -22,8 +23,18 @@ AT_D, AT_V, AT_PSI, AT_U, AT_Q, AT_W, AT_STICK, AT_CONTACT = range(COLUMNS)
 
 
 @kernel
-def tabulate(nodes: Array, series: Array, chi: float, times: Array, moved: Array) -> None:
-    """Write the time at the start of each step, and displacement and frictional work up to it."""
+def tabulate(
+    nodes: Array,
+    series: Array,
+    changes: Array,
+    chi: float,
+    times: Array,
+    moved: Array,
+    change_times: Array,
+) -> None:
+    """Write the times of all steps and changes, and displacement and frictional work at steps."""
+    for i in range(changes.shape[0]):
+        change_times[i] = hertz.time(changes[i, AT_B] ** 2, changes[i, CHANGE_V])
     for i in range(nodes.shape[0]):
         b, v = series[i, 0, B], series[i, 0, V]
         times[i] = hertz.time(b * b, v) if i > 0 else 0.0
@@ -138,9 +149,7 @@ def write_sample(
 
 
 @kernel
-def loading_state(
-    nodes: Array, series: Array, moved: Array, radius: float
-) -> tuple[float, float]:
+def loading_state(nodes: Array, series: Array, moved: Array, radius: float) -> tuple[float, float]:
     """Return g and U when stick laid new contact at this radius."""
     for i in range(nodes.shape[0]):
         if nodes[i, MODE] != STICK:

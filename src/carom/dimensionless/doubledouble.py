@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 
 Real = float | NDArray[np.float64]
 
+Polynomial = tuple[int, int, int]
+
+NEGLIGIBLE = 1e-33
 SPLITTER = 134217729.0  # 2^27 + 1 cuts a double into two halves whose products are exact
 
 
@@ -152,6 +155,42 @@ def fifth_root(x: DoubleDouble) -> DoubleDouble:
     guess = x.hi**0.2
     fourth = two_product(guess, guess) * two_product(guess, guess)
     return guess + DoubleDouble((x - fourth * guess).hi / (5.0 * fourth.hi + (guess == 0.0)))
+
+
+def coefficients(
+    top: Polynomial, bottom: Polynomial, shift: DoubleDouble, older: Polynomial | None = None
+) -> list[DoubleDouble]:
+    """Return c[n] with c[0] = 1, bottom(n) c[n+1] = (top(n) - shift) c[n] - (older(n) - shift) c[n-1].
+
+    Polynomials are quadratic in n, highest power first; the series ends where its terms at z = 1/2
+    are below `NEGLIGIBLE` for good. Without `older` it is the hypergeometric series whose upper
+    parameters have the sum s and the product p and whose lower one is c, for top = n^2 + s n + q,
+    shift = q - p, bottom = (n + 1)(n + c).
+
+    Examples
+    --------
+    >>> exact = [c.hi for c in coefficients((1, 0, 0), (1, 2, 1), DoubleDouble(1.0))]
+    >>> exact[:3]
+    [1.0, -1.0, 0.0]
+    """
+    before, now = DoubleDouble(0.0), DoubleDouble(1.0)
+    series = [now]
+    n = 0
+    while abs(now.hi) + abs(before.hi) > NEGLIGIBLE * 2.0**n or top[0] * n * n < 2.0 * abs(
+        shift.hi
+    ):
+        following = (_value(top, n) - shift) * now
+        if older is not None:
+            following = following - (_value(older, n) - shift) * before
+        before, now = now, following / _value(bottom, n)
+        series.append(now)
+        n += 1
+    return series
+
+
+def _value(polynomial: Polynomial, n: int) -> float:
+    second, first, constant = polynomial
+    return float((second * n + first) * n + constant)
 
 
 def power_series(coefficients: Sequence[DoubleDouble], z: DoubleDouble) -> DoubleDouble:

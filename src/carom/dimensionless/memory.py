@@ -10,17 +10,17 @@ from numpy.typing import NDArray
 
 from carom.dimensionless._jit import kernel
 from carom.dimensionless.motion import (
-    B,
-    PSI,
-    PSI_A,
-    Q,
-    Q_A,
-    A,
     FLAT,
     LAID,
+    PSI,
+    PSI_A,
+    Q_A,
+    V_A,
+    A,
+    B,
+    Q,
     Series,
     V,
-    V_A,
 )
 
 Stack = NDArray[np.float64]
@@ -76,7 +76,7 @@ def cross_flat(stack: Stack, depth: int, sign: int) -> int:
 
 @kernel
 def place_front(stack: Stack, depth: int, s: Series) -> int:
-    """Put the front on the outer border of the topmost annulus and return the mode of its retreat."""
+    """Put the front on the rim of the topmost annulus; return the mode of its retreat."""
     top = depth - 1
     s[0, A] = stack[top, OUTER]
     if stack[top, SLIP_SIGN] == 0.0:

@@ -125,7 +125,6 @@ def advance(s: Series, first: int, rates: int, slower: bool, k: int) -> None:
         s[k + 1, first + c] = s[k, rates + c] / (k + 1)
 
 
-
 @kernel
 def quotient(s: Series, over: int, under: int, k: int) -> None:
     """Extend the rate of the slower clock to order k."""

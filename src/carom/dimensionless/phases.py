@@ -11,6 +11,8 @@ import numpy as np
 from carom.dimensionless._jit import kernel
 from carom.dimensionless.memory import (
     COLUMNS as STACK_COLUMNS,
+)
+from carom.dimensionless.memory import (
     cross_flat,
     inner_radius,
     place_front,
@@ -18,13 +20,11 @@ from carom.dimensionless.memory import (
     push_laid,
     trim,
 )
-from carom.dimensionless.motion import ORDER, PSI, COLUMNS, STICK, A, B, CONTACT, LAID, Q, Series, V
+from carom.dimensionless.motion import COLUMNS, CONTACT, LAID, ORDER, PSI, STICK, A, B, Q, Series, V
 from carom.dimensionless.record import (
     MAX_ANNULI,
     MAX_PHASES,
-    MAX_STRETCHES,
     Record,
-    is_wanted,
     note_change,
     note_node,
     note_stretch,
@@ -32,7 +32,6 @@ from carom.dimensionless.record import (
 from carom.dimensionless.stretches import (
     FRONT_AT_BORDER,
     RING_CLOSES,
-    SLIP_STOPS,
     UNRESOLVED,
     Work,
     run_stretch,
@@ -112,7 +111,9 @@ MESSAGES = {
 }
 
 
-RETRACE = 4e-12  # a stick phase that lasts to within this speed of the turning point goes back as it came
+RETRACE = (
+    4e-12  # a stick phase that lasts to within this speed of the turning point goes back as it came
+)
 TINY = 1e-6  # a contact radius below which nothing of the impact is left (psi changes by < 1e-29)
 
 
@@ -154,7 +155,9 @@ def slip(
         mode = place_front(work.stack, depth, s)
         note_stretch(record, work.stack, depth)
         inner = inner_radius(work.stack, depth)
-        event = run_stretch(work, record, mode, sign, chi, inner, after_stick and mode == LAID, tolerance)
+        event = run_stretch(
+            work, record, mode, sign, chi, inner, after_stick and mode == LAID, tolerance
+        )
         after_stick = False
         if event == FRONT_AT_BORDER:
             depth = cross_flat(work.stack, depth - 1, sign)
@@ -199,7 +202,7 @@ def follow_gross_slip(s: Series, sign: int, chi: float, drop: float) -> None:
 
 @kernel
 def run_phases(psi: float, chi: float, tolerance: float, work: Work, record: Record) -> int:
-    """Run a whole impact, psi >= 0, leaving the last state in row 0 of the series; return its status."""
+    """Run a whole impact, psi >= 0, to its last state in row 0 of the series; return its status."""
     if not np.isfinite(psi):
         return Status.PSI_NOT_FINITE.value
     if not (0.0 < chi < np.inf):

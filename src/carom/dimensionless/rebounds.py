@@ -105,14 +105,12 @@ def rebound(
     >>> carom.rebound([0.5, 1.5, 3.5, 6.0], 1.44).round(6)
     array([ 0.047131, -0.429967, -1.477247,  0.24    ])
     """
-    psi_in, chi_in = np.broadcast_arrays(
-        np.asarray(psi, dtype=np.float64), np.asarray(chi, dtype=np.float64)
-    )
-    flat_psi, flat_chi = psi_in.ravel(), chi_in.ravel()
+    psi_in, chi_in = np.asarray(psi, dtype=np.float64), np.asarray(chi, dtype=np.float64)
+    shape = np.broadcast_shapes(psi_in.shape, chi_in.shape)
+    flat_psi, flat_chi = (np.array(np.broadcast_to(x, shape)).ravel() for x in (psi_in, chi_in))
     psi_out = np.empty(flat_psi.size)
     status = np.empty(flat_psi.size, dtype=np.int8)
     _fill_blocks(flat_psi, flat_chi, psi_out, status, threads)
-    shape = psi_in.shape
     result = psi_out.reshape(shape) if shape else float(psi_out[0])
     if return_status:
         return result, status.reshape(shape) if shape else int(status[0])

@@ -1,4 +1,4 @@
-"""What an impact leaves behind for its dense solution: nodes, stacks of memory, changes of phase."""
+"""What an impact leaves behind for its dense solution: steps, memories, changes of phase."""
 
 from typing import NamedTuple
 
@@ -21,7 +21,7 @@ KEPT = SLOWER + 1
 
 
 class Record(NamedTuple):
-    """Rows filled so far are counted in `counts`: nodes, stretches, changes; empty arrays record nothing."""
+    """Rows filled so far: `counts` of nodes, stretches, changes. Empty arrays record nothing."""
 
     nodes: NDArray[np.float64]
     series: NDArray[np.float64]
@@ -61,9 +61,7 @@ def note_stretch(record: Record, stack: Stack, depth: int) -> None:
 
 
 @kernel
-def note_node(
-    record: Record, mode: int, clock: int, sign: int, h: float, series: Series
-) -> None:
+def note_node(record: Record, mode: int, clock: int, sign: int, h: float, series: Series) -> None:
     """Keep the series of a step and how far it was taken."""
     if is_wanted(record):
         row = record.counts[0]

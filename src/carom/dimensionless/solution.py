@@ -8,11 +8,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.dimensionless import dense, hertz
 from carom.dimensionless.annuli import Memory, memory_at
+from carom.dimensionless.motion import PSI
 from carom.dimensionless.phases import Cause, Kind, Status, new_work, run_phases
-from carom.dimensionless.rebounds import TOLERANCE, outgoing
+from carom.dimensionless.rebounds import LINEAR, TOLERANCE, outgoing
 from carom.dimensionless.record import (
-    AT_B,
-    AT_V,
     CAUSE,
     KIND,
     KIND_SIGN,
@@ -20,6 +19,7 @@ from carom.dimensionless.record import (
     new_record,
     trimmed,
 )
+from carom.dimensionless.stretches import Work
 
 Array = NDArray[np.float64]
 
@@ -148,8 +148,8 @@ def now_at(history: History) -> dict[str, float]:
 def solve(psi: float, chi: float) -> Solution:
     """Solve one oblique impact of elastic bodies exactly, phase by phase.
 
-    psi'' = -(15/4) chi Q' with Q' as in the phase of the moment: stick (Barber's (15)), slip ring,
-    gross slip (33).
+    psi' = -(15/4) chi Q, with Q' that of the phase of the moment: stick (Barber 1979, (15)), a slip
+    ring around a stick zone, or gross slip (33).
 
     Parameters
     ----------
@@ -175,24 +175,35 @@ def solve(psi: float, chi: float) -> Solution:
     """
     psi, chi = float(psi), float(chi)
     work, record = new_work(), new_record(True)
-    psi_out, _ = outgoing(psi, chi, work, new_record(False))
     status = Status(run_phases(abs(psi), chi, TOLERANCE, work, record))
     if status in (Status.PSI_NOT_FINITE, Status.CHI_NOT_POSITIVE):
         name, value = ("psi", psi) if status is Status.PSI_NOT_FINITE else ("chi", chi)
         raise ValueError(f"{name}: {value:g} is not allowed; {status.message}")
     record = trimmed(record)
-    times, moved = np.zeros(len(record.nodes)), np.zeros((len(record.nodes) + 1, 2))
-    dense.tabulate(record.nodes, record.series, chi, times, moved)
+    steps = len(record.nodes)
+    times, moved, changed = np.zeros(steps), np.zeros((steps + 1, 2)), np.zeros(len(record.changes))
+    dense.tabulate(record.nodes, record.series, record.changes, chi, times, moved, changed)
     mirror = -1 if np.signbit(psi) else 1
-    return Solution(psi, chi, psi_out, status, _phases(record, mirror), record, times, moved)
+    psi_out = _psi_out(psi, chi, mirror, status, work)
+    phases = _phases(record.changes, changed, mirror)
+    return Solution(psi, chi, psi_out, status, phases, record, times, moved)
 
 
-def _phases(record: Record, mirror: int) -> tuple[Phase, ...]:
+def _psi_out(psi: float, chi: float, mirror: int, status: Status, work: Work) -> float:
+    if status is not Status.SOLVED:
+        return float("nan")
+    if 0.0 < abs(psi) < LINEAR:
+        return float(outgoing(psi, chi, work, new_record(False))[0])
+    return mirror * float(work.series[0, PSI]) if psi != 0.0 else psi
+
+
+def _phases(changes: Array, times: Array, mirror: int) -> tuple[Phase, ...]:
     found: list[Phase] = []
-    for row, following in zip(record.changes[:-1], record.changes[1:], strict=True):
-        start, end = (float(hertz.time(r[AT_B] ** 2, r[AT_V])) for r in (row, following))
-        kind, cause = KIND_NAMES[Kind(int(row[KIND]))], CAUSE_NAMES[Cause(int(following[CAUSE]))]
-        sign = mirror * int(row[KIND_SIGN])
+    for i in range(len(changes) - 1):
+        kind = KIND_NAMES[Kind(int(changes[i, KIND]))]
+        cause = CAUSE_NAMES[Cause(int(changes[i + 1, CAUSE]))]
+        sign = mirror * int(changes[i, KIND_SIGN])
+        start, end = float(times[i]), float(times[i + 1])
         if end - start <= SHORTEST:
             continue
         start = found[-1].end if found else 0.0

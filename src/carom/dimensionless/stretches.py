@@ -17,8 +17,6 @@ from carom.dimensionless.motion import (
     STICK,
     A,
     B,
-    D,
-    N,
     Series,
     V,
     expand,

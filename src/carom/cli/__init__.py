@@ -1,0 +1,52 @@
+"""The commands. No physics here: they read, call the library, and print."""
+
+import sys
+
+import typer
+
+from carom.cli.curve import curve_command
+from carom.cli.impact import impact_command
+from carom.cli.materials import materials_command
+from carom.quantities import InputError
+
+app = typer.Typer(
+    name="carom",
+    help="How an elastic sphere leaves an oblique impact, and what happens inside the contact.",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+app.command("impact")(impact_command)
+app.command("curve")(curve_command)
+app.command("materials")(materials_command)
+
+
+@app.callback(invoke_without_command=True)
+def _common(version: bool = typer.Option(False, "--version", help="Print the version.")) -> None:
+    if version:
+        from carom.results import carom_version
+
+        typer.echo(carom_version())
+        raise typer.Exit
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run a command; return 0, 2 for bad input (one line on stderr), or 1 for a failure."""
+    try:
+        return int(app(arguments, standalone_mode=False) or 0)
+    except (InputError, typer.TyperException) as error:
+        if message := str(error):  # without one, help has been printed already
+            typer.echo(f"carom: {' '.join(message.split())}", err=True)
+        return 2 if isinstance(error, InputError) else error.exit_code
+    except typer.Abort:
+        typer.echo("carom: stopped", err=True)
+        return 1
+    except Exception as error:  # the last resort: a line instead of a traceback
+        typer.echo(f"carom: failed, {type(error).__name__}: {error}", err=True)
+        return 1
+
+
+def run() -> None:
+    """Run a command from the shell."""
+    sys.exit(main())

@@ -1,0 +1,80 @@
+"""`carom curve`: psi_2 and restitution against psi_1."""
+
+import json
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+ROWS = 17  # of the printed table
+
+
+def curve_command(
+    chi: Annotated[list[str], typer.Option(help="chi, positive; repeat for several.")],
+    start: Annotated[float, typer.Option("--from", help="First psi_1.")] = 0.0,
+    stop: Annotated[
+        float | None, typer.Option("--to", help="Last psi_1, by default 4 chi + 1.")
+    ] = None,
+    points: Annotated[int, typer.Option(min=2, help="Number of psi_1.")] = 401,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    plot: Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")] = None,
+    output: Annotated[str | None, typer.Option(help="Store the curve: .csv or .nc.")] = None,
+) -> None:
+    """Tabulate psi_2, restitution and the borders of the regimes against psi_1.
+
+    Example: carom curve --chi 1.44 --chi 2 --plot curve.png
+    """
+    import numpy as np
+
+    from carom.cli.compiling import announced
+    from carom.curves import curve
+    from carom.quantities import positive, refusal
+    from carom.results import FIGURES, TABLES, checked_output, save
+
+    for path, endings in ((plot, FIGURES), (output, TABLES)):
+        if path is not None:
+            checked_output(path, endings)
+    values = [positive("chi", value) for value in chi]
+    last = 4.0 * max(values) + 1.0 if stop is None else stop
+    if not start < last or not np.isfinite([start, last]).all():
+        raise refusal("to", last, f"must be finite and above --from, {start:g}")
+    with announced():
+        dataset = curve(values, np.linspace(start, last, points))
+        if output is not None:
+            typer.echo(f"stored {save(dataset, output)}", err=True)
+        if plot is not None:
+            from carom.plots import plot_curve, save_figure
+
+            typer.echo(f"stored {save_figure(plot_curve(dataset), plot)}", err=True)
+    typer.echo(json.dumps(_record(dataset), indent=2) if as_json else _table(dataset))
+
+
+def _record(dataset: "xr.Dataset") -> list[dict[str, Any]]:
+    rows = []
+    for index, chi in enumerate(dataset["chi"].values):
+        part = dataset.isel(chi=index)
+        names = ("psi_in", "psi_out", "contact_restitution", "tangential_restitution")
+        regimes = zip(part["regime_border"].values, part["border"].values, strict=True)
+        rows.append(
+            {"chi": float(chi), "borders": {str(name): float(psi) for name, psi in regimes}}
+            | {name: part[name].values.tolist() for name in names}
+        )
+    return rows
+
+
+def _table(dataset: "xr.Dataset") -> str:
+    lines = []
+    step = max(1, (dataset.sizes["psi_in"] - 1) // (ROWS - 1))
+    for index, chi in enumerate(dataset["chi"].values):
+        part = dataset.isel(chi=index)
+        lines.append(f"chi = {chi:g}")
+        for name, psi in zip(part["regime_border"].values, part["border"].values, strict=True):
+            lines.append(f"  from psi_1 = {psi:<8.6g} {name}")
+        lines.append(f"  {'psi_1':>12s} {'psi_2':>14s} {'e contact':>12s} {'e centre*':>12s}")
+        rows = part.isel(psi_in=slice(None, None, step))
+        columns = ("psi_in", "psi_out", "contact_restitution", "tangential_restitution")
+        for row in zip(*(rows[name].values for name in columns), strict=True):
+            lines.append("  {:12.6g} {:14.9f} {:12.6f} {:12.6f}".format(*row))
+    return "\n".join([*lines, "* of a solid sphere without spin"])

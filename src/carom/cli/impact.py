@@ -1,0 +1,163 @@
+"""`carom impact`: one impact from flags or a case file."""
+
+import json
+from math import degrees, isnan
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from carom.quantities import GLOSSARY
+
+if TYPE_CHECKING:
+    from carom.impacts import Impact
+
+
+def _flag(name: str, example: str, of: str = "") -> Any:
+    unit = GLOSSARY[name].unit
+    meaning = GLOSSARY[name].meaning.capitalize() + of
+    return typer.Option(help=f"{meaning}, e.g. {example}{'' if unit == '1' else f' [{unit}]'}.")
+
+
+Text = str | None
+HIDDEN = ("normal_restitution",)  # always 1
+
+
+def impact_command(
+    case: Annotated[Path | None, typer.Argument(help="Case file; flags override it.")] = None,
+    radius: Annotated[Text, _flag("radius", "'5 mm'")] = None,
+    material: Annotated[
+        Text,
+        typer.Option(help="A name, or 'young=210 GPa, poisson=0.3, density=7850'."),
+    ] = None,
+    gyration_radius: Annotated[Text, _flag("gyration_radius", "'3 mm'")] = None,
+    inner_radius: Annotated[Text, _flag("inner_radius", "'4 mm'")] = None,
+    against: Annotated[
+        Text, typer.Option(help="The second body: half-space (default), sphere or cup.")
+    ] = None,
+    second_radius: Annotated[Text, _flag("radius", "'10 mm'", " of the second body")] = None,
+    second_material: Annotated[
+        Text, typer.Option(help="Material of the second body (default: as the first).")
+    ] = None,
+    friction: Annotated[Text, _flag("friction", "0.2")] = None,
+    speed: Annotated[Text, _flag("speed", "'2 m/s'")] = None,
+    angle: Annotated[Text, _flag("angle", "'30 deg'")] = None,
+    normal_speed: Annotated[Text, _flag("normal_speed", "2")] = None,
+    tangential_speed: Annotated[Text, _flag("tangential_speed", "1")] = None,
+    spin: Annotated[Text, _flag("spin", "'100 rad/s'")] = None,
+    spin2: Annotated[Text, _flag("spin2", "0")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    plot: Annotated[Text, typer.Option(help="Store a figure: .png, .pdf or .svg.")] = None,
+    output: Annotated[Text, typer.Option(help="Store the history: .nc or .csv.")] = None,
+) -> None:
+    """Solve one oblique impact: the rebound, and every phase of stick and slip.
+
+    Example: carom impact --radius "5 mm" --material steel --friction 0.2 --speed 2 --angle "30 deg"
+    """
+    from carom.cli.cases import merged, outputs, read_case, solve_case
+    from carom.cli.compiling import announced
+
+    flags = {
+        "first.radius": radius,
+        "first.material": material,
+        "first.gyration_radius": gyration_radius,
+        "first.inner_radius": inner_radius,
+        "second.kind": against,
+        "second.radius": second_radius,
+        "second.material": second_material,
+        "friction": friction,
+        "speed": speed,
+        "angle": angle,
+        "normal_speed": normal_speed,
+        "tangential_speed": tangential_speed,
+        "spin": spin,
+        "spin2": spin2,
+        "output.plot": plot,
+        "output.data": output,
+    }
+    content = merged(read_case(case) if case else {}, flags)
+    files = outputs(content)
+    _check_outputs(*files)
+    with announced():
+        hit = solve_case(content)
+        stored = _store(hit, *files)
+    typer.echo(json.dumps(as_record(hit), indent=2) if as_json else as_table(hit))
+    for path in stored:
+        typer.echo(f"stored {path}", err=True)
+
+
+def _check_outputs(plot: Text, data: Text) -> None:
+    from carom.results import FIGURES, TABLES, checked_output
+
+    if plot is not None:
+        checked_output(plot, FIGURES)
+    if data is not None:
+        checked_output(data, TABLES)
+
+
+def _store(hit: "Impact", plot: Text, data: Text) -> list[Path]:
+    stored = []
+    if plot is not None or data is not None:
+        dataset = hit.to_dataset()
+        if data is not None:
+            from carom.results import save
+
+            stored.append(save(dataset, data))
+        if plot is not None:
+            from carom.plots import plot_impact, save_figure
+
+            stored.append(save_figure(plot_impact(dataset), plot))
+    return stored
+
+
+def as_record(hit: "Impact") -> dict[str, Any]:
+    """Return the result as what JSON can hold; what is not a number becomes null."""
+    scalars = {name: _finite(value) for name, value in hit.scalars().items()}
+    return {
+        "inputs": hit.inputs(),
+        "result": scalars,
+        "phases": [phase._asdict() for phase in hit.phases],
+        "validity": [
+            {**finding._asdict(), "value": _finite(finding.value)}
+            for finding in hit.validity.findings
+        ],
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if abs(value) < float("inf") and not isnan(value) else None
+
+
+def as_table(hit: "Impact") -> str:
+    """Return the result as text to read."""
+    from carom.impacts import RESULTS
+
+    scalars = hit.scalars()
+    shown = ["chi", *(name for name in RESULTS if name not in HIDDEN)]
+    if len(hit.pair.moving) == 1:
+        shown.remove("spin2_out")
+    lines = [f"  {GLOSSARY[name].meaning:58s} {_with_unit(name, scalars[name])}" for name in shown]
+    phases = [
+        f"  {_slip(p.kind, p.sign):14s}{p.start:12.4e} {p.end:12.4e}   {p.cause}"
+        for p in hit.phases
+    ]
+    head = f"  {'':14s}{'from (s)':>12s} {'to (s)':>12s}   ended by"
+    findings = [
+        f"  {'ok ' if f.holds else 'NO '} {f.name + ' = ' + format(f.value, '.3g'):34s} {f.verdict}"
+        for f in hit.validity.findings
+    ]
+    parts = ("Rebound", *lines, "Phases", head, *phases, "Validity", *findings)
+    return "\n".join(parts)
+
+
+def _with_unit(name: str, value: float) -> str:
+    if isnan(value):
+        return "-"
+    if GLOSSARY[name].unit == "rad":
+        return f"{degrees(value):.5g} deg"
+    unit = GLOSSARY[name].unit
+    return f"{value:.6g}" + ("" if unit == "1" else f" {unit}")
+
+
+def _slip(kind: str, sign: int) -> str:
+    return kind if sign == 0 else f"{kind} {'+' if sign > 0 else '-'}"

@@ -1,0 +1,62 @@
+"""`carom materials`: the catalogue of materials and where its values come from."""
+
+import json
+from typing import Annotated, Any
+
+import typer
+
+VALUES = ("young", "poisson", "density", "yield_strength")
+
+
+def materials_command(
+    name: Annotated[str | None, typer.Argument(help="Show one material with its sources.")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+) -> None:
+    """List the materials that have a name, or one of them with the source of each value.
+
+    Example: carom materials soda-lime-glass
+    """
+    from carom.bodies import material, materials
+
+    chosen = materials() if name is None else {str(material(name).name): material(name)}
+    chosen.pop("rigid", None)
+    records = {key: _record(key) for key in chosen}
+    if name is not None and not chosen:
+        typer.echo("rigid: does not deform; for a half-space or cup, or a sphere's counter-body")
+    elif as_json:
+        typer.echo(json.dumps(records, indent=2, ensure_ascii=False))
+    elif name is not None:
+        typer.echo(_details(records))
+    else:
+        typer.echo(_list(records))
+
+
+def _record(name: str) -> dict[str, Any]:
+    from carom.bodies import material, material_sources
+
+    stuff = material(name)
+    return {key: getattr(stuff, key) for key in VALUES} | {"sources": material_sources(name)}
+
+
+def _list(records: dict[str, dict[str, Any]]) -> str:
+    head = f"{'name':22s} {'E (GPa)':>9s} {'nu':>6s} {'rho (kg/m^3)':>13s} {'Y (MPa)':>9s}"
+    lines = [
+        f"{name:22s} {r['young'] / 1e9:9.4g} {r['poisson']:6.3g} {r['density']:13.5g} "
+        + (f"{r['yield_strength'] / 1e6:9.4g}" if r["yield_strength"] else f"{'-':>9s}")
+        for name, r in records.items()
+    ]
+    return "\n".join([head, *lines, "and: rigid. Sources: carom materials NAME"])
+
+
+def _details(records: dict[str, dict[str, Any]]) -> str:
+    from carom.quantities import GLOSSARY
+
+    lines = []
+    for name, record in records.items():
+        lines.append(name)
+        for key in VALUES:
+            if record[key] is not None:
+                unit = "" if GLOSSARY[key].unit == "1" else f" {GLOSSARY[key].unit}"
+                lines.append(f"  {GLOSSARY[key].meaning:18s} {record[key]:.6g}{unit}")
+                lines.append(f"      {record['sources'][key]}")
+    return "\n".join(lines)

@@ -1,0 +1,289 @@
+"""The stick phase of the paper in closed form: equations (15)-(27) and (33)-(37).
+
+Barber (1979), 'Adhesive contact during the oblique impact of elastic spheres', J. Appl. Math. Phys.
+(ZAMP) 30:468-476. Units: lengths d_max, time d_max/V_1, tangential displacement mu d_max/kappa.
+
+The paper's h_1, h_2 of (20) blow up like (1 - x)^(-1/2) at the turning point x = 1. Because
+gamma = alpha + beta - 1/2 there, the quadratic transformation (Abramowitz & Stegun 15.3.24, which
+is DLMF 15.8.18 followed by Euler's 15.8.1)
+
+    F(a, b; a + b - 1/2; x) = (1 - x)^(-1/2) F(2a - 1, 2b - 1; a + b - 1/2; z),  z = (1 - v)/2,
+
+takes that factor out exactly, 1 - x = v^2, and leaves power series in 0 <= z <= 1/2. They hold
+alternating terms of 10^7 and more when chi is large, so they are summed with twice the digits.
+Their coefficients are rational in chi: alpha and beta of (22) are not needed.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.optimize import brentq
+
+from carom.dimensionless.doubledouble import (
+    DoubleDouble,
+    Polynomial,
+    Real,
+    coefficients,
+    fifth_root,
+    power_series,
+    square_root,
+    two_product,
+    two_sum,
+)
+
+CHI_MAX = 400.0  # above, even 32 digits are lost in the alternating sums
+POINTS = 800  # where |g| is looked at for the end: 80 to the half oscillation at CHI_MAX
+ROUNDING = (
+    2e-15  # |g| passes 1 when it does by more than this: where it only touches, stick goes on
+)
+# A last speed below which the end of stick is not looked for. From touch it is what the rounding of
+# chi_n = ((11 + 20 n)^2 - 1)/240 leaves; after gross slip it is where the digits of the sums end.
+LAST_FROM_TOUCH, LAST_AFTER_GROSS_SLIP = 1e-13, 1e-20
+
+
+# psi and Q at z follow from psi and Q at the touch, z = 0, because psi' = -(15/4) chi Q and
+# Q' = psi sqrt(d). One recurrence (see `coefficients`, times 25, shift 60 chi) for each influence:
+# polynomial of c[n], of c[n+1], of c[n-1].
+Recurrence = tuple[Polynomial, Polynomial] | tuple[Polynomial, Polynomial, Polynomial]
+PSI_OF_PSI: Recurrence = (25, 5, 0), (25, 40, 15)  # v h_1, (27)
+PSI_OF_FORCE: Recurrence = (25, 25, 6), (25, 60, 35)  # v h_2 but for its factor
+FORCE_OF_PSI: Recurrence = (25, 25, 6), (25, 65, 40)
+FORCE_OF_FORCE: Recurrence = (25, -5, 0), (25, 35, 10)
+# psi (1 - z)^(-3/5), to be integrated: U = (8/5) integral psi (4 z (1 - z))^(-3/5) dz
+MOVED_OF_PSI: Recurrence = (50, 25, 9), (25, 40, 15), (25, -15, 2)
+MOVED_OF_FORCE: Recurrence = (50, 65, 27), (25, 60, 35), (25, 5, 0)
+
+
+@lru_cache(maxsize=512)
+def _series(recurrence: Recurrence, chi: float) -> list[DoubleDouble]:
+    top, bottom, *older = recurrence
+    return coefficients(top, bottom, two_product(60.0, chi), *older)
+
+
+@lru_cache(maxsize=128)
+def _integrated(recurrence: Recurrence, chi: float, last: int) -> list[DoubleDouble]:
+    return [c / float(5 * n + last) for n, c in enumerate(_series(recurrence, chi))]
+
+
+class Place(NamedTuple):
+    """A place in loading: z = (1 - v)/2, speed, (4 z)^(1/5), sqrt(d)."""
+
+    z: DoubleDouble
+    v: DoubleDouble
+    fifth: DoubleDouble
+    radius: DoubleDouble
+
+
+def _place(z: DoubleDouble, v: DoubleDouble) -> Place:
+    return Place(z, v, fifth_root(4.0 * z), fifth_root(4.0 * z * (1.0 - z)))
+
+
+def _at_speed(v: Real) -> Place:
+    return _place(0.5 * two_sum(1.0, -v), DoubleDouble(v))
+
+
+def _at(v: ArrayLike | None, x: ArrayLike | None) -> Place:
+    if (v is None) == (x is None):
+        raise ValueError("v, x: give one of the speed v and x = d^(5/2) = 1 - v^2, not both")
+    name, given = ("v", v) if x is None else ("x", x)
+    values = np.asarray(given, dtype=np.float64)
+    wrong = ~((values >= 0.0) & (values <= 1.0))
+    if wrong.any():
+        raise ValueError(f"{name} = {values[wrong][0]:g}: a stick phase has 0 <= {name} <= 1")
+    place = values if values.ndim else float(values)  # floats are quicker than arrays of none
+    if name == "v":
+        return _at_speed(place)
+    speed = square_root(two_sum(1.0, -place))
+    return _place(DoubleDouble(0.5 * place) / (1.0 + speed), speed)
+
+
+def _psi(chi: float, at: Place, psi: DoubleDouble, force: DoubleDouble) -> DoubleDouble:
+    own = power_series(_series(PSI_OF_PSI, chi), at.z)
+    other = power_series(_series(PSI_OF_FORCE, chi), at.z) * at.fifth * at.fifth
+    return own * psi - other * (3.75 * (chi * force))
+
+
+def _force(chi: float, at: Place, psi: DoubleDouble, force: DoubleDouble) -> DoubleDouble:
+    own = power_series(_series(FORCE_OF_FORCE, chi), at.z)
+    other = power_series(_series(FORCE_OF_PSI, chi), at.z) * at.fifth * at.fifth * at.fifth
+    return own * force + (2.0 * other / 3.0) * psi
+
+
+def _moved(chi: float, at: Place, psi: DoubleDouble, force: DoubleDouble) -> DoubleDouble:
+    square = at.fifth * at.fifth
+    first = power_series(_integrated(MOVED_OF_PSI, chi, 2), at.z) * square
+    second = power_series(_integrated(MOVED_OF_FORCE, chi, 4), at.z) * square * square
+    return 2.0 * first * psi - 7.5 * second * (chi * force)
+
+
+def _refuse_unless_in_range(psi: float, chi: float) -> None:
+    if not np.isfinite(psi):
+        raise ValueError(f"psi = {psi}: a finite number is needed")
+    if not 0.0 < chi <= CHI_MAX:
+        raise ValueError(f"chi = {chi}: 0 < chi <= {CHI_MAX:g} is allowed")
+
+
+def transition_speed(psi: float, chi: float) -> float:
+    """Return the speed v = V_z/V_1 at which gross slip from the first touch ends, (34).
+
+    v = (|psi_1| - 2 chi)/(1 - 2 chi): 1 for |psi_1| = 1, 0 for 2 chi, -1 for 4 chi - 1. A value
+    above 1 or below -1 is never reached.
+
+    Parameters
+    ----------
+    psi, chi : float
+        psi_1 and chi, dimensionless; chi = 1/2 never ends gross slip.
+
+    Raises
+    ------
+    ValueError
+        If psi is not finite, or chi is not in (0, CHI_MAX] or is 1/2.
+
+    Notes
+    -----
+    Barber (1979), equation (34).
+
+    Examples
+    --------
+    >>> transition_speed(2.0, 1.5)
+    0.5
+    """
+    _refuse_unless_in_range(psi, chi)
+    if chi == 0.5:
+        raise ValueError("chi = 0.5: gross slip does not end, (34) needs chi other than 1/2")
+    return (abs(psi) - 2.0 * chi) / (1.0 - 2.0 * chi)
+
+
+@dataclass(frozen=True)
+class Stick:
+    """A stick phase: g = psi_1 h_1 from the first touch, or a mixture of h_1 and h_2 after gross slip.
+
+    g = psi/v, psi' = -(15/4) chi Q, Q' = psi sqrt(d), U' = psi with v^2 = 1 - x, x = d^(5/2).
+    Make one with `from_touch` or `after_gross_slip`; the formulas hold between the speeds `start`
+    and `end`, and are continued beyond.
+
+    Parameters
+    ----------
+    psi_1, chi : float
+        Dimensionless; kappa V_x/(mu V_1) before the impact, any sign, and (16).
+    slides_first : bool
+        Whether gross slip comes before.
+
+    Raises
+    ------
+    ValueError
+        If chi is not in (0, CHI_MAX], or there is no such phase: from the first touch it needs
+        |psi_1| < 1 (<= 1 if chi >= 1/2), after gross slip 1 < |psi_1| < 2 chi.
+
+    Notes
+    -----
+    Barber (1979), equations (15)-(27) and (33)-(37).
+
+    Examples
+    --------
+    >>> stick = Stick.from_touch(0.5, 1.44)
+    >>> round(stick.end, 12), stick.slip_sign
+    (0.316, -1)
+    """
+
+    psi_1: float
+    chi: float
+    slides_first: bool = False
+
+    def __post_init__(self) -> None:
+        """Refuse what has no stick phase."""
+        _refuse_unless_in_range(self.psi_1, self.chi)
+        speed = abs(self.psi_1)
+        if self.slides_first and not 1.0 < speed < 2.0 * self.chi:
+            raise ValueError(
+                f"psi = {self.psi_1}: stick follows gross slip for 1 < |psi| < 2 chi"
+                f" = {2.0 * self.chi:g}"
+            )
+        if not self.slides_first and not (speed < 1.0 or (speed == 1.0 and self.chi >= 0.5)):
+            raise ValueError(
+                f"psi = {self.psi_1}: stick from the first touch needs |psi| < 1"
+                " (|psi| = 1 is allowed for chi >= 1/2)"
+            )
+
+    @classmethod
+    def from_touch(cls, psi: float, chi: float) -> "Stick":
+        """Return the stick phase that starts at the first touch, (27).
+
+        Examples
+        --------
+        >>> Stick.from_touch(0.3, 0.5).g([1.0, 0.5, 0.001])
+        array([0.3, 0.3, 0.3])
+        """
+        return cls(float(psi), float(chi))
+
+    @classmethod
+    def after_gross_slip(cls, psi: float, chi: float) -> "Stick":
+        """Return the stick phase that follows gross slip from the first touch, (34) and (35).
+
+        Examples
+        --------
+        >>> stick = Stick.after_gross_slip(2.0, 1.5)
+        >>> stick.start, stick.g(stick.start)
+        (0.5, 1.0)
+        """
+        return cls(float(psi), float(chi), slides_first=True)
+
+    @cached_property
+    def _start(self) -> Place:
+        if not self.slides_first:
+            return _at_speed(1.0)
+        z = 0.5 * two_sum(abs(self.psi_1), -1.0) / two_sum(2.0 * self.chi, -1.0)
+        return _place(z, 1.0 - 2.0 * z)
+
+    @cached_property
+    def _touch(self) -> tuple[DoubleDouble, DoubleDouble]:
+        """The psi and Q at d = 0 from which stick alone would have led here."""
+        zero, one = DoubleDouble(0.0), DoubleDouble(1.0)
+        if not self.slides_first:
+            return DoubleDouble(self.psi_1), zero
+        at, chi = self._start, self.chi
+        sign = float(np.sign(self.psi_1))
+        psi = sign * at.v
+        force = 2.0 * sign * at.radius * at.radius * at.radius / 3.0
+        # the matrix of influences has the determinant 1: its inverse
+        return (
+            _force(chi, at, zero, one) * psi - _psi(chi, at, zero, one) * force,
+            _psi(chi, at, one, zero) * force - _force(chi, at, one, zero) * psi,
+        )
+
+    @cached_property
+    def _moved_before(self) -> DoubleDouble:
+        """U at the start, by (33), less what stick alone would have led to."""
+        if not self.slides_first:
+            return DoubleDouble(0.0)
+        at = self._start
+        # without inertia (chi = 0) psi stays 1 and U is the time
+        time = _moved(0.0, at, DoubleDouble(1.0), DoubleDouble(0.0))
+        slope = 2.0 * self.chi
+        moved = two_sum(abs(self.psi_1), -slope) * time + slope * at.radius * at.radius
+        return float(np.sign(self.psi_1)) * moved - _moved(self.chi, at, *self._touch)
+
+    @property
+    def start(self) -> float:
+        """The speed v at which the phase starts, (34)."""
+        return float(self._start.v.hi)
+
+    def psi(self, v: ArrayLike | None = None, *, x: ArrayLike | None = None) -> Real:
+        """Return psi = g v, (25), at speeds v or at x = d^(5/2), in [0, 1] (else ValueError)."""
+        return _psi(self.chi, _at(v, x), *self._touch).hi
+
+    def g(self, v: ArrayLike | None = None, *, x: ArrayLike | None = None) -> Real:
+        """Return g, (27) or (35), at speeds v or at x, in [0, 1]; at v = 0 mostly infinite."""
+        at = _at(v, x)
+        return self._ratio(at)
+
+    def force(self, v: ArrayLike | None = None, *, x: ArrayLike | None = None) -> Real:
+        """Return Q = (2/3) F_x/(mu P_max), (12), at speeds v or at x, in [0, 1]."""
+        return _force(self.chi, _at(v, x), *self._touch).hi
+
+    def displacement(self, v: ArrayLike | None = None, *, x: ArrayLike | None = None) -> Real:
+        """Return U = integral of g dd, in units of mu d_max/kappa, at speeds v or x, in [0, 1]."""
+        return (_moved(self.chi, _at(v, x), *self._touch) + self._moved_before).hi
