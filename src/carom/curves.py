@@ -47,7 +47,7 @@ def curve(chi: float | Sequence[float], psi: ArrayLike) -> "xr.Dataset":
     --------
     >>> import carom
     >>> carom.curve(1.44, [0.0, 1.0, 6.0]).psi_out.values.round(4)
-    array([[ 0.    , -0.0307,  0.24  ]])
+    array([[ 0.    , -0.0612,  0.24  ]])
     """
     import xarray as xr
 

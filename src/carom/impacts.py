@@ -282,7 +282,7 @@ def impact(
     >>> [phase.kind for phase in hit.phases]
     ['gross slip', 'stick', 'slip', 'gross slip']
     >>> round(hit.rebound_angle * 180 / 3.141592653589793, 2)
-    18.81
+    18.6
     """
     normal, tangential = _components(speed, angle, normal_speed, tangential_speed)
     first_spin, second_spin = finite("spin", spin), finite("spin2", spin2)

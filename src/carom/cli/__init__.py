@@ -35,16 +35,23 @@ def main(arguments: list[str] | None = None) -> int:
     """Run a command; return 0, 2 for bad input (one line on stderr), or 1 for a failure."""
     try:
         return int(app(arguments, standalone_mode=False) or 0)
-    except (InputError, typer.TyperException) as error:
-        if message := str(error):  # without one, help has been printed already
-            typer.echo(f"carom: {' '.join(message.split())}", err=True)
-        return 2 if isinstance(error, InputError) else error.exit_code
+    except InputError as error:
+        return _refuse(str(error))
+    except typer.TyperException as error:
+        if not str(error):  # help has been printed already
+            return error.exit_code
+        return _refuse(f"{str(error).rstrip('.')}; see carom --help or carom COMMAND --help")
     except typer.Abort:
         typer.echo("carom: stopped", err=True)
         return 1
     except Exception as error:  # the last resort: a line instead of a traceback
         typer.echo(f"carom: failed, {type(error).__name__}: {error}", err=True)
         return 1
+
+
+def _refuse(message: str) -> int:
+    typer.echo(f"carom: {' '.join(message.split())}", err=True)
+    return 2
 
 
 def run() -> None:

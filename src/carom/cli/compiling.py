@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 import typer
 
-PATIENCE = 1.0  # seconds; what is compiled already takes milliseconds
+PATIENCE = 3.0  # seconds; what is compiled already takes one or two
 
 
 @contextmanager

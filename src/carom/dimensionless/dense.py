@@ -94,9 +94,9 @@ def position(node: Array, series: Series, row: int, target: float, falling: bool
         if not (low <= following <= high):
             following = 0.5 * (low + high)
         if abs(following - x) <= 1e-16 * x:
-            return following
+            return float(following)
         x = following
-    return x
+    return float(x)
 
 
 @kernel

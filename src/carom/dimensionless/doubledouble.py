@@ -160,7 +160,9 @@ def fifth_root(x: DoubleDouble) -> DoubleDouble:
 def coefficients(
     top: Polynomial, bottom: Polynomial, shift: DoubleDouble, older: Polynomial | None = None
 ) -> list[DoubleDouble]:
-    """Return c[n] with c[0] = 1, bottom(n) c[n+1] = (top(n) - shift) c[n] - (older(n) - shift) c[n-1].
+    """Return the coefficients c[n] of a power series, c[0] = 1, from a recurrence.
+
+    bottom(n) c[n+1] = (top(n) - shift) c[n] - (older(n) - shift) c[n-1].
 
     Polynomials are quadratic in n, highest power first; the series ends where its terms at z = 1/2
     are below `NEGLIGIBLE` for good. Without `older` it is the hypergeometric series whose upper
@@ -176,9 +178,8 @@ def coefficients(
     before, now = DoubleDouble(0.0), DoubleDouble(1.0)
     series = [now]
     n = 0
-    while abs(now.hi) + abs(before.hi) > NEGLIGIBLE * 2.0**n or top[0] * n * n < 2.0 * abs(
-        shift.hi
-    ):
+    growing = 2.0 * _size(shift)
+    while _size(now) + _size(before) > NEGLIGIBLE * 2.0**n or top[0] * n * n < growing:
         following = (_value(top, n) - shift) * now
         if older is not None:
             following = following - (_value(older, n) - shift) * before
@@ -193,6 +194,10 @@ def _value(polynomial: Polynomial, n: int) -> float:
     return float((second * n + first) * n + constant)
 
 
+def _size(x: DoubleDouble) -> float:
+    return float(np.abs(x.hi))
+
+
 def power_series(coefficients: Sequence[DoubleDouble], z: DoubleDouble) -> DoubleDouble:
     """Return the sum of coefficients[n] z^n (Horner's rule).
 
@@ -201,7 +206,7 @@ def power_series(coefficients: Sequence[DoubleDouble], z: DoubleDouble) -> Doubl
     >>> power_series([DoubleDouble(1.0), DoubleDouble(-2.0)], DoubleDouble(0.25)).hi
     0.5
     """
-    total = 0.0 * z
+    total: DoubleDouble = 0.0 * z
     for coefficient in reversed(coefficients):
         total = total * z + coefficient
     return total

@@ -22,7 +22,7 @@ def _series(numerator: float, exponent: float) -> np.ndarray:
 FROM_TOUCH = _series(1 / 2, 2 / 5)
 FROM_TURNING = _series(3 / 5, 1 / 2)
 
-DURATION = 2.94327518432469632652  # (4/5) B(2/5, 1/2)
+DURATION = 2.94327518432470465738  # (4/5) B(2/5, 1/2)
 HALF = DURATION / 2.0
 
 
@@ -68,7 +68,7 @@ def penetration_after(t: float) -> float:
         d -= correction
         if abs(correction) <= 1e-16 * d:
             break
-    return d
+    return float(d)
 
 
 @kernel

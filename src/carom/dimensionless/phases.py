@@ -111,10 +111,21 @@ MESSAGES = {
 }
 
 
-RETRACE = (
-    4e-12  # a stick phase that lasts to within this speed of the turning point goes back as it came
-)
-TINY = 1e-6  # a contact radius below which nothing of the impact is left (psi changes by < 1e-29)
+# A stick phase that lasts to within this speed of the turning point, times psi_1, goes back as it
+# came: the second where F is a polynomial, so that only rounding keeps it from the turning point.
+RETRACE, RETRACE_EXACTLY = 4e-12, 1e-7
+# Below this psi_1 the series are not resolved any better.
+SMALLEST = 1e-6
+# A contact radius below which nothing of the impact is left: psi changes by less than 1e-28.
+TINY = 1e-6
+
+
+@kernel
+def is_polynomial(chi: float) -> bool:
+    """Tell whether F(alpha, beta; 3/5; x) is a polynomial: chi = ((11 + 20 n)^2 - 1)/240."""
+    square = 240.0 * chi + 1.0
+    n = np.round((np.sqrt(square) - 11.0) / 20.0)
+    return bool(n >= 0.0 and abs(square - (11.0 + 20.0 * n) ** 2) <= 4e-16 * square)
 
 
 @kernel
@@ -128,7 +139,8 @@ def stick(
     event = run_stretch(work, record, STICK, 0, chi, 0.0, False, tolerance)
     if event == UNRESOLVED:
         return Cause.UNRESOLVED.value, depth, 0
-    if depth == 0 and s[0, V] <= RETRACE * psi_in + 1e-15:
+    slowest = psi_in * (RETRACE_EXACTLY if is_polynomial(chi) else RETRACE)
+    if depth == 0 and s[0, V] <= slowest + 1e-15:
         note_node(record, RETRACED, CONTACT, 0, 0.0, s)
         s[0, B], s[0, V], s[0, PSI], s[0, Q] = 0.0, -1.0, -psi_in, 0.0
         return Cause.SEPARATION.value, depth, 0
@@ -211,6 +223,7 @@ def run_phases(psi: float, chi: float, tolerance: float, work: Work, record: Rec
     s[0] = 0.0
     s[0, V] = 1.0
     s[0, PSI] = psi
+    tolerance *= min(1.0, max(psi, SMALLEST))  # psi and Q are of the order of psi_1
     depth = 0
     slides = psi > 1.0 or (psi == 1.0 and chi < 0.5)
     kind = Kind.GROSS_SLIP.value if slides else Kind.STICK.value

@@ -81,7 +81,7 @@ class Solution:
     >>> [(phase.kind, phase.sign) for phase in s.phases]
     [('stick', 0), ('slip', -1), ('gross slip', -1)]
     >>> s.history(5).psi.round(4)
-    array([ 0.5   ,  0.3999, -0.2119, -0.1157,  0.0471])
+    array([ 0.5   ,  0.2069, -0.3927, -0.2166,  0.0471])
     """
 
     psi_in: float
@@ -168,9 +168,9 @@ def solve(psi: float, chi: float) -> Solution:
     >>> import carom
     >>> for phase in carom.solve(1.5, 1.44).phases:
     ...     print(f"{phase.kind:10s} {phase.sign:+d} until {phase.end:.4f}: {phase.cause}")
-    gross slip +1 until 0.8199: slip stops
-    stick      +0 until 1.2027: edge reaches friction limit
-    slip       -1 until 2.4976: slip front reaches centre
+    gross slip +1 until 0.7958: slip stops
+    stick      +0 until 1.1992: edge reaches friction limit
+    slip       -1 until 2.4967: slip front reaches centre
     gross slip -1 until 2.9433: separation
     """
     psi, chi = float(psi), float(chi)

@@ -12,15 +12,21 @@ is DLMF 15.8.18 followed by Euler's 15.8.1)
 takes that factor out exactly, 1 - x = v^2, and leaves power series in 0 <= z <= 1/2. They hold
 alternating terms of 10^7 and more when chi is large, so they are summed with twice the digits.
 Their coefficients are rational in chi: alpha and beta of (22) are not needed.
+
+After gross slip the constants follow from continuity of velocity and force, as the paper says, but
+these give g = 1 and dg/dv = (2 chi - 1)/v, that is b g' = -(5/2) (2 chi - 1) x/(1 - x), not the
+g' = 0 printed in (35): with g' = 0 the equation of motion (14) would have the force jump by the
+factor 1/(2 chi).
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq
+from scipy.optimize import brentq, minimize_scalar
 
 from carom.dimensionless.doubledouble import (
     DoubleDouble,
@@ -39,9 +45,9 @@ POINTS = 800  # where |g| is looked at for the end: 80 to the half oscillation a
 ROUNDING = (
     2e-15  # |g| passes 1 when it does by more than this: where it only touches, stick goes on
 )
-# A last speed below which the end of stick is not looked for. From touch it is what the rounding of
-# chi_n = ((11 + 20 n)^2 - 1)/240 leaves; after gross slip it is where the digits of the sums end.
-LAST_FROM_TOUCH, LAST_AFTER_GROSS_SLIP = 1e-13, 1e-20
+PEAK = {"xatol": 1e-10}
+RTOL = 4.0 * np.finfo(np.float64).eps
+LAST = 1e-13  # of the start: an end nearer to the turning point is rounding of psi_1 and chi
 
 
 # psi and Q at z follow from psi and Q at the touch, z = 0, because psi' = -(15/4) chi Q and
@@ -83,6 +89,10 @@ def _place(z: DoubleDouble, v: DoubleDouble) -> Place:
 
 def _at_speed(v: Real) -> Place:
     return _place(0.5 * two_sum(1.0, -v), DoubleDouble(v))
+
+
+def _at_depth(z: Real) -> Place:
+    return _place(DoubleDouble(z), 1.0 - 2.0 * DoubleDouble(z))
 
 
 def _at(v: ArrayLike | None, x: ArrayLike | None) -> Place:
@@ -159,7 +169,7 @@ def transition_speed(psi: float, chi: float) -> float:
 
 @dataclass(frozen=True)
 class Stick:
-    """A stick phase: g = psi_1 h_1 from the first touch, or a mixture of h_1 and h_2 after gross slip.
+    """A stick phase: g = psi_1 h_1 from the first touch, h_1 and h_2 mixed after gross slip.
 
     g = psi/v, psi' = -(15/4) chi Q, Q' = psi sqrt(d), U' = psi with v^2 = 1 - x, x = d^(5/2).
     Make one with `from_touch` or `after_gross_slip`; the formulas hold between the speeds `start`
@@ -186,7 +196,7 @@ class Stick:
     --------
     >>> stick = Stick.from_touch(0.5, 1.44)
     >>> round(stick.end, 12), stick.slip_sign
-    (0.316, -1)
+    (0.267774892465, -1)
     """
 
     psi_1: float
@@ -221,7 +231,7 @@ class Stick:
 
     @classmethod
     def after_gross_slip(cls, psi: float, chi: float) -> "Stick":
-        """Return the stick phase that follows gross slip from the first touch, (34) and (35).
+        """Return the stick phase that follows gross slip from the first touch, (34).
 
         Examples
         --------
@@ -276,9 +286,15 @@ class Stick:
         return _psi(self.chi, _at(v, x), *self._touch).hi
 
     def g(self, v: ArrayLike | None = None, *, x: ArrayLike | None = None) -> Real:
-        """Return g, (27) or (35), at speeds v or at x, in [0, 1]; at v = 0 mostly infinite."""
+        """Return g = psi/v, (27), at speeds v or at x, in [0, 1]; at v = 0 mostly infinite."""
         at = _at(v, x)
-        return self._ratio(at)
+        psi = _psi(self.chi, at, *self._touch).hi
+        with np.errstate(divide="ignore", invalid="ignore"):
+            g = np.divide(psi, at.v.hi)
+        at_turning = (np.asarray(psi) == 0.0) & (np.asarray(at.v.hi) == 0.0)
+        if at_turning.any():  # the limit of g, which is dpsi/dv
+            g = np.where(at_turning, 3.0 * self.chi * _force(self.chi, at, *self._touch).hi, g)
+        return g if np.ndim(g) else float(g)
 
     def force(self, v: ArrayLike | None = None, *, x: ArrayLike | None = None) -> Real:
         """Return Q = (2/3) F_x/(mu P_max), (12), at speeds v or at x, in [0, 1]."""
@@ -287,3 +303,69 @@ class Stick:
     def displacement(self, v: ArrayLike | None = None, *, x: ArrayLike | None = None) -> Real:
         """Return U = integral of g dd, in units of mu d_max/kappa, at speeds v or x, in [0, 1]."""
         return (_moved(self.chi, _at(v, x), *self._touch) + self._moved_before).hi
+
+    @property
+    def end(self) -> float | None:
+        """The speed v at which |g| = 1 ends the phase; None if it lasts to the turning point.
+
+        Then chi = chi_n = ((11 + 20 n)^2 - 1)/240, or what rounding cannot tell from it.
+        """
+        return None if self._end is None else float(self._end.v.hi)
+
+    @property
+    def end_x(self) -> float | None:
+        """The end as x = d^(5/2) = 1 - v^2, with full relative precision near the touch."""
+        return None if self._end is None else float((4.0 * self._end.z * (1.0 - self._end.z)).hi)
+
+    @property
+    def slip_sign(self) -> int:
+        """The sign of the slip that starts at the end, that of g there; 0 without an end."""
+        return 0 if self._end is None else int(np.sign(_psi(self.chi, self._end, *self._touch).hi))
+
+    def _excess(self, at: Place) -> float:
+        """|psi| - v."""
+        psi = _psi(self.chi, at, *self._touch)
+        return float(((psi if psi.hi >= 0.0 else -psi) - at.v).hi)
+
+    def _bulges(self, above: float, below: float) -> float | None:
+        """Return the speed between where |g| has a maximum, if it is past 1 there."""
+        peak = minimize_scalar(
+            lambda v: -float(np.abs(self.g(v))),
+            bounds=(below, above),
+            method="bounded",
+            options=PEAK,
+        )
+        return float(peak.x) if -peak.fun > 1.0 + ROUNDING else None
+
+    @cached_property
+    def _end(self) -> Place | None:
+        v = np.sin(np.linspace(np.arcsin(self.start), 0.0, POINTS))
+        v[0], v[-1] = self.start, LAST * self.start
+        size = np.abs(self.g(v))
+        size[0] = min(abs(self.psi_1), 1.0)  # rounding of the start speed must not end the phase
+        before, here, after = size[:-2], size[1:-1], size[2:]
+        peak = np.zeros(POINTS, dtype=bool)
+        # a maximum between points rises above them by less than their own differences
+        may_pass = 2.0 * here - np.minimum(before, after) > 1.0 + ROUNDING
+        peak[1:-1] = may_pass & (here >= before) & (here >= after)
+        for i in np.flatnonzero(peak | (size > 1.0 + ROUNDING)):
+            beyond: float | None = float(v[i])
+            if size[i] <= 1.0 + ROUNDING:
+                beyond = self._bulges(float(v[i - 1]), float(v[i + 1]))
+            if beyond is not None:
+                return self._crossing(float(v[i - 1]), beyond)
+        return None
+
+    def _crossing(self, above: float, below: float) -> Place:
+        """Return where |psi| = v between two speeds, in the variable that is small there."""
+        if above <= 0.5:
+            place: Callable[[Real], Place] = _at_speed
+            stuck, slipping = above, below
+        else:
+            place = _at_depth
+            stuck, slipping = 0.5 * (1.0 - above), 0.5 * (1.0 - below)
+        if self._excess(place(stuck)) >= 0.0:
+            return place(stuck)
+        return place(
+            brentq(lambda p: self._excess(place(p)), stuck, slipping, xtol=1e-300, rtol=RTOL)
+        )

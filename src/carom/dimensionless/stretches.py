@@ -36,6 +36,7 @@ SLACK = 2e-15  # by which an edge may exceed its limit before it slips: rounding
 NOISE = 1e-14  # a gap that closes by less than this inside a step is left open
 PIECES = 4  # of a step, in each of which an event function is taken for a cubic while searching
 MAX_ROOT_STEPS = 60
+SHALLOW = 1e-3  # the lowest point of a gap is sought exactly where the cubic comes down to this
 
 
 class Work(NamedTuple):
@@ -128,6 +129,18 @@ def lowest_point(width: float, g0: float, slope0: float, g1: float, slope1: floa
 
 
 @kernel
+def bottom(gap: Series, low: float, high: float) -> float:
+    """Return where the gap is smallest between a falling and a rising end, by bisection."""
+    for _ in range(MAX_ROOT_STEPS):
+        middle = 0.5 * (low + high)
+        if evaluate_slope(gap, middle) < 0.0:
+            low = middle
+        else:
+            high = middle
+    return 0.5 * (low + high)
+
+
+@kernel
 def root_between(gap: Series, low: float, high: float) -> float:
     """Return where the gap, positive at `low` and negative at `high`, closes."""
     x = high
@@ -170,8 +183,10 @@ def first_closing(gap: Series, h: float) -> float:
         if g1 < 0.0:
             return root_between(gap, low, high)
         dip = low + lowest_point(width, g0, slope0, g1, slope1)
-        if dip > low and evaluate(gap, dip) < -NOISE:
-            return root_between(gap, low, dip)
+        if dip > low and evaluate(gap, dip) < SHALLOW:
+            dip = bottom(gap, low, high)
+            if evaluate(gap, dip) < -NOISE:
+                return root_between(gap, low, dip)
         g0, slope0 = g1, slope1
     return h + 1.0
 
