@@ -1,4 +1,6 @@
-"""Compiled kernels are cached under a key of their sources: numba does not see an edit in a callee."""
+"""Compiled kernels are cached under a key of their sources: numba does not see an edit in a
+callee.
+"""
 
 import hashlib
 import os

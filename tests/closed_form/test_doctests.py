@@ -19,5 +19,14 @@ def test_examples(name):
 
 def test_every_public_name_has_an_example():
     """Functions that users call show how; records and enums need not."""
-    for name in ("curve", "impact", "material", "materials", "rebound", "solve", "Material", "Pair"):
+    for name in (
+        "curve",
+        "impact",
+        "material",
+        "materials",
+        "rebound",
+        "solve",
+        "Material",
+        "Pair",
+    ):
         assert ">>>" in getattr(carom, name).__doc__

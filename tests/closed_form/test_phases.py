@@ -1,5 +1,7 @@
 """The sequence of phases, and the borders at which it changes."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -59,7 +61,7 @@ def test_transition_to_stick_and_start_of_slip(psi):
     where |psi| = |v|."""
     chi = 1.44
     solution = carom.solve(psi, chi)
-    for before, after in zip(solution.phases, solution.phases[1:], strict=False):
+    for before, after in pairwise(solution.phases):
         now = solution.at(before.end)
         if before.kind == "gross slip":
             assert now.speed[0] == pytest.approx((psi - 2 * chi) / (1 - 2 * chi), abs=1e-13)
@@ -77,7 +79,7 @@ def test_phases_follow_each_other_without_gaps_and_by_the_table():
         assert phases[0].start == 0.0
         assert phases[-1].end == pytest.approx(solution.duration, abs=1e-12)
         assert phases[-1].cause == "separation"
-        for before, after in zip(phases, phases[1:], strict=False):
+        for before, after in pairwise(phases):
             assert before.end == after.start
             assert (before.kind, before.sign) != (after.kind, after.sign)
             assert before.cause != "separation"

@@ -19,9 +19,7 @@ def test_gross_slip_throughout(chi):
     assert all(len(carom.solve(p, chi).phases) == 1 for p in psi[1:])
 
 
-@pytest.mark.parametrize(
-    ("n", "limit"), [(0, 1.0), (1, 0.4), (2, 0.256), (3, 0.18), (4, 0.14)]
-)
+@pytest.mark.parametrize(("n", "limit"), [(0, 1.0), (1, 0.4), (2, 0.256), (3, 0.18), (4, 0.14)])
 def test_stick_throughout_returns_the_motion(n, limit):
     """Where F is a polynomial, chi_n = ((11 + 20 n)^2 - 1)/240, small psi_1 gives psi_2 = -psi_1."""
     chi = ((11 + 20 * n) ** 2 - 1) / 240

@@ -1,0 +1,229 @@
+"""Impacts with units: exact limits, invariance, and the scales of Hertz."""
+
+import math
+
+import numpy as np
+import pytest
+
+import carom
+from carom import Cup, HalfSpace, InputError, Material, Pair, Sphere
+
+STEEL = Material(young="210 GPa", poisson=0.3, density=7850)
+GLASS = Material(young="70 GPa", poisson=0.23, density=2500)
+BALL = Sphere(radius="5 mm", material=STEEL)
+PLATE = Pair(BALL, HalfSpace(material=STEEL), friction=0.2)
+
+
+def close(value, rel=1e-14):
+    return pytest.approx(value, rel=rel)
+
+
+def test_chi_of_a_solid_sphere():
+    """chi = (1 - nu)/(2 - nu) (1 + R^2/K^2), Barber's (16): 1.4412 for nu = 0.3."""
+    for nu in (0.0, 0.3, 0.5):
+        stuff = Material(young=1e9, poisson=nu, density=1000)
+        pair = Pair(Sphere(radius=1.0, material=stuff), HalfSpace(material=stuff), 0.1)
+        assert pair.chi == close((1 - nu) / (2 - nu) * 3.5)
+        assert pair.kappa == close(2 * (1 - nu) / (2 - nu))
+        assert pair.dundurs_beta == 0.0
+
+
+def test_hollow_and_given_inertia():
+    shell = Sphere(radius=1.0, material=STEEL, inner_radius=1.0 - 1e-6)
+    assert shell.gyration_ratio == pytest.approx(2 / 3, rel=2e-6)
+    assert Sphere(radius=2.0, material=STEEL, gyration_radius=1.0).gyration_ratio == 0.25
+    assert Sphere(radius=2.0, material=STEEL, inner_radius=1.0).mass == close(
+        4 / 3 * math.pi * 7 * 7850
+    )
+
+
+def test_hertz_scales():
+    """F_max = (4/3) E* sqrt(R*) d^(3/2), energy (2/5) F d = (1/2) m V^2, duration 2.9433 d/V."""
+    hit = carom.impact(PLATE, normal_speed=1.7)
+    energy = 0.4 * hit.max_force * hit.max_penetration
+    assert energy == close(0.5 * BALL.mass * 1.7**2)
+    assert hit.max_radius == close(math.sqrt(BALL.radius * hit.max_penetration))
+    assert hit.duration == close(2.9432751843247047 * hit.max_penetration / 1.7)
+    assert hit.max_pressure == close(1.5 * hit.max_force / (math.pi * hit.max_radius**2))
+
+
+def test_no_friction():
+    pair = Pair(BALL, HalfSpace(material=STEEL), friction=0)
+    hit = carom.impact(pair, normal_speed=1.0, tangential_speed=0.7, spin=11.0)
+    assert hit.tangential_speed_out == 0.7
+    assert hit.spin_out == 11.0
+    assert hit.dissipated_energy == 0.0
+    assert hit.psi_in == hit.psi_out == math.inf
+    assert [(p.kind, p.sign) for p in hit.phases] == [("gross slip", 1)]
+    history = hit.history(5)
+    assert np.all(history.tangential_force == 0.0)
+    assert np.all(history.contact_velocity == 0.7 + 0.005 * 11.0)
+
+
+def test_no_tangential_speed():
+    hit = carom.impact(PLATE, speed="3 m/s")
+    assert hit.tangential_speed_out == 0.0
+    assert hit.rebound_angle == 0.0
+    assert hit.spin_out == 0.0
+    assert hit.rebound_speed == 3.0
+    assert math.isnan(hit.tangential_restitution)
+
+
+def test_spin_that_cancels_the_tangential_speed():
+    hit = carom.impact(PLATE, normal_speed=1.0, tangential_speed=0.5, spin=-100.0)
+    assert hit.contact_velocity == 0.0
+    assert (hit.tangential_speed_out, hit.spin_out) == (0.5, -100.0)
+
+
+def test_pure_spin_equals_translation_of_the_contact_point():
+    slides = carom.impact(PLATE, normal_speed=1.0, tangential_speed=0.5)
+    spins = carom.impact(PLATE, normal_speed=1.0, spin=100.0)
+    assert spins.psi_out == slides.psi_out
+    assert spins.tangential_speed_out == close(slides.tangential_speed_out - 0.5, rel=1e-12)
+
+
+def test_equal_spheres_with_equal_and_opposite_motion():
+    """Equal spins in the same sense add; opposite spins leave no sliding and change nothing."""
+    pair = Pair(BALL, BALL, friction=0.3)
+    alike = carom.impact(pair, normal_speed=2.0, spin=50.0, spin2=50.0)
+    assert alike.spin_out == alike.spin2_out
+    opposite = carom.impact(pair, normal_speed=2.0, spin=50.0, spin2=-50.0)
+    assert (opposite.spin_out, opposite.spin2_out) == (50.0, -50.0)
+    assert opposite.tangential_speed_out == 0.0
+
+
+def test_bodies_may_be_swapped():
+    other = Sphere(radius="8 mm", material=GLASS)
+    motion = {"normal_speed": 1.3, "tangential_speed": 0.6}
+    one = carom.impact(Pair(BALL, other, 0.2), **motion, spin=30.0, spin2=-12.0)
+    two = carom.impact(Pair(other, BALL, 0.2), **motion, spin=-12.0, spin2=30.0)
+    assert one.psi_out == pytest.approx(two.psi_out, abs=1e-13)
+    assert one.spin_out == pytest.approx(two.spin2_out, rel=1e-12)
+    assert one.tangential_speed_out == close(two.tangential_speed_out, rel=1e-12)
+    assert one.pair.dundurs_beta == close(-two.pair.dundurs_beta)
+
+
+def test_mirror():
+    one = carom.impact(PLATE, speed=2.0, angle="35 deg", spin=40.0)
+    two = carom.impact(PLATE, speed=2.0, angle="-35 deg", spin=-40.0)
+    assert one.spin_out == -two.spin_out
+    assert one.rebound_angle == -two.rebound_angle
+    assert [p.sign for p in one.phases] == [-p.sign for p in two.phases]
+
+
+def test_units_do_not_matter():
+    ball = Sphere(
+        radius="0.5 cm", material=Material(young=210e9, poisson="0.3", density="7.85 g/cm^3")
+    )
+    pair = Pair(ball, HalfSpace(material=STEEL), friction="0.2")
+    one = carom.impact(pair, speed="7.2 km/h", angle=math.radians(30), spin="60 rpm")
+    two = carom.impact(PLATE, speed=2.0, angle="30 deg", spin="1 Hz * 2 * pi * rad")
+    assert one.psi_out == close(two.psi_out, rel=1e-12)
+    assert one.spin_out == close(two.spin_out, rel=1e-12)
+
+
+def test_momentum_and_energy_are_balanced():
+    other = Sphere(radius="3 mm", material=STEEL, inner_radius="1 mm")
+    for pair in (Pair(BALL, other, 0.2), Pair(other, Cup(radius="9 mm", material=GLASS), 0.4)):
+        spin2 = -200.0 if len(pair.moving) == 2 else 0.0
+        hit = carom.impact(pair, normal_speed=1.5, tangential_speed=0.9, spin=30.0, spin2=spin2)
+        impulse = hit.tangential_impulse
+        energy = 0.5 * pair.normal_mass * (hit.tangential_speed**2 - hit.tangential_speed_out**2)
+        spins = ((hit.spin, hit.spin_out), (hit.spin2, hit.spin2_out))
+        for body, (before, after) in zip(pair.moving, spins, strict=False):
+            inertia = body.mass * body.gyration_ratio * body.radius**2
+            assert inertia * (before - after) == close(body.radius * impulse, rel=1e-10)
+            energy += 0.5 * inertia * (before**2 - after**2)
+        assert energy == close(hit.dissipated_energy, rel=1e-10)
+
+
+def test_history_is_consistent():
+    hit = carom.impact(PLATE, speed=2.0, angle="20 deg", spin=15.0)
+    h = hit.history(400)
+    energies = [
+        "normal_kinetic_energy",
+        "tangential_kinetic_energy",
+        "normal_elastic_energy",
+        "tangential_elastic_energy",
+        "frictional_work",
+    ]
+    total = sum(h[name] for name in energies)
+    assert np.allclose(total, total[0], rtol=1e-12)
+    assert float(h.frictional_work[-1]) == close(hit.dissipated_energy, rel=1e-9)
+    assert float(h.contact_velocity[-1]) == close(hit.contact_velocity_out, rel=1e-10)
+    impulse = np.trapezoid(h.tangential_force, h.time)
+    assert impulse == pytest.approx(hit.tangential_impulse, rel=1e-4)
+    assert float(abs(h.tangential_force / (0.2 * h.normal_force))[1:-1].max()) <= 1.0 + 1e-9
+    assert h.time.attrs == {
+        "units": "s",
+        "long_name": "time since the first touch",
+        "symbol": "$t$",
+    }
+
+
+def test_cup_and_rigid_counterbody():
+    cup = Pair(BALL, Cup(radius="10 mm", material=STEEL), friction=0.2)
+    assert cup.effective_radius == close(0.01)
+    rigid = Pair(BALL, HalfSpace(material="rigid"), friction=0.2)
+    assert rigid.effective_modulus == close(210e9 / (1 - 0.3**2))
+    assert rigid.chi == close(PLATE.chi)
+    assert rigid.dundurs_beta == close(0.5 * (1 - 2 * 0.3) / (1 - 0.3))
+
+
+def test_validity_speaks_up():
+    fine = carom.impact(PLATE, speed=0.1).validity
+    assert fine.holds
+    assert "not known" in str(fine)
+    soft = Sphere(radius="20 mm", material="rubber")
+    unlike = carom.impact(Pair(soft, HalfSpace(material=STEEL), 0.5), speed=20.0).validity
+    verdicts = {finding.name: finding.holds for finding in unlike.findings}
+    assert not verdicts["a_max/R*"]
+    mixed = Pair(Sphere(radius="5 mm", material=GLASS), HalfSpace(material=STEEL), 0.2)
+    judged = carom.impact(mixed, speed=1.0).validity
+    assert [f.name for f in judged.findings if not f.holds] == ["Dundurs beta"]
+    hard = carom.impact(Pair(Sphere(radius="5 mm", material="steel"), BALL, 0.2), speed=5.0)
+    assert "yields" in str(hard.validity)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Sphere(radius=-1, material=STEEL), "radius: -1 cannot be used; must be positive"),
+        (lambda: Sphere(radius="5 kg", material=STEEL), "radius: '5 kg' .* in kilogram"),
+        (lambda: Sphere(radius=math.inf, material=STEEL), "radius: inf .* finite"),
+        (lambda: Sphere(radius=math.nan, material=STEEL), "radius: nan"),
+        (lambda: Sphere(radius=None, material=STEEL), "radius: None"),
+        (lambda: Sphere(radius=True, material=STEEL), "radius: True"),
+        (lambda: Sphere(radius=1, material="stel"), "material: 'stel' .* did you mean 'steel'"),
+        (lambda: Sphere(radius=1, material=STEEL, inner_radius=1), "inner_radius: 1 .* below"),
+        (lambda: Material(young=1e9, poisson=0.51), "poisson: 0.51 .* at most 0.5"),
+        (lambda: Material(young=1e9, poisson=-1), "poisson: -1 .* above -1"),
+        (lambda: Material(young="1 parsnip", poisson=0.3), "young: .* unit 'parsnip' is not known"),
+        (lambda: Pair(BALL, BALL, -0.1), "friction: -0.1"),
+        (lambda: Pair(BALL, BALL, "0.1 m"), "friction: '0.1 m' .* it has a unit"),
+        (lambda: Pair(BALL, Cup(radius=1e-3, material=STEEL), 0.1), "cup .* cannot take a sphere"),
+        (lambda: carom.impact(PLATE, speed=1, angle=30), r"angle: 30 .* write '30 deg'"),
+        (lambda: carom.impact(PLATE, speed=1, angle="90 deg"), "angle: .* must approach"),
+        (lambda: carom.impact(PLATE, speed=-1), "speed: -1"),
+        (lambda: carom.impact(PLATE, normal_speed=0), "normal_speed: 0 .* must approach"),
+        (lambda: carom.impact(PLATE), "speed: missing"),
+        (lambda: carom.impact(PLATE, speed=1, normal_speed=1), "speed: give speed and angle, or"),
+        (lambda: carom.impact(PLATE, speed=1, spin2=5), "spin2: 5 .* only a second sphere"),
+    ],
+)
+def test_bad_input_is_refused_in_one_line(make, message):
+    with pytest.raises(InputError, match=message) as caught:
+        make()
+    assert "\n" not in str(caught.value)
+
+
+def test_catalogue():
+    catalogue = carom.materials()
+    assert len(catalogue) >= 15
+    for name, stuff in catalogue.items():
+        sources = carom.material_sources(name)
+        assert stuff.density is not None
+        for key in ("young", "poisson", "density", "yield_strength"):
+            assert (getattr(stuff, key) is not None) == (key in sources), (name, key)
+            assert len(sources.get(key, "long enough")) > 8
+    assert carom.material("  Mild Steel ") == carom.material("steel")

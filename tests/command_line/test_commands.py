@@ -1,0 +1,207 @@
+"""The commands, as a user would type them."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+import carom
+from carom.cli import main
+
+BALL = ["impact", "--radius", "5 mm", "--material", "steel", "--friction", "0.2"]
+SPEED = ["--speed", "2", "--angle", "30 deg"]
+CASE = """\
+friction = 0.2
+speed = "2 m/s"
+angle = "30 deg"
+
+[first]
+radius = "5 mm"
+material = {young = "210 GPa", poisson = 0.3, density = 7850}
+
+[second]
+kind = "sphere"
+radius = "1 cm"
+"""
+
+
+@pytest.fixture
+def run(capsys, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+
+    def call(*arguments):
+        code = main(list(arguments))
+        caught = capsys.readouterr()
+        return code, caught.out, caught.err
+
+    return call
+
+
+def test_impact_from_flags(run):
+    code, out, _ = run(*BALL, *SPEED)
+    assert code == 0
+    assert "gross slip +" in out
+    assert "18.6" in out
+
+
+def test_impact_as_json_equals_the_library(run):
+    code, out, _ = run(*BALL, *SPEED, "--json")
+    pair = carom.Pair(
+        carom.Sphere(radius="5 mm", material="steel"),
+        carom.HalfSpace(material="steel"),
+        friction=0.2,
+    )
+    hit = carom.impact(pair, speed=2.0, angle="30 deg")
+    record = json.loads(out)
+    assert code == 0
+    assert record["result"]["psi_out"] == hit.psi_out
+    assert [phase["kind"] for phase in record["phases"]] == [p.kind for p in hit.phases]
+    assert record["result"]["spin_out"] == hit.spin_out
+
+
+def test_case_file_and_flags_that_override_it(run):
+    Path("case.toml").write_text(CASE)
+    code, out, _ = run("impact", "case.toml", "--json")
+    assert code == 0
+    assert json.loads(out)["inputs"]["second"]["radius"] == 0.01
+    assert json.loads(out)["inputs"]["second"]["material"]["young"] == 210e9
+    _, out, _ = run("impact", "case.toml", "--friction", "0.5", "--normal-speed", "3", "--json")
+    inputs = json.loads(out)["inputs"]
+    assert (inputs["friction"], inputs["normal_speed"], inputs["tangential_speed"]) == (0.5, 3.0, 0)
+
+
+def test_output_files(run):
+    import xarray as xr
+
+    code, _, err = run(*BALL, *SPEED, "--output", "hit.nc", "--plot", "hit.png")
+    assert code == 0
+    assert "hit.nc" in err
+    with xr.open_dataset("hit.nc", engine="h5netcdf") as stored:
+        assert stored.tangential_force.units == "N"
+        assert json.loads(stored.attrs["inputs"])["friction"] == 0.2
+    assert Path("hit.png").read_bytes().startswith(b"\x89PNG")
+    run(*BALL, *SPEED, "--output", "hit.csv")
+    table = pd.read_csv("hit.csv", comment="#")
+    assert table.time[0] == 0.0
+    assert len(table) == 400
+    assert {path.name for path in Path().iterdir()} == {"hit.nc", "hit.png", "hit.csv"}
+
+
+def test_curve(run):
+    code, out, _ = run("curve", "--chi", "1.44", "--chi", "0.3")
+    assert code == 0
+    assert "gross slip throughout" in out
+    code, out, _ = run("curve", "--chi", "1.44", "--to", "6", "--points", "7", "--json")
+    (record,) = json.loads(out)
+    assert record["psi_out"] == [carom.rebound(psi, 1.44) for psi in record["psi_in"]]
+    assert list(record["borders"].values()) == pytest.approx([1.0, 2.88, 4.76])
+    code, _, _ = run("curve", "--chi", "1.44", "--output", "curve.csv", "--plot", "curve.svg")
+    assert code == 0
+    assert Path("curve.svg").stat().st_size > 1000
+
+
+def test_materials(run):
+    code, out, _ = run("materials")
+    assert code == 0
+    assert "soda-lime-glass" in out
+    code, out, _ = run("materials", "steel", "--json")
+    assert json.loads(out)["steel"]["young"] == 210e9
+    assert "EN 1993" in run("materials", "steel")[1]
+
+
+BAD = [
+    (["impact"], "friction: missing"),
+    (["impact", "--friction", "0.1"], "radius: missing for the first body; give --radius"),
+    ([*BALL[:-2], "--friction", "-1", "--speed", "1"], "friction: '-1'"),
+    ([*BALL, "--speed", "0"], "speed: '0' cannot be used; must be positive"),
+    ([*BALL, "--normal-speed", "-2"], "normal_speed: '-2' .*must approach"),
+    ([*BALL, "--speed", "2", "--angle", "90 deg"], "angle: '90 deg' .*must approach"),
+    ([*BALL, "--speed", "2", "--angle", "45"], "angle: '45' .*write '45 deg'"),
+    (["impact", "--radius", "5 kg", *BALL[3:], *SPEED], "radius: '5 kg' .*kilogram.*'5 mm'"),
+    (["impact", "--radius", "5 mmm", *BALL[3:], *SPEED], "unit 'mmm' is not known"),
+    (["impact", "--radius", "inf", *BALL[3:], *SPEED], "radius: 'inf' .*finite"),
+    ([*BALL, *SPEED, "--second-material", "stel"], "material: 'stel' .*did you mean 'steel'"),
+    ([*BALL, *SPEED, "--against", "cone"], "kind: 'cone' .*half-space, sphere or cup"),
+    ([*BALL, *SPEED, "--output", "x.xls"], "output file: 'x.xls' .*.nc or .csv"),
+    ([*BALL, *SPEED, "--plot", "no/such/x.png"], "output file: .*folder must exist"),
+    ([*BALL, *SPEED, "--output", "/proc/x.csv"], "output file: .*cannot be written"),
+    ([*BALL, *SPEED, "--colour", "red"], "No such option: --colour"),
+    (["impact", "missing.toml"], "case file: 'missing.toml' cannot be read"),
+    (["curve", "--chi", "-1"], "chi: '-1' cannot be used"),
+    (["curve", "--chi", "1", "--from", "2", "--to", "1"], "to: 1.0 cannot be used"),
+    (["materials", "stone"], "material: 'stone'"),
+    (["frobnicate"], "No such command"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "message"), BAD)
+def test_bad_input_gets_one_clear_line(run, arguments, message):
+    import re
+
+    code, out, err = run(*arguments)
+    assert code == 2
+    assert out == ""
+    assert err.startswith("carom: ")
+    assert err.count("\n") == 1
+    assert re.search(message, err)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("friction = 0.2\nsped = 3\n", "sped: unknown key in .*, line 2; did you mean 'speed'"),
+        ("[first]\nradius = 1\n\n[second]\nshape = 'cup'\n", "shape: unknown key in .*, line 5"),
+        ("friction = = 3\n", "is not TOML; .*line 1"),
+        ("first = 3\n", "first: 3 cannot be used; must be a table"),
+        ("friction = 0.1\nspeed=1\n[first]\nradius=1\nmaterial={yung=1}\n", "yung: .*line 5"),
+    ],
+)
+def test_bad_case_files(run, text, message):
+    import re
+
+    Path("case.toml").write_text(text)
+    code, _, err = run("impact", "case.toml")
+    assert code == 2
+    assert re.search(message, err)
+    assert err.count("\n") == 1
+
+
+def test_an_existing_file_survives_a_failed_write(run, monkeypatch):
+    from carom import results
+
+    Path("keep.csv").write_text("precious")
+    monkeypatch.setattr(results, "as_csv", lambda _: (_ for _ in ()).throw(OSError("disk full")))
+    code, _, err = run(*BALL, *SPEED, "--output", "keep.csv")
+    assert code == 2
+    assert "disk full" in err
+    assert Path("keep.csv").read_text() == "precious"
+    assert [path.name for path in Path().iterdir()] == ["keep.csv"]
+
+
+def loaded_by(program):
+    """Return which of the slow packages a program loads."""
+    slow = "numpy numba scipy xarray pint matplotlib pandas rich"
+    end = f"; import sys; print(*[name for name in {slow.split()!r} if name in sys.modules])"
+    done = subprocess.run(
+        [sys.executable, "-c", program + end], capture_output=True, text=True, check=True
+    )
+    return set(done.stdout.splitlines()[-1].split())
+
+
+def test_start_up_loads_nothing_that_is_not_needed():
+    assert loaded_by("import carom") == set()
+    assert loaded_by("from carom.cli import main; main(['--help'])") == set()
+    plain = (
+        f"from carom.cli import main; main({[*BALL[:2], '0.005', *BALL[3:]]!r} + ['--speed', '2'])"
+    )
+    assert not loaded_by(plain) & {"xarray", "matplotlib", "pandas"}
+
+
+@pytest.mark.parametrize("command", ["impact", "curve", "materials"])
+def test_help_shows_an_example(run, command):
+    code, out, _ = run(command, "--help")
+    assert code == 0
+    assert f"Example: carom {command}" in out
