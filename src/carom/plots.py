@@ -115,7 +115,7 @@ def _radii(axis: "Axes", dataset: "xr.Dataset", time: Any) -> None:
     axis.plot(time, contact, color=LINES[4], label="contact, $b$")
     axis.plot(time, stick, color=LINES[0], label="stick zone, $a$")
     axis.fill_between(time, stick, contact, color=LINES[1], alpha=0.25, linewidth=0, label="slip")
-    _finish(axis, "radius (µm)")
+    _finish(axis, "radius (µm)", "lower center")
 
 
 def _energies(axis: "Axes", dataset: "xr.Dataset", time: Any) -> None:
@@ -127,9 +127,9 @@ def _energies(axis: "Axes", dataset: "xr.Dataset", time: Any) -> None:
     start = float(dataset["tangential_kinetic_energy"][0]) or 1.0
     parts = [dataset[name].values / start for name in shares]
     axis.stackplot(time, parts, labels=list(shares.values()), colors=SHARES)
-    _finish(axis, "share of tangential energy")
+    _finish(axis, "share of tangential energy", "lower left")
 
 
-def _finish(axis: "Axes", label: str) -> None:
+def _finish(axis: "Axes", label: str, place: str = "best") -> None:
     axis.set_ylabel(label)
-    axis.legend(frameon=False, fontsize="small")
+    axis.legend(fontsize="small", loc=place, facecolor="white", edgecolor="none", framealpha=0.75)

@@ -130,8 +130,8 @@ def test_sequence_of_phases_is_the_exact_one() -> None:
         found = march_phases(psi, chi, FINE, 4 * FINE)
         assert same_sequence(found, exact), (psi, chi)
         late += [abs(a[2] - b[2]) for a, b in zip(found[1:], exact[1:], strict=True)]
-    assert np.median(late) < 0.2 * resolution(FINE)
-    assert np.quantile(late, 0.9) < 2.0 * resolution(FINE)
+    assert np.median(late) < 0.1 * resolution(FINE)
+    assert np.quantile(late, 0.9) < 0.5 * resolution(FINE)
 
 
 def test_wrong_sequences_of_phases_are_told_from_the_exact_one() -> None:
