@@ -1,7 +1,7 @@
 """Time per impact of the exact solver and of its twin, in one run on one core; prints ratios.
 
-    python benchmarks/run.py            a few seconds
-    python benchmarks/run.py --smoke    a quick pass through the same code
+python benchmarks/run.py            a few seconds
+python benchmarks/run.py --smoke    a quick pass through the same code
 """
 
 import argparse
@@ -31,7 +31,7 @@ def seconds(work: Callable[[], object], repeats: int) -> float:
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--smoke", action="store_true", help="few impacts, only to see that it runs")
+    parser.add_argument("--smoke", action="store_true", help="only to see that it runs")
     smoke = parser.parse_args().smoke
     many, few, repeats = (200, 4, 1) if smoke else (10_000, 100, 5)
 
@@ -50,9 +50,9 @@ def main() -> None:
         each = seconds(marched, repeats) / few
         error = np.abs(np.array(marched()) - truth)
         print(
-            f"marching, {springs} springs, {steps:4d} steps          {each * 1e6:8.1f} us per impact, "
-            f"{each / exact:5.1f} times the exact; error {np.median(error):.0e}, "
-            f"at most {error.max():.0e}"
+            f"marching, {springs} springs, {steps:4d} steps          {each * 1e6:8.1f} us per impact,"
+            f" {each / exact:5.1f} times the exact; error {np.median(error):.0e},"
+            f" at most {error.max():.0e}"
         )
     cores = seconds(lambda: carom.rebound(psi, chi), repeats) / many
     print(f"exact on all cores                           {cores * 1e6:8.1f} us per impact")

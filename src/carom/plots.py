@@ -130,6 +130,6 @@ def _energies(axis: "Axes", dataset: "xr.Dataset", time: Any) -> None:
     _finish(axis, "share of tangential energy", "lower left")
 
 
-def _finish(axis: "Axes", label: str, place: str = "best") -> None:
+def _finish(axis: "Axes", label: str, place: Any = "best") -> None:
     axis.set_ylabel(label)
     axis.legend(fontsize="small", loc=place, facecolor="white", edgecolor="none", framealpha=0.75)

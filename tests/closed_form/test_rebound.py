@@ -21,7 +21,7 @@ def test_gross_slip_throughout(chi):
 
 @pytest.mark.parametrize(("n", "limit"), [(0, 1.0), (1, 0.4), (2, 0.256), (3, 0.18), (4, 0.14)])
 def test_stick_throughout_returns_the_motion(n, limit):
-    """Where F is a polynomial, chi_n = ((11 + 20 n)^2 - 1)/240, small psi_1 gives psi_2 = -psi_1."""
+    """Where F is a polynomial, chi = ((11 + 20 n)^2 - 1)/240, small psi_1 gives -psi_1 back."""
     chi = ((11 + 20 * n) ** 2 - 1) / 240
     psi = np.array([1e-9, 1e-3, 0.5, 0.99]) * limit
     assert np.array_equal(carom.rebound(psi, chi), -psi)

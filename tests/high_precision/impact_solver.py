@@ -136,7 +136,7 @@ class Front:
 def expanded(
     kind: str, sign: int, state: dict[str, mpf], chi: mpf, order: int, front: Front | None
 ) -> Step:
-    """Taylor series of the state in tau, or in the distance covered by the front where that leads."""
+    """Taylor series of the state in tau, or in the distance the front has covered."""
     s: dict[str, Series] = {name: [value] for name, value in state.items()}
     tau, t, b, v, psi, disp, q = (s[name] for name in STATE)
     leads = front is not None and front.leads
@@ -295,7 +295,7 @@ class Solver:
         return bool(self.memory)
 
     def ring_step(self, sign: int, ring: Memory, double: bool) -> Step:
-        """Expand about the present front in tau, or in the front's place where that moves faster."""
+        """Expand about the present front in tau, or in the place of the front if it is faster."""
         s = self.state
         front = Front(ring, ring.outer, sign, self.order, leads=False, double=double)
         if abs(front.law_value - (s["b"] ** 2 - sign * s["U"])) > mpf(10) ** (20 - mp.dps):

@@ -6,7 +6,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from carom.dimensionless.doubledouble import DoubleDouble, fifth_root, square_root
+from carom.dimensionless.doubledouble import DoubleDouble, coefficients, fifth_root, square_root
 from carom.dimensionless.stick import Stick, transition_speed
 
 CHI = (0.05, 0.2, 0.499999999, 0.5, 0.500000001, 1.44, 4.0, 10.0, 65 / 6, 30.0, 60.0, 100.0)
@@ -313,10 +313,18 @@ def test_double_double_arithmetic():
         assert_exact(2.0 - a, 2 - p, p)
         assert_exact(square_root(a), mp.sqrt(p), 1)
         assert_exact(fifth_root(a), mp.root(p, 5), 1)
+    cancelled = DoubleDouble(1.0, 2.0**-54) + DoubleDouble(-1.0, 2.0**-110)
+    assert exact(cancelled) == mp.mpf(2) ** -54 + mp.mpf(2) ** -110
     array = DoubleDouble(np.array([0.0, 2.0]))
     assert fifth_root(array).hi[0] == 0.0
     assert square_root(array).hi[0] == 0.0
     assert (np.array([1.0, 2.0]) * array).hi.tolist() == [0.0, 4.0]
+
+
+def test_a_vanishing_coefficient_does_not_end_a_series_of_three_terms():
+    """1/(1 + t^2/2): c[n+1] = -c[n-1]/2 with c[1] = 0."""
+    found = coefficients((0, 0, 3), (0, 0, 2), DoubleDouble(3.0), (0, 0, 4))
+    assert [c.hi for c in found[:5]] == [1.0, 0.0, -0.5, 0.0, 0.25]
 
 
 def assert_exact(found, true, scale):

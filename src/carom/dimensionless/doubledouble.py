@@ -72,8 +72,7 @@ class DoubleDouble:
         first = self.hi / y.hi
         rest = self - first * y
         second = rest.hi / y.hi
-        third = (rest - second * y).hi / y.hi
-        return _renormalised(first, second) + third
+        return _renormalised(first, second)
 
     def __radd__(self, other: Real) -> "DoubleDouble":
         """Return y + x."""
@@ -178,8 +177,7 @@ def coefficients(
     before, now = DoubleDouble(0.0), DoubleDouble(1.0)
     series = [now]
     n = 0
-    growing = 2.0 * _size(shift)
-    while _size(now) + _size(before) > NEGLIGIBLE * 2.0**n or top[0] * n * n < growing:
+    while _size(now) + _size(before) > NEGLIGIBLE * 2.0**n:
         following = (_value(top, n) - shift) * now
         if older is not None:
             following = following - (_value(older, n) - shift) * before

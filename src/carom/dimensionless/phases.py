@@ -20,7 +20,7 @@ from carom.dimensionless.memory import (
     push_laid,
     trim,
 )
-from carom.dimensionless.motion import COLUMNS, CONTACT, LAID, ORDER, PSI, STICK, A, B, Q, Series, V
+from carom.dimensionless.motion import COLUMNS, CONTACT, LAID, ORDER, PSI, STICK, A, B, Q, V
 from carom.dimensionless.record import (
     MAX_ANNULI,
     MAX_PHASES,
@@ -187,29 +187,23 @@ def slip(
 
 @kernel
 def gross_slip(work: Work, record: Record, sign: int, chi: float) -> tuple[int, int]:
-    """Follow gross slip in closed form; return why it ends and the depth of the memory left."""
+    """Follow gross slip, psi - 2 chi sigma v constant (33); return why it ends, and the depth."""
     s = work.series
     s[0, A] = 0.0
     note_stretch(record, work.stack, 0)
     note_node(record, GROSS, CONTACT, sign, 0.0, s)
     excess = sign * s[0, PSI] - s[0, V]
     fall = 2.0 * chi - 1.0  # of the excess, per fall in speed
-    stops = excess < fall * (1.0 + s[0, V])
-    follow_gross_slip(s, sign, chi, excess / fall if stops else 1.0 + s[0, V])
-    if not stops:
+    if not excess < fall * (1.0 + s[0, V]):
+        s[0, PSI] -= 2.0 * chi * sign * (1.0 + s[0, V])
+        s[0, B], s[0, V], s[0, Q] = 0.0, -1.0, 0.0
         return Cause.SEPARATION.value, 0
+    fallen = (1.0 - s[0, V]) + excess / fall
+    s[0, V] = 1.0 - fallen
+    s[0, B] = (fallen * (2.0 - fallen)) ** 0.2
     s[0, PSI] = sign * s[0, V]
-    return Cause.SLIP_STOPS.value, push_flat(work.stack, 0, s, sign, record.counts[0])
-
-
-@kernel
-def follow_gross_slip(s: Series, sign: int, chi: float, drop: float) -> None:
-    """Advance a state in gross slip until the speed has fallen by `drop`; (33) of the paper."""
-    below = (1.0 - s[0, V]) + drop
-    s[0, V] -= drop
-    s[0, B] = max(below * (2.0 - below), 0.0) ** 0.2
-    s[0, PSI] -= 2.0 * chi * sign * drop
     s[0, Q] = sign * (2.0 / 3.0) * s[0, B] ** 3
+    return Cause.SLIP_STOPS.value, push_flat(work.stack, 0, s, sign, record.counts[0])
 
 
 @kernel
@@ -223,7 +217,8 @@ def run_phases(psi: float, chi: float, tolerance: float, work: Work, record: Rec
     s[0] = 0.0
     s[0, V] = 1.0
     s[0, PSI] = psi
-    tolerance *= min(1.0, max(psi, SMALLEST))  # psi and Q are of the order of psi_1
+    # psi and Q are of the order of psi_1; errors grow with the number of oscillations
+    tolerance *= min(1.0, max(psi, SMALLEST)) / max(1.0, chi)
     depth = 0
     slides = psi > 1.0 or (psi == 1.0 and chi < 0.5)
     kind = Kind.GROSS_SLIP.value if slides else Kind.STICK.value

@@ -42,9 +42,7 @@ from carom.dimensionless.doubledouble import (
 
 CHI_MAX = 400.0  # above, even 32 digits are lost in the alternating sums
 POINTS = 800  # where |g| is looked at for the end: 80 to the half oscillation at CHI_MAX
-ROUNDING = (
-    2e-15  # |g| passes 1 when it does by more than this: where it only touches, stick goes on
-)
+ROUNDING = 2e-15  # |g| must pass 1 by more than this: where it only touches, stick goes on
 PEAK = {"xatol": 1e-10}
 RTOL = 4.0 * np.finfo(np.float64).eps
 LAST = 1e-13  # of the start: an end nearer to the turning point is rounding of psi_1 and chi
@@ -173,7 +171,9 @@ class Stick:
 
     g = psi/v, psi' = -(15/4) chi Q, Q' = psi sqrt(d), U' = psi with v^2 = 1 - x, x = d^(5/2).
     Make one with `from_touch` or `after_gross_slip`; the formulas hold between the speeds `start`
-    and `end`, and are continued beyond.
+    and `end`, and are continued beyond. Each takes speeds v = V_z/V_1 or places x in [0, 1], of any
+    shape, and returns that shape (a float for a float); both keep full relative precision, v near
+    the turning point and x near the touch. Anything else is a ValueError.
 
     Parameters
     ----------
@@ -197,6 +197,10 @@ class Stick:
     >>> stick = Stick.from_touch(0.5, 1.44)
     >>> round(stick.end, 12), stick.slip_sign
     (0.267774892465, -1)
+    >>> stick.g([1.0, stick.end]).round(12) + 0.0
+    array([ 0.5, -1. ])
+    >>> round(stick.force(0.5), 12), round(stick.displacement(x=0.75), 12)
+    (0.176345642776, 0.321989349768)
     """
 
     psi_1: float

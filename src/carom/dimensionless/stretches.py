@@ -125,7 +125,7 @@ def lowest_point(width: float, g0: float, slope0: float, g1: float, slope1: floa
     mean = (g1 - g0) / width
     a = 3.0 * (slope0 + slope1 - 2.0 * mean)
     b = 2.0 * (3.0 * mean - 2.0 * slope0 - slope1)
-    return width * (-2.0 * slope0) / (b + np.sqrt(max(b * b - 4.0 * a * slope0, 0.0)))
+    return float(width * (-2.0 * slope0) / (b + np.sqrt(max(b * b - 4.0 * a * slope0, 0.0))))
 
 
 @kernel
