@@ -41,7 +41,7 @@ def main() -> None:
     truth = carom.rebound(psi[:few], chi[:few])
 
     exact = seconds(lambda: carom.rebound(psi, chi, threads=1), repeats) / many
-    print(f"exact, psi in [0, 6], chi in [1.1, 1.8]      {exact * 1e6:8.1f} us per impact")
+    print(f"exact, psi in [0, 6], chi in [1.1, 1.8]   {exact * 1e6:8.1f} us per impact")
     for springs, steps in (FINE, COARSE):
 
         def marched(springs: int = springs, steps: int = steps) -> list[float]:
@@ -50,12 +50,12 @@ def main() -> None:
         each = seconds(marched, repeats) / few
         error = np.abs(np.array(marched()) - truth)
         print(
-            f"marching, {springs} springs, {steps:4d} steps          {each * 1e6:8.1f} us per impact,"
+            f"marching, {springs} springs, {steps:4d} steps       {each * 1e6:8.1f} us per impact,"
             f" {each / exact:5.1f} times the exact; error {np.median(error):.0e},"
             f" at most {error.max():.0e}"
         )
     cores = seconds(lambda: carom.rebound(psi, chi), repeats) / many
-    print(f"exact on all cores                           {cores * 1e6:8.1f} us per impact")
+    print(f"exact on all cores                        {cores * 1e6:8.1f} us per impact")
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ from carom.dimensionless.motion import FRONT, PSI, SLOWER, STICK, A, B, Q, Serie
 from carom.dimensionless.phases import GROSS, RETRACED
 from carom.dimensionless.record import AT_B, CLOCK, MODE, SIGN, STEP
 from carom.dimensionless.record import AT_V as CHANGE_V
-from carom.dimensionless.stretches import evaluate, evaluate_slope
+from carom.dimensionless.stretches import evaluate, value_and_slope
 
 Array = NDArray[np.float64]
 
@@ -84,12 +84,12 @@ def position(node: Array, series: Series, row: int, target: float, falling: bool
     low, high = 0.0, node[STEP]
     x = high
     for _ in range(MAX_BISECTIONS):
-        difference = evaluate(series[:, row], x) - target
+        value, steepness = value_and_slope(series[:, row], x)
+        difference = value - target
         if (difference > 0.0) == falling:
             low = x
         else:
             high = x
-        steepness = evaluate_slope(series[:, row], x)
         following = x - difference / steepness if steepness != 0.0 else low
         if not (low <= following <= high):
             following = 0.5 * (low + high)

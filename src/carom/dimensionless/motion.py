@@ -60,59 +60,72 @@ def multiply(s: Series, factor: int, first: int, out: int, k: int) -> None:
 
 
 @kernel
-def contact_rates(s: Series, mode: int, sign: int, chi: float, k: int) -> None:
-    """Extend the rates of the contact to order k, by the contact's own clock."""
-    excess(s, sign, k)
-    b4, stuck, slipping = 0.0, 0.0, 0.0
-    if mode == STICK:
-        for j in range(k + 1):
-            b4 += s[j, BB] * s[k - j, BB]
-            stuck += s[j, BB] * s[k - j, PSI]
-    else:
-        for j in range(k + 1):
-            b4 += s[j, BB] * s[k - j, BB]
-            stuck += s[j, A] * s[k - j, N]
-            slipping += s[j, B] * s[k - j, BV]
-        stuck = sign * (stuck + slipping)
-    s[k, B_RATE] = s[k, V]
-    s[k, V_RATE] = -2.5 * b4
-    s[k, PSI_RATE] = -7.5 * chi * s[k, BQ]
-    s[k, Q_RATE] = 2.0 * stuck
+def multiply_both(s: Series, k: int) -> None:
+    """Extend b and a times their states to order k: two `multiply` at once, to keep adders busy."""
+    t0, t1, t2, t3 = 0.0, 0.0, 0.0, 0.0
+    u0, u1, u2, u3 = 0.0, 0.0, 0.0, 0.0
+    for j in range(k + 1):
+        b, a = s[j, B], s[j, A]
+        t0 += b * s[k - j, B]
+        t1 += b * s[k - j, V]
+        t2 += b * s[k - j, PSI]
+        t3 += b * s[k - j, Q]
+        u0 += a * s[k - j, A]
+        u1 += a * s[k - j, V_A]
+        u2 += a * s[k - j, PSI_A]
+        u3 += a * s[k - j, Q_A]
+    s[k, BB], s[k, BV], s[k, BPSI], s[k, BQ] = t0, t1, t2, t3
+    s[k, AA], s[k, AV], s[k, APSI], s[k, AQ] = u0, u1, u2, u3
 
 
 @kernel
-def excess(s: Series, sign: int, k: int) -> None:
-    """Extend N, half the rate at which slip lowers its limit, to order k."""
-    multiply(s, B, B, BB, k)
+def combine(s: Series, mode: int, sign: int, k: int) -> None:
+    """Extend N and D to order k from the products of that order."""
     s[k, N] = sign * s[k, BPSI] - s[k, BV]
+    s[k, D] = 2.0 * s[k, A] if mode == FLAT else s[k, AV] - sign * s[k, APSI]
 
 
 @kernel
-def front_rates(s: Series, mode: int, sign: int, chi: float, k: int) -> None:
-    """Extend the rates of the front to order k, by the front's own clock, running backwards."""
-    slope(s, mode, sign, k)
+def stick_rates(s: Series, chi: float, k: int) -> None:
+    """Extend the rates of a contact that sticks as a whole to order k."""
+    multiply(s, B, B, BB, k)
+    b4, force = 0.0, 0.0
+    for j in range(k + 1):
+        b4 += s[j, BB] * s[k - j, BB]
+        force += s[j, BB] * s[k - j, PSI]
+    write_contact_rates(s, chi, b4, force, k)
+
+
+@kernel
+def ring_rates(s: Series, mode: int, sign: int, chi: float, k: int) -> None:
+    """Extend the rates of contact and front to order k, each by its own clock."""
+    multiply_both(s, k)
+    combine(s, mode, sign, k)
+    b4, stuck, slipping, a4, laid = 0.0, 0.0, 0.0, 0.0, 0.0
+    for j in range(k + 1):
+        b4 += s[j, BB] * s[k - j, BB]
+        stuck += s[j, A] * s[k - j, N]
+        slipping += s[j, B] * s[k - j, BV]
+        a4 += s[j, AA] * s[k - j, AA]
+        laid += s[j, A] * s[k - j, APSI]
+    write_contact_rates(s, chi, b4, sign * (stuck + slipping), k)
     if mode == FLAT:
         s[k, A_RATE] = -1.0 if k == 0 else 0.0
         s[k, VA_RATE], s[k, PSIA_RATE], s[k, QA_RATE] = 0.0, 0.0, 0.0
-        return
-    a4, stuck = 0.0, 0.0
-    for j in range(k + 1):
-        a4 += s[j, AA] * s[k - j, AA]
-        stuck += s[j, A] * s[k - j, APSI]
-    s[k, A_RATE] = -s[k, V_A]
-    s[k, VA_RATE] = 2.5 * a4
-    s[k, PSIA_RATE] = 7.5 * chi * s[k, AQ]
-    s[k, QA_RATE] = -2.0 * stuck
+    else:
+        s[k, A_RATE] = -s[k, V_A]
+        s[k, VA_RATE] = 2.5 * a4
+        s[k, PSIA_RATE] = 7.5 * chi * s[k, AQ]
+        s[k, QA_RATE] = -2.0 * laid
 
 
 @kernel
-def slope(s: Series, mode: int, sign: int, k: int) -> None:
-    """Extend D, half the slope of the memory at the front, to order k."""
-    if mode == FLAT:
-        s[k, D] = 2.0 * s[k, A]
-    else:
-        multiply(s, A, A, AA, k)
-        s[k, D] = s[k, AV] - sign * s[k, APSI]
+def write_contact_rates(s: Series, chi: float, b4: float, force: float, k: int) -> None:
+    """Write the rates of the contact of order k."""
+    s[k, B_RATE] = s[k, V]
+    s[k, V_RATE] = -2.5 * b4
+    s[k, PSI_RATE] = -7.5 * chi * s[k, BQ]
+    s[k, Q_RATE] = 2.0 * force
 
 
 @kernel
@@ -135,7 +148,7 @@ def quotient(s: Series, over: int, under: int, k: int) -> None:
 
 
 @kernel
-def starting_quotient(s: Series, mode: int, sign: int, k: int) -> None:
+def starting_quotient(s: Series, sign: int, k: int) -> None:
     """Extend N/D to order k where both vanish, from their coefficients of order k + 1.
 
     The coefficient sought is itself part of D's: a_{k+1} = -v_a r_k/(k + 1) + ..., and so on.
@@ -145,7 +158,8 @@ def starting_quotient(s: Series, mode: int, sign: int, k: int) -> None:
         return
     s[k, SLOWER] = 0.0
     advance(s, A, A_RATE, True, k)
-    slope(s, mode, sign, k + 1)
+    multiply_both(s, k + 1)
+    combine(s, LAID, sign, k + 1)
     total = s[k + 1, N]
     for j in range(k):
         total -= s[j, SLOWER] * s[k + 1 - j, D]
@@ -157,11 +171,11 @@ def starting_quotient(s: Series, mode: int, sign: int, k: int) -> None:
 def expand(s: Series, mode: int, clock: int, sign: int, chi: float) -> None:
     """Expand the state in row 0 into Taylor series by the given clock."""
     for k in range(ORDER):
-        contact_rates(s, mode, sign, chi, k)
         if mode == STICK:
+            stick_rates(s, chi, k)
             advance(s, B, B_RATE, False, k)
             continue
-        front_rates(s, mode, sign, chi, k)
+        ring_rates(s, mode, sign, chi, k)
         if clock == FRONT:
             quotient(s, D, N, k)
             advance(s, B, B_RATE, True, k)
@@ -169,8 +183,7 @@ def expand(s: Series, mode: int, clock: int, sign: int, chi: float) -> None:
         else:
             advance(s, B, B_RATE, False, k)
             if clock == START:
-                excess(s, sign, k + 1)
-                starting_quotient(s, mode, sign, k)
+                starting_quotient(s, sign, k)
             else:
                 quotient(s, N, D, k)
             advance(s, A, A_RATE, True, k)

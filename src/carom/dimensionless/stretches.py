@@ -57,12 +57,14 @@ def evaluate(coefficients: Series, h: float) -> float:
 
 
 @kernel
-def evaluate_slope(coefficients: Series, h: float) -> float:
-    """Return the derivative of a series at h."""
-    total = ORDER * coefficients[ORDER]
-    for k in range(ORDER - 1, 0, -1):
-        total = total * h + k * coefficients[k]
-    return float(total)
+def value_and_slope(coefficients: Series, h: float) -> tuple[float, float]:
+    """Return a series and its derivative at h."""
+    total = coefficients[ORDER]
+    slope = 0.0
+    for k in range(ORDER - 1, -1, -1):
+        slope = slope * h + total
+        total = total * h + coefficients[k]
+    return float(total), float(slope)
 
 
 @kernel
@@ -133,7 +135,7 @@ def bottom(gap: Series, low: float, high: float) -> float:
     """Return where the gap is smallest between a falling and a rising end, by bisection."""
     for _ in range(MAX_ROOT_STEPS):
         middle = 0.5 * (low + high)
-        if evaluate_slope(gap, middle) < 0.0:
+        if value_and_slope(gap, middle)[1] < 0.0:
             low = middle
         else:
             high = middle
@@ -145,12 +147,11 @@ def root_between(gap: Series, low: float, high: float) -> float:
     """Return where the gap, positive at `low` and negative at `high`, closes."""
     x = high
     for _ in range(MAX_ROOT_STEPS):
-        value = evaluate(gap, x)
+        value, steepness = value_and_slope(gap, x)
         if value < 0.0:
             high = x
         else:
             low = x
-        steepness = evaluate_slope(gap, x)
         following = x - value / steepness if steepness < 0.0 else low
         if not (low < following < high):
             following = 0.5 * (low + high)
@@ -179,7 +180,7 @@ def first_closing(gap: Series, h: float) -> float:
     for piece in range(PIECES):
         low = piece * width
         high = h if piece == PIECES - 1 else low + width
-        g1, slope1 = evaluate(gap, high), evaluate_slope(gap, high)
+        g1, slope1 = value_and_slope(gap, high)
         if g1 < 0.0:
             return root_between(gap, low, high)
         dip = low + lowest_point(width, g0, slope0, g1, slope1)
