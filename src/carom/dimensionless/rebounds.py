@@ -16,7 +16,7 @@ from carom.dimensionless.stretches import Work
 
 Array = NDArray[np.float64]
 
-TOLERANCE = 3e-10  # of one Taylor step; keeps psi_2 to 1e-11 for chi <= 10, to 1e-10 for chi <= 60
+TOLERANCE = 1e-10  # of one Taylor step; keeps psi_2 to a tenth of what `rebound` promises
 LINEAR = 1e-6  # below, psi_2 is taken proportional to psi_1: rounding would cost more
 BLOCK = 256
 

@@ -21,23 +21,22 @@ factor 1/(2 chi).
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
-from typing import NamedTuple
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq, minimize_scalar
 
-from carom.dimensionless.doubledouble import (
-    DoubleDouble,
-    Polynomial,
-    Real,
-    coefficients,
-    fifth_root,
-    power_series,
-    square_root,
-    two_product,
-    two_sum,
+from carom.dimensionless.doubledouble import DoubleDouble, Real, two_sum
+from carom.dimensionless.stick_series import (
+    Place,
+    at_depth,
+    at_speed,
+    at_speed_or_x,
+    displacement_at,
+    force_at,
+    place,
+    psi_at,
 )
 
 CHI_MAX = 400.0  # above, even 32 digits are lost in the alternating sums
@@ -46,85 +45,6 @@ ROUNDING = 2e-15  # |g| must pass 1 by more than this: where it only touches, st
 PEAK = {"xatol": 1e-10}
 RTOL = 4.0 * np.finfo(np.float64).eps
 LAST = 1e-13  # of the start: an end nearer to the turning point is rounding of psi_1 and chi
-
-
-# psi and Q at z follow from psi and Q at the touch, z = 0, because psi' = -(15/4) chi Q and
-# Q' = psi sqrt(d). One recurrence (see `coefficients`, times 25, shift 60 chi) for each influence:
-# polynomial of c[n], of c[n+1], of c[n-1].
-Recurrence = tuple[Polynomial, Polynomial] | tuple[Polynomial, Polynomial, Polynomial]
-PSI_OF_PSI: Recurrence = (25, 5, 0), (25, 40, 15)  # v h_1, (27)
-PSI_OF_FORCE: Recurrence = (25, 25, 6), (25, 60, 35)  # v h_2 but for its factor
-FORCE_OF_PSI: Recurrence = (25, 25, 6), (25, 65, 40)
-FORCE_OF_FORCE: Recurrence = (25, -5, 0), (25, 35, 10)
-# psi (1 - z)^(-3/5), to be integrated: U = (8/5) integral psi (4 z (1 - z))^(-3/5) dz
-MOVED_OF_PSI: Recurrence = (50, 25, 9), (25, 40, 15), (25, -15, 2)
-MOVED_OF_FORCE: Recurrence = (50, 65, 27), (25, 60, 35), (25, 5, 0)
-
-
-@lru_cache(maxsize=512)
-def _series(recurrence: Recurrence, chi: float) -> list[DoubleDouble]:
-    top, bottom, *older = recurrence
-    return coefficients(top, bottom, two_product(60.0, chi), *older)
-
-
-@lru_cache(maxsize=128)
-def _integrated(recurrence: Recurrence, chi: float, last: int) -> list[DoubleDouble]:
-    return [c / float(5 * n + last) for n, c in enumerate(_series(recurrence, chi))]
-
-
-class Place(NamedTuple):
-    """A place in loading: z = (1 - v)/2, speed, (4 z)^(1/5), sqrt(d)."""
-
-    z: DoubleDouble
-    v: DoubleDouble
-    fifth: DoubleDouble
-    radius: DoubleDouble
-
-
-def _place(z: DoubleDouble, v: DoubleDouble) -> Place:
-    return Place(z, v, fifth_root(4.0 * z), fifth_root(4.0 * z * (1.0 - z)))
-
-
-def _at_speed(v: Real) -> Place:
-    return _place(0.5 * two_sum(1.0, -v), DoubleDouble(v))
-
-
-def _at_depth(z: Real) -> Place:
-    return _place(DoubleDouble(z), 1.0 - 2.0 * DoubleDouble(z))
-
-
-def _at(v: ArrayLike | None, x: ArrayLike | None) -> Place:
-    if (v is None) == (x is None):
-        raise ValueError("v, x: give one of the speed v and x = d^(5/2) = 1 - v^2, not both")
-    name, given = ("v", v) if x is None else ("x", x)
-    values = np.asarray(given, dtype=np.float64)
-    wrong = ~((values >= 0.0) & (values <= 1.0))
-    if wrong.any():
-        raise ValueError(f"{name} = {values[wrong][0]:g}: a stick phase has 0 <= {name} <= 1")
-    place = values if values.ndim else float(values)  # floats are quicker than arrays of none
-    if name == "v":
-        return _at_speed(place)
-    speed = square_root(two_sum(1.0, -place))
-    return _place(DoubleDouble(0.5 * place) / (1.0 + speed), speed)
-
-
-def _psi(chi: float, at: Place, psi: DoubleDouble, force: DoubleDouble) -> DoubleDouble:
-    own = power_series(_series(PSI_OF_PSI, chi), at.z)
-    other = power_series(_series(PSI_OF_FORCE, chi), at.z) * at.fifth * at.fifth
-    return own * psi - other * (3.75 * (chi * force))
-
-
-def _force(chi: float, at: Place, psi: DoubleDouble, force: DoubleDouble) -> DoubleDouble:
-    own = power_series(_series(FORCE_OF_FORCE, chi), at.z)
-    other = power_series(_series(FORCE_OF_PSI, chi), at.z) * at.fifth * at.fifth * at.fifth
-    return own * force + (2.0 * other / 3.0) * psi
-
-
-def _moved(chi: float, at: Place, psi: DoubleDouble, force: DoubleDouble) -> DoubleDouble:
-    square = at.fifth * at.fifth
-    first = power_series(_integrated(MOVED_OF_PSI, chi, 2), at.z) * square
-    second = power_series(_integrated(MOVED_OF_FORCE, chi, 4), at.z) * square * square
-    return 2.0 * first * psi - 7.5 * second * (chi * force)
 
 
 def _refuse_unless_in_range(psi: float, chi: float) -> None:
@@ -248,9 +168,9 @@ class Stick:
     @cached_property
     def _start(self) -> Place:
         if not self.slides_first:
-            return _at_speed(1.0)
+            return at_speed(1.0)
         z = 0.5 * two_sum(abs(self.psi_1), -1.0) / two_sum(2.0 * self.chi, -1.0)
-        return _place(z, 1.0 - 2.0 * z)
+        return place(z, 1.0 - 2.0 * z)
 
     @cached_property
     def _touch(self) -> tuple[DoubleDouble, DoubleDouble]:
@@ -264,8 +184,8 @@ class Stick:
         force = 2.0 * sign * at.radius * at.radius * at.radius / 3.0
         # the matrix of influences has the determinant 1: its inverse
         return (
-            _force(chi, at, zero, one) * psi - _psi(chi, at, zero, one) * force,
-            _psi(chi, at, one, zero) * force - _force(chi, at, one, zero) * psi,
+            force_at(chi, at, zero, one) * psi - psi_at(chi, at, zero, one) * force,
+            psi_at(chi, at, one, zero) * force - force_at(chi, at, one, zero) * psi,
         )
 
     @cached_property
@@ -275,10 +195,10 @@ class Stick:
             return DoubleDouble(0.0)
         at = self._start
         # without inertia (chi = 0) psi stays 1 and U is the time
-        time = _moved(0.0, at, DoubleDouble(1.0), DoubleDouble(0.0))
+        time = displacement_at(0.0, at, DoubleDouble(1.0), DoubleDouble(0.0))
         slope = 2.0 * self.chi
         moved = two_sum(abs(self.psi_1), -slope) * time + slope * at.radius * at.radius
-        return float(np.sign(self.psi_1)) * moved - _moved(self.chi, at, *self._touch)
+        return float(np.sign(self.psi_1)) * moved - displacement_at(self.chi, at, *self._touch)
 
     @property
     def start(self) -> float:
@@ -287,26 +207,28 @@ class Stick:
 
     def psi(self, v: ArrayLike | None = None, *, x: ArrayLike | None = None) -> Real:
         """Return psi = g v, (25), at speeds v or at x = d^(5/2), in [0, 1] (else ValueError)."""
-        return _psi(self.chi, _at(v, x), *self._touch).hi
+        return psi_at(self.chi, at_speed_or_x(v, x), *self._touch).hi
 
     def g(self, v: ArrayLike | None = None, *, x: ArrayLike | None = None) -> Real:
         """Return g = psi/v, (27), at speeds v or at x, in [0, 1]; at v = 0 mostly infinite."""
-        at = _at(v, x)
-        psi = _psi(self.chi, at, *self._touch).hi
+        at = at_speed_or_x(v, x)
+        psi = psi_at(self.chi, at, *self._touch).hi
         with np.errstate(divide="ignore", invalid="ignore"):
             g = np.divide(psi, at.v.hi)
         at_turning = (np.asarray(psi) == 0.0) & (np.asarray(at.v.hi) == 0.0)
         if at_turning.any():  # the limit of g, which is dpsi/dv
-            g = np.where(at_turning, 3.0 * self.chi * _force(self.chi, at, *self._touch).hi, g)
+            g = np.where(at_turning, 3.0 * self.chi * force_at(self.chi, at, *self._touch).hi, g)
         return g if np.ndim(g) else float(g)
 
     def force(self, v: ArrayLike | None = None, *, x: ArrayLike | None = None) -> Real:
         """Return Q = (2/3) F_x/(mu P_max), (12), at speeds v or at x, in [0, 1]."""
-        return _force(self.chi, _at(v, x), *self._touch).hi
+        return force_at(self.chi, at_speed_or_x(v, x), *self._touch).hi
 
     def displacement(self, v: ArrayLike | None = None, *, x: ArrayLike | None = None) -> Real:
         """Return U = integral of g dd, in units of mu d_max/kappa, at speeds v or x, in [0, 1]."""
-        return (_moved(self.chi, _at(v, x), *self._touch) + self._moved_before).hi
+        return (
+            displacement_at(self.chi, at_speed_or_x(v, x), *self._touch) + self._moved_before
+        ).hi
 
     @property
     def end(self) -> float | None:
@@ -324,11 +246,13 @@ class Stick:
     @property
     def slip_sign(self) -> int:
         """The sign of the slip that starts at the end, that of g there; 0 without an end."""
-        return 0 if self._end is None else int(np.sign(_psi(self.chi, self._end, *self._touch).hi))
+        return (
+            0 if self._end is None else int(np.sign(psi_at(self.chi, self._end, *self._touch).hi))
+        )
 
     def _excess(self, at: Place) -> float:
         """|psi| - v."""
-        psi = _psi(self.chi, at, *self._touch)
+        psi = psi_at(self.chi, at, *self._touch)
         return float(((psi if psi.hi >= 0.0 else -psi) - at.v).hi)
 
     def _bulges(self, above: float, below: float) -> float | None:
@@ -363,13 +287,11 @@ class Stick:
     def _crossing(self, above: float, below: float) -> Place:
         """Return where |psi| = v between two speeds, in the variable that is small there."""
         if above <= 0.5:
-            place: Callable[[Real], Place] = _at_speed
+            at: Callable[[Real], Place] = at_speed
             stuck, slipping = above, below
         else:
-            place = _at_depth
+            at = at_depth
             stuck, slipping = 0.5 * (1.0 - above), 0.5 * (1.0 - below)
-        if self._excess(place(stuck)) >= 0.0:
-            return place(stuck)
-        return place(
-            brentq(lambda p: self._excess(place(p)), stuck, slipping, xtol=1e-300, rtol=RTOL)
-        )
+        if self._excess(at(stuck)) >= 0.0:
+            return at(stuck)
+        return at(brentq(lambda p: self._excess(at(p)), stuck, slipping, xtol=1e-300, rtol=RTOL))

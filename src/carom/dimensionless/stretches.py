@@ -12,9 +12,11 @@ from carom.dimensionless.motion import (
     FRONT,
     ORDER,
     PSI,
+    PSI_A,
     START,
     STATE_SIZE,
     STICK,
+    V_A,
     A,
     B,
     Series,
@@ -24,8 +26,8 @@ from carom.dimensionless.motion import (
 from carom.dimensionless.record import Record, note_node
 
 NOTHING = -1
-LIMIT_REACHED = 0  # in stick: the edge reaches Coulomb's limit of either sign
-SLIP_STOPS = 0  # in a slip ring: its slip rate falls to zero
+# In stick events 0 and 1 are the edge reaching Coulomb's limit of either sign; in a slip ring:
+SLIP_STOPS = 0  # its slip rate falls to zero
 FRONT_AT_BORDER = 1  # the front has reached the inner radius of the annulus it retreats through
 RING_CLOSES = 2  # the edge recedes onto the front
 UNRESOLVED = 3  # no event within the bound on steps
@@ -83,7 +85,7 @@ def choose_clock(s: Series, mode: int, sign: int, starts: bool) -> int:
     if mode == STICK or starts:
         return START if starts else CONTACT
     n = s[0, B] * (sign * s[0, PSI] - s[0, V])
-    d = 2.0 * s[0, A] if mode == FLAT else s[0, A] * (s[0, V + A] - sign * s[0, PSI + A])
+    d = 2.0 * s[0, A] if mode == FLAT else s[0, A] * (s[0, V_A] - sign * s[0, PSI_A])
     return FRONT if n > d else CONTACT
 
 
