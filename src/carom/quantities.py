@@ -202,4 +202,7 @@ def _parsed(name: str, text: str, unit: str) -> float:
 def _registry() -> Any:
     import pint
 
-    return pint.UnitRegistry()
+    try:  # parsing the definitions anew takes longer than an impact
+        return pint.UnitRegistry(cache_folder=":auto:")
+    except Exception:  # a cache that cannot be used is no reason to fail
+        return pint.UnitRegistry()

@@ -197,7 +197,7 @@ def test_start_up_loads_nothing_that_is_not_needed():
     plain = (
         f"from carom.cli import main; main({[*BALL[:2], '0.005', *BALL[3:]]!r} + ['--speed', '2'])"
     )
-    assert not loaded_by(plain) & {"xarray", "matplotlib", "pandas"}
+    assert not loaded_by(plain) & {"xarray", "pint", "matplotlib", "pandas"}
 
 
 @pytest.mark.parametrize("command", ["impact", "curve", "materials"])

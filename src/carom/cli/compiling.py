@@ -1,22 +1,29 @@
 """A word to the user while kernels are compiled, which happens once after installation."""
 
-import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import typer
 
-PATIENCE = 3.0  # seconds; what is compiled already takes one or two
+MESSAGE = "compiling, once after installation; this takes up to a minute ..."
 
 
 @contextmanager
 def announced() -> Iterator[None]:
-    """Say that kernels are being compiled if what follows takes longer than it should."""
-    message = "compiling, once after installation; this takes up to a minute ..."
-    timer = threading.Timer(PATIENCE, lambda: typer.echo(message, err=True))
-    timer.daemon = True
-    timer.start()
-    try:
+    """Say so on stderr if what follows has to compile a kernel."""
+    from numba.core import event
+
+    class Announcer(event.Listener):
+        said = False
+
+        def on_start(self, _: Any) -> None:
+            if not self.said:
+                typer.echo(MESSAGE, err=True)
+            self.said = True
+
+        def on_end(self, _: Any) -> None:
+            pass
+
+    with event.install_listener("numba:compile", Announcer()):
         yield
-    finally:
-        timer.cancel()
