@@ -249,3 +249,19 @@ class Cup:
     def curvature(self) -> float:
         """Curvature in 1/m, negative."""
         return -1.0 / self.radius
+
+
+def describe(body: Sphere | HalfSpace | Cup) -> dict[str, Any]:
+    """Return what a body was made from, as plain numbers and words."""
+    entries: dict[str, Any] = {"kind": type(body).__name__}
+    for name in ("radius", "gyration_radius", "inner_radius"):
+        value = getattr(body, name, None)
+        if value:
+            entries[name] = value
+    stuff = body.material
+    entries["material"] = {
+        name: getattr(stuff, name)
+        for name in ("name", *VALUES)
+        if getattr(stuff, name) is not None and getattr(stuff, name) != math.inf
+    }
+    return entries

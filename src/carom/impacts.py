@@ -2,15 +2,16 @@
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import atan2, cos, hypot, inf, isfinite, nan, pi, sin
+from math import atan2, hypot, isfinite, nan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from carom.bodies import Sphere, Value
+from carom.approach import approach
+from carom.bodies import Sphere, Value, describe
 from carom.dimensionless import hertz
 from carom.dimensionless.solution import Solution, solve
 from carom.pairs import Pair, Scales
-from carom.quantities import InputError, finite, number, positive, refusal
+from carom.quantities import finite, refusal
 from carom.results import PhaseRow, Validity, labelled
 from carom.validity import judge
 
@@ -232,8 +233,8 @@ class Impact:
     def inputs(self) -> dict[str, Any]:
         """Return what the impact was made from, as plain numbers and words."""
         return {
-            "first": _described(self.pair.first),
-            "second": _described(self.pair.second),
+            "first": describe(self.pair.first),
+            "second": describe(self.pair.second),
             "friction": self.pair.friction,
             "normal_speed": self.normal_speed,
             "tangential_speed": self.tangential_speed,
@@ -284,7 +285,7 @@ def impact(
     >>> round(hit.rebound_angle * 180 / 3.141592653589793, 2)
     18.6
     """
-    normal, tangential = _components(speed, angle, normal_speed, tangential_speed)
+    normal, tangential = approach(speed, angle, normal_speed, tangential_speed)
     first_spin, second_spin = finite("spin", spin), finite("spin2", spin2)
     if second_spin and not isinstance(pair.second, Sphere):
         raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
@@ -299,52 +300,5 @@ def _contact_velocity(pair: Pair, tangential: float, *spins: float) -> float:
     return tangential + sum(carried)
 
 
-def _components(
-    speed: Value | None,
-    angle: Value | None,
-    normal_speed: Value | None,
-    tangential_speed: Value | None,
-) -> tuple[float, float]:
-    if speed is not None:
-        if normal_speed is not None or tangential_speed is not None:
-            raise InputError("speed: give speed and angle, or normal_speed and tangential_speed")
-        size, slope = positive("speed", speed), _angle(0.0 if angle is None else angle)
-        return size * cos(slope), size * sin(slope)
-    if normal_speed is None:
-        raise InputError("speed: missing; give speed and angle, or normal_speed")
-    if angle is not None:
-        raise InputError("angle: goes with speed; with normal_speed give tangential_speed")
-    normal = number("normal_speed", normal_speed)
-    if not 0.0 < normal < inf:
-        raise refusal(
-            "normal_speed", normal_speed, "must be positive and finite: the bodies must approach"
-        )
-    return normal, finite("tangential_speed", 0.0 if tangential_speed is None else tangential_speed)
-
-
-def _angle(angle: Value) -> float:
-    slope = finite("angle", angle)
-    if abs(slope) < pi / 2:
-        return slope
-    if isinstance(angle, str) and any(letter.isalpha() for letter in angle):
-        raise refusal("angle", angle, "must be below 90 deg: the bodies must approach")
-    raise refusal("angle", angle, f"a bare angle is in radians, below pi/2; write '{angle} deg'")
-
-
 def _ratio(after: float, before: float) -> float:
     return after / before if before != 0.0 else nan
-
-
-def _described(body: Any) -> dict[str, Any]:
-    entries: dict[str, Any] = {"kind": type(body).__name__}
-    for name in ("radius", "gyration_radius", "inner_radius"):
-        value = getattr(body, name, None)
-        if value:
-            entries[name] = value
-    stuff = body.material
-    entries["material"] = {
-        name: getattr(stuff, name)
-        for name in ("name", "young", "poisson", "density", "yield_strength")
-        if getattr(stuff, name) is not None and getattr(stuff, name) != inf
-    }
-    return entries
