@@ -1,6 +1,6 @@
 """The memory of a contact at one instant, ready to be asked."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +14,8 @@ from carom.dimensionless.record import MODE, SIGN, STRETCH, Record
 
 Array = NDArray[np.float64]
 
+RIM = 4e-16  # relative: what rounding may add to s at the edge
+
 
 class Annulus(NamedTuple):
     """Part of a contact: laid in stick (sign 0), or brought to its limit by slip of one sign."""
@@ -24,7 +26,7 @@ class Annulus(NamedTuple):
     limit: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Memory:
     """The memory of a contact at one instant, from which every traction follows.
 
@@ -36,17 +38,17 @@ class Memory:
     penetration: float
     displacement: float
     annuli: tuple[Annulus, ...]
-    _record: Record
-    _moved: Array
-    _mirror: int
+    _record: Record = field(repr=False)
+    _moved: Array = field(repr=False)
+    _scale: float = field(repr=False)
 
     def g(self, s: ArrayLike) -> Array:
         """Return g at the given s >= 0, zero outside the contact."""
-        return self._mirror * self._read(s)[0]
+        return self._scale * self._read(s)[0]
 
     def q(self, s: ArrayLike) -> Array:
         """Return q at the given s >= 0, zero outside the contact."""
-        return self._mirror * self._read(s)[1]
+        return self._scale * self._read(s)[1]
 
     def _read(self, s: ArrayLike) -> tuple[Array, Array]:
         places = np.asarray(s, dtype=np.float64)
@@ -54,7 +56,7 @@ class Memory:
         for index in np.ndindex(places.shape):
             place = places[index]
             for annulus in self.annuli:
-                if annulus.inner**2 <= place <= annulus.outer**2:
+                if annulus.inner**2 <= place <= annulus.outer**2 * (1.0 + RIM):
                     g[index], q[index] = self._inside(annulus, float(place))
                     break
         return g, q
@@ -68,10 +70,10 @@ class Memory:
 
 
 def memory_at(
-    record: Record, times: Array, moved: Array, now: dict[str, float], mirror: int
+    record: Record, times: Array, moved: Array, now: dict[str, float], scale: float
 ) -> Memory:
-    """Return the memory at the instant that `now` describes."""
-    d, u = now["penetration"], mirror * now["displacement"]
+    """Return the memory at the instant that `now` describes; `scale` is as in `Solution`."""
+    d, u = now["penetration"], now["displacement"] / scale
     step = int(np.searchsorted(times, now["time"], side="right")) - 1
     node = record.nodes[step]
     stretch = int(node[STRETCH])
@@ -88,7 +90,7 @@ def memory_at(
     else:
         sign = int(node[SIGN])
         annuli.append(Annulus(inner, now["contact_radius"], sign, d - sign * u))
-    return Memory(now["time"], d, u, tuple(annuli), record, moved, mirror)
+    return Memory(now["time"], d, u, tuple(annuli), record, moved, scale)
 
 
 def _limit(record: Record, moved: Array, row: Array) -> float:

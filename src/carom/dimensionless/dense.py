@@ -16,10 +16,10 @@ Array = NDArray[np.float64]
 ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(16)
 MAX_BISECTIONS = 80
 
-# What is sampled: penetration, speed, psi, displacement U, force Q, frictional work, radius of the
-# stick zone, radius of the contact.
-COLUMNS = 8
-AT_D, AT_V, AT_PSI, AT_U, AT_Q, AT_W, AT_STICK, AT_CONTACT = range(COLUMNS)
+# What is sampled: penetration, speed, psi, displacement U, force Q, energy stored and dissipated in
+# units of the ledger, radius of the stick zone, radius of the contact.
+COLUMNS = 9
+AT_D, AT_V, AT_PSI, AT_U, AT_Q, AT_STORED, AT_DISSIPATED, AT_STICK, AT_CONTACT = range(COLUMNS)
 
 
 @kernel
@@ -110,6 +110,7 @@ def sample(
     out: Array,
 ) -> None:
     """Write one row of `out` for each wanted time."""
+    psi_in = series[0, 0, PSI]
     for row in range(wanted.size):
         t = wanted[row]
         i = np.searchsorted(times, t, side="right") - 1
@@ -118,7 +119,7 @@ def sample(
             t = hertz.DURATION - t
             i = np.searchsorted(times, t, side="right") - 1
         d, v = hertz.penetration_and_speed(t)
-        write_sample(nodes[i], series[i], chi, moved[i], d, v, out[row])
+        write_sample(nodes[i], series[i], chi, moved[i], psi_in, d, v, out[row])
         if mirrored:
             out[row, AT_V] = -v
             out[row, AT_PSI] = -out[row, AT_PSI]
@@ -126,7 +127,14 @@ def sample(
 
 @kernel
 def write_sample(
-    node: Array, series: Series, chi: float, moved: Array, d: float, v: float, out: Array
+    node: Array,
+    series: Series,
+    chi: float,
+    moved: Array,
+    psi_in: float,
+    d: float,
+    v: float,
+    out: Array,
 ) -> None:
     """Write what there is to tell at penetration d and speed v inside a step."""
     b = np.sqrt(d)
@@ -144,19 +152,28 @@ def write_sample(
         stick = b if node[MODE] == STICK else evaluate(series[:, A], h)
     u, w = progress(node, series, chi, h, b, v)
     out[AT_D], out[AT_V], out[AT_PSI], out[AT_Q] = d, v, psi, q
-    out[AT_U], out[AT_W] = moved[0] + u, moved[1] + w
+    out[AT_U], out[AT_DISSIPATED] = moved[0] + u, 3.75 * chi * (moved[1] + w)
+    if node[MODE] == GROSS:
+        out[AT_STORED] = chi * d * d * b  # (15/8) chi integral of (d - s)^2
+    else:
+        out[AT_STORED] = 0.5 * (psi_in - psi) * (psi_in + psi) - out[AT_DISSIPATED]
     out[AT_STICK], out[AT_CONTACT] = min(stick, b), b
 
 
 @kernel
 def loading_state(nodes: Array, series: Array, moved: Array, radius: float) -> tuple[float, float]:
-    """Return g and U when stick laid new contact at this radius."""
+    """Return g and U when stick laid new contact at this radius, or next to it at its rim."""
+    nearest, best = 0, np.inf
     for i in range(nodes.shape[0]):
-        if nodes[i, MODE] != STICK:
-            continue
-        if series[i, 0, B] <= radius <= evaluate(series[i, :, B], nodes[i, STEP]):
-            h = position(nodes[i], series[i], B, radius, False)
-            psi, v = evaluate(series[i, :, PSI], h), evaluate(series[i, :, V], h)
-            u, _w = progress(nodes[i], series[i], 0.0, h, radius, v)
-            return psi / v, moved[i, 0] + u
-    return np.nan, np.nan
+        if nodes[i, MODE] == STICK:
+            outer = evaluate(series[i, :, B], nodes[i, STEP])
+            away = max(series[i, 0, B] - radius, radius - outer, 0.0)
+            if away < best:
+                nearest, best = i, away
+    node, steps = nodes[nearest], series[nearest]
+    h = position(node, steps, B, radius, False)
+    psi, psi_slope = value_and_slope(steps[:, PSI], h)
+    v, v_slope = value_and_slope(steps[:, V], h)
+    u, _w = progress(node, steps, 0.0, h, radius, v)
+    g = psi / v if v > 1e-9 else psi_slope / v_slope  # at the turning point both vanish
+    return g, moved[nearest, 0] + u

@@ -114,6 +114,8 @@ MESSAGES = {
 # A stick phase that lasts to within this speed of the turning point, times psi_1, goes back as it
 # came: the second where F is a polynomial, so that only rounding keeps it from the turning point.
 RETRACE, RETRACE_EXACTLY = 4e-12, 1e-7
+# Speeds nearer to 0 or -1 than this are the border between two regimes.
+ROUNDING = 1e-13
 # Below this psi_1 the series are not resolved any better.
 SMALLEST = 1e-6
 # A contact radius below which nothing of the impact is left: psi changes by less than 1e-28.
@@ -144,6 +146,7 @@ def stick(
         note_node(record, RETRACED, CONTACT, 0, 0.0, s)
         s[0, B], s[0, V], s[0, PSI], s[0, Q] = 0.0, -1.0, -psi_in, 0.0
         return Cause.SEPARATION.value, depth, 0
+    s[0, V] = max(s[0, V], 1e-300)  # stick ends before the turning point; only rounding passes it
     depth = push_laid(work.stack, depth, s, record.counts[0])
     return Cause.EDGE_AT_LIMIT.value, depth, 1 if s[0, PSI] > 0.0 else -1
 
@@ -194,12 +197,12 @@ def gross_slip(work: Work, record: Record, sign: int, chi: float) -> tuple[int, 
     note_node(record, GROSS, CONTACT, sign, 0.0, s)
     excess = sign * s[0, PSI] - s[0, V]
     fall = 2.0 * chi - 1.0  # of the excess, per fall in speed
-    if not excess < fall * (1.0 + s[0, V]):
+    if not excess < fall * (1.0 + s[0, V]) - ROUNDING:
         s[0, PSI] -= 2.0 * chi * sign * (1.0 + s[0, V])
         s[0, B], s[0, V], s[0, Q] = 0.0, -1.0, 0.0
         return Cause.SEPARATION.value, 0
     fallen = (1.0 - s[0, V]) + excess / fall
-    s[0, V] = 1.0 - fallen
+    s[0, V] = 1.0 - fallen if abs(1.0 - fallen) > ROUNDING else 0.0
     s[0, B] = (fallen * (2.0 - fallen)) ** 0.2
     s[0, PSI] = sign * s[0, V]
     s[0, Q] = sign * (2.0 / 3.0) * s[0, B] ** 3

@@ -9,8 +9,8 @@ from carom.dimensionless._jit import kernel
 from carom.dimensionless.memory import COLUMNS, Stack
 from carom.dimensionless.motion import ORDER, SLOWER, B, Series, V
 
-MAX_NODES = 2000
-MAX_STRETCHES = 600
+MAX_NODES = 8000
+MAX_STRETCHES = 1000
 MAX_PHASES = 200
 MAX_ANNULI = 400
 
@@ -48,6 +48,15 @@ def new_record(wanted: bool) -> Record:
 def is_wanted(record: Record) -> bool:
     """Tell whether the record has room at all."""
     return bool(record.nodes.shape[0] > 0)
+
+
+@kernel
+def is_full(record: Record) -> bool:
+    """Tell whether a wanted record has no room for another step or stretch."""
+    if not is_wanted(record):
+        return False
+    steps, stretches = record.nodes.shape[0], record.depths.shape[0]
+    return bool(record.counts[0] >= steps - 2 or record.counts[1] >= stretches - 2)
 
 
 @kernel

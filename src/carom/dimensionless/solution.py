@@ -1,6 +1,7 @@
 """One impact in plain numbers: its phases, and its state at any time."""
 
 from dataclasses import dataclass, field, fields
+from operator import index
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +11,7 @@ from carom.dimensionless import dense, hertz
 from carom.dimensionless.annuli import Memory, memory_at
 from carom.dimensionless.motion import PSI
 from carom.dimensionless.phases import Cause, Kind, Status, new_work, run_phases
-from carom.dimensionless.rebounds import LINEAR, TOLERANCE, outgoing
+from carom.dimensionless.rebounds import LINEAR, TOLERANCE
 from carom.dimensionless.record import (
     CAUSE,
     KIND,
@@ -19,7 +20,6 @@ from carom.dimensionless.record import (
     new_record,
     trimmed,
 )
-from carom.dimensionless.stretches import Work
 
 Array = NDArray[np.float64]
 
@@ -45,7 +45,7 @@ class Phase(NamedTuple):
     cause: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class History:
     """An impact at some times, in the dimensionless units of `Solution`."""
 
@@ -64,7 +64,7 @@ class History:
         return len(self.time)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Solution:
     """One oblique impact solved exactly; made by `solve`.
 
@@ -99,45 +99,51 @@ class Solution:
         return hertz.DURATION
 
     @property
-    def mirror(self) -> int:
-        """-1 where psi_1 is negative: the impact is stored for its absolute value."""
-        return -1 if np.signbit(self.psi_in) else 1
+    def scale(self) -> float:
+        """What the recorded impact, |psi_1| or at least 1e-6, is multiplied by: sign, or less.
+
+        Below 1e-6 all tangential quantities are proportional to psi_1.
+        """
+        return float(np.copysign(min(1.0, abs(self.psi_in) / LINEAR), self.psi_in))
 
     def at(self, time: ArrayLike) -> History:
-        """Return the state at the given times, 0 <= time <= duration.
+        """Return the state at the given times, 0 <= time <= duration, one row for each.
 
-        Raises ValueError for a time outside the contact.
+        The instant of a change belongs to the later phase. Raises ValueError for a time outside
+        the contact, or if the impact is not solved.
         """
-        wanted = np.atleast_1d(np.asarray(time, dtype=np.float64))
+        if self.status is not Status.SOLVED:
+            raise ValueError(f"psi = {self.psi_in:g}, chi = {self.chi:g}: {self.status.message}")
+        wanted = np.asarray(time, dtype=np.float64).ravel()
         if not np.all((wanted >= 0.0) & (wanted <= self.duration)):
             outside = wanted[~((wanted >= 0.0) & (wanted <= self.duration))][0]
             raise ValueError(f"time: {outside:g} is outside the contact, 0 to {self.duration:.6g}")
         rows = np.empty((wanted.size, dense.COLUMNS))
-        record = self._record
+        record, scale = self._record, self.scale
         dense.sample(record.nodes, record.series, self.chi, self._times, self._moved, wanted, rows)
-        psi = rows[:, dense.AT_PSI]
-        dissipated = 3.75 * self.chi * rows[:, dense.AT_W]
         return History(
             time=wanted,
             penetration=rows[:, dense.AT_D],
             speed=rows[:, dense.AT_V],
-            psi=self.mirror * psi,
-            displacement=self.mirror * rows[:, dense.AT_U],
-            force=self.mirror * rows[:, dense.AT_Q],
+            psi=scale * rows[:, dense.AT_PSI],
+            displacement=scale * rows[:, dense.AT_U],
+            force=scale * rows[:, dense.AT_Q],
             stick_radius=rows[:, dense.AT_STICK],
             contact_radius=rows[:, dense.AT_CONTACT],
-            stored=0.5 * self.psi_in**2 - 0.5 * psi**2 - dissipated,
-            dissipated=dissipated,
+            stored=scale**2 * rows[:, dense.AT_STORED],
+            dissipated=scale**2 * rows[:, dense.AT_DISSIPATED],
         )
 
     def history(self, n: int = 200) -> History:
-        """Return the impact at n times, evenly spaced from the first touch to the last."""
+        """Return the impact at n >= 2 times, evenly spaced from the first touch to the last."""
+        if index(n) < 2:
+            raise ValueError(f"n: {n} cannot be used; must be a whole number of at least 2")
         return self.at(np.linspace(0.0, self.duration, n))
 
     def memory(self, time: float) -> Memory:
         """Return the memory of the contact at a time: g(s), q(s) and the annuli it consists of."""
-        now = self.at(time)
-        return memory_at(self._record, self._times, self._moved, now_at(now), self.mirror)
+        now = now_at(self.at(float(time)))
+        return memory_at(self._record, self._times, self._moved, now, self.scale or 1.0)
 
 
 def now_at(history: History) -> dict[str, float]:
@@ -175,7 +181,8 @@ def solve(psi: float, chi: float) -> Solution:
     """
     psi, chi = float(psi), float(chi)
     work, record = new_work(), new_record(True)
-    status = Status(run_phases(abs(psi), chi, TOLERANCE, work, record))
+    recorded = max(abs(psi), LINEAR) if psi != 0.0 else 0.0
+    status = Status(run_phases(recorded, chi, TOLERANCE, work, record))
     if status in (Status.PSI_NOT_FINITE, Status.CHI_NOT_POSITIVE):
         name, value = ("psi", psi) if status is Status.PSI_NOT_FINITE else ("chi", chi)
         raise ValueError(f"{name}: {value:g} is not allowed; {status.message}")
@@ -184,17 +191,11 @@ def solve(psi: float, chi: float) -> Solution:
     times, moved, changed = np.zeros(steps), np.zeros((steps + 1, 2)), np.zeros(len(record.changes))
     dense.tabulate(record.nodes, record.series, record.changes, chi, times, moved, changed)
     mirror = -1 if np.signbit(psi) else 1
-    psi_out = _psi_out(psi, chi, mirror, status, work)
     phases = _phases(record.changes, changed, mirror)
+    psi_out = float("nan")
+    if status is Status.SOLVED:
+        psi_out = mirror * min(1.0, abs(psi) / LINEAR) * float(work.series[0, PSI])
     return Solution(psi, chi, psi_out, status, phases, record, times, moved)
-
-
-def _psi_out(psi: float, chi: float, mirror: int, status: Status, work: Work) -> float:
-    if status is not Status.SOLVED:
-        return float("nan")
-    if 0.0 < abs(psi) < LINEAR:
-        return float(outgoing(psi, chi, work, new_record(False))[0])
-    return mirror * float(work.series[0, PSI]) if psi != 0.0 else psi
 
 
 def _phases(changes: Array, times: Array, mirror: int) -> tuple[Phase, ...]:
@@ -210,4 +211,7 @@ def _phases(changes: Array, times: Array, mirror: int) -> tuple[Phase, ...]:
         if found and (found[-1].kind, found[-1].sign) == (kind, sign):
             start = found.pop().start
         found.append(Phase(kind, sign, start, end, cause))
+    if found:  # what was too short to keep may have been the last
+        last = CAUSE_NAMES[Cause(int(changes[-1, CAUSE]))]
+        found[-1] = found[-1]._replace(end=float(times[-1]), cause=last)
     return tuple(found)

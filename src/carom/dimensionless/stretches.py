@@ -23,7 +23,7 @@ from carom.dimensionless.motion import (
     V,
     expand,
 )
-from carom.dimensionless.record import Record, note_node
+from carom.dimensionless.record import Record, is_full, note_node
 
 NOTHING = -1
 # In stick events 0 and 1 are the edge reaching Coulomb's limit of either sign; in a slip ring:
@@ -220,6 +220,8 @@ def run_stretch(
     """Advance the state in row 0 of the series to the next event and return that event."""
     s = work.series
     for _ in range(MAX_STEPS):
+        if is_full(record):
+            break
         clock = choose_clock(s, mode, sign, starts)
         expand(s, mode, clock, sign, chi)
         event, h = first_event(work, mode, sign, inner, reach(s, mode, tolerance))
