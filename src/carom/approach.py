@@ -39,6 +39,6 @@ def _angle(angle: Value) -> float:
     slope = finite("angle", angle)
     if abs(slope) < pi / 2:
         return slope
-    if isinstance(angle, str) and any(letter.isalpha() for letter in angle):
+    if isinstance(angle, str) and any(c.isalpha() or c == "°" for c in angle):
         raise refusal("angle", angle, "must be below 90 deg: the bodies must approach")
     raise refusal("angle", angle, f"a bare angle is in radians, below pi/2; write '{angle} deg'")

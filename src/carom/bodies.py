@@ -34,7 +34,7 @@ class Material:
     Parameters
     ----------
     young : float or str
-        Young's modulus, positive.
+        Young's modulus, positive; math.inf for a material that does not deform.
     poisson : float
         Poisson's ratio, -1 < nu <= 0.5.
     density : float or str, optional
@@ -77,7 +77,7 @@ class Material:
             raise refusal("poisson", poisson, "must be above -1 and at most 0.5, e.g. 0.3")
         _set(
             self,
-            young=math.inf if name == "rigid" else positive("young", young),
+            young=math.inf if young == math.inf else positive("young", young),
             poisson=ratio,
             density=None if density is None else positive("density", density),
             yield_strength=None
@@ -146,7 +146,7 @@ def material(name: str) -> Material:
 
 def material_sources(name: str) -> dict[str, str]:
     """Return the source of each value of a material of the catalogue."""
-    return dict(_catalogue()[material(name).name or ""]["sources"])
+    return dict(_catalogue().get(material(name).name or "", {}).get("sources", {}))
 
 
 def as_material(value: Material | str) -> Material:

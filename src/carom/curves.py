@@ -52,7 +52,12 @@ def curve(chi: float | Sequence[float], psi: ArrayLike) -> "xr.Dataset":
     import xarray as xr
 
     chis = [positive("chi", value) for value in np.atleast_1d(np.asarray(chi, dtype=object))]
-    incoming = np.atleast_1d(np.asarray(psi, dtype=np.float64))
+    try:
+        incoming = np.atleast_1d(np.asarray(psi, dtype=np.float64))
+    except (TypeError, ValueError):
+        raise refusal("psi", psi, "must be a list of finite numbers") from None
+    if not chis:
+        raise refusal("chi", chi, "must be one positive number or more")
     if incoming.size == 0 or incoming.ndim > 1 or not np.all(np.isfinite(incoming)):
         raise refusal("psi", psi, "must be a list of finite numbers")
     rows = np.array(chis)[:, np.newaxis]

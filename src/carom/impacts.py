@@ -11,7 +11,7 @@ from carom.bodies import Sphere, Value, describe
 from carom.dimensionless import hertz
 from carom.dimensionless.solution import Solution, solve
 from carom.pairs import Pair, Scales
-from carom.quantities import finite, refusal
+from carom.quantities import InputError, finite, refusal
 from carom.results import PhaseRow, Validity, labelled
 from carom.validity import judge
 
@@ -39,7 +39,7 @@ RESULTS = (
 )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Impact:
     """The result of `impact`: the rebound, every phase, and histories on request; SI units.
 
@@ -62,7 +62,7 @@ class Impact:
     @property
     def contact_velocity_out(self) -> float:
         """Tangential velocity of the contact point after, in m/s."""
-        if self.pair.friction == 0.0:
+        if not isfinite(self.psi_in):
             return self.contact_velocity
         return self.psi_out * self.scales.tangential_speed
 
@@ -200,7 +200,7 @@ class Impact:
 
     def _columns(self, n: int) -> dict[str, Any]:
         h, scales = self.solution.history(n), self.scales
-        slides_freely = self.pair.friction == 0.0
+        slides_freely = not isfinite(self.psi_in)
         velocity = h.psi * scales.tangential_speed
         displacement = h.displacement * scales.tangential_length
         if slides_freely:
@@ -285,14 +285,31 @@ def impact(
     >>> round(hit.rebound_angle * 180 / 3.141592653589793, 2)
     18.6
     """
+    if not isinstance(pair, Pair):
+        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
     normal, tangential = approach(speed, angle, normal_speed, tangential_speed)
     first_spin, second_spin = finite("spin", spin), finite("spin2", spin2)
     if second_spin and not isinstance(pair.second, Sphere):
         raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
     velocity = _contact_velocity(pair, tangential, first_spin, second_spin)
+    _refuse_overflow(pair, normal, velocity)
     psi = pair.psi(velocity, normal)
     solution = solve(psi if isfinite(psi) else 0.0, pair.chi)
     return Impact(pair, normal, tangential, first_spin, second_spin, solution)
+
+
+def _refuse_overflow(pair: Pair, normal: float, velocity: float) -> None:
+    """Refuse sizes and speeds whose scales leave the range of floating-point numbers."""
+    try:
+        scales = (*pair.scales(normal), velocity, pair.peak_pressure(normal))
+        fits = all(isfinite(value) for value in scales) and min(scales[:5]) > 0.0
+    except (OverflowError, ZeroDivisionError):
+        fits = False
+    if not fits:
+        raise InputError(
+            f"speed: {normal:g} m/s at a radius of {pair.first.radius:g} m gives numbers that "
+            "floating point cannot hold; check the units"
+        )
 
 
 def _contact_velocity(pair: Pair, tangential: float, *spins: float) -> float:

@@ -1,7 +1,7 @@
 """A pair of bodies: what of them enters an impact, and the scales that make it dimensionless."""
 
 from dataclasses import dataclass
-from math import inf, pi, sqrt
+from math import copysign, inf, pi, sqrt
 from typing import NamedTuple
 
 from carom.bodies import Cup, HalfSpace, Material, Sphere, Value
@@ -129,8 +129,10 @@ class Pair:
 
     def psi(self, contact_velocity: float, normal_speed: float) -> float:
         """Return kappa V_x/(mu V_1), infinite without friction."""
-        if self.friction == 0.0:
-            return inf if contact_velocity > 0.0 else -inf if contact_velocity < 0.0 else 0.0
+        if contact_velocity == 0.0:
+            return 0.0
+        if self.friction * normal_speed == 0.0:
+            return copysign(inf, contact_velocity)
         return self.kappa * contact_velocity / (self.friction * normal_speed)
 
     def peak_pressure(self, normal_speed: float) -> float:

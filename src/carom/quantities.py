@@ -145,11 +145,11 @@ def not_negative(name: str, value: Any) -> float:
     return result
 
 
-def finite(name: str, value: Any) -> float:
+def finite(name: str, value: Any, unit: str | None = None) -> float:
     """Return a finite value in SI units, or raise InputError."""
-    result = number(name, value)
+    result = number(name, value, unit)
     if not math.isfinite(result):
-        raise refusal(name, value, f"must be finite, e.g. {_example(name)}")
+        raise refusal(name, value, "must be finite")
     return result
 
 
@@ -183,8 +183,12 @@ def _parsed(name: str, text: str, unit: str) -> float:
 
     try:
         quantity = _registry().Quantity(text)
-        if unit != "1" and quantity.unitless:
+        if quantity.unitless:
             return float(quantity.magnitude)
+        if quantity.dimensionless and unit == "1":
+            raise refusal(name, text, f"it has a unit; {_expected(unit)}")
+        if unit == "rad/s" and str(quantity.units) == "hertz":
+            raise refusal(name, text, "a spin is not in Hz; write 'rpm' or 'rad/s'")
         return float(quantity.to("" if unit == "1" else unit).magnitude)
     except pint.UndefinedUnitError as error:
         unknown = error.unit_names if isinstance(error.unit_names, str) else error.unit_names[0]
@@ -194,6 +198,8 @@ def _parsed(name: str, text: str, unit: str) -> float:
             f"that is in {error.units1}, not a value in {unit}" if unit != "1" else "it has a unit"
         )
         raise refusal(name, text, f"{kind}; {_expected(unit)}") from None
+    except InputError:
+        raise
     except Exception:  # pint lets errors of the tokenizer through
         raise refusal(name, text, _expected(unit)) from None
 

@@ -21,13 +21,16 @@ TABLES = (".nc", ".csv")
 FIGURES = (".png", ".pdf", ".svg")
 
 
+MARKS = {True: "ok ", False: "NO ", None: " ? "}
+
+
 class Finding(NamedTuple):
     """One number that tells whether the theory holds: value, limit, and a plain verdict."""
 
     name: str
     value: float
     limit: float
-    holds: bool
+    holds: bool | None  # None: cannot be judged
     verdict: str
 
 
@@ -39,12 +42,11 @@ class Validity(NamedTuple):
     @property
     def holds(self) -> bool:
         """Whether no finding is beyond its limit."""
-        return all(finding.holds for finding in self.findings)
+        return all(finding.holds is not False for finding in self.findings)
 
     def __str__(self) -> str:
         return "\n".join(
-            f"{'ok  ' if f.holds else 'NOT '}{f.name} = {f.value:.3g}: {f.verdict}"
-            for f in self.findings
+            f"{MARKS[f.holds]} {f.name} = {f.value:.3g}: {f.verdict}" for f in self.findings
         )
 
 
@@ -119,7 +121,7 @@ def save(dataset: "xr.Dataset", path: str | Path) -> Path:
     target = checked_output(path, TABLES)
 
     def write(where: Path) -> None:
-        if target.suffix == ".nc":
+        if target.suffix.lower() == ".nc":
             dataset.to_netcdf(where, engine="h5netcdf")
         else:
             where.write_text(as_csv(dataset), encoding="utf-8")
@@ -130,18 +132,14 @@ def save(dataset: "xr.Dataset", path: str | Path) -> Path:
 def as_csv(dataset: "xr.Dataset") -> str:
     """Return the columns of a dataset as CSV, with units and inputs in comment lines.
 
-    The columns are those variables that have as many dimensions as any.
+    The columns are the variables along all coordinates that have a unit: time, or chi and psi_1.
     """
-    longest = max((item.dims for item in dataset.data_vars.values()), key=_extent(dataset))
-    names = [str(name) for name, item in dataset.data_vars.items() if item.dims == longest]
+    along = {name for name in dataset.dims if "units" in dataset[name].attrs}
+    names = [str(name) for name, item in dataset.data_vars.items() if set(item.dims) == along]
     frame = dataset[names].to_dataframe().reset_index()
     head = [f"# {key}: {value}" for key, value in dataset.attrs.items()]
     head += [f"# {n}: {dataset[n].long_name} ({dataset[n].units})" for n in frame.columns]
     return "\n".join(head) + "\n" + str(frame.to_csv(index=False))
-
-
-def _extent(dataset: "xr.Dataset") -> Any:
-    return lambda dims: int(np.prod([dataset.sizes[name] for name in dims]))
 
 
 def checked_output(path: str | Path, endings: tuple[str, ...]) -> Path:

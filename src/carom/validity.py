@@ -41,13 +41,14 @@ def _yield(pair: Pair, pressure: float) -> tuple[Finding, ...]:
     ]
     if not strengths:
         unknown = "yield strength not known, so not judged"
-        return (Finding("p_0/Y", float("nan"), YIELD_PRESSURE, True, unknown),)
+        return (Finding("p_0/Y", float("nan"), YIELD_PRESSURE, None, unknown),)
     ratio = pressure / min(strengths)
     holds = ratio <= YIELD_PRESSURE
+    body = "the softer body" if len(strengths) == 2 else "the body whose strength is known"
     verdict = (
-        "the softer body stays elastic"
+        f"{body} stays elastic"
         if holds
-        else f"the softer body yields from {YIELD_PRESSURE} on: real restitution is below 1"
+        else f"{body} yields from {YIELD_PRESSURE} on: real restitution is below 1"
     )
     return (Finding("p_0/Y", ratio, YIELD_PRESSURE, holds, verdict),)
 

@@ -117,7 +117,7 @@ def test_units_do_not_matter():
     )
     pair = Pair(ball, HalfSpace(material=STEEL), friction="0.2")
     one = carom.impact(pair, speed="7.2 km/h", angle=math.radians(30), spin="60 rpm")
-    two = carom.impact(PLATE, speed=2.0, angle="30 deg", spin="1 Hz * 2 * pi * rad")
+    two = carom.impact(PLATE, speed=2.0, angle="30 deg", spin="2 * pi rad/s")
     assert one.psi_out == close(two.psi_out, rel=1e-12)
     assert one.spin_out == close(two.spin_out, rel=1e-12)
 
@@ -174,13 +174,14 @@ def test_validity_speaks_up():
     fine = carom.impact(PLATE, speed=0.1).validity
     assert fine.holds
     assert "not known" in str(fine)
+    assert fine.findings[1].holds is None
     soft = Sphere(radius="20 mm", material="rubber")
     unlike = carom.impact(Pair(soft, HalfSpace(material=STEEL), 0.5), speed=20.0).validity
     verdicts = {finding.name: finding.holds for finding in unlike.findings}
     assert not verdicts["a_max/R*"]
     mixed = Pair(Sphere(radius="5 mm", material=GLASS), HalfSpace(material=STEEL), 0.2)
     judged = carom.impact(mixed, speed=1.0).validity
-    assert [f.name for f in judged.findings if not f.holds] == ["Dundurs beta"]
+    assert [f.name for f in judged.findings if f.holds is False] == ["Dundurs beta"]
     hard = carom.impact(Pair(Sphere(radius="5 mm", material="steel"), BALL, 0.2), speed=5.0)
     assert "yields" in str(hard.validity)
 
@@ -209,6 +210,12 @@ def test_validity_speaks_up():
         (lambda: carom.impact(PLATE), "speed: missing"),
         (lambda: carom.impact(PLATE, speed=1, normal_speed=1), "speed: give speed and angle, or"),
         (lambda: carom.impact(PLATE, speed=1, spin2=5), "spin2: 5 .* only a second sphere"),
+        (lambda: carom.impact(PLATE, speed=1, spin="10 Hz"), "spin: '10 Hz' .* not in Hz"),
+        (lambda: carom.impact(PLATE, speed=1, angle="95°"), "angle: .* below 90 deg"),
+        (lambda: carom.impact(PLATE, speed=1e300), "speed: 1e.300 m/s .* check the units"),
+        (lambda: carom.impact(PLATE, speed=1e-200), "speed: .* check the units"),
+        (lambda: carom.impact(BALL, speed=1), "pair: .* must be a Pair"),
+        (lambda: Pair(BALL, BALL, "30 deg"), "friction: '30 deg' .* it has a unit"),
     ],
 )
 def test_bad_input_is_refused_in_one_line(make, message):

@@ -93,6 +93,28 @@ def test_too_many_phases_is_a_status():
     solution = carom.solve(0.5, 1e7)
     assert solution.status is Status(int(status[0]))
     assert np.isnan(solution.psi_out)
+    with pytest.raises(ValueError, match="not solved"):
+        solution.history()
+
+
+@pytest.mark.parametrize(("psi", "chi"), [(1000.0, 2000.0), (3000.0, 8000.0), (0.5, 2e4)])
+def test_long_impacts_are_recorded_whole(psi, chi):
+    """Thousands of steps; the dense solution ends where the rebound does."""
+    solution = carom.solve(psi, chi)
+    assert solution.status is Status.SOLVED
+    assert solution.history(3).psi[-1] == solution.psi_out
+
+
+@pytest.mark.parametrize("arguments", [((1j,), (1.0,)), (("a",), (1.0,)), ((0.5,), ("1",))])
+def test_refuses_what_is_not_a_number(arguments):
+    with pytest.raises(ValueError, match="give real numbers"):
+        carom.rebound(*arguments)
+
+
+@pytest.mark.parametrize("threads", [0, -3, 2.5])
+def test_refuses_a_number_of_threads_that_is_none(threads):
+    with pytest.raises(ValueError, match=r"^threads: .*from 1 on"):
+        carom.rebound(0.5, 1.44, threads=threads)
 
 
 @pytest.mark.parametrize(("psi", "chi", "name"), [(np.nan, 1.0, "psi"), (0.5, -2.0, "chi")])

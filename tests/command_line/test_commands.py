@@ -132,6 +132,9 @@ BAD = [
     (["impact", "missing.toml"], "case file: 'missing.toml' cannot be read"),
     (["curve", "--chi", "-1"], "chi: '-1' cannot be used"),
     (["curve", "--chi", "1", "--from", "2", "--to", "1"], "to: 1.0 cannot be used"),
+    (["curve", "--chi", "1", "--from", "nan"], "from: 'nan' cannot be used"),
+    (["curve", "--chi", "1", "--to", "abc"], "to: 'abc' cannot be used"),
+    (["curve", "--chi", "1", "--points", "0"], "points: '0' cannot be used; must be a whole"),
     (["materials", "stone"], "material: 'stone'"),
     (["frobnicate"], "No such command"),
 ]
@@ -154,6 +157,9 @@ def test_bad_input_gets_one_clear_line(run, arguments, message):
     [
         ("friction = 0.2\nsped = 3\n", "sped: unknown key in .*, line 2; did you mean 'speed'"),
         ("[first]\nradius = 1\n\n[second]\nshape = 'cup'\n", "shape: unknown key in .*, line 5"),
+        ("[first]\nradius=1\n[second]\nradius=1\n[output]\nradius=3\n", "radius: .*line 6"),
+        (CASE + "[output]\nplot = 3\n", "plot: 3 cannot be used; must be the name of a file"),
+        (CASE.replace("sphere", "half-space") + "inner_radius = 1\n", "inner_radius: 1 .*has none"),
         ("friction = = 3\n", "is not TOML; .*line 1"),
         ("first = 3\n", "first: 3 cannot be used; must be a table"),
         ("friction = 0.1\nspeed=1\n[first]\nradius=1\nmaterial={yung=1}\n", "yung: .*line 5"),

@@ -32,9 +32,10 @@ def test_memory_gives_force_energy_and_keeps_coulombs_law(psi, chi, place):
         energy += weights @ q**2
         assert np.all(np.abs(q) <= memory.penetration - x**2 + 1e-12)
         assert np.all(np.abs(memory.g(x**2)) <= 1.0 + 1e-9)
-    size = max(1.0, psi**2)
     assert abs(force - now.force[0]) <= 1e-11
-    assert abs(1.875 * chi * energy - now.stored[0]) <= 1e-10 * size
+    assert abs(1.875 * chi * energy - now.stored[0]) <= 1e-10
+    total = 0.5 * now.psi[0] ** 2 + 1.875 * chi * energy + now.dissipated[0]
+    assert abs(total - 0.5 * psi**2) <= 1e-10
     assert memory.g(now.penetration[0] * 1.01) == 0.0
 
 

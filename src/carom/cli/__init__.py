@@ -38,7 +38,8 @@ def main(arguments: list[str] | None = None) -> int:
     except InputError as error:
         return _refuse(str(error))
     except typer.TyperException as error:
-        if not str(error):  # help has been printed already
+        if not arguments and len(sys.argv) < 2:  # no command: the message is the help
+            typer.echo(error.format_message())
             return error.exit_code
         return _refuse(f"{str(error).rstrip('.')}; see carom --help or carom COMMAND --help")
     except typer.Abort:

@@ -30,7 +30,7 @@ class Output(NamedTuple):
 def read_case(path: Path) -> Case:
     """Return the content of a case file, its keys checked."""
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
         case = tomllib.loads(text)
     except OSError as error:
         reason = error.strerror or error
@@ -40,29 +40,35 @@ def read_case(path: Path) -> Case:
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"case file: {str(path)!r} is not TOML; {error}") from None
     tables = {"first": BODY, "second": ("kind", *BODY), "output": OUTPUT}
-    _check_keys(case, ("friction", *MOTION, *tables), text, path)
+    _check_keys(case, ("friction", *MOTION, *tables), text, path, "")
     for name, allowed in tables.items():
         table = case.setdefault(name, {})
         if not isinstance(table, dict):
             raise refusal(name, table, f"must be a table, [{name}], with {', '.join(allowed)}")
-        _check_keys(table, allowed, text, path)
+        _check_keys(table, allowed, text, path, name)
         if isinstance(table.get("material"), dict):
-            _check_keys(table["material"], MATERIAL, text, path)
+            _check_keys(table["material"], MATERIAL, text, path, name)
     return case
 
 
-def _check_keys(table: Mapping[str, Any], allowed: Iterable[str], text: str, path: Path) -> None:
+def _check_keys(
+    table: Mapping[str, Any], allowed: Iterable[str], text: str, path: Path, name: str
+) -> None:
     for key in table:
         if key not in allowed:
             hint = nearest(key, allowed) or f"known are {', '.join(allowed)}"
-            raise InputError(f"{key}: unknown key in {path}, line {_line(key, text)}; {hint}")
+            raise InputError(f"{key}: unknown key in {path}, line {_line(key, text, name)}; {hint}")
 
 
-def _line(key: str, text: str) -> int:
-    name = re.escape(key)
-    pattern = re.compile(rf"^\s*\[?\s*[\"']?{name}[\"']?\s*[=\].]|[{{,]\s*{name}\s*=")
+def _line(key: str, text: str, table: str) -> int:
+    """Return the line of a key, searched from the header of its table on."""
+    word = re.escape(key)
+    pattern = re.compile(rf"^\s*\[?\s*[\"']?{word}[\"']?\s*[=\].]|[{{,]\s*{word}\s*=")
+    header = re.compile(rf"^\s*\[?\s*{table}\b") if table else re.compile("")
+    inside = False
     for number, line in enumerate(text.splitlines(), 1):
-        if pattern.search(line):
+        inside = inside or bool(header.match(line))
+        if inside and pattern.search(line):
             return number
     return 1
 
@@ -97,6 +103,9 @@ def solve_case(case: Case) -> Impact:
 def outputs(case: Case) -> Output:
     """Return the files that a case asks for."""
     table = case.get("output", {})
+    for name, value in table.items():
+        if not isinstance(value, str):
+            raise refusal(name, value, "must be the name of a file")
     return Output(table.get("plot"), table.get("data"))
 
 
@@ -108,6 +117,9 @@ def _second(table: Mapping[str, Any], first: Sphere) -> Counterbody:
     if kind == "sphere":
         return _sphere("second", "second-", table, same)
     stuff = _material(table.get("material", first.material))
+    for name in ("gyration_radius", "inner_radius"):
+        if name in table:
+            raise refusal(name, table[name], f"a {kind} has none; it belongs to a sphere")
     if kind == "cup":
         if "radius" not in table:
             raise InputError("radius: missing for the cup; give --second-radius, e.g. '10 mm'")

@@ -13,11 +13,11 @@ ROWS = 17  # of the printed table
 
 def curve_command(
     chi: Annotated[list[str], typer.Option(help="chi, positive; repeat for several.")],
-    start: Annotated[float, typer.Option("--from", help="First psi_1.")] = 0.0,
+    start: Annotated[str, typer.Option("--from", help="First psi_1.")] = "0",
     stop: Annotated[
-        float | None, typer.Option("--to", help="Last psi_1, by default 4 chi + 1.")
+        str | None, typer.Option("--to", help="Last psi_1, by default 4 chi + 1.")
     ] = None,
-    points: Annotated[int, typer.Option(min=2, help="Number of psi_1.")] = 401,
+    points: Annotated[str, typer.Option(help="Number of psi_1, at least 2.")] = "401",
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
     plot: Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")] = None,
     output: Annotated[str | None, typer.Option(help="Store the curve: .csv or .nc.")] = None,
@@ -30,18 +30,21 @@ def curve_command(
 
     from carom.cli.compiling import announced
     from carom.curves import curve
-    from carom.quantities import positive, refusal
+    from carom.quantities import finite, positive, refusal
     from carom.results import FIGURES, TABLES, checked_output, save
 
     for path, endings in ((plot, FIGURES), (output, TABLES)):
         if path is not None:
             checked_output(path, endings)
     values = [positive("chi", value) for value in chi]
-    last = 4.0 * max(values) + 1.0 if stop is None else stop
-    if not start < last or not np.isfinite([start, last]).all():
-        raise refusal("to", last, f"must be finite and above --from, {start:g}")
+    first = finite("from", start, "1")
+    last = 4.0 * max(values) + 1.0 if stop is None else finite("to", stop, "1")
+    if not first < last:
+        raise refusal("to", last, f"must be above --from, {first:g}")
+    if not points.isdecimal() or int(points) < 2:
+        raise refusal("points", points, "must be a whole number of at least 2, e.g. 401")
     with announced():
-        dataset = curve(values, np.linspace(start, last, points))
+        dataset = curve(values, np.linspace(first, last, int(points)))
         if output is not None:
             typer.echo(f"stored {save(dataset, output)}", err=True)
         if plot is not None:
@@ -59,9 +62,13 @@ def _record(dataset: "xr.Dataset") -> list[dict[str, Any]]:
         regimes = zip(part["regime_border"].values, part["border"].values, strict=True)
         rows.append(
             {"chi": float(chi), "borders": {str(name): float(psi) for name, psi in regimes}}
-            | {name: part[name].values.tolist() for name in names}
+            | {name: [_finite(value) for value in part[name].values] for name in names}
         )
     return rows
+
+
+def _finite(value: float) -> float | None:
+    return float(value) if value - value == 0.0 else None
 
 
 def _table(dataset: "xr.Dataset") -> str:

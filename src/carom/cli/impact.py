@@ -131,6 +131,7 @@ def _finite(value: float) -> float | None:
 def as_table(hit: "Impact") -> str:
     """Return the result as text to read."""
     from carom.impacts import RESULTS
+    from carom.results import MARKS
 
     scalars = hit.scalars()
     shown = ["chi", *(name for name in RESULTS if name not in HIDDEN)]
@@ -143,7 +144,7 @@ def as_table(hit: "Impact") -> str:
     ]
     head = f"  {'':14s}{'from (s)':>12s} {'to (s)':>12s}   ended by"
     findings = [
-        f"  {'ok ' if f.holds else 'NO '} {f.name + ' = ' + format(f.value, '.3g'):34s} {f.verdict}"
+        f"  {MARKS[f.holds]} {f.name + ' = ' + format(f.value, '.3g'):34s} {f.verdict}"
         for f in hit.validity.findings
     ]
     parts = ("Rebound", *lines, "Phases", head, *phases, "Validity", *findings)

@@ -97,6 +97,11 @@ def rebound(
         psi_2, in the shape of the broadcast arguments. NaN where an argument is out of range, with
         one RuntimeWarning that says where and why unless `return_status` is set.
 
+    Raises
+    ------
+    ValueError
+        If an argument is not a number at all, or `threads` is below 1.
+
     Examples
     --------
     >>> import carom
@@ -105,7 +110,9 @@ def rebound(
     >>> carom.rebound([0.5, 1.5, 3.5, 6.0], 1.44).round(6)
     array([ 0.047131, -0.429967, -1.477247,  0.24    ])
     """
-    psi_in, chi_in = np.asarray(psi, dtype=np.float64), np.asarray(chi, dtype=np.float64)
+    if threads is not None and (not isinstance(threads, int) or threads < 1):
+        raise ValueError(f"threads: {threads!r} cannot be used; must be a whole number from 1 on")
+    psi_in, chi_in = _real("psi", psi), _real("chi", chi)
     shape = np.broadcast_shapes(psi_in.shape, chi_in.shape)
     flat_psi, flat_chi = (np.array(np.broadcast_to(x, shape)).ravel() for x in (psi_in, chi_in))
     psi_out = np.empty(flat_psi.size)
@@ -116,6 +123,13 @@ def rebound(
         return result, status.reshape(shape) if shape else int(status[0])
     _warn_of_unsolved(status.reshape(shape))
     return result
+
+
+def _real(name: str, values: ArrayLike) -> Array:
+    given = np.asarray(values)
+    if given.size and given.dtype.kind not in "biufO":
+        raise ValueError(f"{name}: values of type {given.dtype} cannot be used; give real numbers")
+    return np.asarray(given, dtype=np.float64)
 
 
 def _fill_blocks(
