@@ -18,12 +18,9 @@ def materials_command(
     """
     from carom.bodies import material, materials
 
-    chosen = materials() if name is None else {str(material(name).name): material(name)}
-    chosen.pop("rigid", None)
-    records = {key: _record(key) for key in chosen}
-    if name is not None and not chosen:
-        typer.echo("rigid: does not deform; for a half-space or cup, or a sphere's counter-body")
-    elif as_json:
+    names = list(materials()) if name is None else [str(material(name).name)]
+    records = {key: _record(key) for key in names}
+    if as_json:
         typer.echo(json.dumps(records, indent=2, ensure_ascii=False))
     elif name is not None:
         typer.echo(_details(records))
@@ -35,7 +32,10 @@ def _record(name: str) -> dict[str, Any]:
     from carom.bodies import material, material_sources
 
     stuff = material(name)
-    return {key: getattr(stuff, key) for key in VALUES} | {"sources": material_sources(name)}
+    values = {key: getattr(stuff, key) for key in VALUES}
+    if stuff.is_rigid:
+        values["young"] = None
+    return values | {"sources": material_sources(name)}
 
 
 def _list(records: dict[str, dict[str, Any]]) -> str:
@@ -53,9 +53,9 @@ def _details(records: dict[str, dict[str, Any]]) -> str:
 
     lines = []
     for name, record in records.items():
-        lines.append(name)
+        lines.append(name if record["young"] else f"{name}: does not deform")
         for key in VALUES:
-            if record[key] is not None:
+            if key in record["sources"]:
                 unit = "" if GLOSSARY[key].unit == "1" else f" {GLOSSARY[key].unit}"
                 lines.append(f"  {GLOSSARY[key].meaning:18s} {record[key]:.6g}{unit}")
                 lines.append(f"      {record['sources'][key]}")
