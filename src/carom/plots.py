@@ -127,7 +127,7 @@ def _energies(axis: "Axes", dataset: "xr.Dataset", time: Any) -> None:
     start = float(dataset["tangential_kinetic_energy"][0]) or 1.0
     parts = [dataset[name].values / start for name in shares]
     axis.stackplot(time, parts, labels=list(shares.values()), colors=SHARES)
-    _finish(axis, "share of tangential energy", "lower left")
+    _finish(axis, "share of tangential energy", "upper right")
 
 
 def _finish(axis: "Axes", label: str, place: Any = "best") -> None:
