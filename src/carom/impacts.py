@@ -30,12 +30,24 @@ RESULTS = (
     "max_pressure",
     "rebound_speed",
     "rebound_angle",
+    "tangential_speed_out",
     "spin_out",
     "spin2_out",
     "normal_restitution",
     "tangential_restitution",
     "contact_restitution",
     "dissipated_energy",
+)
+PAIR = (
+    "friction",
+    "chi",
+    "kappa",
+    "dundurs_beta",
+    "effective_modulus",
+    "effective_shear_modulus",
+    "effective_radius",
+    "normal_mass",
+    "tangential_mass",
 )
 
 
@@ -227,8 +239,7 @@ class Impact:
     def scalars(self) -> dict[str, float]:
         """Return the numbers of the result by name."""
         numbers = {name: float(getattr(self, name)) for name in RESULTS}
-        numbers |= {"friction": self.pair.friction, "chi": self.pair.chi, "kappa": self.pair.kappa}
-        return numbers | {"dundurs_beta": self.pair.dundurs_beta}
+        return numbers | {name: getattr(self.pair, name) for name in PAIR}
 
     def inputs(self) -> dict[str, Any]:
         """Return what the impact was made from, as plain numbers and words."""

@@ -50,8 +50,8 @@ GLOSSARY = {
     "chi": Quantity(r"$\chi$", "1", "ratio of inertia to stiffness, tangential against normal"),
     "dundurs_beta": Quantity(r"$\beta$", "1", "Dundurs' second parameter"),
     # dimensionless impact
-    "psi_in": Quantity(r"$\psi_1$", "1", "tangential velocity of the contact point before"),
-    "psi_out": Quantity(r"$\psi_2$", "1", "tangential velocity of the contact point after"),
+    "psi_in": Quantity(r"$\psi_1$", "1", "dimensionless velocity of the contact point before"),
+    "psi_out": Quantity(r"$\psi_2$", "1", "dimensionless velocity of the contact point after"),
     "contact_restitution": Quantity(
         "$e_c$", "1", "tangential velocity of the contact point, after to before"
     ),
@@ -80,12 +80,11 @@ GLOSSARY = {
     "max_force": Quantity("$P_{max}$", "N", "largest normal force"),
     "max_radius": Quantity("$a_{max}$", "m", "largest radius of the contact"),
     "max_pressure": Quantity("$p_0$", "Pa", "largest contact pressure"),
-    "max_tangential_force": Quantity("$F_{max}$", "N", "largest tangential force"),
     "rebound_speed": Quantity("$V'$", "m/s", "speed of the centres after the impact"),
     "rebound_angle": Quantity(
         r"$\theta'$", "rad", "angle of rebound of the centres, from the normal"
     ),
-    "rebound_tangential_speed": Quantity("$v_t'$", "m/s", "tangential speed of the centres after"),
+    "tangential_speed_out": Quantity("$v_t'$", "m/s", "tangential speed of the centres after"),
     "spin_out": Quantity(r"$\omega'$", "rad/s", "spin of the first body after"),
     "spin2_out": Quantity(r"$\omega_2'$", "rad/s", "spin of the second body after"),
     "dissipated_energy": Quantity("$W$", "J", "energy lost to friction"),
