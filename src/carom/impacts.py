@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 from carom.approach import approach
 from carom.bodies import Sphere, Value, describe
 from carom.dimensionless import hertz
-from carom.dimensionless.solution import Solution, solve
+from carom.dimensionless.solution import Phase, Solution, solve
 from carom.pairs import Pair, Scales
 from carom.quantities import InputError, finite, refusal
-from carom.results import PhaseRow, Validity, labelled
+from carom.results import Validity, labelled
 from carom.validity import judge
 
 if TYPE_CHECKING:
@@ -175,14 +175,14 @@ class Impact:
         return self.pair.peak_pressure(self.normal_speed)
 
     @cached_property
-    def phases(self) -> tuple[PhaseRow, ...]:
+    def phases(self) -> tuple[Phase, ...]:
         """The phases in order, times in s."""
         if not isfinite(self.psi_in):
             sign = 1 if self.psi_in > 0.0 else -1
-            return (PhaseRow("gross slip", sign, 0.0, self.duration, "separation"),)
+            return (Phase("gross slip", sign, 0.0, self.duration, "separation"),)
         unit = self.scales.time
         return tuple(
-            PhaseRow(p.kind, p.sign, p.start * unit, p.end * unit, p.cause)
+            Phase(p.kind, p.sign, p.start * unit, p.end * unit, p.cause)
             for p in self.solution.phases
         )
 
@@ -195,7 +195,7 @@ class Impact:
         """Return the impact at n times: a dataset with forces, velocities, radii, energies."""
         if not isinstance(n, int) or n < 2:
             raise refusal("n", n, "must be a whole number of at least 2")
-        return labelled("time", self._columns(n), self.scalars(), self.phases, self.inputs())
+        return labelled(self._columns(n), self.scalars(), self.phases, self.inputs())
 
     def to_dataset(self) -> "xr.Dataset":
         """Return all of the result as one dataset, with a history of 400 times."""

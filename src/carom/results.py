@@ -16,6 +16,8 @@ from carom.quantities import GLOSSARY, InputError, refusal
 if TYPE_CHECKING:
     import xarray as xr
 
+    from carom.dimensionless.solution import Phase
+
 
 TABLES = (".nc", ".csv")
 FIGURES = (".png", ".pdf", ".svg")
@@ -50,16 +52,6 @@ class Validity(NamedTuple):
         )
 
 
-class PhaseRow(NamedTuple):
-    """A phase with its times in seconds."""
-
-    kind: str
-    sign: int
-    start: float
-    end: float
-    cause: str
-
-
 def carom_version() -> str:
     """Return the version of the package."""
     try:
@@ -69,22 +61,20 @@ def carom_version() -> str:
 
 
 def labelled(
-    dimension: str,
     columns: Mapping[str, ArrayLike],
     scalars: Mapping[str, float],
-    phases: tuple[PhaseRow, ...],
+    phases: "tuple[Phase, ...]",
     inputs: Mapping[str, Any],
 ) -> "xr.Dataset":
-    """Return a dataset whose variables carry unit and meaning from the glossary."""
+    """Return a history as a dataset whose variables carry unit and meaning from the glossary."""
     import xarray as xr
 
     data: dict[str, Any] = {
-        name: (dimension, np.asarray(values), attributes(name)) for name, values in columns.items()
+        name: ("time", np.asarray(values), attributes(name)) for name, values in columns.items()
     }
     data |= {name: ((), value, attributes(name)) for name, value in scalars.items()}
-    coordinate = {dimension: data.pop(dimension)}
-    if phases:
-        data |= _phase_variables(phases)
+    coordinate = {"time": data.pop("time")}
+    data |= _phase_variables(phases)
     return xr.Dataset(
         data,
         coords=coordinate,
@@ -96,7 +86,7 @@ def labelled(
     )
 
 
-def _phase_variables(phases: tuple[PhaseRow, ...]) -> dict[str, Any]:
+def _phase_variables(phases: "tuple[Phase, ...]") -> dict[str, Any]:
     seconds = {"units": "s"}
     return {
         "phase_kind": ("phase", [p.kind for p in phases], {"long_name": "kind of phase"}),

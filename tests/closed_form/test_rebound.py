@@ -93,6 +93,7 @@ def test_too_many_phases_is_a_status():
     solution = carom.solve(0.5, 1e7)
     assert solution.status is Status(int(status[0]))
     assert np.isnan(solution.psi_out)
+    assert solution.phases[0].kind == "stick"
     with pytest.raises(ValueError, match="not solved"):
         solution.history()
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from carom.bodies import Cup, HalfSpace, Material, Sphere, as_material
+from carom.bodies import VALUES, Cup, HalfSpace, Material, Sphere, as_material
 from carom.impacts import Impact, impact
 from carom.pairs import Counterbody, Pair
 from carom.quantities import InputError, nearest, refusal
@@ -15,7 +15,7 @@ Case = dict[str, Any]
 
 MOTION = ("speed", "angle", "normal_speed", "tangential_speed", "spin", "spin2")
 BODY = ("radius", "material", "gyration_radius", "inner_radius")
-MATERIAL = ("young", "poisson", "density", "yield_strength", "name")
+MATERIAL = (*VALUES, "name")
 OUTPUT = ("plot", "data")
 KINDS = ("half-space", "sphere", "cup")
 

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-VALUES = ("young", "poisson", "density", "yield_strength")
+from carom.bodies import VALUES
 
 
 def materials_command(

@@ -48,21 +48,17 @@ def push_flat(stack: Stack, depth: int, s: Series, sign: int, made: int) -> int:
     """Add the annulus that slip of this sign leaves between its front and the edge."""
     stack[depth, SLIP_SIGN] = sign
     stack[depth, OUTER] = s[0, B]
-    stack[depth, OUTER_V] = 0.0
-    stack[depth, OUTER_PSI] = 0.0
-    stack[depth, OUTER_Q] = 0.0
     stack[depth, MADE] = made
     return depth + 1
 
 
 @kernel
-def trim(stack: Stack, depth: int, s: Series) -> int:
+def trim(stack: Stack, depth: int, s: Series) -> None:
     """Cut the annulus in which the front stands down to the front."""
     stack[depth - 1, OUTER] = s[0, A]
     stack[depth - 1, OUTER_V] = s[0, V_A]
     stack[depth - 1, OUTER_PSI] = s[0, PSI_A]
     stack[depth - 1, OUTER_Q] = s[0, Q_A]
-    return depth
 
 
 @kernel

@@ -64,7 +64,7 @@ class Cause(IntEnum):
 
 SAME, OPPOSITE, NONE, GIVEN = 1, -1, 0, 2  # sign of the next phase, seen from this one
 
-# (kind, cause, unloading) -> next kind and its sign. What is not listed cannot happen.
+# (kind, cause, unloading) -> next kind and its sign. What is not listed ends the run.
 TRANSITIONS = {
     (Kind.STICK, Cause.EDGE_AT_LIMIT, False): (Kind.SLIP, GIVEN),
     (Kind.SLIP, Cause.SLIP_STOPS, False): (Kind.STICK, NONE),
@@ -237,12 +237,11 @@ def run_phases(psi: float, chi: float, tolerance: float, work: Work, record: Rec
             cause, depth = slip(work, record, depth, sign, after_stick, chi, tolerance)
         else:
             cause, depth = gross_slip(work, record, sign, chi)
-        if cause == Cause.SEPARATION:
-            note_change(record, Kind.APART.value, 0, cause, s)
-            return Status.SOLVED.value
         following = NEXT[kind, cause, 1 if s[0, V] <= 0.0 else 0]
         if following[0] == Kind.APART:
-            return Status.UNRESOLVED.value
+            note_change(record, Kind.APART.value, 0, cause, s)
+            solved = cause == Cause.SEPARATION
+            return Status.SOLVED.value if solved else Status.UNRESOLVED.value
         kind = following[0]
         sign = given if following[1] == GIVEN else sign * following[1]
     return Status.TOO_MANY_PHASES.value

@@ -36,7 +36,10 @@ SHORTEST = 1e-12  # of a phase, in units of d_max/V_1; what is shorter is roundi
 
 
 class Phase(NamedTuple):
-    """A phase of an impact: its kind, sign of slip (0 in stick), times, and what ended it."""
+    """A phase of an impact: its kind, sign of slip (0 in stick), times, and what ended it.
+
+    Times are in d_max/V_1 in a `Solution`, in s in an `Impact`.
+    """
 
     kind: str
     sign: int
