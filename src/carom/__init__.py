@@ -16,13 +16,15 @@ if TYPE_CHECKING:
         material_sources,
         materials,
     )
-    from carom.curves import curve
+    from carom.curves import curve, regime_map
     from carom.dimensionless.phases import Status
     from carom.dimensionless.rebounds import rebound
     from carom.dimensionless.solution import Solution, solve
     from carom.impacts import Impact, impact
+    from carom.loading import LoadPath, load_path
     from carom.pairs import Pair
     from carom.quantities import InputError
+    from carom.storage import read, save
 
 _HOMES = {
     "carom.bodies": (
@@ -34,10 +36,12 @@ _HOMES = {
         "material_sources",
         "materials",
     ),
-    "carom.curves": ("curve",),
+    "carom.curves": ("curve", "regime_map"),
     "carom.pairs": ("Pair",),
     "carom.quantities": ("InputError",),
     "carom.impacts": ("Impact", "impact"),
+    "carom.loading": ("LoadPath", "load_path"),
+    "carom.storage": ("read", "save"),
     "carom.dimensionless.phases": ("Status",),
     "carom.dimensionless.rebounds": ("rebound",),
     "carom.dimensionless.solution": ("Solution", "solve"),
@@ -49,6 +53,7 @@ __all__ = [
     "HalfSpace",
     "Impact",
     "InputError",
+    "LoadPath",
     "Material",
     "Pair",
     "Solution",
@@ -56,10 +61,14 @@ __all__ = [
     "Status",
     "curve",
     "impact",
+    "load_path",
     "material",
     "material_sources",
     "materials",
+    "read",
     "rebound",
+    "regime_map",
+    "save",
     "solve",
 ]
 

@@ -1,14 +1,18 @@
 """Rebound curves: psi_2 and restitution against psi_1, with the borders between regimes."""
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections import Counter
+from collections.abc import Callable, Sequence
+from itertools import chain
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
+from carom.dimensionless.phases import Status
 from carom.dimensionless.rebounds import rebound
+from carom.dimensionless.solution import solve
 from carom.quantities import positive, refusal
-from carom.results import attributes, carom_version
+from carom.results import labelled_dataset
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -21,6 +25,7 @@ REGIMES = (
     "gross slip through maximum penetration, then microslip",
     "gross slip throughout",
 )
+SIGNS = {0: "", 1: " +", -1: " -"}
 
 
 def borders(chi: float) -> tuple[float, float, float]:
@@ -49,40 +54,107 @@ def curve(chi: float | Sequence[float], psi: ArrayLike) -> "xr.Dataset":
     >>> carom.curve(1.44, [0.0, 1.0, 6.0]).psi_out.values.round(4)
     array([[ 0.    , -0.0612,  0.24  ]])
     """
-    import xarray as xr
-
-    chis = [positive("chi", value) for value in np.atleast_1d(np.asarray(chi, dtype=object))]
-    try:
-        incoming = np.atleast_1d(np.asarray(psi, dtype=np.float64))
-    except (TypeError, ValueError):
-        raise refusal("psi", psi, "must be a list of finite numbers") from None
-    if not chis:
-        raise refusal("chi", chi, "must be one positive number or more")
-    if incoming.size == 0 or incoming.ndim > 1 or not np.all(np.isfinite(incoming)):
-        raise refusal("psi", psi, "must be a list of finite numbers")
-    rows = np.array(chis)[:, np.newaxis]
-    outgoing = rebound(incoming, rows)
+    chis, incoming = _positives(chi), _line("psi", psi)
+    rows = chis[:, np.newaxis]
     nonzero = np.where(incoming == 0.0, 1e-12, incoming)
     contact = rebound(nonzero, rows) / nonzero
     wide = ("chi", "psi_in")
-    variables: dict[str, Any] = {
-        "psi_out": (wide, outgoing, attributes("psi_out")),
-        "contact_restitution": (wide, contact, attributes("contact_restitution")),
-        "tangential_restitution": (
-            wide,
-            1.0 - SOLID_SPHERE * (1.0 - contact),
-            attributes("tangential_restitution") | {"note": "solid sphere without spin"},
-        ),
-        "border": (
-            ("chi", "regime_border"),
-            np.array([borders(value) for value in chis]),
-            {"units": "1", "long_name": "psi_in at which the regime changes"},
-        ),
-    }
-    coordinates: dict[str, Any] = {
-        "chi": ("chi", np.array(chis), attributes("chi")),
-        "psi_in": ("psi_in", incoming, attributes("psi_in")),
-        "regime_border": ("regime_border", list(REGIMES[1:])),
-    }
-    attrs = {"title": "rebound curve", "carom_version": carom_version()}
-    return xr.Dataset(variables, coords=coordinates, attrs=attrs)
+    return labelled_dataset(
+        {
+            "psi_out": (wide, rebound(incoming, rows)),
+            "contact_restitution": (wide, contact),
+            "tangential_restitution": (
+                wide,
+                1.0 - SOLID_SPHERE * (1.0 - contact),
+                {"note": "solid sphere without spin"},
+            ),
+            "border": (
+                ("chi", "regime_border"),
+                [borders(value) for value in chis],
+                {"units": "1", "long_name": "psi_in at which the regime changes"},
+            ),
+        },
+        {
+            "chi": chis,
+            "psi_in": incoming,
+            "regime_border": ("regime_border", list(REGIMES[1:]), {}),
+        },
+        {"title": "rebound curve"},
+    )
+
+
+def regime_map(
+    psi: ArrayLike, chi: ArrayLike, *, progress: Callable[[int, int], object] | None = None
+) -> "xr.Dataset":
+    """Return which phases follow which for every psi_1 and chi, as a labelled dataset.
+
+    `sequence` (chi, psi_in) is the place of the sequence in `sequence_name`, the commonest first,
+    or -1 where an impact is not resolved. Beyond psi_1 = 4 chi - 1 the contact slips throughout.
+
+    Parameters
+    ----------
+    psi, chi : array_like
+        Values along either axis; chi positive.
+    progress : callable, optional
+        Called with the rows of chi done so far and their number.
+
+    Raises
+    ------
+    InputError
+        If a chi is not positive, a psi not finite, or either is empty.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.curves import regime_map
+    >>> found = regime_map([0.5, 2.0, 6.0], [1.44])
+    >>> print(found.sequence_name.values[found.sequence.values[0, 1]])
+    gross slip +, stick, slip -, gross slip -
+    """
+    chis, incoming = _positives(chi), _line("psi", psi)
+    rows = []
+    for done, value in enumerate(chis, start=1):
+        rows.append([_sequence(float(speed), float(value)) for speed in incoming])
+        if progress is not None:
+            progress(done, len(chis))
+    names = [name for name, _ in Counter(chain(*rows)).most_common() if name]
+    places = {name: place for place, name in enumerate(names)} | {"": -1}
+    codes = np.array([[places[name] for name in row] for row in rows], dtype=np.int16)
+    return labelled_dataset(
+        {
+            "sequence": (
+                ("chi", "psi_in"),
+                codes,
+                {"units": "1", "long_name": "sequence of phases, its place in sequence_name"},
+            )
+        },
+        {"chi": chis, "psi_in": incoming, "sequence_name": ("sequence_name", names, {})},
+        {"title": "map of regimes"},
+    )
+
+
+def _sequence(psi: float, chi: float) -> str:
+    """Return the phases of an impact in one line, or nothing if it is not resolved."""
+    if abs(psi) > borders(chi)[2]:
+        return "gross slip " + ("+" if psi > 0.0 else "-")
+    solution = solve(psi, chi)
+    if solution.status is not Status.SOLVED:
+        return ""
+    return ", ".join(f"{phase.kind}{SIGNS[phase.sign]}" for phase in solution.phases)
+
+
+def _line(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    try:
+        line = np.atleast_1d(np.asarray(values, dtype=np.float64))
+    except (TypeError, ValueError):
+        raise refusal(name, values, "must be a list of finite numbers") from None
+    if line.size == 0 or line.ndim > 1 or not np.all(np.isfinite(line)):
+        raise refusal(name, values, "must be a list of finite numbers")
+    return line
+
+
+def _positives(chi: ArrayLike) -> NDArray[np.float64]:
+    values = [positive("chi", value) for value in np.atleast_1d(np.asarray(chi, dtype=object))]
+    if not values:
+        raise refusal("chi", chi, "must be one positive number or more")
+    return np.array(values)

@@ -1,18 +1,26 @@
 """One oblique impact with units: two bodies and their velocities in, the rebound out."""
 
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import astuple, dataclass
 from functools import cached_property
-from math import atan2, hypot, isfinite, nan
+from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from carom.approach import approach
-from carom.bodies import Sphere, Value, describe
-from carom.dimensionless import hertz
-from carom.dimensionless.solution import Phase, Solution, solve
-from carom.pairs import Pair, Scales
-from carom.quantities import InputError, finite, refusal
+from carom.bodies import Sphere, Value
+from carom.contacts import Contact, contact_in_impact
+from carom.dimensionless.solution import Phase, SlipAngle, solve
+from carom.fields import radial_fields, surface_fields
+from carom.histories import Tangential, history_columns
+from carom.outcomes import Outcome
+from carom.pairs import Pair
+from carom.quantities import InputError, counted, finite, number, refusal
 from carom.results import Validity, labelled
+from carom.stress import stress_dataset
 from carom.validity import judge
 
 if TYPE_CHECKING:
@@ -20,159 +28,13 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-RESULTS = (
-    "psi_in",
-    "psi_out",
-    "duration",
-    "max_penetration",
-    "max_force",
-    "max_radius",
-    "max_pressure",
-    "rebound_speed",
-    "rebound_angle",
-    "tangential_speed_out",
-    "spin_out",
-    "spin2_out",
-    "normal_restitution",
-    "tangential_restitution",
-    "contact_restitution",
-    "dissipated_energy",
-)
-PAIR = (
-    "friction",
-    "chi",
-    "kappa",
-    "dundurs_beta",
-    "effective_modulus",
-    "effective_shear_modulus",
-    "effective_radius",
-    "normal_mass",
-    "tangential_mass",
-)
-
-
 @dataclass(frozen=True, eq=False)
-class Impact:
-    """The result of `impact`: the rebound, every phase, and histories on request; SI units.
+class Impact(Outcome):
+    """The result of `impact`: the rebound, every phase, and what happens inside the contact.
 
-    Tangential speeds are those of the first body relative to the second, positive spin adds to the
-    tangential speed of the contact point: V_x = v_t + R spin + R_2 spin2.
+    SI units. Tangential speeds are those of the first body relative to the second, positive spin
+    adds to the tangential speed of the contact point: V_x = v_t + R spin + R_2 spin2.
     """
-
-    pair: Pair
-    normal_speed: float
-    tangential_speed: float
-    spin: float
-    spin2: float
-    solution: Solution = field(repr=False)
-
-    @property
-    def contact_velocity(self) -> float:
-        """Tangential velocity of the contact point before, V_x in m/s."""
-        return _contact_velocity(self.pair, self.tangential_speed, self.spin, self.spin2)
-
-    @property
-    def contact_velocity_out(self) -> float:
-        """Tangential velocity of the contact point after, in m/s."""
-        if not isfinite(self.psi_in):
-            return self.contact_velocity
-        return self.psi_out * self.scales.tangential_speed
-
-    @property
-    def psi_in(self) -> float:
-        """kappa V_x/(mu V_1) before; infinite without friction."""
-        return self.pair.psi(self.contact_velocity, self.normal_speed)
-
-    @property
-    def psi_out(self) -> float:
-        """kappa V_x/(mu V_1) after; infinite without friction."""
-        return self.solution.psi_out if isfinite(self.psi_in) else self.psi_in
-
-    @property
-    def tangential_impulse(self) -> float:
-        """Impulse of the tangential force on the first body, against +x, in N s."""
-        return self.pair.tangential_mass * (self.contact_velocity - self.contact_velocity_out)
-
-    @property
-    def tangential_speed_out(self) -> float:
-        """Tangential speed of the first centre relative to the second after, in m/s."""
-        return self.tangential_speed - self.tangential_impulse / self.pair.normal_mass
-
-    @property
-    def spin_out(self) -> float:
-        """Spin of the first body after, in rad/s."""
-        return self._spin_after(self.pair.first, self.spin)
-
-    @property
-    def spin2_out(self) -> float:
-        """Spin of the second body after, in rad/s; zero for a half-space or cup."""
-        second = self.pair.second
-        return self._spin_after(second, self.spin2) if isinstance(second, Sphere) else 0.0
-
-    def _spin_after(self, body: Sphere, spin: float) -> float:
-        lever = 1.0 / (body.mass * body.gyration_ratio * body.radius)
-        return spin - self.tangential_impulse * lever
-
-    @property
-    def rebound_speed(self) -> float:
-        """Relative speed of the centres after, in m/s."""
-        return hypot(self.normal_speed, self.tangential_speed_out)
-
-    @property
-    def rebound_angle(self) -> float:
-        """Angle of rebound of the centre from the normal, in rad; negative if it goes back."""
-        return atan2(self.tangential_speed_out, self.normal_speed)
-
-    @property
-    def normal_restitution(self) -> float:
-        """Normal velocity after to before: 1 for elastic bodies."""
-        return 1.0
-
-    @property
-    def tangential_restitution(self) -> float:
-        """Tangential velocity of the centres after to before, v_t'/v_t; NaN if there was none."""
-        return _ratio(self.tangential_speed_out, self.tangential_speed)
-
-    @property
-    def contact_restitution(self) -> float:
-        """Tangential velocity of the contact point after to before; NaN if there was none."""
-        return _ratio(self.contact_velocity_out, self.contact_velocity)
-
-    @property
-    def dissipated_energy(self) -> float:
-        """Energy lost to friction, in J."""
-        before, after = self.contact_velocity, self.contact_velocity_out
-        return 0.5 * self.pair.tangential_mass * (before - after) * (before + after)
-
-    @cached_property
-    def scales(self) -> Scales:
-        """What the dimensionless impact is multiplied by."""
-        return self.pair.scales(self.normal_speed)
-
-    @property
-    def duration(self) -> float:
-        """Duration of the contact, in s."""
-        return float(hertz.DURATION) * self.scales.time
-
-    @property
-    def max_penetration(self) -> float:
-        """Largest normal approach, in m."""
-        return self.scales.length
-
-    @property
-    def max_force(self) -> float:
-        """Largest normal force, in N."""
-        return self.scales.force
-
-    @property
-    def max_radius(self) -> float:
-        """Largest contact radius, in m."""
-        return self.scales.radius
-
-    @property
-    def max_pressure(self) -> float:
-        """Largest contact pressure, in Pa."""
-        return self.pair.peak_pressure(self.normal_speed)
 
     @cached_property
     def phases(self) -> tuple[Phase, ...]:
@@ -193,9 +55,143 @@ class Impact:
 
     def history(self, n: int = 200) -> "xr.Dataset":
         """Return the impact at n times: a dataset with forces, velocities, radii, energies."""
-        if not isinstance(n, int) or n < 2:
-            raise refusal("n", n, "must be a whole number of at least 2")
-        return labelled(self._columns(n), self.scalars(), self.phases, self.inputs())
+        times = counted("n", n, 2)
+        columns = history_columns(self.pair, self.normal_speed, self._before, self.solution, times)
+        angles = self.slip_angles
+        return labelled(
+            columns,
+            self.scalars(),
+            self.phases,
+            self.inputs(),
+            phase_columns={
+                "phase_slip_angle_max": [angle.largest for angle in angles],
+                "phase_slip_angle_mean": [angle.mean for angle in angles],
+            },
+        )
+
+    @property
+    def slip_angles(self) -> tuple[SlipAngle, ...]:
+        """Angle between slip and traction in each phase, which the theory neglects, in rad."""
+        if not isfinite(self.psi_in):
+            return (SlipAngle(0.0, 0.0),)
+        return self.solution.slip_angles(self.pair.lateral_ratio)
+
+    def contact(self, time: Value) -> Contact:
+        """Return the contact at a time since the first touch, 0 to `duration`, in s.
+
+        Raises InputError for a time outside the contact.
+        """
+        instant = number("time", time)
+        if not 0.0 <= instant <= self.duration:
+            allowed = f"must lie within the contact, from 0 to {self.duration:.6g} s"
+            raise refusal("time", time, allowed)
+        phase = [phase for phase in self.phases if phase.start <= instant][-1]
+        drift = 0.0 if isfinite(self.psi_in) else self.contact_velocity
+        state = {"phase_kind": phase.kind, "phase_sign": phase.sign, "inputs": self.inputs()}
+        return contact_in_impact(self.pair, self.normal_speed, drift, self.solution, instant, state)
+
+    def fields(
+        self,
+        time: Value,
+        x: ArrayLike | None = None,
+        y: ArrayLike | None = None,
+        *,
+        points: ArrayLike | None = None,
+    ) -> "xr.Dataset":
+        """Return tractions, zones, displacements and slip at the surface at a time.
+
+        Pressure and traction are Barber's (1) and (6); the displacements, of both surfaces together
+        and caused by the tractions, are superposed from those of punches, u_x = u_0 + lambda u_2
+        cos 2 theta, u_y = lambda u_2 sin 2 theta, lambda = nu/(2 - nu) for equal materials, which
+        is (29) in gross slip. Slip is that of the first body on the second, since the points met.
+
+        Parameters
+        ----------
+        time : float or str
+            Time since the first touch in s, 0 to `duration`.
+        x, y : array_like, shapes (nx,) and (ny,)
+            Positions in m of a grid around the centre of the contact, x along V_x; by default 101
+            by 101 points over 1.5 radii of the contact.
+        points : array_like, shape (n, 2)
+            Points (x, y) in m, instead of a grid.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along (y, x), or along `point`; units in its attributes.
+
+        Raises
+        ------
+        InputError
+            If the time is outside the contact, or positions have another shape or are not finite.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+        >>> patch = hit.fields(0.6 * hit.duration)
+        >>> sorted({int(zone) for zone in patch.zone.values.flat})  # outside, stick, slip
+        [0, 1, 2]
+        """
+        return surface_fields(self.contact(time), x, y, points=points)
+
+    def stress(
+        self,
+        time: Value,
+        x: ArrayLike | None = None,
+        z: ArrayLike | None = None,
+        *,
+        points: ArrayLike | None = None,
+        body: str = "second",
+    ) -> "xr.Dataset":
+        """Return the stress below the surface of one body at a time, and where it is largest.
+
+        Pressure (1) and traction (6) as slices of the memory, each slice a line of Boussinesq's and
+        Cerruti's point forces at imaginary depth, sigma = integral of s Im[N + mu g(s) T] ds
+        (Johnson 1985, section 3.2; for g = 1 Hamilton 1983); tension positive.
+
+        Parameters
+        ----------
+        time : float or str
+            Time since the first touch in s, 0 to `duration`.
+        x, z : array_like, shapes (nx,) and (nz,)
+            Positions in m of a grid in the plane y = 0, x along V_x and z the depth; by default 101
+            by 61 points over 2 radii of the contact.
+        points : array_like, shape (n, 3)
+            Points (x, y, z) in m, instead of a grid.
+        body : str
+            "first" or "second".
+
+        Returns
+        -------
+        xarray.Dataset
+            Along (z, x), or along `point`: components, principal stresses, von Mises stress,
+            largest shear; of the whole body the largest von Mises stress and the largest tension of
+            the surface, each with its place.
+
+        Raises
+        ------
+        InputError
+            If the time is outside the contact, positions have another shape, are not finite or lie
+            outside the body, or the body is rigid.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.0)
+        >>> hit = carom.impact(pair, speed=2.0, angle=0.0)
+        >>> below = hit.stress(0.5 * hit.duration, points=[[0.0, 0.0, 0.48 * hit.max_radius]])
+        >>> round(float(below.max_shear[0]) / hit.max_pressure, 2)
+        0.31
+        """
+        return stress_dataset(self.contact(time), x=x, z=z, points=points, body=body)
+
+    def radial(self, time: Value, n: int = 401) -> "xr.Dataset":
+        """Return pressure, traction and the memory g, q along a radius at a time in s."""
+        return radial_fields(self.contact(time), counted("n", n, 2))
 
     def to_dataset(self) -> "xr.Dataset":
         """Return all of the result as one dataset, with a history of 400 times."""
@@ -210,48 +206,21 @@ class Impact:
             save_figure(figure, path)
         return figure
 
-    def _columns(self, n: int) -> dict[str, Any]:
-        h, scales = self.solution.history(n), self.scales
-        slides_freely = not isfinite(self.psi_in)
-        velocity = h.psi * scales.tangential_speed
-        displacement = h.displacement * scales.tangential_length
-        if slides_freely:
-            velocity = velocity + self.contact_velocity
-            displacement = displacement + self.contact_velocity * h.time * scales.time
-        tangential = self.pair.tangential_mass * scales.tangential_speed**2
-        return {
-            "time": h.time * scales.time,
-            "penetration": h.penetration * scales.length,
-            "normal_velocity": h.speed * self.normal_speed,
-            "contact_velocity": velocity,
-            "displacement": displacement,
-            "normal_force": h.penetration**1.5 * scales.force,
-            "tangential_force": h.force * scales.tangential_force,
-            "contact_radius": h.contact_radius * scales.radius,
-            "stick_radius": h.stick_radius * scales.radius * (0.0 if slides_freely else 1.0),
-            "normal_kinetic_energy": h.speed**2 * scales.energy,
-            "tangential_kinetic_energy": 0.5 * self.pair.tangential_mass * velocity**2,
-            "normal_elastic_energy": h.penetration**2.5 * scales.energy,
-            "tangential_elastic_energy": h.stored * tangential,
-            "frictional_work": h.dissipated * tangential,
-        }
+    def animate(
+        self, path: str | Path, frames: int = 60, progress: Callable[[], None] | None = None
+    ) -> Path:
+        """Store an animation of the contact through the impact as .gif, or .mp4 with ffmpeg.
 
-    def scalars(self) -> dict[str, float]:
-        """Return the numbers of the result by name."""
-        numbers = {name: float(getattr(self, name)) for name in RESULTS}
-        return numbers | {name: getattr(self.pair, name) for name in PAIR}
+        `progress` is called after every frame. Raises InputError if the file cannot be written.
+        """
+        from carom.plots import animate
 
-    def inputs(self) -> dict[str, Any]:
-        """Return what the impact was made from, as plain numbers and words."""
-        return {
-            "first": describe(self.pair.first),
-            "second": describe(self.pair.second),
-            "friction": self.pair.friction,
-            "normal_speed": self.normal_speed,
-            "tangential_speed": self.tangential_speed,
-            "spin": self.spin,
-            "spin2": self.spin2,
-        }
+        count = counted("frames", frames, 1)
+        reach = 1.15 * self.max_radius
+        line = np.linspace(-reach, reach, 61)
+        times = (np.arange(count) + 0.5) / count * self.duration
+        pictures = (self.fields(time, line, line) for time in times)
+        return animate(self.history(), pictures, path, progress=progress)
 
 
 def impact(
@@ -302,7 +271,7 @@ def impact(
     first_spin, second_spin = finite("spin", spin), finite("spin2", spin2)
     if second_spin and not isinstance(pair.second, Sphere):
         raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
-    velocity = _contact_velocity(pair, tangential, first_spin, second_spin)
+    velocity = Tangential(tangential, first_spin, second_spin).contact_velocity(pair)
     _refuse_overflow(pair, normal, velocity)
     psi = pair.psi(velocity, normal)
     solution = solve(psi if isfinite(psi) else 0.0, pair.chi)
@@ -312,8 +281,8 @@ def impact(
 def _refuse_overflow(pair: Pair, normal: float, velocity: float) -> None:
     """Refuse sizes and speeds whose scales leave the range of floating-point numbers."""
     try:
-        scales = (*pair.scales(normal), velocity, pair.peak_pressure(normal))
-        fits = all(isfinite(value) for value in scales) and min(scales[:5]) > 0.0
+        scales = (*astuple(pair.scales(normal)), velocity)
+        fits = all(isfinite(value) for value in scales) and min(scales[:4]) > 0.0
     except (OverflowError, ZeroDivisionError):
         fits = False
     if not fits:
@@ -321,12 +290,3 @@ def _refuse_overflow(pair: Pair, normal: float, velocity: float) -> None:
             f"speed: {normal:g} m/s at a radius of {pair.first.radius:g} m gives numbers that "
             "floating point cannot hold; check the units"
         )
-
-
-def _contact_velocity(pair: Pair, tangential: float, *spins: float) -> float:
-    carried = (b.radius * spin for b, spin in zip(pair.moving, spins, strict=False))
-    return tangential + sum(carried)
-
-
-def _ratio(after: float, before: float) -> float:
-    return after / before if before != 0.0 else nan

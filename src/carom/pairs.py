@@ -1,8 +1,7 @@
 """A pair of bodies: what of them enters an impact, and the scales that make it dimensionless."""
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from math import copysign, inf, pi, sqrt
-from typing import NamedTuple
 
 from carom.bodies import Cup, HalfSpace, Material, Sphere, Value
 from carom.quantities import InputError, not_negative, refusal
@@ -10,17 +9,25 @@ from carom.quantities import InputError, not_negative, refusal
 Counterbody = Sphere | HalfSpace | Cup
 
 
-class Scales(NamedTuple):
-    """What a dimensionless impact is multiplied by, in SI units."""
+@dataclass(frozen=True)
+class ContactScales:
+    """What a dimensionless contact is multiplied by, in SI units."""
 
-    time: float
     length: float
     radius: float
     force: float
-    energy: float
-    tangential_speed: float
+    pressure: float
     tangential_length: float
     tangential_force: float
+
+
+@dataclass(frozen=True)
+class Scales(ContactScales):
+    """What a dimensionless impact is multiplied by, in SI units."""
+
+    time: float
+    energy: float
+    tangential_speed: float
 
 
 @dataclass(frozen=True, init=False)
@@ -111,20 +118,36 @@ class Pair:
         """The bodies that move: the spheres."""
         return tuple(body for body in (self.first, self.second) if isinstance(body, Sphere))
 
-    def scales(self, normal_speed: float) -> Scales:
-        """Return the scales of an impact at this normal speed (Hertz 1882; Johnson 1985, 11.4)."""
-        stiffness = self.effective_modulus * sqrt(self.effective_radius)
-        length = (15.0 * self.normal_mass * normal_speed**2 / (16.0 * stiffness)) ** 0.4
-        force = 4.0 / 3.0 * stiffness * length**1.5
-        return Scales(
-            time=length / normal_speed,
+    @property
+    def lateral_ratio(self) -> float:
+        """How far tangential traction moves surfaces sideways: nu/(2 - nu) of equal materials.
+
+        The ratio of sum nu/(4 G) to sum (2 - nu)/(4 G), from Barber (1979), (29).
+        """
+        lateral = sum(m.poisson / (4.0 * m.shear_modulus) for m in self._materials)
+        return lateral * self.effective_shear_modulus
+
+    def contact_scales(self, length: float) -> ContactScales:
+        """Return the scales of a contact of this penetration (Hertz 1882; Johnson 1985, 4.2)."""
+        force = 4.0 / 3.0 * self.effective_modulus * sqrt(self.effective_radius) * length**1.5
+        return ContactScales(
             length=length,
             radius=sqrt(self.effective_radius * length),
             force=force,
-            energy=0.5 * self.normal_mass * normal_speed**2,
-            tangential_speed=self.friction * normal_speed / self.kappa,
+            pressure=2.0 * self.effective_modulus / pi * sqrt(length / self.effective_radius),
             tangential_length=self.friction * length / self.kappa,
             tangential_force=1.5 * self.friction * force,
+        )
+
+    def scales(self, normal_speed: float) -> Scales:
+        """Return the scales of an impact at this normal speed (Johnson 1985, 11.4)."""
+        stiffness = self.effective_modulus * sqrt(self.effective_radius)
+        length = (15.0 * self.normal_mass * normal_speed**2 / (16.0 * stiffness)) ** 0.4
+        return Scales(
+            **asdict(self.contact_scales(length)),
+            time=length / normal_speed,
+            energy=0.5 * self.normal_mass * normal_speed**2,
+            tangential_speed=self.friction * normal_speed / self.kappa,
         )
 
     def psi(self, contact_velocity: float, normal_speed: float) -> float:
@@ -134,11 +157,6 @@ class Pair:
         if self.friction * normal_speed == 0.0:
             return copysign(inf, contact_velocity)
         return self.kappa * contact_velocity / (self.friction * normal_speed)
-
-    def peak_pressure(self, normal_speed: float) -> float:
-        """Return the largest contact pressure in Pa, 3 P_max/(2 pi a_max^2)."""
-        scales = self.scales(normal_speed)
-        return 1.5 * scales.force / (pi * scales.radius**2)
 
     @property
     def _materials(self) -> tuple[Material, Material]:

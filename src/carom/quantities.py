@@ -1,94 +1,18 @@
-"""The glossary of quantities, and the reading and checking of what users give."""
+"""Reading and checking what users give: numbers, text with a unit, and clear refusals."""
 
 import math
 from collections.abc import Iterable
 from difflib import get_close_matches
 from functools import lru_cache
-from typing import Any, NamedTuple
+from numbers import Integral
+from typing import Any
+
+from carom.glossary import GLOSSARY
 
 
 class InputError(ValueError):
     """What was given cannot be used; the message names it, its value, and what is allowed."""
 
-
-class Quantity(NamedTuple):
-    """An entry of the glossary: mathematical symbol, SI unit, meaning."""
-
-    symbol: str
-    unit: str
-    meaning: str
-
-    def label(self) -> str:
-        """Return the label of an axis."""
-        unit = "" if self.unit == "1" else f" ({self.unit})"
-        return f"{self.meaning}, {self.symbol}{unit}"
-
-
-GLOSSARY = {
-    # what is given
-    "radius": Quantity("$R$", "m", "radius"),
-    "inner_radius": Quantity("$R_i$", "m", "inner radius of a hollow sphere"),
-    "gyration_radius": Quantity("$K$", "m", "radius of gyration about the centre"),
-    "young": Quantity("$E$", "Pa", "Young's modulus"),
-    "poisson": Quantity(r"$\nu$", "1", "Poisson's ratio"),
-    "density": Quantity(r"$\rho$", "kg/m^3", "density"),
-    "yield_strength": Quantity("$Y$", "Pa", "yield strength"),
-    "friction": Quantity(r"$\mu$", "1", "coefficient of friction"),
-    "speed": Quantity("$V$", "m/s", "speed of approach of the centres"),
-    "angle": Quantity(r"$\theta$", "rad", "angle of incidence from the normal"),
-    "normal_speed": Quantity("$V_1$", "m/s", "normal speed of approach"),
-    "tangential_speed": Quantity("$v_t$", "m/s", "tangential speed of the centres"),
-    "spin": Quantity(r"$\omega$", "rad/s", "spin of the first body"),
-    "spin2": Quantity(r"$\omega_2$", "rad/s", "spin of the second body"),
-    # of a pair
-    "effective_modulus": Quantity("$E^*$", "Pa", "effective modulus of both bodies"),
-    "effective_shear_modulus": Quantity("$G^*$", "Pa", "effective shear modulus of both bodies"),
-    "effective_radius": Quantity("$R^*$", "m", "effective radius of both bodies"),
-    "normal_mass": Quantity("$m_n$", "kg", "effective mass in the normal direction"),
-    "tangential_mass": Quantity("$m_t$", "kg", "effective mass of the contact point, tangentially"),
-    "kappa": Quantity(r"$\kappa$", "1", "ratio of tangential to normal contact stiffness"),
-    "chi": Quantity(r"$\chi$", "1", "ratio of inertia to stiffness, tangential against normal"),
-    "dundurs_beta": Quantity(r"$\beta$", "1", "Dundurs' second parameter"),
-    # dimensionless impact
-    "psi_in": Quantity(r"$\psi_1$", "1", "dimensionless velocity of the contact point before"),
-    "psi_out": Quantity(r"$\psi_2$", "1", "dimensionless velocity of the contact point after"),
-    "contact_restitution": Quantity(
-        "$e_c$", "1", "tangential velocity of the contact point, after to before"
-    ),
-    "tangential_restitution": Quantity(
-        "$e_t$", "1", "tangential velocity of the centres, after to before"
-    ),
-    "normal_restitution": Quantity("$e$", "1", "normal velocity, after to before"),
-    # a history
-    "time": Quantity("$t$", "s", "time since the first touch"),
-    "penetration": Quantity("$d$", "m", "normal approach of the bodies"),
-    "normal_velocity": Quantity("$V_z$", "m/s", "normal velocity, positive while approaching"),
-    "contact_velocity": Quantity("$V_x$", "m/s", "tangential velocity of the contact point"),
-    "displacement": Quantity("$u_x$", "m", "tangential displacement of the bodies since touch"),
-    "normal_force": Quantity("$F_z$", "N", "normal force"),
-    "tangential_force": Quantity("$F_x$", "N", "tangential force, positive against $V_x$"),
-    "contact_radius": Quantity("$b$", "m", "radius of the contact"),
-    "stick_radius": Quantity("$a$", "m", "radius of the stick zone"),
-    "normal_kinetic_energy": Quantity("$T_n$", "J", "kinetic energy of the normal motion"),
-    "tangential_kinetic_energy": Quantity("$T_t$", "J", "kinetic energy of the contact point"),
-    "normal_elastic_energy": Quantity("$E_n$", "J", "elastic energy of normal deformation"),
-    "tangential_elastic_energy": Quantity("$E_t$", "J", "elastic energy of tangential deformation"),
-    "frictional_work": Quantity("$W$", "J", "energy dissipated by slip so far"),
-    # a result
-    "duration": Quantity("$t_c$", "s", "duration of the contact"),
-    "max_penetration": Quantity("$d_{max}$", "m", "largest penetration"),
-    "max_force": Quantity("$P_{max}$", "N", "largest normal force"),
-    "max_radius": Quantity("$a_{max}$", "m", "largest radius of the contact"),
-    "max_pressure": Quantity("$p_0$", "Pa", "largest contact pressure"),
-    "rebound_speed": Quantity("$V'$", "m/s", "speed of the centres after the impact"),
-    "rebound_angle": Quantity(
-        r"$\theta'$", "rad", "angle of rebound of the centres, from the normal"
-    ),
-    "tangential_speed_out": Quantity("$v_t'$", "m/s", "tangential speed of the centres after"),
-    "spin_out": Quantity(r"$\omega'$", "rad/s", "spin of the first body after"),
-    "spin2_out": Quantity(r"$\omega_2'$", "rad/s", "spin of the second body after"),
-    "dissipated_energy": Quantity("$W$", "J", "energy lost to friction"),
-}
 
 HINTS = {
     "m": "5 mm",
@@ -97,6 +21,8 @@ HINTS = {
     "m/s": "2 m/s",
     "rad": "30 deg",
     "rad/s": "100 rad/s",
+    "s": "5 us",
+    "N": "10 N",
     "1": "0.3",
 }
 
@@ -150,6 +76,13 @@ def finite(name: str, value: Any, unit: str | None = None) -> float:
     if not math.isfinite(result):
         raise refusal(name, value, "must be finite")
     return result
+
+
+def counted(name: str, value: Any, least: int) -> int:
+    """Return a whole number that is large enough, or raise InputError."""
+    if isinstance(value, bool) or not isinstance(value, Integral) or value < least:
+        raise refusal(name, value, f"must be a whole number of at least {least}")
+    return int(value)
 
 
 def refusal(name: str, value: Any, allowed: str) -> InputError:

@@ -1,17 +1,14 @@
-"""Results as records, tables and labelled datasets, and how they are stored."""
+"""Results as records and as labelled datasets."""
 
 import json
-import os
-import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.quantities import GLOSSARY, InputError, refusal
+from carom.glossary import GLOSSARY
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -19,10 +16,8 @@ if TYPE_CHECKING:
     from carom.dimensionless.solution import Phase
 
 
-TABLES = (".nc", ".csv")
-FIGURES = (".png", ".pdf", ".svg")
-
-
+CONVENTIONS = "CF-1.11"
+AXES = {"x": {"axis": "X"}, "y": {"axis": "Y"}, "z": {"axis": "Z", "positive": "down"}}
 MARKS = {True: "ok ", False: "NO ", None: " ? "}
 
 
@@ -52,6 +47,16 @@ class Validity(NamedTuple):
         )
 
 
+def flags(meanings: Sequence[str], first: int = 0) -> dict[str, Any]:
+    """Return the CF attributes of an int8 variable whose values count through these meanings."""
+    values = np.arange(first, first + len(meanings), dtype=np.int8)
+    words = " ".join(meaning.replace(" ", "_") for meaning in meanings)
+    return {"units": "1", "flag_values": values, "flag_meanings": words}
+
+
+SIGNS = flags(("slip along -x", "stick", "slip along +x"), first=-1)
+
+
 def carom_version() -> str:
     """Return the version of the package."""
     try:
@@ -60,40 +65,66 @@ def carom_version() -> str:
         return "unknown"
 
 
-def labelled(
-    columns: Mapping[str, ArrayLike],
-    scalars: Mapping[str, float],
-    phases: "tuple[Phase, ...]",
-    inputs: Mapping[str, Any],
+def labelled_dataset(
+    variables: Mapping[str, Any],
+    coords: Mapping[str, Any],
+    attrs: Mapping[str, Any],
 ) -> "xr.Dataset":
-    """Return a history as a dataset whose variables carry unit and meaning from the glossary."""
+    """Return a dataset whose variables carry unit and meaning, after the CF conventions 1.11.
+
+    Parameters
+    ----------
+    variables, coords : mapping
+        By name: a number, values along themselves, (dims, values), or (dims, values, attributes).
+        What has no entry in the glossary brings its attributes along.
+    attrs : mapping
+        Attributes of the whole, a title among them; what is a mapping is stored as JSON.
+
+    Examples
+    --------
+    >>> force = labelled_dataset({"normal_force": ("time", [0.0, 2.0])}, {"time": [0.0, 1e-6]}, {})
+    >>> force.normal_force.units, force.time.long_name
+    ('N', 'time since the first touch')
+    """
     import xarray as xr
 
-    data: dict[str, Any] = {
-        name: ("time", np.asarray(values), attributes(name)) for name, values in columns.items()
+    words = {
+        name: json.dumps(dict(value)) if isinstance(value, Mapping) else value
+        for name, value in attrs.items()
     }
-    data |= {name: ((), value, attributes(name)) for name, value in scalars.items()}
-    coordinate = {"time": data.pop("time")}
-    data |= _phase_variables(phases)
     return xr.Dataset(
-        data,
-        coords=coordinate,
-        attrs={
-            "title": "oblique impact of elastic spheres",
-            "carom_version": carom_version(),
-            "inputs": json.dumps(dict(inputs)),
-        },
+        {name: _variable(name, entry) for name, entry in variables.items()},
+        coords={name: _variable(name, entry) for name, entry in coords.items()},
+        attrs={"Conventions": CONVENTIONS, "source": f"carom {carom_version()}"} | words,
     )
 
 
-def _phase_variables(phases: "tuple[Phase, ...]") -> dict[str, Any]:
-    seconds = {"units": "s"}
+def labelled(
+    columns: Mapping[str, ArrayLike],
+    scalars: Mapping[str, float],
+    phases: "Sequence[Phase]",
+    inputs: Mapping[str, Any],
+    phase_columns: Mapping[str, ArrayLike] | None = None,
+) -> "xr.Dataset":
+    """Return a history as a dataset: columns along time, more of them along phase, and numbers."""
+    along_time: dict[str, Any] = {name: ("time", values) for name, values in columns.items()}
+    along_phase = {name: ("phase", values) for name, values in (phase_columns or {}).items()}
+    time = along_time.pop("time")
+    return labelled_dataset(
+        along_time | dict(scalars) | _phase_variables(phases) | along_phase,
+        {"time": time},
+        {"title": "oblique impact of elastic spheres", "inputs": inputs},
+    )
+
+
+def _phase_variables(phases: "Sequence[Phase]") -> dict[str, Any]:
+    signs = np.array([phase.sign for phase in phases], dtype=np.int8)
     return {
         "phase_kind": ("phase", [p.kind for p in phases], {"long_name": "kind of phase"}),
-        "phase_sign": ("phase", [p.sign for p in phases], {"long_name": "sign of slip"}),
-        "phase_start": ("phase", [p.start for p in phases], {"long_name": "start", **seconds}),
-        "phase_end": ("phase", [p.end for p in phases], {"long_name": "end", **seconds}),
-        "phase_cause": ("phase", [p.cause for p in phases], {"long_name": "what ended it"}),
+        "phase_sign": ("phase", signs, SIGNS),
+        "phase_start": ("phase", [p.start for p in phases]),
+        "phase_end": ("phase", [p.end for p in phases]),
+        "phase_cause": ("phase", [p.cause for p in phases], {"long_name": "what ended the phase"}),
     }
 
 
@@ -103,66 +134,12 @@ def attributes(name: str) -> dict[str, str]:
     return {"units": entry.unit, "long_name": entry.meaning, "symbol": entry.symbol}
 
 
-def save(dataset: "xr.Dataset", path: str | Path) -> Path:
-    """Store a dataset as .nc or .csv; a file that is there is replaced whole or not at all.
-
-    Raises InputError if the name ends otherwise or the file cannot be written.
-    """
-    target = checked_output(path, TABLES)
-
-    def write(where: Path) -> None:
-        if target.suffix.lower() == ".nc":
-            dataset.to_netcdf(where, engine="h5netcdf")
-        else:
-            where.write_text(as_csv(dataset), encoding="utf-8")
-
-    return replace_whole(target, write)
-
-
-def as_csv(dataset: "xr.Dataset") -> str:
-    """Return the columns of a dataset as CSV, with units and inputs in comment lines.
-
-    The columns are the variables along all coordinates that have a unit: time, or chi and psi_1.
-    """
-    along = {name for name in dataset.dims if "units" in dataset[name].attrs}
-    names = [str(name) for name, item in dataset.data_vars.items() if set(item.dims) == along]
-    frame = dataset[names].to_dataframe().reset_index()
-    head = [f"# {key}: {value}" for key, value in dataset.attrs.items()]
-    head += [f"# {n}: {dataset[n].long_name} ({dataset[n].units})" for n in frame.columns]
-    return "\n".join(head) + "\n" + str(frame.to_csv(index=False))
-
-
-def checked_output(path: str | Path, endings: tuple[str, ...]) -> Path:
-    """Return the path of an output file, or raise InputError if it cannot become one."""
-    target = Path(path)
-    if target.suffix.lower() not in endings:
-        raise refusal("output file", str(path), f"must end in {' or '.join(endings)}")
-    if target.is_dir() or not target.parent.is_dir():
-        raise refusal("output file", str(path), "its folder must exist; make it first")
-    return target
-
-
-def replace_whole(target: Path, write: Any) -> Path:
-    """Call `write` on a temporary file beside the target, then put it in the target's place."""
-    try:
-        handle, name = tempfile.mkstemp(
-            prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent
-        )
-        os.close(handle)
-        temporary = Path(name)
-        try:
-            write(temporary)
-            temporary.chmod(0o666 & ~_umask())
-            temporary.replace(target)
-        finally:
-            temporary.unlink(missing_ok=True)
-    except OSError as error:
-        reason = error.strerror or error
-        raise InputError(f"output file: {str(target)!r} cannot be written; {reason}") from None
-    return target
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+def _variable(name: str, entry: Any) -> tuple[Any, Any, dict[str, Any]]:
+    if isinstance(entry, tuple):
+        dims, values, *more = entry
+    else:
+        dims, values, more = (name,) if np.ndim(entry) else (), entry, []
+    known: dict[str, Any] = attributes(name) if name in GLOSSARY or not more else {}
+    if dims in (name, (name,)):
+        known |= AXES.get(name, {})
+    return dims, np.asarray(values), known | dict(*more)

@@ -18,7 +18,7 @@ def judge(pair: Pair, normal_speed: float, duration: float) -> Validity:
     return Validity(
         (
             _small_contact(scales.radius / pair.effective_radius),
-            *_yield(pair, pair.peak_pressure(normal_speed)),
+            *_yield(pair, scales.pressure),
             _slow_contact(duration / max(_transit(pair), 1e-300)),
             _coupling(pair.dundurs_beta),
         )

@@ -176,10 +176,10 @@ def test_bad_case_files(run, text, message):
 
 
 def test_an_existing_file_survives_a_failed_write(run, monkeypatch):
-    from carom import results
+    from carom import storage
 
     Path("keep.csv").write_text("precious")
-    monkeypatch.setattr(results, "as_csv", lambda _: (_ for _ in ()).throw(OSError("disk full")))
+    monkeypatch.setattr(storage, "as_csv", lambda _: (_ for _ in ()).throw(OSError("disk full")))
     code, _, err = run(*BALL, *SPEED, "--output", "keep.csv")
     assert code == 2
     assert "disk full" in err

@@ -16,7 +16,7 @@ Case = dict[str, Any]
 MOTION = ("speed", "angle", "normal_speed", "tangential_speed", "spin", "spin2")
 BODY = ("radius", "material", "gyration_radius", "inner_radius")
 MATERIAL = (*VALUES, "name")
-OUTPUT = ("plot", "data")
+OUTPUT = ("plot", "animation", "data")
 KINDS = ("half-space", "sphere", "cup")
 
 
@@ -24,6 +24,7 @@ class Output(NamedTuple):
     """Files a case asks for."""
 
     plot: str | None
+    animation: str | None
     data: str | None
 
 
@@ -106,7 +107,7 @@ def outputs(case: Case) -> Output:
     for name, value in table.items():
         if not isinstance(value, str):
             raise refusal(name, value, "must be the name of a file")
-    return Output(table.get("plot"), table.get("data"))
+    return Output(*(table.get(name) for name in OUTPUT))
 
 
 def _second(table: Mapping[str, Any], first: Sphere) -> Counterbody:

@@ -31,7 +31,7 @@ def curve_command(
     from carom.cli.compiling import announced
     from carom.curves import curve
     from carom.quantities import finite, positive, refusal
-    from carom.results import FIGURES, TABLES, checked_output, save
+    from carom.storage import FIGURES, TABLES, checked_output, save
 
     for path, endings in ((plot, FIGURES), (output, TABLES)):
         if path is not None:

@@ -1,15 +1,17 @@
 """`carom impact`: one impact from flags or a case file."""
 
 import json
+import sys
 from math import degrees, isnan
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from carom.quantities import GLOSSARY
+from carom.glossary import GLOSSARY
 
 if TYPE_CHECKING:
+    from carom.cli.cases import Output
     from carom.impacts import Impact
 
 
@@ -21,6 +23,7 @@ def _flag(name: str, example: str, of: str = "") -> Any:
 
 Text = str | None
 HIDDEN = ("normal_restitution",)  # always 1
+FRAMES = 60  # of an animation
 
 
 def impact_command(
@@ -48,11 +51,16 @@ def impact_command(
     spin2: Annotated[Text, _flag("spin2", "0")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
     plot: Annotated[Text, typer.Option(help="Store a figure: .png, .pdf or .svg.")] = None,
+    animate: Annotated[
+        Text, typer.Option(help="Store an animation of the patch: .gif, or .mp4 with ffmpeg.")
+    ] = None,
     output: Annotated[Text, typer.Option(help="Store the history: .nc or .csv.")] = None,
 ) -> None:
     """Solve one oblique impact: the rebound, and every phase of stick and slip.
 
     Example: carom impact --radius "5 mm" --material steel --friction 0.2 --speed 2 --angle "30 deg"
+
+    A case file with figures: carom impact examples/steel_ball.toml --plot hit.png --animate hit.gif
     """
     from carom.cli.cases import merged, outputs, read_case, solve_case
     from carom.cli.compiling import announced
@@ -73,40 +81,42 @@ def impact_command(
         "spin": spin,
         "spin2": spin2,
         "output.plot": plot,
+        "output.animation": animate,
         "output.data": output,
     }
     content = merged(read_case(case) if case else {}, flags)
     files = outputs(content)
-    _check_outputs(*files)
+    _check_outputs(files)
     with announced():
         hit = solve_case(content)
-        stored = _store(hit, *files)
+        stored = _store(hit, files)
     typer.echo(json.dumps(as_record(hit), indent=2) if as_json else as_table(hit))
     for path in stored:
         typer.echo(f"stored {path}", err=True)
 
 
-def _check_outputs(plot: Text, data: Text) -> None:
-    from carom.results import FIGURES, TABLES, checked_output
+def _check_outputs(files: "Output") -> None:
+    from carom.storage import ANIMATIONS, FIGURES, TABLES, checked_output
 
-    if plot is not None:
-        checked_output(plot, FIGURES)
-    if data is not None:
-        checked_output(data, TABLES)
+    endings = {"plot": FIGURES, "animation": ANIMATIONS, "data": TABLES}
+    for name, path in files._asdict().items():
+        if path is not None:
+            checked_output(path, endings[name])
 
 
-def _store(hit: "Impact", plot: Text, data: Text) -> list[Path]:
+def _store(hit: "Impact", files: "Output") -> list[Path]:
     stored = []
-    if plot is not None or data is not None:
-        dataset = hit.to_dataset()
-        if data is not None:
-            from carom.results import save
+    if files.data is not None:
+        from carom.storage import save
 
-            stored.append(save(dataset, data))
-        if plot is not None:
-            from carom.plots import plot_impact, save_figure
-
-            stored.append(save_figure(plot_impact(dataset), plot))
+        stored.append(save(hit.to_dataset(), files.data))
+    if files.plot is not None:
+        hit.plot(files.plot)
+        stored.append(Path(files.plot))
+    if files.animation is not None:
+        with typer.progressbar(length=FRAMES, label="animation", file=sys.stderr) as bar:
+            hit.animate(files.animation, FRAMES, progress=lambda: bar.update(1))
+        stored.append(Path(files.animation))
     return stored
 
 
@@ -116,7 +126,10 @@ def as_record(hit: "Impact") -> dict[str, Any]:
     return {
         "inputs": hit.inputs(),
         "result": scalars,
-        "phases": [phase._asdict() for phase in hit.phases],
+        "phases": [
+            {**phase._asdict(), "slip_angle_max": angle.largest, "slip_angle_mean": angle.mean}
+            for phase, angle in zip(hit.phases, hit.slip_angles, strict=True)
+        ],
         "validity": [
             {**finding._asdict(), "value": _finite(finding.value)}
             for finding in hit.validity.findings
@@ -130,7 +143,7 @@ def _finite(value: float) -> float | None:
 
 def as_table(hit: "Impact") -> str:
     """Return the result as text to read."""
-    from carom.impacts import RESULTS
+    from carom.histories import RESULTS
     from carom.results import MARKS
 
     scalars = hit.scalars()
@@ -139,15 +152,18 @@ def as_table(hit: "Impact") -> str:
         shown.remove("spin2_out")
     lines = [f"  {GLOSSARY[name].meaning:58s} {_with_unit(name, scalars[name])}" for name in shown]
     phases = [
-        f"  {_slip(p.kind, p.sign):14s}{p.start:12.4e} {p.end:12.4e}   {p.cause}"
-        for p in hit.phases
+        f"  {_slip(p.kind, p.sign):14s}{p.start:12.4e} {p.end:12.4e}"
+        f" {degrees(angle.mean):9.2f} {degrees(angle.largest):9.2f}   {p.cause}"
+        for p, angle in zip(hit.phases, hit.slip_angles, strict=True)
     ]
-    head = f"  {'':14s}{'from (s)':>12s} {'to (s)':>12s}   ended by"
+    columns = f"{'from (s)':>12s} {'to (s)':>12s} {'mean*':>9s} {'max*':>9s}"
+    head = f"  {'':14s}{columns}   ended by"
+    note = "  * angle between slip and traction in degrees, which the theory neglects"
     findings = [
         f"  {MARKS[f.holds]} {f.name + ' = ' + format(f.value, '.3g'):34s} {f.verdict}"
         for f in hit.validity.findings
     ]
-    parts = ("Rebound", *lines, "Phases", head, *phases, "Validity", *findings)
+    parts = ("Rebound", *lines, "Phases", head, *phases, note, "Validity", *findings)
     return "\n".join(parts)
 
 

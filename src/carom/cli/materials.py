@@ -49,7 +49,7 @@ def _list(records: dict[str, dict[str, Any]]) -> str:
 
 
 def _details(records: dict[str, dict[str, Any]]) -> str:
-    from carom.quantities import GLOSSARY
+    from carom.glossary import GLOSSARY
 
     lines = []
     for name, record in records.items():

@@ -1,5 +1,6 @@
 """The memory of a contact at one instant, ready to be asked."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -10,11 +11,14 @@ from carom.dimensionless import dense
 from carom.dimensionless.memory import MADE, OUTER, SLIP_SIGN
 from carom.dimensionless.motion import STICK, B
 from carom.dimensionless.phases import RETRACED
+from carom.dimensionless.profile import Profile, coefficients, radii, stacked
 from carom.dimensionless.record import MODE, SIGN, STRETCH, Record
 
 Array = NDArray[np.float64]
 
 RIM = 4e-16  # relative: what rounding may add to s at the edge
+RESOLVED = 1e-14  # of g on a panel, times the root of its width: what tractions feel
+NARROW = 1e-7
 
 
 class Annulus(NamedTuple):
@@ -50,23 +54,46 @@ class Memory:
         """Return q at the given s >= 0, zero outside the contact."""
         return self._scale * self._read(s)[1]
 
+    def profile(self) -> Profile:
+        """Return g and q as piecewise polynomials over the radius, to rounding."""
+        edges: list[float] = []
+        rows: list[tuple[Array, Array]] = []
+        for annulus in self.annuli:
+            for outer, row in self._panels(annulus, annulus.inner, annulus.outer):
+                edges.append(outer)
+                rows.append(row)
+        return stacked(edges, rows)
+
+    def _panels(
+        self, annulus: Annulus, low: float, high: float
+    ) -> Iterator[tuple[float, tuple[Array, Array]]]:
+        """Yield the outer edges and rows of as many panels as an annulus needs."""
+        g, q = (self._scale * row for row in self._inside(annulus, radii(low, high)))
+        series = coefficients(g)
+        tail = np.max(np.abs(series[-3:])) * np.sqrt(high - low)
+        if annulus.sign or tail <= RESOLVED or high - low <= NARROW:
+            yield high, (coefficients(q), series)
+            return
+        middle = 0.5 * (low + high)
+        yield from self._panels(annulus, low, middle)
+        yield from self._panels(annulus, middle, high)
+
     def _read(self, s: ArrayLike) -> tuple[Array, Array]:
         places = np.asarray(s, dtype=np.float64)
         g, q = np.zeros(places.shape), np.zeros(places.shape)
-        for index in np.ndindex(places.shape):
-            place = places[index]
-            for annulus in self.annuli:
-                if annulus.inner**2 <= place <= annulus.outer**2 * (1.0 + RIM):
-                    g[index], q[index] = self._inside(annulus, float(place))
-                    break
+        for annulus in reversed(self.annuli):  # a border belongs to the inner one
+            here = (places >= annulus.inner**2) & (places <= annulus.outer**2 * (1.0 + RIM))
+            g[here], q[here] = self._inside(annulus, np.sqrt(places[here]))
         return g, q
 
-    def _inside(self, annulus: Annulus, s: float) -> tuple[float, float]:
+    def _inside(self, annulus: Annulus, x: Array) -> tuple[Array, Array]:
+        """Return g and q at radii of an annulus, of the impact as recorded."""
         if annulus.sign:
-            return annulus.sign, self.displacement + annulus.sign * (annulus.limit - s)
-        record = self._record
-        g, laid = dense.loading_state(record.nodes, record.series, self._moved, np.sqrt(s))
-        return g, self.displacement - laid
+            sign = float(annulus.sign)
+            return np.full(x.shape, sign), self.displacement + sign * (annulus.limit - x * x)
+        record, laid = self._record, np.empty((x.size, 2))
+        dense.loading_states(record.nodes, record.series, self._moved, x, laid)
+        return laid[:, 0], self.displacement - laid[:, 1]
 
 
 def memory_at(

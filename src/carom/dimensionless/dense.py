@@ -177,3 +177,10 @@ def loading_state(nodes: Array, series: Array, moved: Array, radius: float) -> t
     u, _w = progress(node, steps, 0.0, h, radius, v)
     g = psi / v if v > 1e-9 else psi_slope / v_slope  # at the turning point both vanish
     return g, moved[nearest, 0] + u
+
+
+@kernel
+def loading_states(nodes: Array, series: Array, moved: Array, radii: Array, out: Array) -> None:
+    """Write g and U for every radius, as `loading_state` gives them."""
+    for i in range(radii.size):
+        out[i, 0], out[i, 1] = loading_state(nodes, series, moved, radii[i])

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from carom.dimensionless import dense, hertz
+from carom.dimensionless import dense, hertz, slip
 from carom.dimensionless.annuli import Memory, memory_at
 from carom.dimensionless.motion import PSI
 from carom.dimensionless.phases import Cause, Kind, Status, new_work, run_phases
@@ -46,6 +46,13 @@ class Phase(NamedTuple):
     start: float
     end: float
     cause: str
+
+
+class SlipAngle(NamedTuple):
+    """Angle between slip and traction in a phase, in rad: largest, and mean by frictional work."""
+
+    largest: float
+    mean: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,6 +154,50 @@ class Solution:
         """Return the memory of the contact at a time: g(s), q(s) and the annuli it consists of."""
         now = now_at(self.at(float(time)))
         return memory_at(self._record, self._times, self._moved, now, self.scale or 1.0)
+
+    def phase_at(self, time: float) -> Phase:
+        """Return the phase at a time; the instant of a change belongs to the later one."""
+        started = [phase for phase in self.phases if phase.start <= time]
+        return started[-1]
+
+    def slip_rate(self, time: float) -> float:
+        """Return psi - sigma v, the rate of slip far outside the stick zone; 0 in stick."""
+        sign = self.phase_at(time).sign
+        now = now_at(self.at(float(time)))
+        return now["psi"] - sign * abs(self.scale) * now["speed"] if sign else 0.0
+
+    def slid(self, time: float, radii: ArrayLike) -> Array:
+        """Return how far points at the given radii have slid since they met, shape (n, 2).
+
+        The columns are the radial functions w_0, w_2 of the slip, w_x = w_0 - lambda w_2
+        cos 2 theta, w_y = -lambda w_2 sin 2 theta, in units of U; zero outside the contact.
+        """
+        now = now_at(self.at(float(time)))
+        places = np.ascontiguousarray(radii, dtype=np.float64).ravel()
+        out = np.empty((places.size, 2))
+        last = int(np.searchsorted(self._times, now["time"], side="right")) - 1
+        record, b, v = self._record, now["contact_radius"], now["speed"]
+        slip.slid(record.nodes, record.series, self.chi, last, b, v, places, out)
+        return self.scale * out
+
+    def slip_angles(self, lateral_ratio: float) -> tuple[SlipAngle, ...]:
+        """Return the angle between slip and traction in each phase, largest and mean, in rad.
+
+        The theory lets every point slip along x. In a slip ring the lateral displacement turns the
+        slip by up to asin(lambda) at the front; in gross slip it is steady, by (30), and does not.
+        """
+        return tuple(self._slip_angle(phase, lateral_ratio) for phase in self.phases)
+
+    def _slip_angle(self, phase: Phase, lateral_ratio: float) -> SlipAngle:
+        if phase.kind != KIND_NAMES[Kind.SLIP]:
+            return SlipAngle(0.0, 0.0)
+        nodes, weights = np.polynomial.legendre.leggauss(48)
+        middle, half = 0.5 * (phase.start + phase.end), 0.5 * (phase.end - phase.start)
+        now = self.at(middle + half * np.sin(0.5 * np.pi * nodes))
+        power, turned = slip.directions(now.stick_radius / now.contact_radius, lateral_ratio)
+        rate = np.abs(now.psi - phase.sign * now.speed) * now.contact_radius**3
+        rate *= weights * np.cos(0.5 * np.pi * nodes)
+        return SlipAngle(float(np.arcsin(lateral_ratio)), float(rate @ turned / (rate @ power)))
 
 
 def now_at(history: History) -> dict[str, float]:

@@ -1,0 +1,105 @@
+"""From gross slip into stick: slip stops everywhere at once where psi = V_z/V_1.
+
+In the plane of both velocities gross slip is a straight line of slope 2 chi, (33); it meets psi =
+V_z/V_1, (32), at the speed (34). The stick that follows starts with a slope of g that (35) gives as
+zero; continuity of force asks for b g' = (5/2)(1 - 2 chi) x/(1 - x). Grey: (35) as printed.
+Barber (1979), ZAMP 30:468, equations (31) to (35).
+"""
+
+from pathlib import Path
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+import carom
+from carom.dimensionless.stick import Stick, transition_speed
+from carom.plots.style import BLACK, DASHES, DOUBLE, LINES, new_figure, save_figure, styled
+
+CHI = 1.44
+SPEEDS = (0.6, 1.2, 1.6, 2.2)
+
+
+def stepped_from(stick, v_end):
+    """g after the transition, by stepping psi' = -(15/4) chi Q, Q' = psi sqrt(d) in time."""
+    v = stick.start
+    d = (1 - v**2) ** 0.4
+
+    def motion(_, s):
+        return [s[1], -1.25 * s[0] ** 1.5, -3.75 * stick.chi * s[3], s[2] * s[0] ** 0.5]
+
+    run = solve_ivp(motion, (0, 1), [d, v, v, 2 / 3 * d**1.5], "DOP853", rtol=1e-12, atol=1e-14,
+                    events=lambda t, s: s[1] - v_end, dense_output=True)  # fmt: skip
+    states = run.sol(np.linspace(0, run.t_events[0][0], 40))
+    return states[1], states[2] / states[1]
+
+
+def as_printed(stick, x):
+    """g by (15) from g = 1 and g' = 0."""
+    start = 1 - stick.start**2
+
+    def slope(x, h):
+        left = 3 * (2 - 7 * x) * h[1] + 3 * (2 * stick.chi - 1) * h[0]
+        return [h[1], -left / (10 * x * (1 - x))]
+
+    return solve_ivp(slope, (start, x[-1]), [1, 0], "DOP853", x, rtol=1e-10).y[0]
+
+
+@styled
+def main(folder: str | Path = ".") -> str:
+    """Check (31) to (34), and the slope after the transition; draw all three."""
+    figure, (axes,) = new_figure(1, 3, width=DOUBLE, height=62)
+    v = np.linspace(1, 0, 201)
+    axes[0].plot(v, v, color="0.5", lw=0.8)
+    for psi, color, dash in zip(SPEEDS, LINES, DASHES, strict=False):
+        impact = carom.solve(psi, CHI)
+        h = impact.history(800)
+        approaching = h.speed >= 0
+        axes[0].plot(h.speed[approaching], h.psi[approaching], color=color, ls=dash)
+        axes[0].text(1.04, psi, rf"$\psi_1 = {psi:g}$", color=color, va="center", ha="right")
+        if psi > 1:
+            sliding = h.time <= impact.phases[0].end
+            line = psi - 2 * CHI * (1 - h.speed[sliding])
+            np.testing.assert_allclose(h.psi[sliding], line, atol=1e-12, err_msg="(33)")
+            axes[0].plot(*2 * [transition_speed(psi, CHI)], "o", color=color)
+    axes[0].text(1.04, 0.92, r"$\psi = V_z/V_1$", color="0.4", va="center", ha="right")
+    axes[0].set(xlim=(1.5, 0), xticks=[1, 0.5, 0], xlabel="$V_z/V_1$", ylabel=r"$\psi$")
+    axes[0].axhline(0, color="0.5", lw=0.5)
+
+    worst = 0.0
+    for chi, color, dash in zip((0.8, CHI, 3.0), LINES, DASHES, strict=False):
+        psi = np.linspace(1, 4 * chi - 1, 60)
+        speed_34 = (psi - 2 * chi) / (1 - 2 * chi)
+        axes[1].plot(psi, speed_34, color=color, ls=dash, label=rf"$\chi = {chi:g}$")
+        for at in psi[2:-1:8]:
+            impact = carom.solve(at, chi)
+            then = impact.at(impact.phases[0].end)
+            worst = max(worst, abs(then.speed[0] - transition_speed(at, chi)))
+            worst = max(worst, abs(then.psi[0] - then.speed[0]))
+            axes[1].plot(at, then.speed[0], "o", mfc="white", mec=color, mew=0.8)
+    assert worst < 1e-11, f"(32), (34) differ from whole impacts by {worst:.1e}"
+    axes[1].axhline(0, color="0.5", lw=0.5)
+    axes[1].set(ylim=(-1.05, 1.05), xlabel=r"$\psi_1$", ylabel="$V_z/V_1$ where gross slip ends")
+
+    for psi, color, dash in zip(SPEEDS[1:], LINES[1:], DASHES[1:], strict=False):
+        stick = Stick.after_gross_slip(psi, CHI)
+        x = np.linspace(1 - stick.start**2, 1 - (0.3 * stick.start) ** 2, 100)
+        speed, g = stepped_from(stick, 0.3 * stick.start)
+        np.testing.assert_allclose(stick.g(speed), g, atol=1e-9, err_msg="g after the transition")
+        near = x[0] + 1e-6 * np.arange(2)
+        slope = 5 * x[0] * np.diff(stick.g(x=near))[0] / 1e-6
+        corrected = 2.5 * (1 - 2 * CHI) * x[0] / (1 - x[0])
+        np.testing.assert_allclose(slope, corrected, rtol=1e-4, err_msg="slope")
+        axes[2].plot([0, x[0]], [1, 1], color=BLACK, lw=1.6)
+        axes[2].plot(x, stick.g(x=x), color=color, ls=dash, label=rf"$\psi_1 = {psi:g}$")
+        axes[2].plot(x, as_printed(stick, x), color="0.6", ls=dash, lw=0.9)
+    axes[2].axhline(0, color="0.5", lw=0.5)
+    axes[2].plot([], [], color="0.6", lw=0.8, label="(35) as printed")
+    axes[1].legend(loc="upper right")
+    axes[2].set(xlim=(0, 1), ylim=(-1, 1.15), xlabel="$x = (b/b_{max})^5$", ylabel="memory, $g$")
+    axes[2].legend(loc="lower left")
+    save_figure(figure, Path(folder) / "gross_slip_to_stick.png")
+    return f"(32)-(34) within {worst:.0e} of whole impacts; slope after the transition corrected"
+
+
+if __name__ == "__main__":
+    print(main())

@@ -1,0 +1,90 @@
+"""What a contact that sticks from the first touch lays down: g = psi_1 F(alpha, beta; 3/5; c b^5).
+
+chi = 1/2 gives the constant g = psi_1; at chi = 4 F is a straight line in x; elsewhere F grows
+without bound towards maximum penetration, to either side in turns. Thick where the contact still
+sticks for psi_1 = 0.3, that is while |g| < 1. Circles: the memory of whole impacts.
+Barber (1979), ZAMP 30:468, equations (15), (17)-(19), (21)-(27), (36), (37).
+"""
+
+from pathlib import Path
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.special import gamma, hyp2f1
+
+import carom
+from carom.dimensionless.stick import Stick
+from carom.plots.style import DASHES, LINES, legend_above, new_figure, save_figure, styled
+
+CHIS = (0.3, 0.5, 1.44, 4.0, 6.0)
+PSI = 0.3
+
+
+def series(x, chi):
+    """F(alpha, beta; 3/5; x), (21) and (22)."""
+    root = np.sqrt(240 * chi + 1)
+    return hyp2f1((11 + root) / 20, (11 - root) / 20, 0.6, x)
+
+
+def stepped(b, chi):
+    """F by stepping (15) with c = 1 from b[0]."""
+
+    def slope(b, h):
+        x = b**5
+        curvature = (1 + 6.5 * x) * b * h[1] - 7.5 * x * (2 * chi - 1) * h[0]
+        return [h[1], curvature / ((1 - x) * b**2)]
+
+    start = [1 + 0.5 * (1 - 2 * chi) * b[0] ** 5, 2.5 * (1 - 2 * chi) * b[0] ** 4]
+    return solve_ivp(slope, (b[0], b[-1]), start, "DOP853", b, rtol=1e-11, atol=1e-12).y[0]
+
+
+def growth(chi):
+    """The limit of F sqrt(1 - x) at x = 1 (Gauss)."""
+    root = np.sqrt(240 * chi + 1)
+    alpha, beta = (11 + root) / 20, (11 - root) / 20
+    if abs(beta - round(beta)) < 1e-12:  # then F is a polynomial
+        return 0.0
+    return gamma(0.6) * gamma(0.5) / (gamma(alpha) * gamma(beta))
+
+
+@styled
+def main(folder: str | Path = ".") -> str:
+    """Check F three ways, its growth, and the memory of impacts; draw F."""
+    b = np.linspace(0.02, 0.985, 200)
+    x = b**5
+    figure, ((axis,),) = new_figure(height=68)
+    axis.axhspan(-1 / PSI, 1 / PSI, color="0.94", lw=0)
+    axis.axhline(0, color="0.5", lw=0.5)
+    worst = 0.0
+    for chi, color, dash in zip(CHIS, LINES, DASHES, strict=True):
+        stick = Stick.from_touch(PSI, chi)
+        found = stick.g(x=x) / PSI
+        np.testing.assert_allclose(found, stepped(b, chi), rtol=1e-7, atol=1e-8, err_msg="(15)")
+        np.testing.assert_allclose(found, series(x, chi), rtol=1e-11, atol=1e-12, err_msg="(27)")
+        np.testing.assert_allclose(stick.psi(0.0) / PSI, growth(chi), atol=1e-13, err_msg="growth")
+        end = 1.0 if stick.end_x is None else stick.end_x**0.2
+        assert (end == 1.0) == (chi in (0.5, 4.0)), f"chi = {chi}: stick to the turning point?"
+        impact = carom.solve(PSI, chi)
+        laid = np.linspace(0.05, 0.98 * end**5, 15) ** 0.2
+        until = min(impact.phases[0].end, impact.duration / 2)  # stick may outlast the turning
+        memory = impact.memory(0.9999999 * until).g(laid**2) / PSI
+        worst = max(worst, np.abs(memory - stick.g(x=laid**5) / PSI).max())
+        fine = np.concatenate([np.linspace(0, 0.98, 400), 1 - np.geomspace(0.02, 1e-5, 200)])
+        whole, sticking = stick.g(x=fine) / PSI, fine <= end**5
+        axis.plot(fine, whole, color=color, lw=0.5)
+        axis.plot(fine[sticking], whole[sticking], color=color, ls=dash, lw=1.6)
+        axis.plot(laid[::2] ** 5, memory[::2], "o", mfc="white", mec=color, mew=0.7, ms=2.8)
+        axis.plot([], [], color=color, ls=dash, lw=1.6, label=rf"$\chi$ = {chi:g}")
+    np.testing.assert_allclose(Stick.from_touch(PSI, 0.5).g(x=x), PSI, rtol=1e-15, err_msg="(37)")
+    np.testing.assert_allclose(series(x, 4.0), 1 - 3.5 * x, rtol=1e-12)
+    assert worst < 1e-10, f"the memory of whole impacts differs by {worst:.1e}"
+    axis.text(0.02, 1 / PSI - 0.12, rf"$|g| < 1$ for $\psi_1 = {PSI:g}$", va="top")
+    axis.set(xlim=(0, 1), ylim=(-4.6, 4.6))
+    axis.set(xlabel="$x = cb^5 = (b/b_{max})^5$", ylabel=r"$g/\psi_1 = F(\alpha, \beta; 3/5; x)$")
+    legend_above(axis, 3)
+    save_figure(figure, Path(folder) / "stick_memory.png")
+    return f"F by series, by stepping (15) and from whole impacts, the last within {worst:.0e}"
+
+
+if __name__ == "__main__":
+    print(main())

@@ -1,0 +1,63 @@
+"""The memory of a contact over its radius as piecewise polynomials: what every field is made of."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.dimensionless._jit import kernel
+
+Array = NDArray[np.float64]
+
+TERMS = 17  # of a Chebyshev series on a panel
+ANGLES = (np.arange(TERMS) + 0.5) * np.pi / TERMS
+NODES = np.cos(ANGLES)
+TRANSFORM = np.cos(np.outer(np.arange(TERMS), ANGLES)) * (2.0 / TERMS)
+TRANSFORM[0] *= 0.5
+
+
+class Profile(NamedTuple):
+    """q and g = -dq/ds of a contact at an instant, on panels between radii x = sqrt(s).
+
+    `edges` has shape (n + 1,) and runs from 0 to the contact radius; rows of `q` and `g`, shape
+    (n, TERMS), are Chebyshev coefficients on a panel mapped to [-1, 1].
+    """
+
+    edges: Array
+    q: Array
+    g: Array
+
+
+@kernel
+def evaluate(coefficients: Array, low: float, high: float, x: float) -> float:
+    """Return the value at x of a Chebyshev series on [low, high] (Clenshaw 1955)."""
+    y = (2.0 * x - low - high) / (high - low)
+    last, one = 0.0, 0.0
+    for k in range(coefficients.size - 1, 0, -1):
+        last, one = one, coefficients[k] + 2.0 * y * one - last
+    return float(coefficients[0] + y * one - last)
+
+
+def radii(low: float, high: float) -> Array:
+    """Return the radii of a panel at which `coefficients` wants its values."""
+    return 0.5 * (low + high) + 0.5 * (high - low) * NODES
+
+
+def coefficients(values: Array) -> Array:
+    """Return the Chebyshev coefficients of a panel from the values at `radii`."""
+    return np.asarray(TRANSFORM @ values, dtype=np.float64)
+
+
+def flat(low: float, high: float, g: float, q_high: float) -> tuple[Array, Array]:
+    """Return the rows of q and g of a panel on which g is constant."""
+    row = np.zeros(TERMS)
+    row[0] = g
+    return coefficients(q_high + g * (high**2 - radii(low, high) ** 2)), row
+
+
+def stacked(edges: list[float], rows: list[tuple[Array, Array]]) -> Profile:
+    """Return the profile made of panels, given their outer edges in order."""
+    if not rows:
+        return Profile(np.zeros(1), np.zeros((0, TERMS)), np.zeros((0, TERMS)))
+    q, g = zip(*rows, strict=True)
+    return Profile(np.array([0.0, *edges]), np.array(q), np.array(g))

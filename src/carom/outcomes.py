@@ -1,0 +1,158 @@
+"""How two bodies leave an oblique impact: velocities, spins, restitution, energy, extremes."""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import atan2, hypot, isfinite, nan
+from typing import Any
+
+from carom.bodies import describe
+from carom.dimensionless import hertz
+from carom.dimensionless.solution import Solution
+from carom.histories import PAIR, RESULTS, Tangential
+from carom.pairs import Pair, Scales
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """How two bodies leave an impact; SI units.
+
+    Tangential speeds are those of the first body relative to the second, positive spin adds to the
+    tangential speed of the contact point: V_x = v_t + R spin + R_2 spin2.
+    """
+
+    pair: Pair
+    normal_speed: float
+    tangential_speed: float
+    spin: float
+    spin2: float
+    solution: Solution = field(repr=False)
+
+    @property
+    def contact_velocity(self) -> float:
+        """Tangential velocity of the contact point before, V_x in m/s."""
+        return float(self._before.contact_velocity(self.pair))
+
+    @property
+    def contact_velocity_out(self) -> float:
+        """Tangential velocity of the contact point after, in m/s."""
+        if not isfinite(self.psi_in):
+            return self.contact_velocity
+        return self.psi_out * self.scales.tangential_speed
+
+    @property
+    def psi_in(self) -> float:
+        """kappa V_x/(mu V_1) before; infinite without friction."""
+        return self.pair.psi(self.contact_velocity, self.normal_speed)
+
+    @property
+    def psi_out(self) -> float:
+        """kappa V_x/(mu V_1) after; infinite without friction."""
+        return self.solution.psi_out if isfinite(self.psi_in) else self.psi_in
+
+    @property
+    def tangential_impulse(self) -> float:
+        """Impulse of the tangential force on the first body, against +x, in N s."""
+        return self.pair.tangential_mass * (self.contact_velocity - self.contact_velocity_out)
+
+    @property
+    def tangential_speed_out(self) -> float:
+        """Tangential speed of the first centre relative to the second after, in m/s."""
+        return float(self._after.tangential_speed)
+
+    @property
+    def spin_out(self) -> float:
+        """Spin of the first body after, in rad/s."""
+        return float(self._after.spin)
+
+    @property
+    def spin2_out(self) -> float:
+        """Spin of the second body after, in rad/s; zero for a half-space or cup."""
+        return float(self._after.spin2)
+
+    @property
+    def _before(self) -> Tangential:
+        return Tangential(self.tangential_speed, self.spin, self.spin2)
+
+    @property
+    def _after(self) -> Tangential:
+        return self._before.after(self.pair, self.tangential_impulse)
+
+    @property
+    def rebound_speed(self) -> float:
+        """Relative speed of the centres after, in m/s."""
+        return hypot(self.normal_speed, self.tangential_speed_out)
+
+    @property
+    def rebound_angle(self) -> float:
+        """Angle of rebound of the centre from the normal, in rad; negative if it goes back."""
+        return atan2(self.tangential_speed_out, self.normal_speed)
+
+    @property
+    def normal_restitution(self) -> float:
+        """Normal velocity after to before: 1 for elastic bodies."""
+        return 1.0
+
+    @property
+    def tangential_restitution(self) -> float:
+        """Tangential velocity of the centres after to before, v_t'/v_t; NaN if there was none."""
+        return _ratio(self.tangential_speed_out, self.tangential_speed)
+
+    @property
+    def contact_restitution(self) -> float:
+        """Tangential velocity of the contact point after to before; NaN if there was none."""
+        return _ratio(self.contact_velocity_out, self.contact_velocity)
+
+    @property
+    def dissipated_energy(self) -> float:
+        """Energy lost to friction, in J."""
+        before, after = self.contact_velocity, self.contact_velocity_out
+        return 0.5 * self.pair.tangential_mass * (before - after) * (before + after)
+
+    @cached_property
+    def scales(self) -> Scales:
+        """What the dimensionless impact is multiplied by."""
+        return self.pair.scales(self.normal_speed)
+
+    @property
+    def duration(self) -> float:
+        """Duration of the contact, in s."""
+        return float(hertz.DURATION) * self.scales.time
+
+    @property
+    def max_penetration(self) -> float:
+        """Largest normal approach, in m."""
+        return self.scales.length
+
+    @property
+    def max_force(self) -> float:
+        """Largest normal force, in N."""
+        return self.scales.force
+
+    @property
+    def max_radius(self) -> float:
+        """Largest contact radius, in m."""
+        return self.scales.radius
+
+    @property
+    def max_pressure(self) -> float:
+        """Largest contact pressure, in Pa."""
+        return self.scales.pressure
+
+    def scalars(self) -> dict[str, float]:
+        """Return the numbers of the result by name."""
+        numbers = {name: float(getattr(self, name)) for name in RESULTS}
+        return numbers | {name: getattr(self.pair, name) for name in PAIR}
+
+    def inputs(self) -> dict[str, Any]:
+        """Return what the impact was made from, as plain numbers and words."""
+        return {
+            "first": describe(self.pair.first),
+            "second": describe(self.pair.second),
+            "friction": self.pair.friction,
+            "normal_speed": self.normal_speed,
+            **self._before._asdict(),
+        }
+
+
+def _ratio(after: float, before: float) -> float:
+    return after / before if before != 0.0 else nan

@@ -1,0 +1,210 @@
+"""The patch through an impact, as a film: contact, zones, slip and traction beside the force."""
+
+import shutil
+import subprocess
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from itertools import chain
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import matplotlib
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_rgb
+from PIL import Image
+
+from carom.plots.impact import forces_panel, phase_handles
+from carom.plots.patch import patch_panel
+from carom.plots.style import (
+    BANDS,
+    BLACK,
+    BLUE,
+    DOUBLE,
+    MAP,
+    label,
+    new_figure,
+    prefixed,
+    scaled,
+    styled,
+)
+from carom.quantities import InputError, refusal
+from carom.storage import ANIMATIONS, checked_output, replace_whole
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Progress = Callable[[], object]
+
+RATE = 12  # frames a second
+RESOLUTION = {".gif": 110, ".mp4": 200}  # in dots per inch
+MARGIN = 1.08  # around the largest contact
+
+
+@styled
+def animate(
+    history: "xr.Dataset",
+    frames: Iterable["xr.Dataset"],
+    path: str | Path,
+    progress: Progress | None = None,
+) -> Path:
+    """Store a film of the contact patch beside the history of the tangential force.
+
+    A file that is there is replaced whole or not at all.
+
+    Parameters
+    ----------
+    history : xarray.Dataset
+        The impact, what `Impact.history` returns.
+    frames : iterable of xarray.Dataset
+        The fields on a grid at the instants of the film, in order; they are drawn as they come.
+    path : str or Path
+        A name that ends in .gif, or in .mp4 where ffmpeg is installed.
+    progress : callable, optional
+        Called after every frame.
+
+    Raises
+    ------
+    InputError
+        If the name ends otherwise, ffmpeg is missing, there are no frames, or the file cannot be
+        written.
+    """
+    target = checked_animation(path)
+    ending = target.suffix.lower()
+    pictures = _pictures(history, frames, RESOLUTION[ending], progress)
+    first = next(pictures, None)
+    if first is None:
+        raise InputError("frames: an animation needs the fields of one instant or more")
+    write = _write_gif if ending == ".gif" else _write_mp4
+    return replace_whole(target, lambda where: write(where, chain([first], pictures)))
+
+
+def checked_animation(path: str | Path) -> Path:
+    """Return the path of an animation, or raise InputError if it cannot be made."""
+    target = checked_output(path, ANIMATIONS)
+    if target.suffix.lower() == ".mp4" and shutil.which("ffmpeg") is None:
+        raise refusal("output file", str(path), "ffmpeg is not found; install it, or use .gif")
+    return target
+
+
+def _pictures(
+    history: "xr.Dataset",
+    frames: Iterable["xr.Dataset"],
+    resolution: int,
+    progress: Progress | None,
+) -> Iterator[Image.Image]:
+    """Yield the frames of the film as they are drawn."""
+    film = _Film(history, resolution)
+    for fields in frames:
+        yield film.picture(fields)
+        if progress is not None:
+            progress()
+
+
+class _Film:
+    """The figure of the film: the patch redrawn for every frame, the force drawn once."""
+
+    def __init__(self, history: "xr.Dataset", resolution: int) -> None:
+        self.history = history
+        self.figure, axes = new_figure(1, 2, width=DOUBLE, height=74.0, width_ratios=(1.0, 1.15))
+        self.canvas: Any = FigureCanvasAgg(self.figure)
+        self.figure.dpi = resolution
+        self.patch, self.force = axes[0]
+        forces_panel(self.force, history)
+        self.figure.legend(handles=phase_handles(history), loc="outside lower center", ncols=5)
+        self.line = self.force.axvline(0.0, color=BLACK, lw=0.8)
+        (self.dot,) = self.force.plot([0.0], [0.0], "o", color=BLACK, ms=5.0, zorder=5)
+        self.still: Any = None
+
+    def picture(self, fields: "xr.Dataset") -> Image.Image:
+        """Return one frame."""
+        self._draw_patch(fields)
+        self._move_marker(fields)
+        moving = (self.patch, self.line, self.dot)
+        if self.still is None:
+            self.still = self._draw_still(moving)
+        self.canvas.restore_region(self.still)
+        for artist in moving:
+            self.figure.draw_artist(artist)
+        return Image.fromarray(np.asarray(self.canvas.buffer_rgba())[..., :3].copy())
+
+    def _draw_still(self, moving: tuple[Artist, ...]) -> Any:
+        """Return what is the same in all frames, laid out with room for the rest."""
+        self.canvas.draw()
+        self.figure.set_layout_engine("none")
+        for artist in moving:
+            artist.set_visible(False)
+        self.canvas.draw()
+        for artist in moving:
+            artist.set_visible(True)
+        return self.canvas.copy_from_bbox(self.figure.bbox)
+
+    def _draw_patch(self, fields: "xr.Dataset") -> None:
+        history = self.history
+        largest = float(history["friction"]) * float(history["max_pressure"])
+        scale, unit = prefixed(largest, "Pa")
+        self.patch.clear()
+        shading = patch_panel(
+            self.patch,
+            fields,
+            "traction_x",
+            scale,
+            reach=MARGIN * float(history["contact_radius"].max()),
+            vmin=-largest * scale,
+            vmax=largest * scale,
+        )
+        self.patch.set_title(_two_lines(self.patch.get_title()))
+        if self.still is None:
+            text = label("traction_x", unit)
+            self.figure.colorbar(shading, ax=self.patch, label=text, pad=0.02, aspect=28)
+
+    def _move_marker(self, fields: "xr.Dataset") -> None:
+        time = float(fields["time"]) * scaled(self.history, "time").scale
+        limit = float(self.history["friction"]) * self.history["normal_force"].values
+        force = float(fields["tangential_force"])
+        self.line.set_xdata([time, time])
+        self.dot.set_data([time], [force * prefixed(limit, "N")[0]])
+
+
+def _two_lines(title: str) -> str:
+    return title if "\n" in title else title + "\n "
+
+
+def _write_gif(where: Path, pictures: Iterator[Image.Image]) -> None:
+    palette = _palette()
+    frames = (picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures)
+    next(frames).save(
+        where, save_all=True, append_images=frames, duration=round(1000 / RATE), loop=0
+    )
+
+
+def _palette() -> Image.Image:
+    """Return an image with the colours of a GIF: the same for all frames, so that none flickers."""
+    shades = matplotlib.colormaps[MAP](np.linspace(0.0, 1.0, 112))[:, :3]
+    hatched = 0.4 * shades[::4] + 0.6
+    inks = [BLUE, BLACK, *(c for band in BANDS.values() for c in (band.face, band.edge))]
+    mixed = [to_rgb(ink) for ink in dict.fromkeys(inks)]
+    faded = [0.5 * np.array(color) + 0.5 for color in mixed]
+    greys = np.repeat(np.linspace(0.0, 1.0, 32)[:, np.newaxis], 3, axis=1)
+    colors = np.vstack([shades, hatched, mixed, faded, greys])
+    image = Image.new("P", (1, 1))
+    image.putpalette(np.round(255.0 * colors).astype(np.uint8).tobytes())
+    return image
+
+
+def _write_mp4(where: Path, pictures: Iterator[Image.Image]) -> None:
+    first = next(pictures)
+    command = ["ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24"]
+    command += ["-s", f"{first.width}x{first.height}", "-r", str(RATE), "-i", "-"]
+    command += ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-pix_fmt", "yuv420p"]
+    command.append(str(where))
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, stdin=pipe, stderr=pipe) as encoder:
+        into: Any = encoder.stdin
+        with suppress(BrokenPipeError):  # ffmpeg has given up, and says why below
+            for picture in chain([first], pictures):
+                into.write(picture.tobytes())
+        said = encoder.communicate()[1].decode(errors="replace").strip()
+    if encoder.returncode:
+        raise InputError(f"output file: ffmpeg failed; {said}")

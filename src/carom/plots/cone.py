@@ -1,0 +1,104 @@
+"""The path of the forces, F_x against F_z, inside the cone of friction."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from carom.plots.style import (
+    BLACK,
+    BLUE,
+    DASHES,
+    VERMILION,
+    Array,
+    label,
+    legend_above,
+    new_figure,
+    phases,
+    scaled,
+    styled,
+)
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+PATHS: dict[str, dict[str, Any]] = {
+    "stick": {"color": BLUE, "ls": "-", "lw": 2.0},
+    "slip": {"color": VERMILION, "ls": DASHES[1], "lw": 1.5},
+    "gross slip": {"color": BLACK, "ls": DASHES[2], "lw": 2.0},
+    "load path": {"color": BLUE, "ls": "-", "lw": 1.2},
+}
+AHEAD = 0.02  # from the foot to the head of an arrow, as a share of the figure
+SHORTEST = 0.15  # of a phase with an arrow
+ARROWS = 8  # on a path without phases
+
+
+@styled
+def plot_cone(dataset: "xr.Dataset") -> Figure:
+    """Draw F_x against F_z inside Coulomb's cone, |F_x| <= mu F_z, for an impact or a load path.
+
+    The parts of an impact are marked by phase; arrows point on in time.
+    """
+    figure, axes = new_figure(height=70.0)
+    axis = axes[0, 0]
+    limit = 1.08 * float(dataset["friction"]) * float(dataset["normal_force"].max())
+    normal, unit, _ = scaled(dataset, "normal_force")
+    tangential, tangential_unit, scale = scaled(dataset, "tangential_force", like=limit)
+    edge = (1.08 * float(normal.max()), limit * scale)
+    _draw_cone(axis, *edge)
+    points = np.column_stack([normal, tangential])
+    for kind, part in _parts(dataset, points):
+        known = axis.get_legend_handles_labels()[1]
+        axis.plot(*part.T, **PATHS[kind], label=None if kind in known else kind)
+        for place in _arrow_places(part / edge, 1 if kind != "load path" else ARROWS):
+            _arrow(axis, part[place], PATHS[kind]["color"])
+    axis.set_xlabel(label("normal_force", unit))
+    axis.set_ylabel(label("tangential_force", tangential_unit))
+    legend_above(axis, 4)
+    return figure
+
+
+def _draw_cone(axis: Axes, normal: float, tangential: float) -> None:
+    corners = np.array([0.0, normal])
+    limit = np.array([0.0, tangential])
+    axis.fill_between(corners, -limit, limit, color="0.94", lw=0, zorder=0)
+    axis.plot(corners, limit, color="0.45", lw=0.8, label=r"$\pm\mu F_z$")
+    axis.plot(corners, -limit, color="0.45", lw=0.8)
+    axis.axhline(0.0, color="0.6", lw=0.5, zorder=1)
+    axis.set_xlim(0.0, normal)
+    axis.set_ylim(-1.02 * tangential, 1.02 * tangential)
+
+
+def _parts(dataset: "xr.Dataset", points: Array) -> Iterator[tuple[str, Array]]:
+    """Yield the phases with the points of each, from the last before it on; a load path whole."""
+    known = phases(dataset)
+    if not known:
+        yield "load path", points
+        return
+    time = dataset["time"].values
+    for phase in known:
+        first = max(int(np.searchsorted(time, phase.start, side="right")) - 1, 0)
+        last = int(np.searchsorted(time, phase.end, side="right"))
+        yield phase.kind, points[first:last]
+
+
+def _arrow_places(points: Array, count: int) -> list[list[int]]:
+    """Return for each arrow the index of its foot and head, evenly along the path."""
+    steps = np.hypot(*np.diff(points, axis=0).T)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    if len(points) < 2 or along[-1] <= SHORTEST:
+        return []
+    feet = (np.arange(count) + 0.4) / count * along[-1]
+    found = ([int(np.searchsorted(along, at)) for at in (foot, foot + AHEAD)] for foot in feet)
+    return [[foot, min(head, len(points) - 1)] for foot, head in found if foot < len(points) - 1]
+
+
+def _arrow(axis: Axes, ends: Array, color: str) -> None:
+    axis.annotate(
+        "",
+        xy=ends[1],
+        xytext=ends[0],
+        arrowprops={"arrowstyle": "-|>,head_length=0.6,head_width=0.3", "color": color, "lw": 1.0},
+    )

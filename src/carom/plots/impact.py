@@ -1,0 +1,162 @@
+"""An impact in the course of time: forces, velocities, radii, energies; and its path of forces."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from carom.plots.style import (
+    BANDS,
+    BLACK,
+    BLUE,
+    DASHES,
+    DOUBLE,
+    SIGNS,
+    VERMILION,
+    Array,
+    label,
+    legend_above,
+    new_figure,
+    phases,
+    scaled,
+    shade,
+    styled,
+)
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+ENERGIES = {
+    "normal_kinetic_energy": ("normal motion", "#E8EEF4", ""),
+    "tangential_kinetic_energy": ("tangential motion", "#A9CCE6", "...."),
+    "spin_kinetic_energy": ("spin", "#5B9BC8", ""),
+    "normal_elastic_energy": ("elastic, normal", "#F6E3B4", "////"),
+    "tangential_elastic_energy": ("elastic, tangential", "#E69F00", ""),
+    "frictional_work": ("lost to friction", "#6E6E6E", "\\\\\\\\"),
+}
+
+
+@styled
+def plot_impact(dataset: "xr.Dataset") -> Figure:
+    """Draw forces, velocities, radii and energies of an impact against time, phases shaded.
+
+    The histories of `Impact.history` and `Impact.to_dataset`, also read back from a file, in the
+    width of two columns. Bands tell the phases; their hatch leans with the sign of slip.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.plots import plot_impact
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+    >>> len(plot_impact(hit.history(50)).axes)
+    4
+    """
+    figure, axes = new_figure(2, 2, width=DOUBLE, height=112.0, sharex=True)
+    panels = (forces_panel, velocities_panel, radii_panel, energies_panel)
+    for axis, panel in zip(axes.flat, panels, strict=True):
+        panel(axis, dataset)
+    for axis in axes[0]:
+        axis.set_xlabel("")
+    figure.legend(handles=phase_handles(dataset), loc="outside upper center", ncols=5)
+    return figure
+
+
+@styled
+def plot_forces(dataset: "xr.Dataset") -> Figure:
+    """Draw the tangential force between its limits, mu F_z, against time, in one column."""
+    return _single(dataset, forces_panel)
+
+
+@styled
+def plot_radii(dataset: "xr.Dataset") -> Figure:
+    """Draw the radii of the contact and of its stick zone against time, in one column."""
+    return _single(dataset, radii_panel)
+
+
+def _single(dataset: "xr.Dataset", panel: Any) -> Figure:
+    figure, axes = new_figure()
+    axis = axes[0, 0]
+    panel(axis, dataset)
+    lines, _ = axis.get_legend_handles_labels()
+    legend_above(axis, 3, handles=[*lines, *phase_handles(dataset)])
+    return figure
+
+
+def phase_handles(dataset: "xr.Dataset") -> list[Patch]:
+    """Return what a legend shows of the phases of an impact, each kind and sign once."""
+    present = {(phase.kind, phase.sign) for phase in phases(dataset)}
+    return [
+        Patch(facecolor=band.face, edgecolor=band.edge, hatch=band.hatch, label=kind + SIGNS[sign])
+        for (kind, sign), band in BANDS.items()
+        if (kind, sign) in present
+    ]
+
+
+def time_axis(axis: Axes, dataset: "xr.Dataset") -> Array:
+    """Shade the phases, label the axis of time, and return the times in its unit."""
+    time, unit, scale = scaled(dataset, "time")
+    for phase in phases(dataset):
+        shade(axis, phase.start * scale, phase.end * scale, BANDS[phase.kind, phase.sign])
+    axis.set_xlim(time[0], time[-1])
+    axis.set_xlabel(label("time", unit))
+    return time
+
+
+def forces_panel(axis: Axes, dataset: "xr.Dataset") -> None:
+    """Draw F_x between -mu F_z and mu F_z."""
+    time = time_axis(axis, dataset)
+    limit = float(dataset["friction"]) * dataset["normal_force"].values
+    force, unit, scale = scaled(dataset, "tangential_force", like=limit)
+    limit = limit * scale
+    _zero_line(axis)
+    axis.plot(time, force, color=BLUE, label="$F_x$")
+    axis.plot(time, limit, color=BLACK, ls=DASHES[1], lw=0.8, label=r"$\pm\mu F_z$")
+    axis.plot(time, -limit, color=BLACK, ls=DASHES[1], lw=0.8)
+    axis.set_ylabel(label("tangential_force", unit))
+    legend_above(axis, 2)
+
+
+def velocities_panel(axis: Axes, dataset: "xr.Dataset") -> None:
+    """Draw the velocity of the contact point, tangential, and that of approach."""
+    time = time_axis(axis, dataset)
+    names = {"contact_velocity": "$V_x$, contact point", "normal_velocity": "$V_z$, approach"}
+    largest = [np.abs(dataset[name].values).max() for name in names]
+    _zero_line(axis)
+    for name, color, dash in zip(names, (BLUE, VERMILION), DASHES, strict=False):
+        values, unit, _ = scaled(dataset, name, like=largest)
+        axis.plot(time, values, color=color, ls=dash, label=names[name])
+    axis.set_ylabel(f"velocity, $V_x$, $V_z$ ({unit})")
+    legend_above(axis, 2)
+
+
+def radii_panel(axis: Axes, dataset: "xr.Dataset") -> None:
+    """Draw the radii of the contact and of its stick zone; what lies between slips."""
+    time = time_axis(axis, dataset)
+    contact, unit, scale = scaled(dataset, "contact_radius")
+    stick = dataset["stick_radius"].values * scale
+    axis.plot(time, contact, color=BLACK, label="contact, $b$")
+    axis.plot(time, stick, color=BLUE, ls=DASHES[1], label="stick zone, $a$")
+    axis.set_ylim(0.0, 1.06 * contact.max())
+    axis.set_ylabel(f"radius, $a$, $b$ ({unit})")
+    legend_above(axis, 2)
+
+
+def energies_panel(axis: Axes, dataset: "xr.Dataset") -> None:
+    """Draw how the energy is shared between motion, deformation and friction."""
+    time = time_axis(axis, dataset)
+    parts = np.array([dataset[name].values for name in ENERGIES])
+    total = float(parts[:, 0].sum())
+    shares = axis.stackplot(time, parts / total, colors=[face for _, face, _ in ENERGIES.values()])
+    for area, (name, _, hatch) in zip(shares, ENERGIES.values(), strict=True):
+        area.set(label=name, hatch=hatch, edgecolor="0.35", linewidth=0.4)
+    axis.set_ylim(0.0, 1.0)
+    axis.set_ylabel("share of energy")
+    legend_above(axis, 3, handlelength=1.0, handletextpad=0.3, columnspacing=0.5, fontsize=6.5)
+
+
+def _zero_line(axis: Axes) -> None:
+    axis.axhline(0.0, color="0.5", lw=0.5, zorder=1)

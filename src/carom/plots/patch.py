@@ -1,0 +1,192 @@
+"""The contact patch seen from above: shading, zones, slip arrows."""
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Annulus, Circle
+from matplotlib.patheffects import withStroke
+
+from carom.plots.style import (
+    MAP,
+    Array,
+    label,
+    moment,
+    new_figure,
+    prefixed,
+    scaled,
+    slip_band,
+    styled,
+    symbol,
+)
+from carom.quantities import InputError, refusal
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+SLIP = 2  # the zone's number in a fields dataset
+MARGIN = 1.12  # of the map around the contact
+ACROSS = 8  # slip arrows along the diameter of the contact
+ROOM = 0.3  # the stick zone with a word in it, in contact radii
+AROUND = 28  # slip arrows along a ring too narrow for that
+NARROW = 1.5  # such a ring, in distances between those arrows
+LONGEST = 0.2  # arrow, in contact radii
+ZONES = ("contact", "stick")
+MAPPED = ("traction_x", "pressure")
+
+
+@styled
+def plot_patch(dataset: "xr.Dataset", variable: str = "traction_x") -> Figure:
+    """Draw the contact from above: traction or pressure, stick and slip zones, slip velocities.
+
+    The zone that slips is hatched; its arrows are the velocity of the first surface on the second.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Fields on a grid of x and y.
+    variable : str
+        What the shading tells: "traction_x" or "pressure".
+
+    Raises
+    ------
+    InputError
+        If the fields are not on a grid, or the variable is another.
+    """
+    if variable not in MAPPED:
+        raise refusal("variable", variable, f"must be {' or '.join(MAPPED)}")
+    if dataset["pressure"].dims != ("y", "x"):
+        raise InputError("fields: a map needs them on a grid of x and y, not at points")
+    figure, axes = new_figure(height=72.0)
+    axis = axes[0, 0]
+    scale, unit = prefixed(dataset[variable].values, "Pa")
+    shading = patch_panel(axis, dataset, variable, scale)
+    bar = figure.colorbar(shading, ax=axis, label=label(variable, unit), pad=0.02, aspect=28)
+    bar.outline.set_linewidth(0.6)
+    return figure
+
+
+def patch_panel(
+    axis: Axes,
+    dataset: "xr.Dataset",
+    variable: str,
+    scale: float,
+    *,
+    reach: float | None = None,
+    **limits: Any,
+) -> Any:
+    """Draw the patch on axes and return its shading.
+
+    The map goes to `reach` in m, by default to a little beyond the contact. The shading is the
+    variable times `scale` between `limits`.
+    """
+    around = MARGIN * float(dataset["contact_radius"])
+    reach = reach or min(around, float(np.abs(dataset["x"].values).max()))
+    x, unit, length = scaled(dataset, "x", like=reach)
+    y = dataset["y"].values * length
+    contact, stick = (float(dataset[name]) * length for name in ("contact_radius", "stick_radius"))
+    shading = axis.pcolormesh(
+        x, y, dataset[variable] * scale, cmap=MAP, shading="gouraud", rasterized=True, **limits
+    )
+    shading.set_clip_path(Circle((0.0, 0.0), contact, transform=axis.transData))
+    _draw_zones(axis, contact, stick, slip_band(dataset).hatch)
+    _draw_arrows(axis, arrows(dataset), length, contact)
+    axis.set_aspect("equal")
+    ends = (-reach * length, reach * length)
+    axis.set(xlim=ends, ylim=ends, xlabel=symbol("x", unit), ylabel=symbol("y", unit))
+    said = (moment(dataset), _arrow_key(dataset))
+    axis.set_title("\n".join(said).strip())
+    return shading
+
+
+def _draw_zones(axis: Axes, contact: float, stick: float, hatch: str) -> None:
+    if contact > stick:
+        marked: Any = (
+            Annulus((0, 0), contact, contact - stick) if stick else Circle((0, 0), contact)
+        )
+        marked.set(fill=False, hatch=hatch[:3], edgecolor="white", alpha=0.6, lw=0.0)
+        axis.add_patch(marked)
+    if 0.0 < stick < contact:
+        for color, width, dash in (("white", 1.6, "-"), ("black", 0.9, (0, (4, 2)))):
+            axis.add_patch(Circle((0, 0), stick, fill=False, ec=color, lw=width, ls=dash))
+    axis.add_patch(Circle((0, 0), contact, fill=False, ec="black", lw=1.0))
+    if stick > ROOM * contact:
+        word = axis.text(0.0, 0.0, "stick", ha="center", va="center")
+        word.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
+
+
+class Arrows(NamedTuple):
+    """Where the surfaces slip on each other, and how fast, in SI units: arrays of one length."""
+
+    x: Array
+    y: Array
+    along: Array
+    across: Array
+
+    @property
+    def fastest(self) -> float:
+        """The largest speed, 0 if there are no arrows."""
+        return float(np.hypot(self.along, self.across).max(initial=0.0))
+
+
+def arrows(dataset: "xr.Dataset") -> Arrows:
+    """Return the slip velocities at some points of the grid, all in the slip zone."""
+    if "slip_velocity_x" not in dataset:
+        return Arrows(*np.empty((4, 0)))
+    x, y = dataset["x"].values, dataset["y"].values
+    wanted_x, wanted_y = _places(*(float(dataset[f"{name}_radius"]) for name in ZONES))
+    places = np.column_stack([_nearest(y, wanted_y), _nearest(x, wanted_x)])
+    rows, columns = np.unique(places, axis=0).T
+    slips = dataset["zone"].values[rows, columns] == SLIP
+    rows, columns = rows[slips], columns[slips]
+    speeds = (dataset[f"slip_velocity_{axis}"].values[rows, columns] for axis in "xy")
+    return Arrows(x[columns], y[rows], *speeds)
+
+
+def _places(contact: float, stick: float) -> tuple[Array, Array]:
+    """Return points on a lattice, or in the middle of a slip ring too narrow for one."""
+    spacing = 2.0 * contact / ACROSS
+    if stick > 0.0 and contact - stick < NARROW * spacing:
+        angles = 2.0 * np.pi * (np.arange(AROUND) + 0.5) / AROUND
+        middle = 0.5 * (contact + stick)
+        return middle * np.cos(angles), middle * np.sin(angles)
+    line = spacing * (np.arange(ACROSS) - 0.5 * (ACROSS - 1))
+    x, y = np.meshgrid(line, line)
+    return x.ravel(), y.ravel()
+
+
+def _nearest(grid: Array, places: Array) -> Any:
+    return np.abs(grid[:, np.newaxis] - places).argmin(axis=0)
+
+
+def _arrow_key(dataset: "xr.Dataset") -> str:
+    fastest = arrows(dataset).fastest
+    scale, unit = prefixed(fastest, "m/s")
+    return f"longest arrow: {fastest * scale:.3g}\u00a0{unit}" if fastest else ""
+
+
+def _draw_arrows(axis: Axes, found: Arrows, length: float, contact: float) -> None:
+    if found.fastest == 0.0:
+        return
+    unit = LONGEST * contact / found.fastest
+    shape: dict[str, Any] = {
+        "width": 0.01,
+        "headwidth": 3.6,
+        "headlength": 4.0,
+        "headaxislength": 3.6,
+    }
+    colors: dict[str, Any] = {"fc": "black", "ec": "white", "lw": 0.3, "zorder": 4}
+    axis.quiver(
+        found.x * length,
+        found.y * length,
+        found.along * unit,
+        found.across * unit,
+        angles="xy",
+        scale_units="xy",
+        scale=1.0,
+        pivot="mid",
+        units="width",
+        **shape,
+        **colors,
+    )

@@ -1,0 +1,127 @@
+"""Pressure, traction and memory along a line through the contact, zones shaded."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from carom.plots.style import (
+    BLACK,
+    BLUE,
+    DASHES,
+    STICK,
+    VERMILION,
+    Array,
+    Band,
+    label,
+    legend_above,
+    moment,
+    new_figure,
+    prefixed,
+    scaled,
+    shade,
+    slip_band,
+    styled,
+)
+from carom.quantities import InputError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+MARGIN = 1.2  # of a line through the contact, in contact radii
+NEAR = 1e-9  # relative: a y that is 0 but for rounding
+
+
+@styled
+def plot_profiles(dataset: "xr.Dataset") -> Figure:
+    """Draw the traction f between its limits, mu p, along the line y = 0 of the contact.
+
+    Of a profile along the radius also the memory: g = -dq/ds, and the deflection q of the springs.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Fields on a grid or at points of the line y = 0, or a contact's radial profile.
+
+    Raises
+    ------
+    InputError
+        If the dataset has no points on the line y = 0.
+    """
+    radial = "memory_g" in dataset
+    figure, axes = new_figure(3 if radial else 1, height=118.0 if radial else 62.0, sharex=True)
+    line = dataset if radial else _middle(dataset)
+    name = "distance" if radial else "x"
+    place, unit, scale = scaled(line, name)
+    reach = (1.0 if radial else MARGIN) * float(line["contact_radius"]) * scale
+    for axis in axes.flat:
+        _shade_zones(axis, line, scale, place)
+        axis.axhline(0.0, color="0.5", lw=0.5, zorder=1)
+        axis.set_xlim(max(place[0], -reach), min(place[-1], reach))
+    _tractions(axes[0, 0], line, place)
+    if radial:
+        _memory(axes[1, 0], line, place)
+        _deflection(axes[2, 0], line, place)
+    axes[-1, 0].set_xlabel(label(name, unit))
+    figure.suptitle(moment(dataset))
+    figure.align_ylabels()
+    return figure
+
+
+def _middle(dataset: "xr.Dataset") -> "xr.Dataset":
+    """Return the fields at the points with y = 0, in order of x."""
+    y = np.atleast_1d(dataset["y"].values)
+    along = "point" if "point" in dataset.dims else "y"
+    line = dataset.isel({along: np.flatnonzero(np.abs(y) <= NEAR * np.abs(y).max())})
+    line = line.sortby("x") if along == "point" else line.squeeze("y") if line.sizes["y"] else line
+    if line["x"].size < 2 or line["pressure"].size != line["x"].size:
+        raise InputError("fields: they hold no line through the contact; give points with y = 0")
+    return line
+
+
+def _shade_zones(axis: Axes, line: "xr.Dataset", scale: float, place: Array) -> None:
+    contact, stick = (float(line[name]) * scale for name in ("contact_radius", "stick_radius"))
+    for side in (-1.0, 1.0) if place[0] < 0.0 else (1.0,):
+        if stick > 0.0:
+            shade(axis, 0.0, side * stick, STICK)
+        if contact > stick:
+            shade(axis, side * stick, side * contact, slip_band(line))
+
+
+def _tractions(axis: Axes, line: "xr.Dataset", place: Array) -> None:
+    limit = float(line["friction"]) * line["pressure"].values
+    traction, unit, scale = scaled(line, "traction_x", like=limit)
+    axis.plot(place, traction, color=BLUE, label="$f$")
+    axis.plot(place, limit * scale, color=BLACK, ls=DASHES[1], lw=0.8, label=r"$\pm\mu p$")
+    axis.plot(place, -limit * scale, color=BLACK, ls=DASHES[1], lw=0.8)
+    axis.set_ylabel(label("traction_x", unit, room=24))
+    lines, _ = axis.get_legend_handles_labels()
+    legend_above(axis, 4, handles=[*lines, *zone_handles(line)])
+
+
+def zone_handles(dataset: "xr.Dataset") -> list[Patch]:
+    """Return what a legend shows of the zones that a contact has."""
+    contact, stick = (float(dataset[name]) for name in ("contact_radius", "stick_radius"))
+    zones: list[tuple[str, Band]] = [("stick", STICK)] if stick > 0.0 else []
+    zones += [("slip", slip_band(dataset))] if contact > stick else []
+    return [Patch(fc=b.face, ec=b.edge, hatch=b.hatch, label=name) for name, b in zones]
+
+
+def _memory(axis: Axes, line: "xr.Dataset", place: Array) -> None:
+    axis.plot(place, line["memory_g"], color=VERMILION)
+    for limit in (-1.0, 1.0):
+        axis.axhline(limit, color=BLACK, ls=DASHES[1], lw=0.8)
+    axis.set_ylim(-1.15, 1.15)
+    axis.set_ylabel(label("memory_g"))
+
+
+def _deflection(axis: Axes, line: "xr.Dataset", place: Array) -> None:
+    limit = line["memory_limit"].values
+    scale, unit = prefixed(limit, "m")
+    axis.plot(place, line["memory_q"].values * scale, color=BLUE)
+    for side in (-1.0, 1.0):
+        axis.plot(place, side * limit * scale, color=BLACK, ls=DASHES[1], lw=0.8)
+    axis.set_ylabel(label("memory_q", unit, room=24))

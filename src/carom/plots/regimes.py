@@ -1,0 +1,193 @@
+"""Rebound curves with their regimes, and the map of regimes over psi_1 and chi."""
+
+from typing import TYPE_CHECKING
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
+from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_cdt
+
+from carom.plots.style import (
+    BANDS,
+    DASHES,
+    DOUBLE,
+    LINES,
+    MINUS,
+    STICK,
+    Array,
+    Band,
+    label,
+    legend_above,
+    new_figure,
+    shade,
+    styled,
+)
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+MARKERS = "os^Dv"
+LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWX"
+KEY = "G gross slip, S stick, s slip ring"
+SHADES = matplotlib.colormaps["cividis"]
+SMALLEST = 2  # half the width of a region with its letter in it, in cells
+REGIMES = {
+    "stick": STICK,
+    "gross slip, stick": BANDS["slip", 1],
+    "gross slip, slip": BANDS["gross slip", 1],
+    "gross slip only": Band("#BDBDBD", "#BDBDBD", ""),
+}
+
+
+@styled
+def plot_curve(dataset: "xr.Dataset") -> Figure:
+    """Draw psi_2 against psi_1, one line per chi, with the borders of the regimes.
+
+    Of a single chi the regimes are bands, told by how the impact begins; of several, marks on the
+    lines are the borders.
+    """
+    figure, axes = new_figure(height=66.0)
+    axis = axes[0, 0]
+    psi = dataset["psi_in"].values
+    axis.axhline(0.0, color="0.5", lw=0.5, zorder=1)
+    single = dataset.sizes["chi"] == 1
+    for row in range(dataset.sizes["chi"]):
+        _draw_line(axis, dataset.isel(chi=row), row, dots=not single)
+    lines, _ = axis.get_legend_handles_labels()
+    bands = _shade_regimes(axis, dataset) if single else []
+    axis.set_xlim(psi[0], psi[-1])
+    axis.set_xlabel(label("psi_in", room=44))
+    axis.set_ylabel(label("psi_out", room=36))
+    entries = [*lines, *bands]
+    legend_above(axis, 2 if single or len(entries) in (2, 4) else 3, handles=entries)
+    return figure
+
+
+def _draw_line(axis: Axes, one: "xr.Dataset", row: int, dots: bool) -> None:
+    psi, out = one["psi_in"].values, one["psi_out"].values
+    color, marker = LINES[row % len(LINES)], MARKERS[row % len(MARKERS)]
+    ends = np.array([])
+    if dots:
+        ends = np.concatenate([-one["border"].values[::-1], one["border"].values])
+        ends = ends[(ends > psi[0]) & (ends < psi[-1])]
+        axis.plot(ends, np.interp(ends, psi, out), marker, color=color)
+    axis.plot(psi, out, color=color, ls=DASHES[row % len(DASHES)])
+    handle = {"color": color, "ls": DASHES[row % len(DASHES)], "marker": marker if dots else ""}
+    axis.plot([], [], **handle, label=rf"$\chi$ = {float(one['chi']):g}")
+
+
+def _shade_regimes(axis: Axes, dataset: "xr.Dataset") -> list[Patch]:
+    psi = dataset["psi_in"].values
+    ends = [0.0, *dataset["border"].values[0], np.inf]
+    shown = []
+    for (name, band), low, high in zip(REGIMES.items(), ends, ends[1:], strict=False):
+        for side in (-1.0, 1.0):
+            start, end = np.clip(sorted((side * low, side * high)), psi.min(), psi.max())
+            if end > start:
+                shade(axis, start, end, band)
+                shown.append(name)
+    return [
+        Patch(fc=band.face, ec=band.edge, hatch=band.hatch, label=name)
+        for name, band in REGIMES.items()
+        if name in shown
+    ]
+
+
+def _short(name: str) -> str:
+    """Return a sequence of phases in letters, e.g. "G+ S s- G-"."""
+    for words, letter in (("gross slip", "G"), ("stick", "S"), ("slip", "s")):
+        name = name.replace(words, letter)
+    return name.replace(",", "").replace(" +", "+").replace(" -", MINUS)
+
+
+@styled
+def plot_regime_map(dataset: "xr.Dataset") -> Figure:
+    """Draw which phases follow which over psi_1 and chi, with the borders 1, 2 chi, 4 chi - 1.
+
+    The shading tells the number of phases; letters name the sequences, the commonest first.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        What `carom.curves.regime_map` returns.
+    """
+    figure, axes = new_figure(width=DOUBLE, height=88.0)
+    axis = axes[0, 0]
+    codes, names = dataset["sequence"].values, [str(n) for n in dataset["sequence_name"].values]
+    counts = np.array([name.count(",") + 1 for name in names])
+    shades = ListedColormap([SHADES(place) for place in np.linspace(1.0, 0.15, counts.max())])
+    psi, chi = dataset["psi_in"].values, dataset["chi"].values
+    shown = np.ma.masked_less(np.append(counts, -1)[codes], 0)
+    norm = BoundaryNorm(np.arange(0.5, counts.max() + 1.0), shades.N)
+    axis.pcolormesh(psi, chi, shown, cmap=shades, norm=norm, shading="nearest", rasterized=True)
+    axis.add_collection(_outlines(psi, chi, codes), autolim=False)
+    axis.set(xlim=psi[[0, -1]], ylim=chi[[0, -1]])
+    axis.set(xlabel=label("psi_in"), ylabel=label("chi", room=44))
+    _letter_regions(axis, dataset)
+    _draw_borders(axis)
+    patches = [
+        Patch(fc=shades(int(count) - 1), ec="0.3", lw=0.4, label=f"{LETTERS[i]}  {_short(name)}")
+        for i, (name, count) in enumerate(zip(names, counts, strict=True))
+        if i < len(LETTERS)
+    ]
+    figure.legend(handles=patches, loc="outside right upper", title=KEY, alignment="left")
+    return figure
+
+
+def _outlines(psi: Array, chi: Array, codes: NDArray[np.int16]) -> LineCollection:
+    """Return the edges of cells across which the sequence changes."""
+    x, y = _edges(psi), _edges(chi)
+    sides = [
+        ((x[j + 1], y[i]), (x[j + 1], y[i + 1])) for i, j in np.argwhere(np.diff(codes, axis=1))
+    ]
+    tops = [
+        ((x[j], y[i + 1]), (x[j + 1], y[i + 1])) for i, j in np.argwhere(np.diff(codes, axis=0))
+    ]
+    return LineCollection([*sides, *tops], colors="white", linewidths=0.5, capstyle="projecting")
+
+
+def _edges(centres: Array) -> Array:
+    middle = 0.5 * (centres[1:] + centres[:-1])
+    return np.concatenate([centres[:1], middle, centres[-1:]])
+
+
+def _letter_regions(axis: Axes, dataset: "xr.Dataset") -> None:
+    """Write the letter of each sequence where its region is widest."""
+    psi, chi = dataset["psi_in"].values, dataset["chi"].values
+    for code in range(min(dataset.sizes["sequence_name"], len(LETTERS))):
+        inside = np.pad(dataset["sequence"].values == code, 1)
+        depth = distance_transform_cdt(inside)[1:-1, 1:-1]
+        row, column = np.unravel_index(depth.argmax(), depth.shape)
+        if depth[row, column] >= SMALLEST:
+            at = float(psi[column]), float(chi[row])
+            text = axis.text(*at, LETTERS[code], ha="center", va="center")
+            text.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
+
+
+def _draw_borders(axis: Axes) -> None:
+    (left, right), (bottom, top) = axis.get_xlim(), axis.get_ylim()
+    chi = np.linspace(max(bottom, 0.5), top, 201)
+    lines = {r"$1$": 0.0 * chi + 1.0, r"$2\chi$": 2.0 * chi, r"$4\chi-1$": 4.0 * chi - 1.0}
+    for dash, (name, psi) in zip(DASHES, lines.items(), strict=False):
+        axis.plot(psi, chi, color="black", ls=dash, lw=1.0)
+        inside = psi <= right
+        if not inside.any() or not left <= psi[inside][-1]:
+            continue
+        last = psi[inside][-1], chi[inside][-1]
+        above = inside.all()
+        axis.annotate(
+            rf"$\psi_1 = ${name}",
+            last if above else (right, last[1]),
+            xytext=(0, 3) if above else (3, 0),
+            textcoords="offset points",
+            ha="center" if above else "left",
+            va="bottom" if above else "center",
+        )
+    if bottom < 0.5:
+        axis.plot([1.0, 1.0], [bottom, 0.5], color="black", ls="-", lw=1.0)

@@ -1,0 +1,91 @@
+"""The stress below the surface: a map with contours, and where the largest lies."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.contour import ContourSet
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from carom.plots.style import MAP, Array, label, moment, new_figure, scaled, styled, symbol
+from carom.quantities import InputError, refusal
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+CONTOURS = 9
+NEAR = 1e-6  # relative: a largest stress that lies in the plane drawn
+
+
+@styled
+def plot_stress(dataset: "xr.Dataset", variable: str = "von_mises") -> Figure:
+    """Draw a stress in the plane y = 0 below the surface, with contours; a cross at the largest.
+
+    The bar on the surface is the contact.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Stresses on a grid of z and x.
+    variable : str
+        Which stress, e.g. "von_mises", "max_shear", "principal_1", "sigma_xx".
+
+    Raises
+    ------
+    InputError
+        If the dataset has no such stress, or not on a grid.
+    """
+    known = [str(name) for name, item in dataset.items() if item.dims == ("z", "x")]
+    if not known:
+        raise InputError("stress: a map needs it on a grid of z and x, not at points")
+    if variable not in known:
+        raise refusal("variable", variable, f"must be one of {', '.join(known)}")
+    figure, axes = new_figure(height=66.0)
+    axis = axes[0, 0]
+    x, unit, length = scaled(dataset, "x")
+    z = dataset["z"].values * length
+    values, stress_unit, scale = scaled(dataset, variable)
+    shading = axis.pcolormesh(x, z, values, cmap=MAP, shading="gouraud", rasterized=True)
+    bar = figure.colorbar(shading, ax=axis, location="bottom", aspect=32, pad=0.03)
+    bar.set_label(label(variable, stress_unit))
+    bar.outline.set_linewidth(0.6)
+    contours = _contours(axis, x, z, values)
+    bar.add_lines(contours)
+    bar.set_ticks(list(contours.levels))
+    column, row, largest = _largest(dataset, variable)
+    axis.plot(column * length, row * length, "+", ms=7.0, mew=1.3, color="black", zorder=5)
+    _mark_contact(axis, dataset, length)
+    axis.set_aspect("equal")
+    axis.set(xlim=(x[0], x[-1]), ylim=(z.max(), z.min()))
+    axis.set(xlabel=symbol("x", unit), ylabel=label("z", unit))
+    said = [moment(dataset), f"+: {largest * scale:.3g}\u00a0{stress_unit}"]
+    axis.set_title("; ".join(text for text in said if text), pad=5.0)
+    return figure
+
+
+def _contours(axis: Axes, x: Array, z: Array, values: Array) -> ContourSet:
+    low, high = values.min(), values.max()
+    levels = MaxNLocator(CONTOURS).tick_values(low, high)
+    levels = levels[(levels > low) & (levels < high)]
+    colors = ["white" if level < 0.5 * (low + high) else "black" for level in levels]
+    return axis.contour(
+        x, z, values, levels=levels, colors=colors, linewidths=0.6, negative_linestyles="solid"
+    )
+
+
+def _largest(dataset: "xr.Dataset", variable: str) -> tuple[float, float, float]:
+    """Return x, z and value of the largest stress: between the grid's points where it is known."""
+    name = f"max_{variable}"
+    if name in dataset and abs(float(dataset[f"{name}_y"])) < NEAR * float(dataset["x"].max()):
+        return tuple(float(dataset[key]) for key in (f"{name}_x", f"{name}_z", name))
+    values = dataset[variable].values
+    row, column = np.unravel_index(np.argmax(values), values.shape)
+    return float(dataset["x"][column]), float(dataset["z"][row]), float(values[row, column])
+
+
+def _mark_contact(axis: Axes, dataset: "xr.Dataset", length: float) -> None:
+    if "contact_radius" in dataset:
+        contact = float(dataset["contact_radius"]) * length
+        ends, surface = [-contact, contact], [0.0, 0.0]
+        axis.plot(ends, surface, color="black", lw=3.0, clip_on=False, solid_capstyle="butt")

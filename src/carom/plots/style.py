@@ -1,0 +1,231 @@
+"""What all figures share: sizes, fonts, colours and hatches, labels with units, storing."""
+
+import textwrap
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import wraps
+from pathlib import Path
+from typing import Any, NamedTuple, ParamSpec, TypeVar
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike, NDArray
+
+from carom.glossary import GLOSSARY
+from carom.storage import FIGURES, checked_output, replace_whole
+
+Array = NDArray[np.float64]
+P = ParamSpec("P")
+T = TypeVar("T")
+
+MM = 1.0 / 25.4  # in inches, which matplotlib counts in
+SINGLE, DOUBLE = 86.0, 178.0  # widths of one and two columns of a paper, in mm
+DPI = 300
+
+# Okabe & Ito's colours, which the colour-blind tell apart.
+BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
+BLUE, VERMILION, PURPLE, GREY = "#0072B2", "#D55E00", "#CC79A7", "#999999"
+LINES = (BLUE, VERMILION, GREEN, PURPLE, BLACK)
+DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.5, 1)), (0, (6, 1.5, 1.5, 1.5)), (0, (9, 2)))
+MAP = "cividis"
+
+STYLE: Any = {  # typed differently by the versions of matplotlib
+    "font.family": "sans-serif",
+    "font.size": 7.5,
+    "axes.labelsize": 7.5,
+    "axes.titlesize": 7.5,
+    "xtick.labelsize": 7.0,
+    "ytick.labelsize": 7.0,
+    "legend.fontsize": 7.0,
+    "legend.title_fontsize": 7.0,
+    "figure.titlesize": 7.5,
+    "mathtext.fontset": "dejavusans",
+    "axes.linewidth": 0.6,
+    **{
+        f"{axis}tick.major.{what}": value
+        for axis in "xy"
+        for what, value in (("size", 2.5), ("width", 0.6), ("pad", 2.0))
+    },
+    "axes.formatter.useoffset": False,
+    "lines.linewidth": 1.2,
+    "lines.markersize": 3.5,
+    "hatch.linewidth": 0.4,
+    "legend.frameon": False,
+    "legend.handlelength": 2.4,
+    "legend.columnspacing": 1.2,
+    "legend.borderaxespad": 0.2,
+    "legend.labelspacing": 0.3,
+    "savefig.dpi": DPI,
+    "svg.fonttype": "none",
+    "pdf.fonttype": 42,
+}
+
+TICKS = ("labelsize", "major.size", "major.width", "major.pad")
+
+PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
+
+
+def styled(draw: Callable[P, T]) -> Callable[P, T]:
+    """Make a function draw in the style of this package, whatever the user's settings are."""
+
+    @wraps(draw)
+    def drawn(*args: P.args, **kwargs: P.kwargs) -> T:
+        with style():
+            return draw(*args, **kwargs)
+
+    return drawn
+
+
+@contextmanager
+def style() -> Iterator[None]:
+    """Set matplotlib to the style of this package for a while."""
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(STYLE)
+        yield
+
+
+def new_figure(
+    rows: int = 1, columns: int = 1, *, width: float = SINGLE, height: float = 62.0, **options: Any
+) -> tuple[Figure, Any]:
+    """Return a figure of a width and height in mm, and its axes as an array of two dimensions."""
+    figure = Figure(figsize=(width * MM, height * MM), layout="constrained")
+    axes = figure.subplots(rows, columns, squeeze=False, **options)
+    for axis in axes.flat:  # ticks are made when drawn, with the settings of that moment
+        size, length, width, pad = (STYLE[f"xtick.{name}"] for name in TICKS)
+        axis.tick_params(labelsize=size, length=length, width=width, pad=pad)
+    return figure, axes
+
+
+def save_figure(figure: Figure, path: str | Path) -> Path:
+    """Store a figure as .png, .pdf or .svg; one that is there is replaced whole or not at all.
+
+    Raises InputError if the name ends otherwise or the file cannot be written.
+    """
+    target = checked_output(path, FIGURES)
+    with style():
+        return replace_whole(target, lambda where: figure.savefig(where, dpi=DPI))
+
+
+def prefixed(values: ArrayLike, unit: str) -> tuple[float, str]:
+    """Return by what to multiply, and the unit with its prefix, so that the largest is 1 to 1000.
+
+    Examples
+    --------
+    >>> prefixed([0.0, 2.5e-5], "m")
+    (1000000.0, 'µm')
+    >>> prefixed([0.0, 0.9], "1")
+    (1.0, '1')
+    """
+    numbers = np.abs(np.asarray(values, dtype=np.float64))
+    numbers = numbers[np.isfinite(numbers)]
+    largest = float(numbers.max()) if numbers.size else 0.0
+    if unit in ("1", "rad") or largest == 0.0:
+        return 1.0, unit
+    power = 3 * int(np.floor(np.log10(largest * (1.0 + 1e-9)) / 3.0))
+    power = min(max(power, min(PREFIXES)), max(PREFIXES))
+    return 10.0**-power, PREFIXES[power] + unit
+
+
+def label(name: str, unit: str | None = None, room: int = 100) -> str:
+    """Return the label of an axis: short meaning, symbol and unit, in lines of `room` characters.
+
+    Examples
+    --------
+    >>> label("tangential_force", "mN")
+    'tangential force, $F_x$\\xa0(mN)'
+    """
+    text = f"{GLOSSARY[name].meaning.split(',')[0]}, {symbol(name, unit)}"
+    return "\n".join(textwrap.wrap(text, room, break_long_words=False, break_on_hyphens=False))
+
+
+def symbol(name: str, unit: str | None = None) -> str:
+    """Return the label of an axis where there is no room for words."""
+    entry = GLOSSARY[name]
+    unit = entry.unit if unit is None else unit
+    return entry.symbol if unit == "1" else f"{entry.symbol}\u00a0({unit})"
+
+
+class Scaled(NamedTuple):
+    """Values in a unit with a prefix, that unit, and what SI values were multiplied by."""
+
+    values: Array
+    unit: str
+    scale: float
+
+
+def scaled(dataset: Any, name: str, like: ArrayLike | None = None) -> Scaled:
+    """Return the values of a variable in a unit whose prefix suits them, or those of `like`."""
+    values = np.asarray(dataset[name].values, dtype=np.float64)
+    scale, unit = prefixed(values if like is None else like, GLOSSARY[name].unit)
+    return Scaled(values * scale, unit, scale)
+
+
+def legend_above(axis: Axes, columns: int, **options: Any) -> None:
+    """Put the legend above the axes, where it covers no data."""
+    place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (-0.02, 1.0)}
+    axis.legend(ncols=columns, **place, **options)
+
+
+class Band(NamedTuple):
+    """How a kind of phase or zone is marked: a tint, and a hatch that tells the sign of slip."""
+
+    face: str
+    edge: str
+    hatch: str
+
+
+STICK = Band("#DCEBF7", "#DCEBF7", "")
+BANDS = {
+    ("stick", 0): STICK,
+    ("slip", 1): Band("#FBEBCB", "#E3C27A", "////"),
+    ("slip", -1): Band("#FBEBCB", "#E3C27A", "\\\\\\\\"),
+    ("gross slip", 1): Band("#DDDDDD", "#BBBBBB", "//////"),
+    ("gross slip", -1): Band("#DDDDDD", "#BBBBBB", "\\\\\\\\\\\\"),
+}
+MINUS = "\u2212"
+SIGNS = {0: "", 1: " +", -1: f" {MINUS}"}
+
+
+class Phase(NamedTuple):
+    """A phase as a stored history holds it, times in s."""
+
+    kind: str
+    sign: int
+    start: float
+    end: float
+
+
+def phases(dataset: Any) -> list[Phase]:
+    """Return the phases that a dataset holds, none if it is not that of an impact."""
+    if "phase_kind" not in dataset:
+        return []
+    columns = (dataset[f"phase_{name}"].values for name in Phase._fields)
+    return [Phase(str(k), int(s), float(a), float(b)) for k, s, a, b in zip(*columns, strict=True)]
+
+
+def shade(axis: Axes, start: float, end: float, band: Band) -> None:
+    """Fill a band of the x axis behind all data."""
+    axis.axvspan(
+        start, end, facecolor=band.face, edgecolor=band.edge, hatch=band.hatch, lw=0, zorder=0
+    )
+
+
+def slip_band(dataset: Any) -> Band:
+    """Return the mark of the zone that slips at the instant of a fields dataset."""
+    kind = "gross slip" if dataset.attrs.get("phase_kind") == "gross slip" else "slip"
+    return BANDS[kind, -1 if int(dataset.attrs.get("phase_sign", 1)) < 0 else 1]
+
+
+def moment(dataset: Any) -> str:
+    """Return what tells the instant of a fields dataset: phase and time, as far as it has them."""
+    parts = []
+    if "phase_kind" in dataset.attrs:
+        sign = SIGNS[int(dataset.attrs.get("phase_sign", 0))]
+        parts.append(str(dataset.attrs["phase_kind"]) + sign)
+    if "time" in dataset:
+        time, unit, _ = scaled(dataset, "time")
+        parts.append(f"$t$ = {float(time):.3g}\u00a0{unit}")
+    return ", ".join(parts)

@@ -1,0 +1,142 @@
+"""Storing results as NetCDF or CSV and reading them again; files are replaced whole or not."""
+
+import os
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from carom.quantities import InputError, refusal
+from carom.tables import as_csv, from_csv
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+TABLES = (".nc", ".csv")
+FIGURES = (".png", ".pdf", ".svg")
+ANIMATIONS = (".gif", ".mp4")
+
+
+def save(dataset: "xr.Dataset", path: str | Path) -> Path:
+    """Store a dataset as .nc or .csv and return its path; `read` gives it back as it was.
+
+    A file that is there is replaced whole or not at all. CSV is one table, with everything else in
+    comments before it: `pandas.read_csv(path, comment="#")` reads it, too.
+
+    Raises
+    ------
+    InputError
+        If the name ends otherwise, or the file cannot be written.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> import carom
+    >>> from carom.storage import save
+    >>> with TemporaryDirectory() as folder:
+    ...     save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.csv").name
+    'curve.csv'
+    """
+    target = checked_output(path, TABLES)
+
+    def write(where: Path) -> None:
+        if target.suffix.lower() == ".nc":
+            # what has no missing values declares none: CF forbids it of coordinates
+            plain = {name: {"_FillValue": None} for name in dataset.variables}
+            dataset.drop_encoding().to_netcdf(where, engine="h5netcdf", encoding=plain)
+        else:
+            where.write_text(as_csv(dataset), encoding="utf-8", newline="\n")
+
+    return replace_whole(target, write)
+
+
+def read(path: str | Path) -> "xr.Dataset":
+    """Return the dataset that Carom stored as .nc or .csv, every value to the last bit.
+
+    Parameters
+    ----------
+    path : str or Path
+        A file that `carom impact --output`, `carom curve --output` or `save` has written.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, damaged, or not one of Carom's.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> import carom
+    >>> from carom.storage import read, save
+    >>> with TemporaryDirectory() as folder:
+    ...     stored = save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.csv")
+    ...     read(stored).psi_out.values.round(4)
+    array([[ 0.0471, -0.839 ]])
+    """
+    source = Path(path)
+    if source.suffix.lower() not in TABLES:
+        raise refusal("file", str(path), f"must end in {' or '.join(TABLES)}")
+    if not source.is_file():
+        raise refusal("file", str(path), "there is no such file")
+    return _from_netcdf(source) if source.suffix.lower() == ".nc" else _from_csv(source)
+
+
+def _from_netcdf(path: Path) -> "xr.Dataset":
+    import xarray as xr
+
+    try:
+        dataset = xr.load_dataset(path, engine="h5netcdf", decode_times=False)
+    except PermissionError as error:
+        raise refusal("file", str(path), f"cannot be read; {error.strerror}") from None
+    except Exception:  # h5py and xarray raise what they like at a damaged file
+        raise refusal("file", str(path), "it is damaged, or not NetCDF-4") from None
+    if not str(dataset.attrs.get("source")).startswith("carom "):
+        raise refusal("file", str(path), "it was not stored by Carom")
+    return dataset.drop_encoding()
+
+
+def _from_csv(path: Path) -> "xr.Dataset":
+    try:
+        return from_csv(path.read_bytes().decode("utf-8-sig"))
+    except OSError as error:
+        raise refusal("file", str(path), f"cannot be read; {error.strerror or error}") from None
+    except UnicodeDecodeError:
+        raise refusal("file", str(path), "it is not text") from None
+    except InputError as error:
+        raise refusal("file", str(path), str(error)) from None
+
+
+def checked_output(path: str | Path, endings: tuple[str, ...]) -> Path:
+    """Return the path of an output file, or raise InputError if it cannot become one."""
+    target = Path(path)
+    if target.suffix.lower() not in endings:
+        raise refusal("output file", str(path), f"must end in {' or '.join(endings)}")
+    if target.is_dir() or not target.parent.is_dir():
+        raise refusal("output file", str(path), "its folder must exist; make it first")
+    return target
+
+
+def replace_whole(target: Path, write: Callable[[Path], object]) -> Path:
+    """Call `write` on a temporary file beside the target, then put it in the target's place."""
+    try:
+        handle, name = tempfile.mkstemp(
+            prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent
+        )
+        os.close(handle)
+        temporary = Path(name)
+        try:
+            write(temporary)
+            temporary.chmod(0o666 & ~_umask())
+            temporary.replace(target)
+        finally:
+            temporary.unlink(missing_ok=True)
+    except OSError as error:
+        reason = error.strerror or error
+        raise InputError(f"output file: {str(target)!r} cannot be written; {reason}") from None
+    return target
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

@@ -1,0 +1,104 @@
+"""Stress below the surface of either body of a contact."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from carom.contacts import Contact
+from carom.dimensionless.extremes import SURFACE, Largest, largest, principal_stresses, von_mises
+from carom.dimensionless.subsurface import COMPONENTS, stresses
+from carom.positions import line, scattered
+from carom.quantities import nearest, refusal
+from carom.results import labelled_dataset
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+ALONG, DOWN = 101, 61  # points along x and z where none are asked for
+REACH = 2.0  # of that grid, in contact radii
+BODIES = ("first", "second")
+
+
+def stress_dataset(
+    contact: Contact,
+    *,
+    x: ArrayLike | None = None,
+    z: ArrayLike | None = None,
+    points: ArrayLike | None = None,
+    body: str = "second",
+) -> "xr.Dataset":
+    """Return the stress in one body, on a grid in the plane y = 0 or at points.
+
+    Arguments, result and errors as `Impact.stress`.
+    """
+    friction, poisson = _of_body(contact, body)
+    dims, coords, at = _places(contact, x, z, points)
+
+    def stress_at(places: Array) -> Array:
+        return stresses(places, contact.profile, friction=friction, poisson=poisson)
+
+    stress = contact.scales.pressure * stress_at(at.reshape(-1, 3) / contact.scales.radius)
+    columns = {name: (dims, v.reshape(at.shape[:-1])) for name, v in _columns(stress).items()}
+    tension = largest(
+        lambda places: principal_stresses(stress_at(places))[:, 0], contact.profile, SURFACE
+    )
+    mises = largest(lambda places: von_mises(stress_at(places)), contact.profile)
+    numbers = _entries(contact, "max_von_mises", mises) | _entries(contact, "max_tension", tension)
+    return labelled_dataset(
+        {**columns, **numbers, **contact.numbers(), "poisson": poisson},
+        coords,
+        {"title": f"stress in the {body} body", "body": body, **contact.attributes},
+    )
+
+
+def _columns(stress: Array) -> dict[str, Array]:
+    principal = principal_stresses(stress)
+    columns = {f"sigma_{name}": stress[:, i] for i, name in enumerate(COMPONENTS)}
+    columns |= {f"principal_{i + 1}": principal[:, i] for i in range(3)}
+    columns["von_mises"] = von_mises(stress)
+    columns["max_shear"] = 0.5 * (principal[:, 0] - principal[:, 2])
+    return columns
+
+
+def _entries(contact: Contact, name: str, found: Largest) -> dict[str, float]:
+    place = {f"{name}_{c}": getattr(found, c) * contact.scales.radius for c in "xyz"}
+    return {name: found.value * contact.scales.pressure, **place}
+
+
+def _of_body(contact: Contact, body: str) -> tuple[float, float]:
+    """Return friction, positive where it pulls the body along +x, and Poisson's ratio."""
+    if body not in BODIES:
+        raise refusal("body", body, nearest(str(body), BODIES) or "must be 'first' or 'second'")
+    material = getattr(contact.pair, body).material
+    if material.is_rigid:
+        other = BODIES[1 - BODIES.index(body)]
+        raise refusal("body", body, f"it is rigid and has no stress; ask for the {other} body")
+    pull = 1.0 if body == "second" else -1.0
+    return pull * contact.pair.friction, material.poisson
+
+
+def _places(
+    contact: Contact, x: ArrayLike | None, z: ArrayLike | None, points: ArrayLike | None
+) -> tuple[tuple[str, ...], dict[str, Any], Array]:
+    if points is not None:
+        if x is not None or z is not None:
+            raise refusal("points", "points and x, z", "give a grid by x and z, or points")
+        at = scattered("points", points, 3)
+        _refuse_outside("points", at[:, 2])
+        return ("point",), {name: ("point", at[:, i]) for i, name in enumerate("xyz")}, at
+    reach = REACH * (contact.radius or contact.scales.radius)
+    along = np.linspace(-reach, reach, ALONG) if x is None else line("x", x)
+    down = np.linspace(0.0, reach, DOWN) if z is None else line("z", z)
+    _refuse_outside("z", down)
+    px, pz = np.meshgrid(along, down)
+    at = np.stack([px, np.zeros_like(px), pz], axis=-1)
+    return ("z", "x"), {"x": along, "y": 0.0, "z": down}, at
+
+
+def _refuse_outside(name: str, depth: Array) -> None:
+    if np.any(depth < 0.0):
+        z = float(depth.min())
+        raise refusal(name, f"z = {z:g} m", "z is the depth in the body and cannot be negative")

@@ -1,0 +1,222 @@
+"""Surface fields against a numerical integration of the point-force solution of the half-space.
+
+Cerruti and Boussinesq (Johnson 1985, sections 3.2 and 3.6), on the surface, force along x or z:
+2 pi G u_x = (1 - nu)/rho + nu X^2/rho^3, 2 pi G u_y = nu X Y/rho^3, 2 pi G u_z = (1 - nu)/rho.
+In polar coordinates about the field point the distance rho cancels. What is left is the integral of
+the traction along each chord through that point, weighted by the direction of the chord.
+"""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+import carom
+from carom import HalfSpace, Material, Pair, Sphere
+
+STEEL = Material(young="210 GPa", poisson=0.3, density=7850)
+RUBBER = Material(young="8 MPa", poisson=0.5, density=1100)
+GLASS = Material(young="70 GPa", poisson=0.23, density=2500)
+MU = 0.15
+SPEED = 0.8
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(48)
+TERMS = 80
+
+# psi_1, chi, phase, part of the phase that has passed
+MOMENTS = {
+    "stick from the first touch": (0.3, 1.75, 0, 0.6),
+    "backward ring while loading": (0.3, 1.75, 1, 0.08),
+    "backward ring while unloading": (0.3, 1.75, 1, 0.7),
+    "ring after the ring closed": (0.3, 1.75, 2, 0.5),
+    "gross slip at the end": (0.3, 1.75, 3, 0.5),
+    "gross slip while loading": (1.5, 1.44, 0, 0.7),
+    "stick after gross slip": (1.5, 1.44, 1, 0.5),
+    "ring around stick and slip of old": (1.5, 1.44, 2, 0.4),
+    "retraced": (0.2, 4.0, 0, 0.8),
+    "ring while loading": (0.9525, 4.3, 1, 0.3),
+    "stick again": (0.9525, 4.3, 2, 0.8),
+    "ring after stick again": (0.9525, 4.3, 3, 0.2),
+    "mirrored": (-0.5, 1.44, 1, 0.5),
+}
+
+
+def spread(low, high):
+    """Gauss-Legendre points and weights between two numbers."""
+    half = 0.5 * (high - low)
+    return low + half * (1.0 + NODES), half * WEIGHTS
+
+
+class Load:
+    """A traction f(r) on a circle: f = int_r^b g s ds/sqrt(s^2 - r^2), or any f given on rings.
+
+    On a ring f is smooth in w = sqrt(outer^2 - r^2), where it is held as a Chebyshev series.
+    """
+
+    def __init__(self, f, edges):
+        self.edges = np.asarray(edges)
+        self.series = []
+        for inner, outer in pairwise(edges):
+            width = math.sqrt(outer**2 - inner**2)
+            nodes = 0.5 * width * (1.0 + np.polynomial.chebyshev.chebpts1(TERMS))
+            values = [f(math.sqrt(max(outer**2 - w * w, 0.0))) for w in nodes]
+            fit = np.polynomial.Chebyshev.fit(nodes, values, TERMS - 1, domain=[0.0, width])
+            self.series.append(fit)
+
+    def along_chords(self, h):
+        """Return the integral of f along chords at distances h from the centre, all in one ring."""
+        total = np.zeros_like(h)
+        for (inner, outer), series in zip(pairwise(self.edges), self.series, strict=True):
+            if outer > h[0]:
+                reach = np.sqrt(outer**2 - h**2)
+                start = np.sqrt(np.maximum(inner**2 - h**2, 0.0)) / reach
+                half = 0.5 * (0.5 * math.pi - np.arcsin(start))  # t = reach sin(angle) on a chord
+                cos = np.sin(np.outer(half, 1.0 + NODES))
+                total += 2.0 * reach * half * ((series(reach[:, None] * cos) * cos) @ WEIGHTS)
+        return total
+
+    def integrals(self, x, y):
+        """Return iint f/rho, iint f X^2/rho^3 and iint f X Y/rho^3 at (x, y), chord by chord."""
+        distance, bearing = math.hypot(x, y), math.atan2(y, x)
+        tangents = [math.asin(e / distance) for e in self.edges if e < distance]
+        if len(tangents) < len(self.edges):
+            tangents.append(0.5 * math.pi)  # within the circle every direction meets it
+        total = np.zeros(3)
+        for low, high in pairwise(tangents):
+            angles, weights = spread(low, high)
+            chords = self.along_chords(distance * np.sin(angles))
+            for direction in (bearing + angles, bearing - angles):
+                cos, sin = np.cos(direction), np.sin(direction)
+                total += np.stack([np.ones_like(cos), cos * cos, cos * sin]) @ (weights * chords)
+        return total
+
+
+def traction_of(memory):
+    """Return f(r) of (6), from g(s) alone, as a function of r = sqrt(s), and the edges of rings."""
+    edges = np.array([0.0, *(annulus.outer for annulus in memory.annuli)])
+
+    def f(r):
+        total = 0.0
+        for inner, outer in pairwise(edges):
+            if outer > r:
+                low = math.sqrt(max(inner**2 - r**2, 0.0))
+                w, weights = spread(low, math.sqrt(outer**2 - r**2))
+                total += weights @ memory.g(r * r + w * w)
+        return total
+
+    return f, edges
+
+
+def displacements(pair, length, tangential, normal, x, y):
+    """Return the combined u_x, u_y, u_z in m at (x, y) in sqrt(R* length), from two loads.
+
+    Loads are in units of 2 E*/(pi R*) sqrt(R* length), the tangential one without mu.
+    """
+    unit = 2.0 * pair.effective_modulus * length / math.pi
+    total = np.zeros(3)
+    whole, along, across = pair.friction * tangential.integrals(x, y)
+    pressed = normal.integrals(x, y)[0]
+    for body in (pair.first, pair.second):
+        nu, shear = body.material.poisson, body.material.shear_modulus
+        each = ((1 - nu) * whole + nu * along, nu * across, (1 - nu) * pressed)
+        total += np.array(each) * unit / (2.0 * math.pi * shear)
+    return total
+
+
+def hertz_load(b):
+    return Load(lambda r: math.sqrt(b * b - r * r), [0.0, b])
+
+
+def impact_with(psi, chi, ball=STEEL, plate=STEEL):
+    """Return an impact of given psi_1 and chi; the radius of gyration makes the chi."""
+    like = Pair(Sphere(radius="10 mm", material=ball), HalfSpace(material=plate), MU)
+    gyration = like.first.radius / math.sqrt(2.0 * chi / like.kappa - 1.0)
+    sphere = Sphere(radius="10 mm", material=ball, gyration_radius=gyration)
+    pair = Pair(sphere, like.second, MU)
+    assert pair.chi == pytest.approx(chi, rel=1e-14)
+    speed = psi * MU * SPEED / pair.kappa
+    return carom.impact(pair, normal_speed=SPEED, tangential_speed=speed)
+
+
+def places(edges):
+    """Return points on axes, diagonal and elsewhere: in every ring, at the edge, and outside."""
+    radii = [0.5 * (low + high) for low, high in pairwise(edges)]
+    radii += [0.999 * edges[-1], 1.02 * edges[-1], 2.5 * edges[-1]]
+    angles = (0.0, 0.5 * math.pi, 0.25 * math.pi, -2.7)
+    return np.array([(r * math.cos(a), r * math.sin(a)) for r in radii for a in angles])
+
+
+def fields_at(hit, time, points):
+    """Return fields at points in units of sqrt(R* d_max), and their displacements as one array."""
+    fields = hit.fields(time * hit.scales.time, points=points * hit.scales.radius)
+    names = ("displacement_x", "displacement_y", "displacement_z")
+    return fields, np.stack([fields[name].values for name in names], axis=-1)
+
+
+def test_the_integration_gives_gross_slip_of_the_paper():
+    """The oracle itself: (28) gives (29) and Hertz's u_z = d - r^2/(2 R*), to 1e-14."""
+    b, nu, length = 0.8, 0.3, 1e-5
+    pair = impact_with(0.5, 1.44).pair
+    load = hertz_load(b)
+    inside = np.array([(0.3, 0.0), (0.0, 0.5), (0.4, 0.4), (-0.3, 0.6)])
+    unit = MU * length / (8.0 * (1.0 - nu))
+    for x, y in inside:
+        x2, y2 = x * x, y * y
+        expected = [
+            unit * (2.0 * (2.0 - nu) * (2.0 * b * b - x2 - y2) + nu * (x2 - y2)),
+            unit * nu * 2.0 * x * y,
+            length * (b * b - 0.5 * (x2 + y2)),
+        ]
+        found = displacements(pair, length, load, load, x, y)
+        assert np.allclose(found, expected, rtol=0.0, atol=1e-14 * length)
+
+
+def test_the_integration_agrees_with_plain_quadrature_outside():
+    """The oracle itself: outside the contact nothing is singular, and Cartesian rho will do."""
+    hit = impact_with(0.3, 1.75, STEEL, GLASS)
+    f, edges = traction_of(hit.solution.memory(1.6))
+    load, x, y = Load(f, edges), 0.9, -0.8
+    angles = np.arange(256) * (2.0 * math.pi / 256)
+    along = across = 0.0
+    for (inner, outer), series in zip(pairwise(load.edges), load.series, strict=True):
+        w, weights = spread(0.0, math.sqrt(outer**2 - inner**2))
+        for w_i, part in zip(w, weights, strict=True):  # r dr = -w dw
+            r = math.sqrt(outer**2 - w_i**2)
+            dx, dy = x - r * np.cos(angles), y - r * np.sin(angles)
+            area = part * w_i * series(w_i) * (2.0 * math.pi / 256)
+            along += area * np.sum(dx**2 / np.hypot(dx, dy) ** 3)
+            across += area * np.sum(dx * dy / np.hypot(dx, dy) ** 3)
+    assert load.integrals(x, y)[1:] == pytest.approx([along, across], rel=1e-11)
+
+
+@pytest.mark.parametrize("name", MOMENTS)
+def test_fields_against_the_point_force_solution(name):
+    """Tractions to 1e-12 of their largest value, displacements to 1e-12 of mu d/kappa and d."""
+    psi, chi, index, part = MOMENTS[name]
+    hit = impact_with(psi, chi)
+    phase = hit.solution.phases[index]
+    time = phase.start + part * (phase.end - phase.start)
+    compare(hit, time)
+
+
+@pytest.mark.parametrize(("ball", "plate"), [(STEEL, GLASS), (GLASS, RUBBER)])
+def test_fields_between_unlike_materials(ball, plate):
+    """Each body has its own nu and G; their displacements add up."""
+    compare(impact_with(1.5, 1.6, ball, plate), 1.4)
+
+
+def compare(hit, time):
+    f, edges = traction_of(hit.solution.memory(time))
+    tangential, normal = Load(f, edges), hertz_load(edges[-1])
+    points = places(edges)
+    fields, found = fields_at(hit, time, points)
+    length, pair = hit.scales.length, hit.pair
+    unit = np.array([MU / pair.kappa, MU / pair.kappa, 1.0]) * length * edges[-1] ** 2
+    for row, (x, y) in zip(found, points, strict=True):
+        expected = displacements(pair, length, tangential, normal, x, y)
+        assert np.all(np.abs(row - expected) <= 1e-12 * unit)
+    pressure = 2.0 * pair.effective_modulus / math.pi * math.sqrt(length / pair.effective_radius)
+    for traction, (x, y) in zip(fields.traction_x.values, points, strict=True):
+        r = math.hypot(x, y)
+        expected = MU * pressure * f(r) if r < edges[-1] else 0.0
+        assert abs(traction - expected) <= 1e-12 * MU * pressure * edges[-1]

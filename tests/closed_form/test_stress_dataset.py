@@ -1,0 +1,148 @@
+"""The stress in either body of an impact, with units: where it is largest, and what is refused."""
+
+import math
+
+import numpy as np
+import pytest
+
+import carom
+from carom.dimensionless.extremes import SURFACE, largest, principal_stresses, von_mises
+from carom.dimensionless.subsurface import stresses
+
+STEEL = carom.Material(young="210 GPa", poisson=0.3, density=7850)
+BALL = carom.Sphere(radius="5 mm", material=STEEL)
+HIT = carom.impact(
+    carom.Pair(BALL, carom.HalfSpace(material=STEEL), friction=0.2), speed=2.0, angle="30 deg"
+)
+STEEP = carom.impact(HIT.pair, speed=2.0, angle="75 deg")  # slides throughout
+ON_RIGID = carom.impact(
+    carom.Pair(BALL, carom.HalfSpace(material="rigid"), friction=0.2), speed=2.0, angle="30 deg"
+)
+TIMES = [0.1, 0.3, 0.48, 0.55, 0.7, 0.9]
+
+
+@pytest.mark.parametrize("share", TIMES)
+def test_surface_carries_the_tractions_of_the_fields(share):
+    """sigma_zz = -p, and sigma_xz = -f in the second body, +f in the first."""
+    time = share * HIT.duration
+    x = np.linspace(-1.2, 1.2, 17) * HIT.max_radius
+    fields = HIT.fields(time, x=x, y=[0.0]).isel(y=0)
+    limit = 1e-9 * HIT.max_pressure
+    for body, sign in [("first", 1.0), ("second", -1.0)]:
+        stress = HIT.stress(time, x=x, z=[0.0], body=body).isel(z=0)
+        assert np.abs(stress.sigma_zz + fields.pressure).max() < limit
+        assert np.abs(stress.sigma_xz - sign * fields.traction_x).max() < limit
+
+
+def test_sliding_impact():
+    """The largest tension of full sliding by its closed form, behind the contact in either body."""
+    time = 0.3 * STEEP.duration
+    for body, side in [("second", -1.0), ("first", 1.0)]:
+        stress = STEEP.stress(time, x=[0.0], z=[0.0], body=body)
+        p_0 = -float(stress.sigma_zz[0, 0])
+        expected = p_0 * (0.4 / 3.0 + math.pi * 0.2 * 4.3 / 8.0)
+        assert float(stress.max_tension) == pytest.approx(expected, rel=1e-9)
+        edge = side * float(stress.contact_radius)
+        assert float(stress.max_tension_x) == pytest.approx(edge, rel=1e-12)
+        assert float(stress.max_tension_y) == float(stress.max_tension_z) == 0.0
+        assert float(stress.max_von_mises_x) * side < 0.0
+
+
+def test_bodies_mirror_each_other():
+    """Equal materials: what one body has at x the other has at -x."""
+    one, other = (HIT.stress(0.6 * HIT.duration, body=body) for body in ("first", "second"))
+    for name in ("sigma_xx", "sigma_zz", "von_mises", "principal_1", "max_shear"):
+        assert np.abs(one[name].values - other[name].values[:, ::-1]).max() < 1e-5
+    assert np.abs(one.sigma_xz.values + other.sigma_xz.values[:, ::-1]).max() < 1e-5
+
+
+def test_invariants_of_the_tensor():
+    """Principal stresses in order, with the trace, the determinant, and von Mises from them."""
+    generator = np.random.default_rng(2)
+    points = generator.uniform(-1.0, 1.0, (50, 3)) * HIT.max_radius
+    ds = HIT.stress(0.5 * HIT.duration, points=np.abs(points)) / HIT.max_pressure
+    s = [ds[f"principal_{k}"].values for k in (1, 2, 3)]
+    xx, yy, zz, xy, xz, yz = (ds[f"sigma_{n}"].values for n in "xx yy zz xy xz yz".split())
+    assert np.all(s[0] >= s[1]) and np.all(s[1] >= s[2])
+    assert sum(s) == pytest.approx(xx + yy + zz, abs=1e-13)
+    determinant = xx * (yy * zz - yz**2) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)
+    assert s[0] * s[1] * s[2] == pytest.approx(determinant, abs=1e-13)
+    mises = np.sqrt(0.5 * ((s[0] - s[1]) ** 2 + (s[1] - s[2]) ** 2 + (s[2] - s[0]) ** 2))
+    assert ds.von_mises.values == pytest.approx(mises, abs=1e-13)
+    assert ds.max_shear.values == pytest.approx(0.5 * (s[0] - s[2]), abs=1e-13)
+
+
+@pytest.mark.parametrize(("psi", "chi"), [(0.5, 1.44), (1.5, 1.44), (0.2, 40.0)])
+@pytest.mark.parametrize("friction", [0.1, 0.5])
+def test_nothing_is_larger_than_the_largest(psi, chi, friction):
+    """In stick and slip, none of 6000 points exceeds the maxima, which lie in the plane y = 0."""
+    generator = np.random.default_rng(11)
+    solution = carom.solve(psi, chi)
+    for time in (1.2, 1.45, 1.9, 2.5):
+        profile = solution.memory(time).profile()
+        at = generator.uniform([-1.3, 0.0, 0.0], [1.3, 1.3, 1.0], (6000, 3)) * profile.edges[-1]
+        at[:4000, 2] = 0.0
+        at[:2000, 1] = 0.0
+
+        def stress(places, profile=profile):
+            return stresses(places, profile, friction=friction, poisson=0.3)
+
+        def tension(places, stress=stress):
+            return principal_stresses(stress(places))[:, 0]
+
+        def mises(places, stress=stress):
+            return von_mises(stress(places))
+
+        worst, pulled = largest(mises, profile), largest(tension, profile, SURFACE)
+        assert worst.value >= mises(at).max()
+        assert pulled.value >= tension(at[:4000]).max()
+        assert worst.y == pytest.approx(0.0, abs=1e-6)
+        assert pulled.y == pytest.approx(0.0, abs=1e-6)
+
+
+def test_maxima_do_not_depend_on_the_grid():
+    """They belong to the body: the same for a grid, another grid, and one point."""
+    time = 0.6 * HIT.duration
+    found = [
+        HIT.stress(time),
+        HIT.stress(time, x=[0.0], z=[1.0]),
+        HIT.stress(time, points=[[0] * 3]),
+    ]
+    for name in ("max_von_mises", "max_von_mises_z", "max_tension", "max_tension_x"):
+        assert len({float(dataset[name]) for dataset in found}) == 1
+
+
+def test_dataset():
+    """Dims, default grid and units as documented; no contact, no stress."""
+    stress = HIT.stress(0.4 * HIT.duration)
+    assert stress.sigma_xx.dims == ("z", "x")
+    assert stress.sigma_xx.shape == (61, 101)
+    reach = 2.0 * float(stress.contact_radius)
+    assert (float(stress.x[0]), float(stress.z[0])) == (-reach, 0.0)
+    assert (float(stress.x[-1]), float(stress.z[-1])) == (reach, reach)
+    assert {stress[name].units for name in ("sigma_xx", "von_mises", "max_tension")} == {"Pa"}
+    assert stress.attrs["body"] == "second"
+    at_touch = HIT.stress(0.0)
+    assert float(np.abs(at_touch.von_mises).max()) == float(at_touch.max_von_mises) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("hit", "arguments", "message"),
+    [
+        (HIT, {"points": [[0.0, 0.0]]}, r"points: .*\(1, 2\).*shape \(n, 3\)"),
+        (HIT, {"points": [[0.0, 0.0, math.nan]]}, "points: .*nan.*finite"),
+        (HIT, {"points": [[0.0, 0.0, -1e-6]]}, "points: .*-1e-06 m.*depth"),
+        (HIT, {"points": "here"}, "points: 'here'"),
+        (HIT, {"z": [0.0, -1e-6]}, "z: .*-1e-06 m.*depth"),
+        (HIT, {"x": [math.inf]}, "x: .*finite"),
+        (HIT, {"x": [0.0], "points": [[0.0, 0.0, 0.0]]}, "points: .*grid by x and z, or points"),
+        (HIT, {"body": "secnd"}, "body: 'secnd'.*did you mean 'second'"),
+        (HIT, {"body": None}, "body: None.*'first' or 'second'"),
+        (ON_RIGID, {}, "body: 'second'.*rigid.*first"),
+    ],
+)
+def test_bad_input(hit, arguments, message):
+    """One line that names the argument, its value, and what is allowed."""
+    with pytest.raises(carom.InputError, match=message) as caught:
+        hit.stress(1e-6, **arguments)
+    assert "\n" not in str(caught.value)

@@ -1,0 +1,95 @@
+"""Bad input to fields, stresses and animations: one clear line that names what is wrong."""
+
+import numpy as np
+import pytest
+
+import carom
+
+NAN = float("nan")
+
+
+@pytest.fixture(scope="module")
+def hit():
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    rigid = carom.HalfSpace(material=carom.Material(young=float("inf"), poisson=0.3))
+    return carom.impact(carom.Pair(ball, rigid, friction=0.2), speed=1.0, angle="20 deg")
+
+
+@pytest.mark.parametrize("ask", ["fields", "stress", "radial", "contact"])
+@pytest.mark.parametrize(
+    ("time", "message"),
+    [
+        (1.0, "within the contact, from 0 to"),
+        (-1e-9, "within the contact, from 0 to"),
+        (NAN, "give a number in s"),
+        ("soon", "give a number in s"),
+        ("5 mm", "not a value in s"),
+        (None, "give a number in s"),
+    ],
+)
+def test_times(hit, ask, time, message):
+    with pytest.raises(carom.InputError, match=message) as error:
+        getattr(hit, ask)(time)
+    assert str(error.value).startswith("time: ")
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"points": [1.0, 2.0]}, r"points: 'an array of shape \(2,\)' cannot .* shape \(n, 2\)"),
+        ({"points": np.zeros((4, 3))}, r"shape \(4, 3\)' .* must be .* of shape \(n, 2\)"),
+        ({"points": np.zeros((0, 2))}, r"shape \(0, 2\)"),
+        ({"points": [[0.0, 0.0], [0.0, NAN]]}, "row 1 is not finite"),
+        ({"points": "here"}, r"points: 'here' .* shape \(n, 2\)"),
+        ({"points": [[0.0, 0.0]], "x": [0.0]}, "a grid by x and y, or points"),
+        ({"x": []}, "x: .* list of finite numbers"),
+        ({"y": [0.0, NAN]}, "y: .* list of finite numbers"),
+        ({"x": [[0.0, 1.0]]}, "x: .* list of finite numbers"),
+    ],
+)
+def test_places_on_the_surface(hit, given, message):
+    with pytest.raises(carom.InputError, match=message) as error:
+        hit.fields(1e-6, **given)
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"points": np.zeros((4, 2))}, r"shape \(n, 3\)"),
+        ({"points": [[0.0, 0.0, -1e-6]]}, "depth in the body and cannot be negative"),
+        ({"z": [-1e-6]}, "depth in the body and cannot be negative"),
+        ({"points": [[0.0, 0.0, 0.0]], "z": [0.0]}, "a grid by x and z, or points"),
+        ({"body": "second"}, "body: 'second' .* rigid .* ask for the first"),
+        ({"body": "frist"}, "body: 'frist' .* did you mean 'first'"),
+        ({"body": 3}, "body: 3 cannot be used"),
+    ],
+)
+def test_places_below_the_surface(hit, given, message):
+    with pytest.raises(carom.InputError, match=message) as error:
+        hit.stress(1e-6, **({"body": "first"} | given))
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("n", [1, 2.5, "many", NAN, None])
+def test_numbers_of_times_and_distances(hit, n):
+    with pytest.raises(carom.InputError, match=r"n: .* whole number of at least 2"):
+        hit.radial(1e-6, n)
+    with pytest.raises(carom.InputError, match=r"n: .* whole number of at least 2"):
+        hit.history(n)
+
+
+@pytest.mark.parametrize("frames", [0, -3, 1.5, NAN, None])
+def test_number_of_frames(hit, tmp_path, frames):
+    with pytest.raises(carom.InputError, match=r"frames: .* whole number of at least 1"):
+        hit.animate(tmp_path / "hit.gif", frames)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_is_at_the_ends_of_the_contact(hit):
+    """At the first and last touch there is a contact of radius zero, without stress."""
+    for time in (0.0, hit.duration):
+        assert float(hit.fields(time).pressure.max()) == 0.0
+        assert float(hit.stress(time, body="first").von_mises.max()) == 0.0
+        assert float(hit.radial(time).traction_x[0]) == 0.0

@@ -1,0 +1,120 @@
+"""Published stresses below spheres in contact, at rest and sliding; p_0 = 1 and b = 1."""
+
+import numpy as np
+import pytest
+
+from carom.dimensionless.extremes import SURFACE, largest, principal_stresses, von_mises
+from carom.dimensionless.profile import flat, stacked
+from carom.dimensionless.subsurface import stresses
+
+SLIDING = stacked([1.0], [flat(0.0, 1.0, 1.0, 0.0)])
+RATIOS = pytest.mark.parametrize("poisson", [0.0, 0.25, 0.3, 0.45])
+
+
+def below(friction, poisson=0.3):
+    return lambda at: stresses(at, SLIDING, friction=friction, poisson=poisson)
+
+
+def worst(friction, poisson=0.3):
+    return largest(lambda at: von_mises(below(friction, poisson)(at)), SLIDING)
+
+
+def tension(friction, poisson):
+    def stretched(at):
+        return principal_stresses(below(friction, poisson)(at))[:, 0]
+
+    return largest(stretched, SLIDING, SURFACE)
+
+
+def test_largest_shear_below_a_sphere_at_rest():
+    """Johnson (1985), section 3.4: nu = 0.3, largest shear 0.31 p_0 at a depth of 0.48 b."""
+
+    def shear(at):
+        principal = principal_stresses(below(0.0)(at))
+        return 0.5 * (principal[:, 0] - principal[:, 2])
+
+    found = largest(shear, SLIDING)
+    assert found.value == pytest.approx(0.31, abs=5e-4)
+    assert found.z == pytest.approx(0.48, abs=5e-3)
+    assert (found.x, found.y) == pytest.approx((0.0, 0.0), abs=1e-5)
+
+
+def test_first_yield_at_rest():
+    """Johnson (1985), (6.8) and (6.9): von Mises 0.62 p_0 at 0.48 b, first yield p_0 = 1.60 Y."""
+    found = worst(0.0)
+    assert found.value == pytest.approx(0.62, abs=5e-4)
+    assert found.z == pytest.approx(0.48, abs=5e-3)
+    assert 1.0 / found.value == pytest.approx(1.60, abs=0.015)
+
+
+@RATIOS
+def test_tension_at_the_rim_at_rest(poisson):
+    """Johnson (1985), section 3.4: (1 - 2 nu) p_0/3 at the edge, radially, the largest tension."""
+    found = tension(0.0, poisson)
+    assert found.value == pytest.approx((1.0 - 2.0 * poisson) / 3.0, abs=1e-8)
+    assert np.hypot(found.x, found.y) == pytest.approx(1.0, abs=1e-9)
+
+
+@RATIOS
+@pytest.mark.parametrize("friction", [0.05, 0.25, 0.5, 1.0])
+def test_tension_behind_a_sliding_contact(friction, poisson):
+    """Hamilton and Goodman (1966): p_0 [(1 - 2 nu)/3 + pi mu (4 + nu)/8], at the trailing edge."""
+    found = tension(friction, poisson)
+    expected = (1.0 - 2.0 * poisson) / 3.0 + np.pi * friction * (4.0 + poisson) / 8.0
+    assert found.value == pytest.approx(expected, abs=1e-12)
+    assert found[1:] == (-1.0, 0.0, 0.0)
+
+
+def hamilton(at, nu):
+    """Return the stress below a pressure sqrt(1 - r^2) by Hamilton's (1983) explicit equations."""
+    x, y, z = at.T
+    r2 = x * x + y * y
+    a = r2 + z * z - 1.0
+    s = np.sqrt(a * a + 4.0 * z * z)
+    m = np.where(a > 0.0, np.sqrt(0.5 * (s + np.abs(a))), 0.0)
+    n = np.where(a > 0.0, z / np.where(a > 0.0, m, 1.0), np.sqrt(0.5 * (s + np.abs(a))))
+    m = np.where(a > 0.0, m, z / n)
+    g, h = m * m - n * n + z * m - n, 2.0 * m * n + m + z * n
+    turned = (1 - nu) * n * z * z - (1 - 2 * nu) / 3 * (n * s + 2 * a * n + 1) - nu * m * z
+    mean = (1 + nu) * z * np.arctan(1.0 / m)
+
+    def normal(u, v):
+        rest = -n * (u * u + 2 * nu * v * v) - m * u * u * z / s
+        return mean + ((v * v - u * u) / r2 * turned + rest) / r2
+
+    soft = -n * r2 + 2 / 3 * n * (s + 2 * a) - z * (z * n + m) + 2 / 3
+    xy = x * y / r2**2 * ((1 - 2 * nu) * soft + z * (-m * r2 / s - z * n + m))
+    shear = -z * (n / s - z * h / (g * g + h * h))
+    return np.stack([normal(x, y), normal(y, x), -n + z * m / s, xy, x * shear, y * shear], axis=-1)
+
+
+@RATIOS
+def test_explicit_equations(poisson):
+    """Hamilton (1983), Proc. Inst. Mech. Eng. C 197:53: pressure alone, from the surface down."""
+    generator = np.random.default_rng(5)
+    r, angle = generator.uniform(0.3, 2.0, 400), generator.uniform(0.0, 2.0 * np.pi, 400)
+    depth = 10.0 ** generator.uniform(-8.0, 1.0, 400)
+    at = np.stack([r * np.cos(angle), r * np.sin(angle), depth], axis=-1)
+    assert below(0.0, poisson)(at) == pytest.approx(hamilton(at, poisson), abs=1e-10)
+
+
+@pytest.mark.parametrize("friction", [0.1, 0.2, 0.25])
+def test_little_friction_yields_below(friction):
+    """Johnson (1985), section 7.1: up to a friction of about 0.3 the worst point is below the
+    surface, nearer to it the larger the friction.
+    """
+    found, less = worst(friction), worst(friction - 0.1)
+    assert 0.3 < found.z < less.z
+    assert found.value > less.value
+
+
+@pytest.mark.parametrize("friction", [0.35, 0.4, 0.5])
+def test_much_friction_yields_at_the_surface(friction):
+    """Johnson (1985), section 7.1: beyond about 0.3 it is at the surface, here at the trailing
+    edge, where sigma_xx and sigma_yy are those of Hamilton (1983).
+    """
+    found = worst(friction)
+    xx = 0.4 / 3.0 + np.pi * friction * 4.3 / 8.0
+    yy = -0.4 / 3.0 + 3.0 * np.pi * friction * 0.3 / 8.0
+    assert found[1:] == (-1.0, 0.0, 0.0)
+    assert found.value == pytest.approx(np.sqrt(xx * xx - xx * yy + yy * yy), abs=1e-12)
