@@ -1,6 +1,6 @@
 """A patch that slides as a whole: traction mu p, and the dish it makes of the surface.
 
-u_x falls off from the centre, more slowly across the motion than along it; u_y has four lobes and
+u_x falls off from the centre, more slowly along the motion than across it; u_y has four lobes and
 does not change while the contact grows, so that all points slip exactly along x. The patch widens
 with du_x/dt the same everywhere: slip can only stop at all points at once.
 Barber (1979), ZAMP 30:468, equations (28) to (30).

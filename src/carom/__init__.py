@@ -7,6 +7,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from carom import classical, plots
     from carom.bodies import (
         Cup,
         HalfSpace,
@@ -46,6 +47,7 @@ _HOMES = {
     "carom.dimensionless.rebounds": ("rebound",),
     "carom.dimensionless.solution": ("Solution", "solve"),
 }
+_MODULES = ("classical", "plots")
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
@@ -59,12 +61,14 @@ __all__ = [
     "Solution",
     "Sphere",
     "Status",
+    "classical",
     "curve",
     "impact",
     "load_path",
     "material",
     "material_sources",
     "materials",
+    "plots",
     "read",
     "rebound",
     "regime_map",
@@ -78,6 +82,8 @@ def __getattr__(name: str) -> object:
         from carom.results import carom_version
 
         return carom_version()
+    if name in _MODULES:
+        return import_module(f"carom.{name}")
     if name not in _HOME_OF:
         raise AttributeError(f"module 'carom' has no attribute {name!r}")
     value = getattr(import_module(_HOME_OF[name]), name)

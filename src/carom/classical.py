@@ -41,9 +41,10 @@ def cattaneo_mindlin(pair: Pair, normal_force: ArrayLike, tangential_force: Arra
     Examples
     --------
     >>> import carom
+    >>> from carom.loading import load_path
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.5])
+    >>> path = load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.5])
     >>> bool(np.isclose(path.displacement[-1], cattaneo_mindlin(pair, 10.0, 1.5), rtol=1e-12))
     True
     """
@@ -76,9 +77,10 @@ def loop_energy(pair: Pair, normal_force: ArrayLike, amplitude: ArrayLike) -> Ar
     Examples
     --------
     >>> import carom
+    >>> from carom.loading import load_path
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> path = carom.load_path(pair, normal_force=10.0, tangential_force=[0.0, 1.5, -1.5, 1.5])
+    >>> path = load_path(pair, normal_force=10.0, tangential_force=[0.0, 1.5, -1.5, 1.5])
     >>> lost = path.frictional_work[3] - path.frictional_work[1]
     >>> bool(np.isclose(lost, loop_energy(pair, 10.0, 1.5), rtol=1e-12))
     True

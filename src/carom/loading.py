@@ -43,6 +43,16 @@ class LoadPath:
     A step is a straight line in penetration and displacement. `frictional_work` is the energy lost
     so far, `tangential_elastic_energy` what is stored; both together are the work of F_x. U is
     the displacement since the start, F_x positive where it opposes a growing U.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.loading import load_path
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> path = load_path(pair, penetration=[1e-6, 2e-6], displacement=[0.0, 1e-7])
+    >>> path.tangential_force.round(4)
+    array([0.    , 1.6381])
     """
 
     pair: Pair
@@ -73,6 +83,7 @@ class LoadPath:
         Examples
         --------
         >>> import carom
+        >>> from carom.loading import load_path
         >>> ball = carom.Sphere(radius="5 mm", material="steel")
         >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
         >>> pushed = load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
@@ -131,7 +142,7 @@ class LoadPath:
         return stress_dataset(self.contact(step), x=x, z=z, points=points, body=body)
 
     def to_dataset(self) -> "xr.Dataset":
-        """Return the path as a dataset along `step`, which `carom.results.save` can store."""
+        """Return the path as a dataset along `step`, which `carom.storage.save` can store."""
         count = {"units": "1", "long_name": "step of the load path"}
         return labelled_dataset(
             {name: ("step", getattr(self, name)) for name in COLUMNS},
@@ -191,6 +202,7 @@ def load_path(
     Examples
     --------
     >>> import carom
+    >>> from carom.loading import load_path
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> loop = load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.5, -1.5, 1.5])

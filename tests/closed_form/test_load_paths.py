@@ -199,14 +199,15 @@ def test_oblique_loading_below_the_critical_angle(share):
         assert np.all(path.frictional_work < 1e-16 * MU**2 / KAPPA * 20.0 * depth(20.0))
 
 
-def test_oblique_loading_beyond_the_critical_angle():
+@pytest.mark.parametrize("excess", [1e-6, 0.5])
+def test_oblique_loading_beyond_the_critical_angle(excess):
     """U/d = k mu/kappa, k > 1: all slides, F_x = mu P, W = 0.4 (k - 1) mu^2 P d/kappa."""
-    k, load = 1 + 1e-3, np.array([3.0, 12.0, 20.0])
+    k, load = 1 + excess, np.array([3.0, 12.0, 20.0])
     path = load_path(PAIR, normal_force=load, displacement=-k * MU / KAPPA * depth(load))
     np.testing.assert_allclose(path.tangential_force, -MU * load, rtol=1e-13)
     assert np.all(path.stick_radius == 0.0)
     work = 0.4 * (k - 1) * MU**2 / KAPPA * load * depth(load)
-    np.testing.assert_allclose(path.frictional_work, work, rtol=1e-10)
+    np.testing.assert_allclose(path.frictional_work, work, rtol=1e-9)
     angles = critical_obliquity(PAIR)
     assert angles == pytest.approx((atan(MU), atan(MU / KAPPA)))
     assert 0.0 < angles.force < pi / 2
@@ -233,10 +234,49 @@ def test_bodies_that_never_touch():
 
 
 def test_dataset_is_labelled_and_stored(tmp_path):
-    path = load_path(PAIR, penetration=["1 um", "2 um"][0], tangential_force=[0.0, 0.1])
+    path = load_path(PAIR, penetration="1 um", tangential_force=[0.0, 0.1])
     table = path.to_dataset()
     assert table.sizes == {"step": 2}
     assert table.frictional_work.units == "J"
     assert '"friction": 0.3' in table.inputs
     for name in ("path.nc", "path.csv"):
         assert read(save(table, tmp_path / name)).identical(table)
+
+
+@pytest.mark.parametrize(
+    ("controls", "message"),
+    [
+        ({}, "give normal_force or penetration, one of them"),
+        ({"penetration": 1e-6}, "give tangential_force or displacement, one of them"),
+        ({"penetration": 1, "normal_force": 1, "displacement": 0}, "penetration, not both"),
+        ({"penetration": [], "displacement": 0}, r"penetration: .* shape \(0,\)"),
+        ({"penetration": [[1e-6]], "displacement": 0}, r"penetration: .* shape \(1, 1\)"),
+        ({"penetration": [1e-6, np.nan], "displacement": 0}, "penetration: nan .* step 1"),
+        ({"normal_force": [1.0, np.inf], "displacement": 0}, "normal_force: inf .* step 1"),
+        ({"normal_force": [1.0, -2.0], "displacement": 0}, r"normal_force: -2.0 .* step 1"),
+        ({"normal_force": "3 kg", "displacement": 0}, "normal_force: '3 kg' .* in kilogram"),
+        ({"normal_force": 1.0, "tangential_force": "push"}, "tangential_force: 'push'"),
+        ({"normal_force": [1.0, 2.0], "displacement": [0.0] * 3}, "displacement: .* 3 values"),
+        ({"penetration": 1e300, "displacement": 0}, "penetration: 1e.300 .* check the units"),
+    ],
+)
+def test_bad_input_is_refused_in_one_line(controls, message):
+    with pytest.raises(InputError, match=message) as caught:
+        load_path(PAIR, **controls)
+    assert "\n" not in str(caught.value)
+
+
+def test_what_cannot_be_followed():
+    smooth = carom.Pair(PAIR.first, PAIR.second, friction=0.0)
+    with pytest.raises(InputError, match=r"friction: 0.0 .* needs friction"):
+        load_path(smooth, normal_force=1.0, displacement=0.0)
+    with pytest.raises(InputError, match="pair: "):
+        load_path("steel", normal_force=1.0, displacement=0.0)
+    for step in (1, -2, 0.5):
+        with pytest.raises(InputError, match=f"step: {step} "):
+            load_path(PAIR, normal_force=1.0, displacement=0.0).contact(step)
+    for force in (0.31, np.nan):
+        with pytest.raises(InputError, match=r"tangential_force: .* at most mu P"):
+            cattaneo_mindlin(PAIR, 1.0, force)
+    with pytest.raises(InputError, match="amplitude: "):
+        loop_energy(PAIR, 1.0, -0.1)

@@ -39,7 +39,7 @@ TRACTIONS = [
 
 @BOTH
 def test_axis_of_hertz(poisson):
-    """Johnson (1985), (3.45): sigma_z = -p_0/(1 + z^2), sigma_r with the arc tangent; any depth."""
+    """Johnson (1985), section 3.4: -p_0/(1 + z^2), and sigma_r with an arc tangent."""
     z = np.array([1e-12, 1e-6, 0.01, 0.48, 1.0, 10.0, 1e3])
     stress = stresses(np.outer(z, [0, 0, 1]), SLIDING, friction=0.0, poisson=poisson)
     radial = -(1.0 + poisson) * (1.0 - z * np.arctan(1.0 / z)) + 0.5 / (1.0 + z * z)
@@ -49,7 +49,7 @@ def test_axis_of_hertz(poisson):
 
 @BOTH
 def test_surface_of_hertz(poisson):
-    """Johnson (1985), (3.42) and (3.43): radial and hoop stress inside, at the edge, outside."""
+    """Johnson (1985), section 3.4: radial and hoop stress inside, at the edge, outside."""
     r = np.array([1e-9, 1e-3, 0.3, 0.999, 1.0, 1.001, 1.5, 40.0])
     stress = stresses(np.outer(r, [1, 0, 0]), SLIDING, friction=0.0, poisson=poisson)
     p = hemisphere(r)
@@ -76,7 +76,7 @@ def test_traction_on_the_surface(profile, traction):
 
 
 def boussinesq(x, y, z, poisson):
-    """Return 2 pi times the stress due to a unit force into the body: Johnson (1985), (3.20)."""
+    """Return 2 pi times the stress due to a unit force into the body (Johnson 1985, 3.2)."""
     r, distance = np.hypot(x, y), np.sqrt(x * x + y * y + z * z)
     soft = (1.0 - 2.0 * poisson) * (1.0 - z / distance) / r**2
     radial = soft - 3.0 * z * r**2 / distance**5
@@ -88,7 +88,7 @@ def boussinesq(x, y, z, poisson):
 
 
 def cerruti(x, y, z, poisson):
-    """Return 2 pi times the stress due to a unit force along x: Johnson (1985), (3.76)."""
+    """Return 2 pi times the stress due to a unit force along x (Johnson 1985, 3.6)."""
     distance = np.sqrt(x * x + y * y + z * z)
     t = 1.0 / (distance + z)
     more = t * t / distance**2 * (1.0 / distance + 2.0 * t)

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
@@ -19,10 +19,10 @@ LIKE = Pair(Sphere(radius="4 mm", material=BALL), HalfSpace(material=PLATE), MU)
 LATERAL = sum(m.poisson / m.shear_modulus for m in (BALL, PLATE)) / sum(
     (2.0 - m.poisson) / m.shear_modulus for m in (BALL, PLATE)
 )
-PSI = st.one_of(st.floats(-8.0, 8.0), st.floats(-1.0, 1.0))
+PSI = st.one_of(st.floats(-8.0, 8.0), st.floats(-1.0, 1.0)).filter(lambda p: abs(p) >= 1e-6)
 CHI = st.one_of(st.floats(0.6, 10.0), st.floats(1.2, 2.2), st.sampled_from([4.0, 40.0]))
 PLACE = st.floats(0.02, 0.98)
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(40)
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(120)
 ANGLES = np.arange(8) * (math.pi / 4.0) + 0.3
 
 examples = settings(max_examples=25, deadline=None, derandomize=True)
@@ -68,6 +68,11 @@ def rigid(hit, time):
     return hit.solution.at(time / hit.scales.time).displacement[0] * unit
 
 
+def slip_velocities(hit, time, points):
+    fields = hit.fields(time, points=points)
+    return np.stack([fields.slip_velocity_x, fields.slip_velocity_y], axis=-1)
+
+
 def lag(hit, time, points):
     """Return rigid displacement less surface displacement: where facing points are, (n, 2)."""
     fields = hit.fields(time, points=points)
@@ -83,15 +88,15 @@ def test_forces_and_elastic_energies_by_quadrature(psi, chi, place):
     now = hit.solution.at(place * hit.solution.duration)
     force = hit.max_force * now.penetration[0] ** 1.5
     assert over_contact(hit, time, lambda f: f.pressure) == pytest.approx(force, rel=1e-11)
-    tangential = 1.5 * MU * hit.max_force * now.force[0]
-    found = over_contact(hit, time, lambda f: f.traction_x)
-    assert abs(found - tangential) <= 1e-11 * MU * force
+    pushed = over_contact(hit, time, lambda f: f.traction_x)
+    assert abs(pushed - 1.5 * MU * hit.max_force * now.force[0]) <= 1e-10 * MU * force
     energy = 0.4 * force * now.penetration[0] * hit.max_penetration
     found = over_contact(hit, time, lambda f: 0.5 * f.pressure * f.displacement_z)
     assert found == pytest.approx(energy, rel=1e-11)
     unit = hit.pair.tangential_mass * (MU * hit.normal_speed / hit.pair.kappa) ** 2
     found = over_contact(hit, time, lambda f: 0.5 * f.traction_x * f.displacement_x)
-    assert abs(found - now.stored[0] * unit) <= 1e-11 * MU**2 * energy
+    rounding = 1e-13 * max(1.0, psi**2) * unit  # of `stored`, relative to psi^2/2
+    assert abs(found - now.stored[0] * unit) <= 1e-10 * MU**2 * energy + rounding
 
 
 @examples
@@ -108,13 +113,12 @@ def test_bounds_and_zones(psi, chi, place):
     assert np.all(np.abs(traction) <= limit + 1e-12 * unit)
     assert np.all(np.abs(np.abs(traction) - limit)[zone == 2] <= 1e-12 * unit)
     a, b = float(fields.stick_radius), float(fields.contact_radius)
-    assert b == pytest.approx(math.sqrt(hit.pair.effective_radius * fields.penetration))
+    assert b == pytest.approx(math.sqrt(hit.pair.effective_radius * fields.penetration), rel=1e-14)
     assert np.array_equal(zone, np.where(r > b, 0, np.where(r < a, 1, 2)))
-    slip_names = ("slip_x", "slip_y", "slip_velocity_x", "slip_velocity_y")
-    for name in ("pressure", "traction_x", *slip_names):
+    for name in ("pressure", "traction_x", "slip_x", "slip_y"):
         assert np.all(fields[name].values[zone == 0] == 0.0)
-    for name in slip_names[2:]:
-        assert np.all(fields[name].values[zone == 1] == 0.0)
+    for name in ("slip_velocity_x", "slip_velocity_y"):
+        assert np.all(fields[name].values[zone != 2] == 0.0)
 
 
 @examples
@@ -140,9 +144,7 @@ def test_mirror_images(psi, chi, place):
 def test_stick_zone_moves_as_a_rigid_body(psi, chi, first, second):
     """Between two times of a phase the stick zone is displaced by the change of U, u_y by none."""
     hit = impact_with(psi, chi)
-    spans = [p for p in hit.phases if p.kind != "gross slip"]
-    assume(spans)
-    for phase in spans:
+    for phase in hit.phases:
         times = [phase.start + part * (phase.end - phase.start) for part in (first, second)]
         now = [hit.solution.at(time / hit.scales.time) for time in times]
         stuck = min(h.stick_radius[0] for h in now) * hit.scales.radius
@@ -176,19 +178,15 @@ def test_slip_since_the_points_met(psi, chi, place, part):
 
 
 def in_every_phase(hit, place):
-    """Yield each phase, a time of it, and radii in its stick zone and its ring."""
+    """Yield each phase, a time of it, and radii in its stick zone and its ring, if it is wide."""
     for phase in hit.phases:
         time = phase.start + place * (phase.end - phase.start)
         contact = hit.contact(time)
         a, b = contact.stick_radius * hit.scales.radius, contact.radius
-        radii = np.array([0.5 * a, 0.95 * a, 0.9 * a + 0.1 * b, 0.5 * (a + b)])
-        radii = np.append(radii, 0.1 * a + 0.9 * b)
-        yield phase, time, radii[radii <= 0.99 * b]
-
-
-def slip_velocities(hit, time, points):
-    fields = hit.fields(time, points=points)
-    return np.stack([fields.slip_velocity_x, fields.slip_velocity_y], axis=-1)
+        ring = a + (b - a) * np.array([0.1, 0.5, 0.9])
+        radii = np.append([0.5 * a, 0.95 * a], ring)
+        if a <= 0.98 * b or phase.kind == "stick":
+            yield phase, time, radii[radii <= 0.998 * b]
 
 
 @examples
@@ -202,7 +200,8 @@ def test_slip_velocity_is_the_rate_of_slip(psi, chi, place):
         step = 2e-5 * min(time - phase.start, phase.end - time)
         early, late = (lag(hit, time + h, points) for h in (-step, step))
         rate = (late - early) / (2.0 * step)
-        assert np.all(np.abs(slip_velocities(hit, time, points) - rate) <= 1e-6 * unit)
+        near = 1e-6 * unit + 1e-15 * unit * hit.scales.time / step  # what rounding adds
+        assert np.all(np.abs(slip_velocities(hit, time, points) - rate) <= near)
 
 
 @examples

@@ -40,7 +40,7 @@ def test_largest_shear_below_a_sphere_at_rest():
 
 
 def test_first_yield_at_rest():
-    """Johnson (1985), (6.8) and (6.9): von Mises 0.62 p_0 at 0.48 b, first yield p_0 = 1.60 Y."""
+    """Johnson (1985), section 6.1: von Mises 0.62 p_0 at 0.48 b, first yield p_0 = 1.60 Y."""
     found = worst(0.0)
     assert found.value == pytest.approx(0.62, abs=5e-4)
     assert found.z == pytest.approx(0.48, abs=5e-3)

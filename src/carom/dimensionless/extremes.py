@@ -18,6 +18,7 @@ Axes = tuple[Array, Array, Array]
 TENSOR = np.array([[0, 3, 4], [3, 1, 5], [4, 5, 2]])  # where components xx, yy, zz, xy, xz, yz go
 
 # The coarse grid: radii and depths in contact radii, angles in degrees on one side of y = 0.
+# Places below are rows (radius, angle, depth) in these units.
 RADII = np.linspace(0.0, 1.25, 26)
 ANGLES = np.linspace(0.0, 180.0, 7)
 DEPTHS = np.linspace(0.0, 1.0, 11)
@@ -80,30 +81,33 @@ def largest(measure: Measure, profile: Profile, depths: Array = DEPTHS) -> Large
     b = profile.edges[-1]
     if b == 0.0:
         return Largest(0.0, 0.0, 0.0, 0.0)
-    axes = (_radii(profile), ANGLES, depths * b)
+
+    def measured(places: Array) -> Array:
+        return measure(b * _cartesian(places)) / b
+
+    axes = (_radii(profile), ANGLES, depths)
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
-    values = measure(_cartesian(grid.reshape(-1, 3))).reshape(grid.shape[:-1])
+    values = measured(grid.reshape(-1, 3)).reshape(grid.shape[:-1])
     peaks = np.argwhere(values == maximum_filter(values, size=3, mode="nearest"))
     highest = sorted(peaks, key=lambda peak: -values[tuple(peak)])[:STARTS]
-    refined = (_refined(measure, axes, peak) for peak in highest)
-    tried = _cartesian(np.concatenate([_with_borders(place, profile.edges) for place in refined]))
-    found = measure(tried)
-    best = np.flatnonzero(found >= found.max() - ALIKE * abs(found.max()))[-1]
-    return Largest(float(found[best]), *map(float, tried[best]))
+    refined = (_refined(measured, axes, peak) for peak in highest)
+    tried = np.concatenate([_with_borders(place, profile.edges / b) for place in refined])
+    found = measured(tried)
+    best = np.flatnonzero(found >= found.max() - ALIKE * abs(found.max()))[-1:]
+    return Largest(*map(float, b * np.append(found[best], _cartesian(tried[best]))))
 
 
 def _radii(profile: Profile) -> Array:
     """Return the radii of the grid: evenly spaced, at cusps, and as dense outside as inside."""
-    b = profile.edges[-1]
     signs = (-1.0) ** np.arange(profile.g.shape[1])
     inner, outer = profile.g @ signs, profile.g.sum(axis=1)
     jumps = np.abs(np.append(inner[1:], 2.0) - outer)  # 2 or so: the edge is always one
-    cusps = profile.edges[1:][np.argsort(-jumps)[:CUSPS]]
-    mirrored = 2.0 * b - cusps
-    return np.unique(np.concatenate([RADII * b, cusps, mirrored[mirrored < RADII[-1] * b]]))
+    cusps = profile.edges[1:][np.argsort(-jumps)[:CUSPS]] / profile.edges[-1]
+    mirrored = 2.0 - cusps
+    return np.unique(np.concatenate([RADII, cusps, mirrored[mirrored < RADII[-1]]]))
 
 
-def _refined(measure: Measure, axes: Axes, peak: NDArray[np.intp]) -> Array:
+def _refined(measured: Measure, axes: Axes, peak: NDArray[np.intp]) -> Array:
     """Return the place of the maximum near a peak of the grid (Nelder & Mead 1965)."""
     low, start, high = (
         np.array(
@@ -119,7 +123,7 @@ def _refined(measure: Measure, axes: Axes, peak: NDArray[np.intp]) -> Array:
         return place
 
     result = minimize(
-        lambda moved: -measure(_cartesian(placed(moved)[np.newaxis]))[0],
+        lambda moved: -measured(placed(moved)[np.newaxis])[0],
         start[free],
         method="Nelder-Mead",
         bounds=np.stack([low[free], high[free]], axis=-1),

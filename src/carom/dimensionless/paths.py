@@ -145,7 +145,7 @@ def advance(
         return part(stack, top, d0, u0, d1, target, by_force)
     if d0 < 0.0:
         d0, u0 = 0.0, touch(stack, d0, u0, d1, target, by_force)
-    if d1 > d0:
+    if np.sqrt(d1) > stack[top, RADIUS]:
         return load(stack, top, d0, u0, d1, target, by_force)
     return unload(stack, top, d0, u0, d1, target, by_force)
 

@@ -17,6 +17,7 @@ from carom.dimensionless._jit import kernel
 from carom.dimensionless.profile import Profile, evaluate
 
 Array = NDArray[np.float64]
+Components = tuple[complex, complex, complex, complex, complex, complex]
 Stress = tuple[float, float, float, float, float, float]
 Place = tuple[float, float, float, float]  # x, y, z, and the radius sqrt(x^2 + y^2)
 
@@ -24,12 +25,13 @@ COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
 REACH = 2.5  # of the longest panel: with these nodes the error is near rounding
 NEGLIGIBLE = 1e-30  # of the contact radius: less deep is the surface, nearer the axis is the axis
+FAR = 1e50  # of the contact radius: taken for all that is farther, the stress being nil
 
 BELOW, INSIDE, OUTSIDE = range(3)  # ways along s: at depth; on the surface, s < r and s > r
 
 
 class Load(NamedTuple):
-    """What acts on a body: pressure on 0 <= r <= edges[-1], friction of memory g along x."""
+    """What acts on a body: pressure on 0 <= r <= edges[-1] = 1, friction of memory g along x."""
 
     edges: Array
     g: Array
@@ -45,37 +47,50 @@ def inverse(c: complex) -> complex:
 
 
 @kernel
+def normal_force(
+    x: float, y: float, z: float, depth: complex, p: complex, t: complex, poisson: float
+) -> Components:
+    """Return S for a unit force into the body; p = 1/R and t = 1/(R + zeta), zeta the depth."""
+    tp, ttp = t * p, t * t * p
+    bend = tp * p * (t + p)
+    soft, hard = 1.0 - 2.0 * poisson, 2.0 * poisson
+    xx = hard * p + soft * (t - x * x * ttp) - z * (tp - x * x * bend)
+    yy = hard * p + soft * (t - y * y * ttp) - z * (tp - y * y * bend)
+    xy = x * y * (z * bend - soft * ttp)
+    zp3 = z * p * p * p
+    return xx, yy, p + depth * zp3, xy, x * zp3, y * zp3
+
+
+@kernel
+def tangential_force(
+    x: float, y: float, z: float, p: complex, t: complex, poisson: float
+) -> Components:
+    """Return S for a unit force along x."""
+    tp, tt, ttp, tttp = t * p, t * t, t * t * p, t * t * t * p
+    bend, twist = tp * p * (t + p), ttp * p * (2.0 * t + p)
+    hard = 2.0 * poisson
+    xx = 2.0 * tp + hard * (tp + x * x * tttp - 1.5 * tt) - z * (3.0 * ttp - x * x * twist)
+    yy = hard * (tp + y * y * tttp - 0.5 * tt) - z * (ttp - y * y * twist)
+    xy = tp + hard * (x * x * tttp - 0.5 * tt) - z * (ttp - x * x * twist)
+    xz = p - z * (tp - x * x * bend)
+    return x * xx, x * yy, z * x * p * p * p, y * xy, xz, z * x * y * bend
+
+
+@kernel
 def point_force(
     x: float, y: float, z: float, depth: complex, distance: complex, poisson: float, pull: float
 ) -> Stress:
-    """Return Im S for a unit normal force together with a tangential force `pull`."""
-    p = inverse(distance)
-    t = inverse(distance + depth)
-    tp = t * p
-    ttp = t * tp
-    bend = tp * p * (t + p)
-    twist = ttp * p * (2.0 * t + p)
-    core = tp - x * x * bend
-    soft, hard = 1.0 - 2.0 * poisson, 2.0 * poisson
-    half = 0.5 * t * t
-    xx = hard * p + soft * (t - x * x * ttp) - z * core
-    yy = hard * p + soft * (t - y * y * ttp) - z * (tp - y * y * bend)
-    ppp = p * p * p
-    zz = p + z * depth * ppp
-    xy = x * y * (z * bend - soft * ttp)
-    xz, yz = z * x * ppp, z * y * ppp
-    pulled_xx = x * (
-        2.0 * tp + hard * (tp + x * x * t * ttp - 3.0 * half) - z * (3.0 * ttp - x * x * twist)
-    )
-    pulled_yy = x * (hard * (tp + y * y * t * ttp - half) - z * (ttp - y * y * twist))
-    pulled_xy = y * (tp + hard * (x * x * t * ttp - half) - z * (ttp - x * x * twist))
+    """Return Im S for a unit force into the body together with a force `pull` along x."""
+    p, t = inverse(distance), inverse(distance + depth)
+    one = normal_force(x, y, z, depth, p, t, poisson)
+    other = tangential_force(x, y, z, p, t, poisson)
     return (
-        (xx + pull * pulled_xx).imag,
-        (yy + pull * pulled_yy).imag,
-        (zz + pull * xz).imag,
-        (xy + pull * pulled_xy).imag,
-        (xz + pull * (p - z * core)).imag,
-        (yz + pull * z * x * y * bend).imag,
+        (one[0] + pull * other[0]).imag,
+        (one[1] + pull * other[1]).imag,
+        (one[2] + pull * other[2]).imag,
+        (one[3] + pull * other[3]).imag,
+        (one[4] + pull * other[4]).imag,
+        (one[5] + pull * other[5]).imag,
     )
 
 
@@ -106,18 +121,21 @@ def along(way: int, r: float, z: float, u: float) -> tuple[float, complex, float
 
 
 @kernel
-def add_slices(total: Array, at: Place, way: int, low: float, high: float, load: Load) -> None:
-    """Add the stress due to the slices low <= s <= high of one panel of the memory."""
+def add_slices(total: Array, at: Place, way: int, panel: int, load: Load) -> None:
+    """Add the stress due to the slices of one panel of the memory that lie on this way."""
     x, y, z, r = at
-    panel = np.searchsorted(load.edges, 0.5 * (low + high)) - 1
+    inner, outer = load.edges[panel], load.edges[panel + 1]
+    low = max(inner, r) if way == OUTSIDE else inner
+    high = min(outer, r) if way == INSIDE else outer
+    if low >= high:
+        return
     start, end = way_to(way, r, z, low), way_to(way, r, z, high)
     pieces = int(np.ceil((end - start) / REACH))
     half = 0.5 * (end - start) / max(pieces, 1)
     for node in range(pieces * NODES.size):
         piece, k = divmod(node, NODES.size)
         s, distance, rate = along(way, r, z, start + half * (2.0 * piece + 1.0 + NODES[k]))
-        g = evaluate(load.g[panel], load.edges[panel], load.edges[panel + 1], s)
-        pull = load.friction * g
+        pull = load.friction * evaluate(load.g[panel], inner, outer, s)
         stress = point_force(x, y, z, complex(z, s), distance, load.poisson, pull)
         for component in range(total.size):
             total[component] += WEIGHTS[k] * half * rate * s * stress[component]
@@ -126,17 +144,13 @@ def add_slices(total: Array, at: Place, way: int, low: float, high: float, load:
 @kernel
 def stress_at(total: Array, x: float, y: float, z: float, load: Load) -> None:
     """Add up the stress at one point."""
-    least = NEGLIGIBLE * load.edges[-1]
-    r = max(np.hypot(x, y), least)
+    r = max(np.hypot(x, y), NEGLIGIBLE)
     for panel in range(load.edges.size - 1):
-        low, high = load.edges[panel], load.edges[panel + 1]
-        if z > least:
-            add_slices(total, (x, y, z, r), BELOW, low, high, load)
-            continue
-        if low < r:
-            add_slices(total, (x, y, 0.0, r), INSIDE, low, min(high, r), load)
-        if high > r:
-            add_slices(total, (x, y, 0.0, r), OUTSIDE, max(low, r), high, load)
+        if z > NEGLIGIBLE:
+            add_slices(total, (x, y, z, r), BELOW, panel, load)
+        else:
+            add_slices(total, (x, y, 0.0, r), INSIDE, panel, load)
+            add_slices(total, (x, y, 0.0, r), OUTSIDE, panel, load)
 
 
 @kernel
@@ -168,10 +182,14 @@ def stresses(points: ArrayLike, profile: Profile, *, friction: float, poisson: f
     >>> from carom.dimensionless.profile import flat, stacked
     >>> hertz = stacked([1.0], [flat(0.0, 1.0, 1.0, 0.0)])
     >>> axis = stresses([[0, 0, 0.48]], hertz, friction=0.0, poisson=0.3)[0]
-    >>> round((axis[0] - axis[2]) / 2, 4)
+    >>> round(float(axis[0] - axis[2]) / 2, 4)
     0.31
     """
-    where = np.ascontiguousarray(points, dtype=np.float64)
+    b = profile.edges[-1]
+    where = np.asarray(points, dtype=np.float64)
     stress = np.zeros((where.shape[0], len(COMPONENTS)))
-    fill(stress, where, Load(profile.edges, profile.g, float(friction), float(poisson)))
+    if b > 0.0:
+        load = Load(profile.edges / b, profile.g, float(friction), float(poisson))
+        fill(stress, np.clip(where / b, -FAR, FAR), load)
+    stress *= b
     return stress

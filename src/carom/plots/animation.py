@@ -16,7 +16,7 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 from carom.plots.impact import forces_panel, phase_handles
-from carom.plots.patch import patch_panel
+from carom.plots.patch import patch_panel, patch_title
 from carom.plots.style import (
     BANDS,
     BLACK,
@@ -69,6 +69,19 @@ def animate(
     InputError
         If the name ends otherwise, ffmpeg is missing, there are no frames, or the file cannot be
         written.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.plots import animate
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     frames = (hit.fields(time) for time in (6e-6, 21e-6))
+    ...     animate(hit.history(50), frames, folder + "/hit.gif").name
+    'hit.gif'
     """
     target = checked_animation(path)
     ending = target.suffix.lower()
@@ -144,17 +157,19 @@ class _Film:
         history = self.history
         largest = float(history["friction"]) * float(history["max_pressure"])
         scale, unit = prefixed(largest, "Pa")
+        reach = MARGIN * float(history["contact_radius"].max())
         self.patch.clear()
         shading = patch_panel(
             self.patch,
             fields,
             "traction_x",
             scale,
-            reach=MARGIN * float(history["contact_radius"].max()),
+            reach=reach,
             vmin=-largest * scale,
             vmax=largest * scale,
         )
-        self.patch.set_title(_two_lines(self.patch.get_title()))
+        title = patch_title(fields, reach, like=history["time"].values)
+        self.patch.set_title(title if "\n" in title else title + "\n ")
         if self.still is None:
             text = label("traction_x", unit)
             self.figure.colorbar(shading, ax=self.patch, label=text, pad=0.02, aspect=28)
@@ -165,10 +180,6 @@ class _Film:
         force = float(fields["tangential_force"])
         self.line.set_xdata([time, time])
         self.dot.set_data([time], [force * prefixed(limit, "N")[0]])
-
-
-def _two_lines(title: str) -> str:
-    return title if "\n" in title else title + "\n "
 
 
 def _write_gif(where: Path, pictures: Iterator[Image.Image]) -> None:

@@ -40,20 +40,34 @@ def plot_cone(dataset: "xr.Dataset") -> Figure:
     """Draw F_x against F_z inside Coulomb's cone, |F_x| <= mu F_z, for an impact or a load path.
 
     The parts of an impact are marked by phase; arrows point on in time.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.plots import plot_cone
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+    >>> axis = plot_cone(hit.history(50)).axes[0]
+    >>> [text.get_text() for text in axis.get_legend().get_texts()[1:]]
+    ['gross slip', 'stick', 'slip']
     """
     figure, axes = new_figure(height=70.0)
     axis = axes[0, 0]
     limit = 1.08 * float(dataset["friction"]) * float(dataset["normal_force"].max())
     normal, unit, _ = scaled(dataset, "normal_force")
     tangential, tangential_unit, scale = scaled(dataset, "tangential_force", like=limit)
-    edge = (1.08 * float(normal.max()), limit * scale)
+    edge = (1.08 * float(normal.max()) or 1.0, limit * scale or 1.0)  # without friction a line
     _draw_cone(axis, *edge)
     points = np.column_stack([normal, tangential])
     for kind, part in _parts(dataset, points):
         known = axis.get_legend_handles_labels()[1]
         axis.plot(*part.T, **PATHS[kind], label=None if kind in known else kind)
-        for place in _arrow_places(part / edge, 1 if kind != "load path" else ARROWS):
-            _arrow(axis, part[place], PATHS[kind]["color"])
+        for ends in _arrows(part / edge, 1 if kind != "load path" else ARROWS):
+            _arrow(axis, ends * edge, PATHS[kind]["color"])
+        if kind == "load path":
+            axis.plot(*part[0], "o", mfc="white", color=BLUE, label="start")
+            axis.plot(*part[-1], "o", color=BLUE, label="end")
     axis.set_xlabel(label("normal_force", unit))
     axis.set_ylabel(label("tangential_force", tangential_unit))
     legend_above(axis, 4)
@@ -84,15 +98,15 @@ def _parts(dataset: "xr.Dataset", points: Array) -> Iterator[tuple[str, Array]]:
         yield phase.kind, points[first:last]
 
 
-def _arrow_places(points: Array, count: int) -> list[list[int]]:
-    """Return for each arrow the index of its foot and head, evenly along the path."""
+def _arrows(points: Array, count: int) -> list[Array]:
+    """Return foot and head of arrows, evenly along a path."""
     steps = np.hypot(*np.diff(points, axis=0).T)
     along = np.concatenate([[0.0], np.cumsum(steps)])
-    if len(points) < 2 or along[-1] <= SHORTEST:
+    if along[-1] <= SHORTEST:
         return []
     feet = (np.arange(count) + 0.4) / count * along[-1]
-    found = ([int(np.searchsorted(along, at)) for at in (foot, foot + AHEAD)] for foot in feet)
-    return [[foot, min(head, len(points) - 1)] for foot, head in found if foot < len(points) - 1]
+    ends = np.column_stack([feet, feet + AHEAD])
+    return list(np.stack([np.interp(ends, along, line) for line in points.T], axis=-1))
 
 
 def _arrow(axis: Axes, ends: Array, color: str) -> None:

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 SLIP = 2  # the zone's number in a fields dataset
 MARGIN = 1.12  # of the map around the contact
 ACROSS = 8  # slip arrows along the diameter of the contact
+FEWEST = 3  # of them, where the contact is small on the map
 ROOM = 0.3  # the stick zone with a word in it, in contact radii
 AROUND = 28  # slip arrows along a ring too narrow for that
 NARROW = 1.5  # such a ring, in distances between those arrows
@@ -53,17 +54,29 @@ def plot_patch(dataset: "xr.Dataset", variable: str = "traction_x") -> Figure:
     ------
     InputError
         If the fields are not on a grid, or the variable is another.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.plots import plot_patch
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+    >>> plot_patch(hit.fields("21 us")).axes[0].get_title().splitlines()[1]
+    'longest arrow: 277\\xa0mm/s'
     """
     if variable not in MAPPED:
         raise refusal("variable", variable, f"must be {' or '.join(MAPPED)}")
     if dataset["pressure"].dims != ("y", "x"):
         raise InputError("fields: a map needs them on a grid of x and y, not at points")
-    figure, axes = new_figure(height=72.0)
+    title = patch_title(dataset)
+    figure, axes = new_figure(height=64.0 + 4.0 * len(title.splitlines()))  # the map is square
     axis = axes[0, 0]
     scale, unit = prefixed(dataset[variable].values, "Pa")
     shading = patch_panel(axis, dataset, variable, scale)
     bar = figure.colorbar(shading, ax=axis, label=label(variable, unit), pad=0.02, aspect=28)
     bar.outline.set_linewidth(0.6)
+    axis.set_title(title)
     return figure
 
 
@@ -81,8 +94,7 @@ def patch_panel(
     The map goes to `reach` in m, by default to a little beyond the contact. The shading is the
     variable times `scale` between `limits`.
     """
-    around = MARGIN * float(dataset["contact_radius"])
-    reach = reach or min(around, float(np.abs(dataset["x"].values).max()))
+    reach = reach or _reach(dataset)
     x, unit, length = scaled(dataset, "x", like=reach)
     y = dataset["y"].values * length
     contact, stick = (float(dataset[name]) * length for name in ("contact_radius", "stick_radius"))
@@ -91,13 +103,24 @@ def patch_panel(
     )
     shading.set_clip_path(Circle((0.0, 0.0), contact, transform=axis.transData))
     _draw_zones(axis, contact, stick, slip_band(dataset).hatch)
-    _draw_arrows(axis, arrows(dataset), length, contact)
+    _draw_arrows(axis, arrows(dataset, reach), length, contact)
     axis.set_aspect("equal")
     ends = (-reach * length, reach * length)
     axis.set(xlim=ends, ylim=ends, xlabel=symbol("x", unit), ylabel=symbol("y", unit))
-    said = (moment(dataset), _arrow_key(dataset))
-    axis.set_title("\n".join(said).strip())
     return shading
+
+
+def patch_title(dataset: "xr.Dataset", reach: float | None = None, like: Any = None) -> str:
+    """Return phase and time, in a unit that suits `like`, and the speed of the longest arrow."""
+    fastest = arrows(dataset, reach).fastest
+    scale, unit = prefixed(fastest, "m/s")
+    key = f"longest arrow: {fastest * scale:.3g}\u00a0{unit}" if fastest else ""
+    return "\n".join([moment(dataset, like), key]).strip()
+
+
+def _reach(dataset: "xr.Dataset") -> float:
+    around = MARGIN * float(dataset["contact_radius"]) or np.inf  # at the first touch: the grid
+    return min(around, float(np.abs(dataset["x"].values).max()))
 
 
 def _draw_zones(axis: Axes, contact: float, stick: float, hatch: str) -> None:
@@ -130,12 +153,17 @@ class Arrows(NamedTuple):
         return float(np.hypot(self.along, self.across).max(initial=0.0))
 
 
-def arrows(dataset: "xr.Dataset") -> Arrows:
-    """Return the slip velocities at some points of the grid, all in the slip zone."""
+def arrows(dataset: "xr.Dataset", reach: float | None = None) -> Arrows:
+    """Return the slip velocities at some points of the grid, all in the slip zone.
+
+    They are as many as fit on a map that goes to `reach`.
+    """
     if "slip_velocity_x" not in dataset:
         return Arrows(*np.empty((4, 0)))
     x, y = dataset["x"].values, dataset["y"].values
-    wanted_x, wanted_y = _places(*(float(dataset[f"{name}_radius"]) for name in ZONES))
+    contact, stick = (float(dataset[f"{name}_radius"]) for name in ZONES)
+    room = MARGIN * contact / (reach or _reach(dataset))
+    wanted_x, wanted_y = _places(contact, stick, min(room, 1.0))
     places = np.column_stack([_nearest(y, wanted_y), _nearest(x, wanted_x)])
     rows, columns = np.unique(places, axis=0).T
     slips = dataset["zone"].values[rows, columns] == SLIP
@@ -144,26 +172,22 @@ def arrows(dataset: "xr.Dataset") -> Arrows:
     return Arrows(x[columns], y[rows], *speeds)
 
 
-def _places(contact: float, stick: float) -> tuple[Array, Array]:
+def _places(contact: float, stick: float, room: float) -> tuple[Array, Array]:
     """Return points on a lattice, or in the middle of a slip ring too narrow for one."""
-    spacing = 2.0 * contact / ACROSS
+    across = max(FEWEST, round(ACROSS * room))
+    spacing = 2.0 * contact / across
     if stick > 0.0 and contact - stick < NARROW * spacing:
-        angles = 2.0 * np.pi * (np.arange(AROUND) + 0.5) / AROUND
+        around = across * AROUND // ACROSS
+        angles = 2.0 * np.pi * (np.arange(around) + 0.5) / around
         middle = 0.5 * (contact + stick)
         return middle * np.cos(angles), middle * np.sin(angles)
-    line = spacing * (np.arange(ACROSS) - 0.5 * (ACROSS - 1))
+    line = spacing * (np.arange(across) - 0.5 * (across - 1))
     x, y = np.meshgrid(line, line)
     return x.ravel(), y.ravel()
 
 
 def _nearest(grid: Array, places: Array) -> Any:
     return np.abs(grid[:, np.newaxis] - places).argmin(axis=0)
-
-
-def _arrow_key(dataset: "xr.Dataset") -> str:
-    fastest = arrows(dataset).fastest
-    scale, unit = prefixed(fastest, "m/s")
-    return f"longest arrow: {fastest * scale:.3g}\u00a0{unit}" if fastest else ""
 
 
 def _draw_arrows(axis: Axes, found: Arrows, length: float, contact: float) -> None:

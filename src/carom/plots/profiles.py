@@ -50,6 +50,16 @@ def plot_profiles(dataset: "xr.Dataset") -> Figure:
     ------
     InputError
         If the dataset has no points on the line y = 0.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.plots import plot_profiles
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+    >>> len(plot_profiles(hit.radial("21 us")).axes)
+    3
     """
     radial = "memory_g" in dataset
     figure, axes = new_figure(3 if radial else 1, height=118.0 if radial else 62.0, sharex=True)
@@ -97,7 +107,7 @@ def _tractions(axis: Axes, line: "xr.Dataset", place: Array) -> None:
     axis.plot(place, traction, color=BLUE, label="$f$")
     axis.plot(place, limit * scale, color=BLACK, ls=DASHES[1], lw=0.8, label=r"$\pm\mu p$")
     axis.plot(place, -limit * scale, color=BLACK, ls=DASHES[1], lw=0.8)
-    axis.set_ylabel(label("traction_x", unit, room=24))
+    axis.set_ylabel(label("traction_x", unit, room=24 if "memory_g" in line else 100))
     lines, _ = axis.get_legend_handles_labels()
     legend_above(axis, 4, handles=[*lines, *zone_handles(line)])
 

@@ -51,6 +51,14 @@ def plot_curve(dataset: "xr.Dataset") -> Figure:
 
     Of a single chi the regimes are bands, told by how the impact begins; of several, marks on the
     lines are the borders.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.plots import plot_curve
+    >>> axis = plot_curve(carom.curve(1.44, [0.0, 0.5, 1.0, 1.5, 2.0])).axes[0]
+    >>> [text.get_text() for text in axis.get_legend().get_texts()[1:]]
+    ['stick', 'gross slip, stick']
     """
     figure, axes = new_figure(height=66.0)
     axis = axes[0, 0]
@@ -116,6 +124,15 @@ def plot_regime_map(dataset: "xr.Dataset") -> Figure:
     ----------
     dataset : xarray.Dataset
         What `carom.curves.regime_map` returns.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.plots import plot_regime_map
+    >>> from carom.curves import regime_map
+    >>> figure = plot_regime_map(regime_map([0.5, 2.0, 6.0], [1.0, 1.44]))
+    >>> len(figure.legends[0].get_texts())
+    4
     """
     figure, axes = new_figure(width=DOUBLE, height=88.0)
     axis = axes[0, 0]

@@ -35,6 +35,17 @@ def plot_stress(dataset: "xr.Dataset", variable: str = "von_mises") -> Figure:
     ------
     InputError
         If the dataset has no such stress, or not on a grid.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.plots import plot_stress
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+    >>> figure = plot_stress(hit.stress("21 us"), "max_shear")
+    >>> figure.axes[0].get_ylabel()
+    'depth below the surface, $z$\\xa0(µm)'
     """
     known = [str(name) for name, item in dataset.items() if item.dims == ("z", "x")]
     if not known:
@@ -78,7 +89,7 @@ def _largest(dataset: "xr.Dataset", variable: str) -> tuple[float, float, float]
     """Return x, z and value of the largest stress: between the grid's points where it is known."""
     name = f"max_{variable}"
     if name in dataset and abs(float(dataset[f"{name}_y"])) < NEAR * float(dataset["x"].max()):
-        return tuple(float(dataset[key]) for key in (f"{name}_x", f"{name}_z", name))
+        return float(dataset[f"{name}_x"]), float(dataset[f"{name}_z"]), float(dataset[name])
     values = dataset[variable].values
     row, column = np.unravel_index(np.argmax(values), values.shape)
     return float(dataset["x"][column]), float(dataset["z"][row]), float(values[row, column])

@@ -219,13 +219,13 @@ def slip_band(dataset: Any) -> Band:
     return BANDS[kind, -1 if int(dataset.attrs.get("phase_sign", 1)) < 0 else 1]
 
 
-def moment(dataset: Any) -> str:
-    """Return what tells the instant of a fields dataset: phase and time, as far as it has them."""
+def moment(dataset: Any, like: ArrayLike | None = None) -> str:
+    """Return phase and time of a fields dataset, as far as it has them, in a unit as for `like`."""
     parts = []
     if "phase_kind" in dataset.attrs:
         sign = SIGNS[int(dataset.attrs.get("phase_sign", 0))]
         parts.append(str(dataset.attrs["phase_kind"]) + sign)
     if "time" in dataset:
-        time, unit, _ = scaled(dataset, "time")
+        time, unit, _ = scaled(dataset, "time", like)
         parts.append(f"$t$ = {float(time):.3g}\u00a0{unit}")
     return ", ".join(parts)

@@ -1,0 +1,90 @@
+"""A sphere pressed on a plane and pushed sideways: the edge slips, the middle sticks.
+
+At constant normal force a growing tangential force lets a ring slip from the edge inwards, to
+(1 - T/(mu P))^(1/3) of the radius; the displacement softens until the whole contact slides.
+Points: Kalker's CONTACT on the same problem, in 15 elements across the patch.
+Cattaneo (1938), Mindlin (1949); Johnson, Contact Mechanics (1985), section 7.2 (d).
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+import carom
+from carom.classical import cattaneo_mindlin
+from carom.plots.style import (
+    BLACK,
+    BLUE,
+    DASHES,
+    DOUBLE,
+    VERMILION,
+    legend_above,
+    new_figure,
+    save_figure,
+    styled,
+)
+
+STUFF = carom.Material(young=2 * 1.42 * 200e6, poisson=0.42, density=1000)  # G = 200 MPa
+BALL = carom.Sphere(radius="50 mm", material=STUFF)
+PAIR = carom.Pair(BALL, carom.HalfSpace(material=STUFF), friction=0.4)
+LOAD, SHARE = 9.1954, 0.875
+CONTACT = Path(__file__).parent / "data" / "contact_cattaneo_tractions.csv"
+
+
+def traction_closed(r, a, c, peak):
+    """That of sliding less that of sliding of the stick zone, |x| <= a."""
+    outer, inner = (np.sqrt(np.maximum(1 - (r / size) ** 2, 0)) for size in (a, c))
+    return peak * (outer - c / a * inner)
+
+
+@styled
+def main(folder: str | Path = ".") -> str:
+    """Check traction, stick radius and displacement; draw them with those of CONTACT."""
+    share = np.sin(np.linspace(0, np.pi / 2, 101))
+    most = PAIR.friction * LOAD
+    path = carom.load_path(PAIR, normal_force=LOAD, tangential_force=share * most)
+    a = path.contact_radius[0]
+    np.testing.assert_allclose(path.stick_radius[:-1] / a, (1 - share[:-1]) ** (1 / 3), rtol=1e-10)
+    shear = PAIR.effective_shear_modulus
+    moved = 3 * most / (4 * a * shear) * (1 - (1 - share) ** (2 / 3))
+    np.testing.assert_allclose(path.displacement, moved, rtol=1e-9, atol=1e-10 * moved[-1])
+    np.testing.assert_allclose(cattaneo_mindlin(PAIR, LOAD, share * most), moved, rtol=1e-10)
+    pushed = carom.load_path(PAIR, normal_force=LOAD, tangential_force=[0, SHARE * most])
+    c, peak = a * (1 - SHARE) ** (1 / 3), 1.5 * most / (np.pi * a**2)
+    r = np.linspace(0, 0.9999 * a, 400)
+    found = pushed.fields(points=np.column_stack([r, 0 * r])).traction_x.values
+    error = np.abs(found - traction_closed(r, a, c, peak)).max() / peak
+    assert error < 1e-10, f"traction differs by {error:.1e} of mu p_0"
+
+    x, y, size = np.loadtxt(CONTACT, delimiter=",", skiprows=4, usecols=(0, 1, 4), unpack=True)
+    places = np.column_stack([x, y]) * 1e-3
+    exact = pushed.fields(points=places).traction_x.values / 1e6
+    difference = np.sqrt(np.mean((exact - size) ** 2)) / (peak / 1e6)
+    assert difference < 0.03, f"CONTACT's tractions differ by {difference:.1%} of mu p_0"
+
+    figure, (axes,) = new_figure(1, 2, width=DOUBLE, height=62)
+    milli = 1e3
+    axes[0].plot(r * milli, found / 1e6, color=BLUE, label="$f$")
+    limit = peak * np.sqrt(1 - (r / a) ** 2) / 1e6
+    axes[0].plot(r * milli, limit, color=BLACK, ls=DASHES[1], lw=0.8, label=r"$\mu p$")
+    axes[0].plot(np.hypot(x, y), size, ".", color=VERMILION, ms=3, label="CONTACT")
+    axes[0].axvline(c * milli, color="0.5", lw=0.6)
+    axes[0].text(c * milli, 0.02, " $a$, stick inside", ha="left")
+    axes[0].set(xlim=(0, 1.05 * a * milli), ylim=(0, None))
+    axes[0].set(xlabel="distance from the centre, $r$ (mm)", ylabel="traction (MPa)")
+    axes[1].plot(
+        share, path.displacement / moved[-1], color=BLUE, label="displacement, $U/U_{slide}$"
+    )
+    stick = path.stick_radius / a
+    axes[1].plot(share, stick, color=VERMILION, ls=DASHES[1], label="stick radius, $a/b$")
+    axes[1].plot(share[5::10], moved[5::10] / moved[-1], "o", mfc="white", mec=BLUE)
+    axes[1].plot(share[5::10], (1 - share[5::10]) ** (1 / 3), "o", mfc="white", mec=VERMILION)
+    axes[1].set(xlabel=r"tangential force, $T/\mu P$", ylabel="share", xlim=(0, 1), ylim=(0, 1.05))
+    for axis in axes:
+        legend_above(axis, 3)
+    save_figure(figure, Path(folder) / "cattaneo_mindlin.png")
+    return f"traction within {error:.0e} of mu p_0; CONTACT within {difference:.1%} of it (rms)"
+
+
+if __name__ == "__main__":
+    print(main())

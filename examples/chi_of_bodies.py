@@ -1,0 +1,63 @@
+"""The one number that tells bodies apart, chi, against Poisson's ratio and the shape of the ball.
+
+It compares inertia and stiffness along the surface with those across it. Solid spheres lie between
+1.17 and 1.75; a thin shell has less; chi = 1/2, which would never slip, takes a flywheel of K >=
+2^(1/2) R, and a sphere that cannot turn has chi = kappa/2. Points: bodies of the catalogue.
+Barber (1979), ZAMP 30:468, equation (16) and section 6 (K >= 2^(1/2) R, misprinted there).
+"""
+
+from math import inf, sqrt
+from pathlib import Path
+
+import numpy as np
+
+import carom
+from carom.plots.style import BLACK, DASHES, LINES, label, new_figure, save_figure, styled
+
+SHAPES = {"solid": 0.4, "thin shell": 2 / 3, "ring, $K = R$": 1.0, r"$K = \sqrt{2}\,R$": 2.0}
+
+
+def chi_16(nu, ratio):
+    """(16), for K^2/R^2."""
+    return (1 - nu) / (2 - nu) * (1 + 1 / ratio)
+
+
+@styled
+def main(folder: str | Path = ".") -> str:
+    """Check chi of pairs of equal materials against (16); draw it for several shapes."""
+    nu = np.linspace(0, 0.5, 26)
+    figure, ((axis,),) = new_figure(height=68)
+    worst = 0.0
+    for (name, ratio), color, dash in zip(SHAPES.items(), LINES, DASHES, strict=False):
+        found = []
+        for value in nu:
+            stuff = carom.Material(young="1 GPa", poisson=value, density=1000)
+            ball = carom.Sphere(radius=0.01, material=stuff, gyration_radius=0.01 * sqrt(ratio))
+            found.append(carom.Pair(ball, carom.HalfSpace(material=stuff), 0.3).chi)
+        worst = max(worst, np.abs(np.array(found) / chi_16(nu, ratio) - 1).max())
+        axis.plot(nu, found, color=color, ls=dash, label=name)
+    axis.plot(nu, chi_16(nu, inf), color=LINES[4], ls=DASHES[4], label="cannot turn")
+    assert worst < 1e-14, f"(16): chi differs by {worst:.1e}"
+    np.testing.assert_allclose(chi_16(0.3, 0.4), 1.44, atol=2e-3)
+    np.testing.assert_allclose(chi_16(0.5, 2.0), 0.5, rtol=1e-15)
+    assert np.all(chi_16(nu, 1.99) > 0.5), "chi <= 1/2 needs K >= sqrt(2) R"
+
+    seen = {}
+    for name, stuff in carom.materials().items():
+        ball = carom.Sphere(radius="5 mm", material=stuff)
+        pair = carom.Pair(ball, carom.HalfSpace(material=stuff), friction=0.2)
+        np.testing.assert_allclose(pair.chi, chi_16(stuff.poisson, 0.4), rtol=1e-14)
+        seen.setdefault(stuff.poisson, name)
+    axis.plot(list(seen), chi_16(np.array(list(seen)), 0.4), "o", color=BLACK, ms=2.5)
+    axis.axhline(0.5, color="0.5", lw=0.5)
+    axis.text(0.2, 0.52, r"$\chi = 1/2$")
+    axis.set(xlim=(0, 0.5), ylim=(0.2, 2.6), xlabel=label("poisson"), ylabel=label("chi", room=44))
+    axis.legend(ncols=2, loc="upper right")
+    save_figure(figure, Path(folder) / "chi_of_bodies.png")
+    return (
+        f"chi of {len(carom.materials())} materials and {len(SHAPES)} shapes is (16), {worst:.0e}"
+    )
+
+
+if __name__ == "__main__":
+    print(main())

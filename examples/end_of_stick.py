@@ -1,0 +1,57 @@
+"""How long the contact sticks: V_z/V_1 where stick begins and where |g| = 1 ends it.
+
+Below psi_1 = 1 stick lasts from the first touch; the thin lines are where gross slip gives way to
+stick, (34). It always ends before maximum penetration, V_z = 0, in slip against the first motion,
+down to a point at psi_1 = 2 chi, where gross slip outlasts the approach. Circles: whole impacts.
+Barber (1979), ZAMP 30:468, section 6 and equations (26), (34).
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+import carom
+from carom.dimensionless.stick import Stick, transition_speed
+from carom.plots.style import DASHES, LINES, legend_above, new_figure, save_figure, styled
+
+CHIS = (0.8, 1.44, 2.5)
+
+
+def stick_phase(psi, chi):
+    """The closed form of the stick phase."""
+    return Stick.from_touch(psi, chi) if psi < 1 else Stick.after_gross_slip(psi, chi)
+
+
+@styled
+def main(folder: str | Path = ".") -> str:
+    """Check begin and end of stick of whole impacts against the closed form; draw both."""
+    figure, ((axis,),) = new_figure(height=66)
+    worst = 0.0
+    for chi, color, dash in zip(CHIS, LINES, DASHES, strict=False):
+        psi = np.concatenate([np.linspace(0.01, 0.999, 24), np.linspace(1.001, 1.999 * chi, 24)])
+        sticks = [stick_phase(at, chi) for at in psi]
+        starts, ends = np.array([[stick.start, stick.end] for stick in sticks]).T
+        assert np.all((ends > 0) & (ends < starts)), "stick ends before maximum penetration"
+        axis.plot(psi, ends, color=color, ls=dash, label=rf"$\chi = {chi:g}$")
+        axis.plot(psi, starts, color=color, ls=dash, lw=0.6)
+        for at, closed in zip(psi[2::5], np.column_stack([starts, ends])[2::5], strict=True):
+            impact = carom.solve(at, chi)
+            place = next(i for i, p in enumerate(impact.phases) if p.kind == "stick")
+            phase, after = impact.phases[place], impact.phases[place + 1]
+            assert (after.kind, after.sign) == ("slip", -1), "first slip is against the motion"
+            state = impact.at([phase.start, phase.end])
+            worst = max(worst, np.abs(state.speed - closed).max())
+            np.testing.assert_allclose(state.psi[1] / state.speed[1], -1, atol=1e-8, err_msg="|g|")
+            if at > 1:
+                np.testing.assert_allclose(state.speed[0], transition_speed(at, chi), atol=1e-9)
+            axis.plot(at, state.speed[1], "o", mfc="white", mec=color, mew=0.8)
+    assert worst < 1e-9, f"stick of whole impacts differs by {worst:.1e}"
+    axis.text(0.1, 1.02, "stick from the first touch", va="bottom", fontsize=6.5)
+    axis.set(xlim=(0, 5), ylim=(0, 1.1), xlabel=r"$\psi_1$", ylabel="$V_z/V_1$ at the end of stick")
+    legend_above(axis, 3)
+    save_figure(figure, Path(folder) / "end_of_stick.png")
+    return f"begin and end of stick are those of the closed form within {worst:.0e}"
+
+
+if __name__ == "__main__":
+    print(main())

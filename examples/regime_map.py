@@ -1,0 +1,42 @@
+"""Which phases follow which over psi_1 and chi: a map of all impacts.
+
+Below psi_1 = 1 the contact sticks from the first touch, beyond 4 chi - 1 it slides throughout.
+Between them lies what the ball does after it has gripped, and it is richer than the usual solid
+sphere at chi = 1.44 lets one think: slip that turns back, rings that close, stick that returns.
+Maw, Barber & Fawcett (1976), Wear 38:101; borders after (34) of Barber (1979), ZAMP 30:468.
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+import carom
+from carom.plots import plot_regime_map, save_figure
+
+
+def main(folder: str | Path = ".") -> str:
+    """Check the borders and the section at chi = 1.44; draw the map."""
+    psi, chi = np.linspace(0.03, 6.03, 91), np.linspace(0.1, 5, 64)
+    found = carom.regime_map(psi, chi)
+    names = found.sequence_name.values[found.sequence.values]
+    begins = np.char.startswith(names.astype(str), "stick")
+    np.testing.assert_array_equal(begins, np.broadcast_to(psi < 1, names.shape), "border 1")
+    throughout = psi > np.where(chi > 0.5, 4 * chi - 1, 1.0)[:, np.newaxis]
+    np.testing.assert_array_equal(names == "gross slip +", throughout, "border 4 chi - 1")
+    grips = np.char.startswith(names.astype(str), "gross slip +, stick")
+    np.testing.assert_array_equal(grips, (psi > 1) & (psi < 2 * chi[:, np.newaxis]), "2 chi")
+    expected = {
+        0.5: "stick, slip -, gross slip -",
+        2.0: "gross slip +, stick, slip -, gross slip -",
+        4.0: "gross slip +, slip -, gross slip -",
+        6.0: "gross slip +",
+    }
+    section = carom.regime_map(list(expected), [1.44])
+    told = [str(section.sequence_name.values[code]) for code in section.sequence.values[0]]
+    assert told == list(expected.values()), told
+    save_figure(plot_regime_map(found), Path(folder) / "regime_map.png")
+    return f"borders 1, 2 chi, 4 chi - 1 on {names.size} impacts; {found.sequence_name.size} kinds"
+
+
+if __name__ == "__main__":
+    print(main())

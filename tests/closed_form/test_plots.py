@@ -1,0 +1,298 @@
+"""Figures show what the datasets hold: places, numbers, units and phases; text stays legible."""
+
+import itertools
+import subprocess
+import sys
+
+import matplotlib
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.quiver import Quiver
+from matplotlib.text import Text
+from PIL import Image
+
+import carom
+from carom import plots
+from carom.curves import regime_map
+from carom.glossary import GLOSSARY
+from carom.plots.style import label, prefixed
+from carom.storage import save
+
+MM = 1.0 / 25.4
+MICROSLIP = 21e-6  # an instant of the impact below with a slip ring
+
+
+@pytest.fixture(scope="module")
+def hit():
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    return carom.impact(pair, speed=2.0, angle="30 deg")
+
+
+@pytest.fixture(scope="module")
+def history(hit):
+    return hit.history(101)
+
+
+@pytest.fixture(scope="module")
+def fields(hit):
+    return hit.fields(MICROSLIP)
+
+
+@pytest.fixture(scope="module")
+def figures(hit, history, fields):
+    """Every kind of figure, drawn once."""
+    grid = np.linspace(0.1, 6.0, 12)
+    return {
+        "impact": plots.plot_impact(history),
+        "forces": plots.plot_forces(history),
+        "radii": plots.plot_radii(history),
+        "cone": plots.plot_cone(history),
+        "patch": plots.plot_patch(fields),
+        "pressure": plots.plot_patch(fields, "pressure"),
+        "line": plots.plot_profiles(fields),
+        "memory": plots.plot_profiles(hit.radial(MICROSLIP)),
+        "stress": plots.plot_stress(hit.stress(MICROSLIP)),
+        "curve": plots.plot_curve(carom.curve(1.44, np.linspace(0.0, 6.0, 61))),
+        "curves": plots.plot_curve(carom.curve([0.8, 1.44, 1.75, 3.0], np.linspace(-4, 8, 61))),
+        "map": plots.plot_regime_map(regime_map(2.0 * grid, grid)),
+    }
+
+
+NAMES = (
+    *("impact", "forces", "radii", "cone", "patch", "pressure"),
+    *("line", "memory", "stress", "curve", "curves", "map"),
+)
+
+
+def lines(axis):
+    """Return the lines of axes by label."""
+    return {line.get_label(): line for line in axis.lines}
+
+
+@pytest.mark.parametrize(
+    ("largest", "unit", "expected"),
+    [
+        (2.5e-5, "m", (1e6, "µm")),
+        (1.0, "N", (1.0, "N")),
+        (0.999, "N", (1e3, "mN")),
+        (1000.0, "Pa", (1e-3, "kPa")),
+        (3.1e-13, "s", (1e12, "ps")),
+        (0.5, "1", (1.0, "1")),
+        (0.0, "J", (1.0, "J")),
+        (float("nan"), "m", (1.0, "m")),
+    ],
+)
+def test_prefix_makes_the_largest_number_1_to_1000(largest, unit, expected):
+    scale, name = prefixed([0.0, -largest], unit)
+    assert (scale, name) == (pytest.approx(expected[0], rel=1e-14), expected[1])
+
+
+def test_labels_are_those_of_the_glossary(figures):
+    """Every axis names a quantity of the glossary by its words, or at least its symbol and unit."""
+    for name in NAMES:
+        for axis in figures[name].axes:
+            for text in (axis.get_xlabel(), axis.get_ylabel()):
+                plain = text.replace("\n", " ")
+                known = [q for q in GLOSSARY.values() if q.symbol in plain]
+                assert known or plain in ("", "share of energy"), (name, plain)
+                assert (
+                    not plain or plain == "share of energy" or any(_fits(q, plain) for q in known)
+                )
+    assert label("psi_in") == "dimensionless velocity of the contact point before, $\\psi_1$"
+
+
+def _fits(quantity, text):
+    has_unit = quantity.unit == "1" or text.endswith(f"{quantity.unit})")
+    words = text.split(",")[0]
+    return has_unit and (
+        words.split("\u00a0")[0] == quantity.symbol
+        or quantity.meaning.startswith(words)
+        or words in quantity.meaning
+    )
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_text_is_neither_cut_off_nor_overlapping(figures, name):
+    """Every visible text lies within the figure and clear of every other."""
+    figure = figures[name]
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    page = figure.bbox
+    boxes = [(text.get_text(), text.get_window_extent()) for text in _texts(figure)]
+    assert len(boxes) > 10
+    for text, box in boxes:
+        inside = box.x0 >= -0.5 and box.y0 >= -0.5 and box.x1 <= page.x1 and box.y1 <= page.y1
+        assert inside, text
+    for (first, box), (second, other) in itertools.combinations(boxes, 2):
+        wide = min(box.x1, other.x1) - max(box.x0, other.x0)
+        high = min(box.y1, other.y1) - max(box.y0, other.y0)
+        assert wide <= 0.5 or high <= 0.5, (first, second)
+
+
+def _texts(figure):
+    """Return all texts that are seen: not the labels of ticks outside the limits."""
+    hidden = set()
+    for axis in figure.axes:
+        for side, limits in ((axis.xaxis, axis.get_xlim()), (axis.yaxis, axis.get_ylim())):
+            for tick in side.get_major_ticks():
+                if not min(limits) <= tick.get_loc() <= max(limits):
+                    hidden |= {id(tick.label1), id(tick.label2)}
+    texts = [t for t in figure.findobj(Text) if t.get_visible() and t.get_text().strip()]
+    return [t for t in texts if id(t) not in hidden]
+
+
+def test_widths_are_those_of_one_and_two_columns(figures, tmp_path):
+    """86 mm and 178 mm, and 300 dots per inch once stored."""
+    for name in NAMES:
+        width = 178.0 if name in ("impact", "map") else 86.0
+        assert figures[name].get_figwidth() == pytest.approx(width * MM)
+    stored = plots.save_figure(figures["cone"], tmp_path / "cone.png")
+    with Image.open(stored) as picture:
+        assert picture.width == int(86.0 * MM * 300)
+
+
+def test_lines_are_the_history(figures, history):
+    forces, velocities, radii, _ = figures["impact"].axes
+    time = history.time.values * 1e6
+    for axis, name, shown, scale in (
+        (forces, "$F_x$", "tangential_force", 1.0),
+        (velocities, "$V_x$, contact point", "contact_velocity", 1.0),
+        (velocities, "$V_z$, approach", "normal_velocity", 1.0),
+        (radii, "contact, $b$", "contact_radius", 1e6),
+        (radii, "stick zone, $a$", "stick_radius", 1e6),
+    ):
+        line = lines(axis)[name]
+        np.testing.assert_allclose(line.get_xdata(), time, rtol=1e-13)
+        np.testing.assert_allclose(line.get_ydata(), scale * history[shown].values, rtol=1e-13)
+    limit = lines(forces)[r"$\pm\mu F_z$"].get_ydata()
+    np.testing.assert_allclose(limit, 0.2 * history.normal_force.values, rtol=1e-13)
+
+
+def test_energies_fill_the_whole(figures):
+    """The stack of energies ends at 1 at all times: none is lost, none drawn twice."""
+    top = figures["impact"].axes[3].collections[-1].get_paths()[0].vertices
+    assert top[:, 1].max() == pytest.approx(1.0, abs=1e-9)
+    assert len(figures["impact"].axes[3].collections) == 6
+
+
+def test_bands_are_the_phases(figures, history, hit):
+    for axis in figures["impact"].axes[:3]:
+        bands = [(patch.get_x(), patch.get_width()) for patch in axis.patches]
+        expected = [(p.start * 1e6, (p.end - p.start) * 1e6) for p in hit.phases]
+        np.testing.assert_allclose(bands, expected, rtol=1e-12)
+
+
+def test_kinds_of_phases_differ_without_colour(figures):
+    """Bands of different kind or sign differ in hatch."""
+    entries = figures["impact"].legends[0].get_patches()
+    hatches = [entry.get_hatch() for entry in entries]
+    assert len(set(hatches)) == len(hatches) == 4
+
+
+def test_cone_holds_the_whole_path(figures, history):
+    axis = figures["cone"].axes[0]
+    parts = [line.get_xydata() for line in axis.lines if line.get_zorder() == 2][2:]
+    whole = np.column_stack([history.normal_force, history.tangential_force])
+    drawn = np.concatenate(parts)
+    assert np.isin(whole[:, 0], drawn[:, 0]).all()
+    assert np.all(np.abs(drawn[:, 1]) <= 0.2 * drawn[:, 0] * (1.0 + 1e-12))
+    assert {"stick", "slip", "gross slip"} <= set(lines(axis))
+
+
+def test_cone_takes_a_load_path_without_phases(history):
+    """The same forces along steps are one line, with a start and an end."""
+    forces = history[["normal_force", "tangential_force", "friction"]].drop_vars("time")
+    axis = plots.plot_cone(forces.rename(time="step")).axes[0]
+    line = lines(axis)["load path"]
+    np.testing.assert_allclose(line.get_ydata(), history.tangential_force, rtol=1e-13)
+    assert {"start", "end"} <= set(lines(axis))
+
+
+def test_arrows_are_slip_velocities_in_the_slip_zone(figures, fields):
+    (quiver,) = figures["patch"].axes[0].findobj(Quiver)
+    radius = np.hypot(quiver.X, quiver.Y) * 1e-6
+    assert radius.size >= 20
+    assert np.all((radius >= fields.stick_radius.item()) & (radius <= fields.contact_radius.item()))
+    at = fields.sel(x=quiver.X[3] * 1e-6, y=quiver.Y[3] * 1e-6, method="nearest")
+    slope = (at.slip_velocity_y / at.slip_velocity_x).item()
+    assert quiver.V[3] / quiver.U[3] == pytest.approx(slope, rel=1e-12)
+
+
+def test_a_contact_that_sticks_has_no_arrows(hit):
+    stick = next(phase for phase in hit.phases if phase.kind == "stick")
+    figure = plots.plot_patch(hit.fields(0.5 * (stick.start + stick.end)))
+    assert not figure.axes[0].findobj(Quiver)
+
+
+def test_profiles_are_the_fields(figures, fields, hit):
+    axis = figures["line"].axes[0]
+    middle = fields.traction_x.values[50] * 1e-6
+    np.testing.assert_allclose(lines(axis)["$f$"].get_ydata(), middle, rtol=1e-13)
+    radial = hit.radial(MICROSLIP)
+    memory, springs = figures["memory"].axes[1:]
+    np.testing.assert_allclose(memory.lines[1].get_ydata(), radial.memory_g, rtol=1e-13)
+    np.testing.assert_allclose(springs.lines[1].get_ydata(), radial.memory_q * 1e6, rtol=1e-13)
+    ends = [patch.get_x() + patch.get_width() for patch in memory.patches]
+    expected = [radial.stick_radius.item() * 1e6, radial.contact_radius.item() * 1e6]
+    np.testing.assert_allclose(ends, expected, rtol=1e-12)
+
+
+def test_cross_marks_the_largest_stress(figures, hit):
+    stress = hit.stress(MICROSLIP)
+    (cross,) = (line for line in figures["stress"].axes[0].lines if line.get_marker() == "+")
+    place = [stress.max_von_mises_x.item() * 1e6, stress.max_von_mises_z.item() * 1e6]
+    np.testing.assert_allclose(cross.get_xydata()[0], place, rtol=1e-12)
+
+
+def test_regime_bands_end_at_1_2_chi_and_4_chi_minus_1(figures):
+    patches = figures["curve"].axes[0].patches
+    ends = [patch.get_x() + patch.get_width() for patch in patches]
+    np.testing.assert_allclose(ends, [1.0, 2.88, 4.76, 6.0], rtol=1e-14)
+
+
+def test_drawing_needs_no_solver(history, tmp_path):
+    """A stored history is read and drawn in a process that never loads the solution."""
+    stored, picture = save(history, tmp_path / "hit.nc"), tmp_path / "hit.png"
+    code = (
+        "import sys, carom.plots as plots; from carom.storage import read\n"
+        f"plots.save_figure(plots.plot_impact(read({str(stored)!r})), {str(picture)!r})\n"
+        "assert 'carom.dimensionless.solution' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+    with Image.open(picture) as drawn:
+        assert drawn.width == int(178.0 * MM * 300)
+
+
+def test_the_users_settings_neither_matter_nor_change(history):
+    with matplotlib.rc_context({"font.size": 30.0, "lines.linewidth": 9.0}):
+        axis = plots.plot_cone(history).axes[0]
+        assert matplotlib.rcParams["font.size"] == 30.0
+    assert axis.xaxis.label.get_size() == 7.5
+
+
+@pytest.mark.parametrize(
+    ("draw", "said"),
+    [
+        (lambda hit: plots.plot_patch(hit.fields(MICROSLIP), "zone"), "traction_x or pressure"),
+        (lambda hit: plots.plot_patch(hit.fields(MICROSLIP, points=[[0, 0]])), "grid of x and y"),
+        (lambda hit: plots.plot_profiles(hit.fields(MICROSLIP, [0, 1e-4], [1e-4])), "y = 0"),
+        (lambda hit: plots.plot_stress(hit.stress(MICROSLIP), "stress"), "von_mises"),
+        (lambda hit: plots.plot_stress(hit.fields(MICROSLIP)), "grid of z and x"),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_in_one_line(hit, draw, said):
+    with pytest.raises(carom.InputError) as refused:
+        draw(hit)
+    assert said in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+def test_the_first_touch_and_an_impact_without_friction_can_be_drawn(hit):
+    plots.plot_patch(hit.fields(0.0))
+    smooth = carom.Pair(hit.pair.first, hit.pair.second, friction=0.0)
+    free = carom.impact(smooth, speed=2.0, angle="30 deg")
+    for draw in (plots.plot_impact, plots.plot_cone):
+        draw(free.history(20))
+    plots.plot_patch(free.fields(MICROSLIP))

@@ -1,0 +1,52 @@
+"""The map of regimes names the phases of single impacts, and bad axes are refused."""
+
+import numpy as np
+import pytest
+
+import carom
+from carom.curves import borders, regime_map
+
+
+def test_regime_map_agrees_with_single_impacts():
+    """Codes name the phases of `solve`; the first phase follows from psi_1 < 1 alone."""
+    rng = np.random.default_rng(1979)
+    chi, psi = np.sort(rng.uniform(0.1, 4.0, 6)), np.sort(rng.uniform(0.05, 9.0, 7))
+    found = regime_map(psi, chi)
+    names = found.sequence_name.values[found.sequence.values]
+    for (row, column), name in np.ndenumerate(names):
+        phases = carom.solve(psi[column], chi[row]).phases
+        assert [word.split(" ")[0] for word in name.split(", ")] == [
+            phase.kind.split(" ")[0] for phase in phases
+        ]
+        assert name.startswith("stick") == (psi[column] < 1.0)
+        assert (name == "gross slip +") == (psi[column] > borders(chi[row])[2])
+
+
+def test_the_commonest_sequence_comes_first():
+    found = regime_map(np.linspace(2.0, 9.0, 8), [0.5, 0.7, 3.0])
+    counts = np.bincount(found.sequence.values.ravel())
+    assert np.all(np.diff(counts) <= 0)
+    assert counts.size == found.sizes["sequence_name"]
+
+
+def test_progress_counts_the_rows():
+    calls = []
+    regime_map([5.0], [0.4, 0.6, 1.0], progress=lambda done, of: calls.append((done, of)))
+    assert calls == [(1, 3), (2, 3), (3, 3)]
+
+
+@pytest.mark.parametrize(
+    ("psi", "chi", "named"),
+    [
+        ([], [1.0], "psi"),
+        ([np.nan], [1.0], "psi"),
+        ([[1.0]], [1.0], "psi"),
+        ("fast", [1.0], "psi"),
+        ([1.0], [], "chi"),
+        ([1.0], [1.0, 0.0], "chi"),
+    ],
+)
+def test_bad_axes_are_refused_by_name(psi, chi, named):
+    with pytest.raises(carom.InputError, match=f"^{named}: ") as refused:
+        regime_map(psi, chi)
+    assert "\n" not in str(refused.value)
