@@ -28,13 +28,13 @@ def main(folder: str | Path = ".") -> str:
     figure, ((axis,),) = new_figure(height=66)
     worst = 0.0
     for chi, color, dash in zip(CHIS, LINES, DASHES, strict=False):
-        psi = np.concatenate([np.linspace(0.01, 0.999, 24), np.linspace(1.001, 1.999 * chi, 24)])
+        psi = np.concatenate([np.linspace(0.01, 0.999, 17), np.linspace(1.001, 1.999 * chi, 17)])
         sticks = [stick_phase(at, chi) for at in psi]
         starts, ends = np.array([[stick.start, stick.end] for stick in sticks]).T
         assert np.all((ends > 0) & (ends < starts)), "stick ends before maximum penetration"
         axis.plot(psi, ends, color=color, ls=dash, label=rf"$\chi = {chi:g}$")
         axis.plot(psi, starts, color=color, ls=dash, lw=0.6)
-        for at, closed in zip(psi[2::5], np.column_stack([starts, ends])[2::5], strict=True):
+        for at, closed in zip(psi[1::4], np.column_stack([starts, ends])[1::4], strict=True):
             impact = carom.solve(at, chi)
             place = next(i for i, p in enumerate(impact.phases) if p.kind == "stick")
             phase, after = impact.phases[place], impact.phases[place + 1]

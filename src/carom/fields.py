@@ -126,11 +126,15 @@ def _columns(contact: Contact, r: Array, radial: Array, cos: Array, sin: Array) 
 
 def _slip_shape(contact: Contact, r: Array) -> Array:
     shapes = np.array([surface.slip_shape(contact.stick_radius, at) for at in r.ravel()])
-    inside = (r * r <= contact.penetration).ravel()[:, np.newaxis]
+    inside = _in_contact(contact, r).ravel()[:, np.newaxis]
     return np.moveaxis((shapes * inside).reshape(*r.shape, 2), -1, 0)
 
 
 def _zones(contact: Contact, r: Array) -> NDArray[np.int8]:
     a = contact.stick_radius
     zones = np.where((r <= a) & (a > 0.0), STICK, SLIP)
-    return np.where(r * r <= contact.penetration, zones, OUTSIDE).astype(np.int8)
+    return np.where(_in_contact(contact, r), zones, OUTSIDE).astype(np.int8)
+
+
+def _in_contact(contact: Contact, r: Array) -> NDArray[np.bool_]:
+    return np.asarray((r * r <= contact.penetration) & (contact.penetration > 0.0))

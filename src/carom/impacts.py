@@ -217,7 +217,7 @@ class Impact(Outcome):
 
         count = counted("frames", frames, 1)
         reach = 1.15 * self.max_radius
-        line = np.linspace(-reach, reach, 61)
+        line = np.linspace(-reach, reach, 101)
         times = (np.arange(count) + 0.5) / count * self.duration
         pictures = (self.fields(time, line, line) for time in times)
         return animate(self.history(), pictures, path, progress=progress)

@@ -13,9 +13,9 @@ from carom.contacts import Contact
 from carom.controls import Given, Steps, read_steps
 from carom.dimensionless import paths
 from carom.dimensionless.strata import profile_of
-from carom.fields import surface_fields
+from carom.fields import radial_fields, surface_fields
 from carom.pairs import ContactScales, Pair
-from carom.quantities import refusal
+from carom.quantities import counted, refusal
 from carom.results import labelled_dataset
 from carom.stress import stress_dataset
 
@@ -141,11 +141,16 @@ class LoadPath:
         """Return the stress below the surface of one body after a step, as `Impact.stress`."""
         return stress_dataset(self.contact(step), x=x, z=z, points=points, body=body)
 
+    def radial(self, step: int = -1, n: int = 401) -> "xr.Dataset":
+        """Return pressure, traction and the memory g, q along a radius after a step."""
+        return radial_fields(self.contact(step), counted("n", n, 2))
+
     def to_dataset(self) -> "xr.Dataset":
         """Return the path as a dataset along `step`, which `carom.storage.save` can store."""
         count = {"units": "1", "long_name": "step of the load path"}
         return labelled_dataset(
-            {name: ("step", getattr(self, name)) for name in COLUMNS},
+            {name: ("step", getattr(self, name)) for name in COLUMNS}
+            | {"friction": self.pair.friction},
             {"step": ("step", np.arange(len(self)), count)},
             {"title": "load path", "inputs": self.inputs()},
         )

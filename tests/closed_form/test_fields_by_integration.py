@@ -220,3 +220,32 @@ def compare(hit, time):
         r = math.hypot(x, y)
         expected = MU * pressure * f(r) if r < edges[-1] else 0.0
         assert abs(traction - expected) <= 1e-12 * MU * pressure * edges[-1]
+
+
+@pytest.mark.parametrize(
+    ("psi", "chi", "index"), [(0.5, 1.44, 1), (0.3, 1.75, 1), (0.9525, 4.3, 3)]
+)
+def test_angle_between_slip_and_traction(psi, chi, index):
+    """Its mean over a phase, by quadrature over time, radius and angle, weighted by |f| |dw/dt|."""
+    hit = impact_with(psi, chi)
+    phase, angle = hit.phases[index], hit.slip_angles[index]
+    theta, weights = spread(0.0, 0.5 * math.pi)
+    passed, share = np.sin(theta) ** 2, weights * np.sin(2.0 * theta)  # smooth at square roots
+    turned = power = 0.0
+    for part, weight in zip(passed, share, strict=True):
+        time = phase.start + part * (phase.end - phase.start)
+        contact = hit.contact(time)
+        inner, outer = contact.stick_radius * hit.scales.radius, contact.radius
+        span = outer**2 - inner**2
+        r, a = np.meshgrid(np.sqrt(inner**2 + span * passed), theta, indexing="ij")
+        points = np.stack([(r * np.cos(a)).ravel(), (r * np.sin(a)).ravel()], axis=-1)
+        fields = hit.fields(time, points=points)
+        slip = np.stack([fields.slip_velocity_x, fields.slip_velocity_y])
+        rate = np.abs(fields.traction_x.values * slip[0])  # the work of friction
+        lean = np.arctan2(np.abs(slip[1]), np.abs(slip[0]))
+        area = weight * span * np.outer(share, weights).ravel()
+        power += area @ rate
+        turned += area @ (rate * lean)
+        assert np.all(lean <= angle.largest)
+    assert turned / power == pytest.approx(angle.mean, rel=1e-8)
+    assert angle.largest == pytest.approx(math.asin(0.3 / (2.0 - 0.3)), rel=1e-14)

@@ -61,6 +61,10 @@ def test_cattaneo_mindlin():
     np.testing.assert_allclose(-path.displacement, formula, rtol=1e-12)
     driven = load_path(PAIR, penetration=depth(20.0), displacement=path.displacement)
     np.testing.assert_allclose(driven.tangential_force, path.tangential_force, rtol=1e-12)
+    for one in (path, driven):
+        np.testing.assert_allclose(one.normal_force, 20.0, rtol=1e-14)
+        np.testing.assert_allclose(one.contact_radius, radius(20.0), rtol=1e-14)
+        np.testing.assert_allclose(one.penetration, depth(20.0), rtol=1e-14)
 
 
 @pytest.mark.parametrize("top", [0.05, 0.6, 0.97])

@@ -104,10 +104,8 @@ def test_forces_and_elastic_energies_by_quadrature(psi, chi, place):
 def test_bounds_and_zones(psi, chi, place):
     """abs(f) <= mu p, with equality where it slips; zones follow the radii; nothing outside."""
     hit = impact_with(psi, chi)
-    time = place * hit.duration
-    fields = hit.fields(time)
-    limit = MU * fields.pressure.values
-    unit = MU * hit.max_pressure
+    fields = hit.fields(place * hit.duration)
+    limit, unit = MU * fields.pressure.values, MU * hit.max_pressure
     traction, zone = fields.traction_x.values, fields.zone.values
     r = np.hypot(*np.meshgrid(fields.x, fields.y))
     assert np.all(np.abs(traction) <= limit + 1e-12 * unit)
@@ -144,7 +142,7 @@ def test_mirror_images(psi, chi, place):
 def test_stick_zone_moves_as_a_rigid_body(psi, chi, first, second):
     """Between two times of a phase the stick zone is displaced by the change of U, u_y by none."""
     hit = impact_with(psi, chi)
-    for phase in hit.phases:
+    for phase in (phase for phase in hit.phases if phase.kind != "gross slip"):
         times = [phase.start + part * (phase.end - phase.start) for part in (first, second)]
         now = [hit.solution.at(time / hit.scales.time) for time in times]
         stuck = min(h.stick_radius[0] for h in now) * hit.scales.radius
@@ -214,10 +212,10 @@ def test_slip_velocity_and_power_in_closed_form(psi, chi, place):
     hit = impact_with(psi, chi)
     speed = MU * hit.normal_speed / hit.pair.kappa
     for phase, time, radii in in_every_phase(hit, place):
-        now = hit.solution.at(time / hit.scales.time)
-        a, b = now.stick_radius[0], now.contact_radius[0]
         if phase.kind == "stick":
             continue
+        now = hit.solution.at(time / hit.scales.time)
+        a, b = now.stick_radius[0], now.contact_radius[0]
         radii = radii[radii >= a * hit.scales.radius]
         cos = np.repeat(a * hit.scales.radius / np.maximum(radii, 1e-300), ANGLES.size)
         theta, phi = np.tile(ANGLES, radii.size), np.arccos(cos)
@@ -252,7 +250,8 @@ def test_gross_slip_is_that_of_the_paper(part):
         "displacement_z": (b * b - 0.5 * r2) / pair.effective_radius,
     }
     for name, expected in exact.items():
-        near = 1e-13 if name != "traction_x" else 1e-7 * (r2 > 0.99 * b * b) + 1e-13  # root at edge
+        edge = 1e-7 * (r2 > 0.99 * b * b)  # what rounding does under the root
+        near = 1e-13 + (edge if name == "traction_x" else 0.0)
         assert np.all(np.abs(fields[name] - expected) <= near * np.abs(expected).max())
 
 
@@ -263,15 +262,13 @@ def test_far_away_the_load_is_a_point_force(psi, chi, place):
     hit = impact_with(psi, chi)
     time = place * hit.duration
     points = polar([4e3 * hit.contact(time).radius], ANGLES)
-    fields = hit.fields(time, points=points)
-    x, y = points.T
+    fields, (x, y) = hit.fields(time, points=points), points.T
     r, expected = np.hypot(x, y), np.zeros((3, len(x)))
-    tangential, normal = float(fields.tangential_force), float(fields.normal_force)
     for body in (hit.pair.first, hit.pair.second):
         nu, unit = body.material.poisson, 2.0 * math.pi * body.material.shear_modulus * r
-        expected[0] += tangential * (1.0 - nu + nu * x * x / r**2) / unit
-        expected[1] += tangential * nu * x * y / r**2 / unit
-        expected[2] += normal * (1.0 - nu) / unit
+        expected[0] += float(fields.tangential_force) * (1.0 - nu + nu * x * x / r**2) / unit
+        expected[1] += float(fields.tangential_force) * nu * x * y / r**2 / unit
+        expected[2] += float(fields.normal_force) * (1.0 - nu) / unit
     scale = np.array([MU, MU, 1.0])[:, None] * expected[2]
     found = np.stack([fields[f"displacement_{axis}"] for axis in "xyz"])
     assert np.all(np.abs(found - expected) <= 1e-7 * scale)
@@ -279,8 +276,8 @@ def test_far_away_the_load_is_a_point_force(psi, chi, place):
 
 def test_without_friction_it_slides_freely():
     """No traction, no tangential displacement; slip is V_x times the time since the points met."""
-    pair = Pair(LIKE.first, LIKE.second, 0.0)
-    hit = carom.impact(pair, normal_speed=1.3, tangential_speed=0.4)
+    frictionless = Pair(LIKE.first, LIKE.second, 0.0)
+    hit = carom.impact(frictionless, normal_speed=1.3, tangential_speed=0.4)
     time = 0.4 * hit.duration
     radius = 0.6 * hit.contact(time).radius
     fields = hit.fields(time, points=polar([radius], ANGLES))
@@ -288,8 +285,7 @@ def test_without_friction_it_slides_freely():
         assert np.all(fields[name] == 0.0)
     assert np.all(fields.zone == 2)
     assert np.allclose(fields.slip_velocity_x, 0.4, rtol=1e-15)
-    met = edge_passes(hit, radius)
-    assert np.allclose(fields.slip_x, 0.4 * (time - met), rtol=1e-12)
+    assert np.allclose(fields.slip_x, 0.4 * (time - edge_passes(hit, radius)), rtol=1e-12)
 
 
 @pytest.mark.parametrize("place", [0.0, 1.0])

@@ -24,7 +24,7 @@ from carom.dimensionless.paths import (
     slid,
 )
 from carom.dimensionless.profile import evaluate
-from carom.dimensionless.strata import FORCE, RADIUS, RIM, SLOPE, profile_of
+from carom.dimensionless.strata import RADIUS, RIM, SLOPE, profile_of
 from carom.loading import load_path
 from carom.quantities import InputError
 
@@ -35,6 +35,7 @@ EXAMPLES = settings(max_examples=60, derandomize=True, deadline=None)
 number = {"allow_nan": False, "allow_subnormal": False}
 places = st.tuples(st.floats(-0.15, 1.0, **number), st.floats(-0.7, 0.7, **number))
 walks = st.lists(places, min_size=1, max_size=25).map(lambda rows: np.array(rows).T)
+COLUMNS = [DISPLACEMENT, TRACTION, STORED, WORK]
 seeds = st.integers(0, 10**6)
 
 
@@ -98,7 +99,7 @@ def test_force_energy_and_profile_are_those_of_the_memory(walk):
 def test_coulombs_law(walk):
     path = moved(*walk)
     depth = np.maximum(walk[0], 0.0)
-    bound = 2 / 3 * depth**1.5 * (1 + 1e-15)
+    bound = 2 / 3 * depth**1.5 * (1 + 1e-15) + 1e-300
     assert np.all(np.abs(path.results[:, TRACTION]) <= bound)
     assert np.all(path.results[:, STICK] <= np.sqrt(depth))
     assert np.all(np.abs(path.stack[1:, SLOPE]) <= 1.0)
@@ -120,7 +121,8 @@ def test_work_input_is_stored_or_dissipated(walk):
         end = [values[-2] + t * (values[-1] - values[-2]) for values in (d, u)]
         return moved(np.append(d[1:-1], end[0]), np.append(u[1:-1], end[1])).results[-1, TRACTION]
 
-    work, _ = quad(force, 0.0, 1.0, epsabs=1e-11, epsrel=0.0, limit=400)
+    parts = np.linspace(0.0, 1.0, 41)[1:-1]  # kinks deceive the extrapolation of a single one
+    work, _ = quad(force, 0.0, 1.0, epsabs=1e-12, epsrel=0.0, limit=400, points=parts)
     gained = np.sum(path[-1, [STORED, WORK]] - before)
     assert gained == pytest.approx(work * (u[-1] - u[-2]), rel=0, abs=1e-10)
 
@@ -133,9 +135,8 @@ def test_a_step_may_be_split(walk, cuts):
     parts = ends[:, :-1, np.newaxis] + shares * np.diff(ends)[:, :, np.newaxis]
     parts[:, :, -1] = walk
     whole, split = moved(*walk), moved(*parts.reshape(2, -1))
-    columns = [DISPLACEMENT, TRACTION, STORED, WORK]
     last = split.results[shares.size - 1 :: shares.size]
-    np.testing.assert_allclose(last[:, columns], whole.results[:, columns], rtol=0, atol=1e-13)
+    np.testing.assert_allclose(last[:, COLUMNS], whole.results[:, COLUMNS], rtol=0, atol=1e-13)
     s = np.linspace(0.0, 1.0, 50)
     found, expected = (deflections(path.stack, s) for path in (split, whole))
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-14)
@@ -146,8 +147,8 @@ def test_a_step_may_be_split(walk, cuts):
 def test_mirror(walk):
     one, other = moved(*walk), moved(walk[0], -walk[1])
     mirrored = one.results * np.array([-1.0, -1.0, 1.0, 1.0, 1.0])
-    np.testing.assert_array_equal(mirrored, other.results)
-    np.testing.assert_array_equal(one.stack[:, FORCE], -other.stack[:, FORCE])
+    np.testing.assert_array_equal(mirrored[:, :WORK], other.results[:, :WORK])
+    np.testing.assert_allclose(mirrored[:, WORK], other.results[:, WORK], rtol=0, atol=1e-15)
 
 
 @EXAMPLES
@@ -159,13 +160,12 @@ def test_control_by_force_and_by_displacement_agree(rows):
     assert one.refused == INSIDE
     np.testing.assert_allclose(one.results[:, TRACTION], wanted, rtol=0, atol=1e-14)
     other = moved(depth, one.results[:, DISPLACEMENT])
-    columns = [DISPLACEMENT, TRACTION, STORED, WORK]
     np.testing.assert_allclose(
-        other.results[:, columns], one.results[:, columns], rtol=0, atol=1e-13
+        other.results[:, COLUMNS], one.results[:, COLUMNS], rtol=0, atol=1e-13
     )
     again = forced(depth, other.results[:, TRACTION])
     np.testing.assert_allclose(
-        again.results[:, columns], one.results[:, columns], rtol=0, atol=1e-10
+        again.results[:, COLUMNS], one.results[:, COLUMNS], rtol=0, atol=1e-10
     )
 
 
@@ -174,12 +174,15 @@ def test_control_by_force_and_by_displacement_agree(rows):
 def test_controls_may_alternate(walk, seed):
     """Any step may be led by the force that the displacement causes, unless all slides there."""
     one = moved(*walk)
-    holds = (np.maximum(walk[0], 0.0) > 1e-3) & (one.results[:, STICK] > 0.05)
+    cone = 2 / 3 * np.maximum(walk[0], 0.0) ** 1.5
+    holds = (cone > 1e-4) & (np.abs(one.results[:, TRACTION]) < 0.999 * cone)
     by_force = holds & np.random.default_rng(seed).integers(0, 2, holds.size).astype(bool)
     targets = np.where(by_force, one.results[:, TRACTION], walk[1])
     other = follow_path(walk[0], targets, by_force)
     assert other.refused == INSIDE
-    np.testing.assert_allclose(other.results, one.results, rtol=0, atol=1e-10)
+    np.testing.assert_allclose(
+        other.results[:, COLUMNS], one.results[:, COLUMNS], rtol=0, atol=1e-10
+    )
 
 
 def test_small_steps_do_not_drift():
@@ -228,8 +231,7 @@ def test_fields_after_a_step():
     for k in (1, 2):
         contact, radius = path.contact(k), path.contact_radius[k]
         t, w = np.polynomial.legendre.leggauss(40)
-        r = [path.stick_radius[1], path.stick_radius[2], radius]
-        rims, force = sorted({0.0, *r}), 0.0
+        rims, force = sorted({0.0, *path.stick_radius[1:], radius}), 0.0
         for low, high in pairwise(rims):
             angle = 0.25 * np.pi * (t + 1)  # takes the roots at both rims away
             x = np.sqrt(low**2 + (high**2 - low**2) * np.sin(angle) ** 2)

@@ -71,6 +71,15 @@ def test_mirror_image(psi, chi):
     assert np.array_equal(one.at(times).force, -other.at(times).force)
     assert np.array_equal(one.at(times).stick_radius, other.at(times).stick_radius)
     assert [(p.kind, p.sign) for p in one.phases] == [(p.kind, -p.sign) for p in other.phases]
+    for time in times[1::5]:
+        here, there = one.memory(time), other.memory(time)
+        assert here.displacement == -there.displacement
+        assert [a.sign for a in here.annuli] == [-a.sign for a in there.annuli]
+        for annulus in here.annuli:
+            inside = [(0.5 * (annulus.inner + annulus.outer)) ** 2]
+            assert np.array_equal(here.q(inside), -there.q(inside))
+            if annulus.sign and abs(psi) >= 1e-6:
+                assert here.g(inside)[0] == annulus.sign
 
 
 @settings(max_examples=60, deadline=None, derandomize=True)

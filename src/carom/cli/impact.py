@@ -96,12 +96,15 @@ def impact_command(
 
 
 def _check_outputs(files: "Output") -> None:
-    from carom.storage import ANIMATIONS, FIGURES, TABLES, checked_output
+    from carom.storage import FIGURES, TABLES, checked_output
 
-    endings = {"plot": FIGURES, "animation": ANIMATIONS, "data": TABLES}
-    for name, path in files._asdict().items():
+    for path, endings in ((files.plot, FIGURES), (files.data, TABLES)):
         if path is not None:
-            checked_output(path, endings[name])
+            checked_output(path, endings)
+    if files.animation is not None:
+        from carom.plots.animation import checked_animation
+
+        checked_animation(files.animation)
 
 
 def _store(hit: "Impact", files: "Output") -> list[Path]:

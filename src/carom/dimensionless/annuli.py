@@ -48,11 +48,11 @@ class Memory:
 
     def g(self, s: ArrayLike) -> Array:
         """Return g at the given s >= 0, zero outside the contact."""
-        return self._scale * self._read(s)[0]
+        return self._read(s)[0]
 
     def q(self, s: ArrayLike) -> Array:
         """Return q at the given s >= 0, zero outside the contact."""
-        return self._scale * self._read(s)[1]
+        return self._read(s)[1]
 
     def profile(self) -> Profile:
         """Return g and q as piecewise polynomials over the radius, to rounding."""
@@ -68,7 +68,7 @@ class Memory:
         self, annulus: Annulus, low: float, high: float
     ) -> Iterator[tuple[float, tuple[Array, Array]]]:
         """Yield the outer edges and rows of as many panels as an annulus needs."""
-        g, q = (self._scale * row for row in self._inside(annulus, radii(low, high)))
+        g, q = self._inside(annulus, radii(low, high))
         series = coefficients(g)
         tail = np.max(np.abs(series[-3:])) * np.sqrt(high - low)
         if annulus.sign or tail <= RESOLVED or high - low <= NARROW:
@@ -87,37 +87,35 @@ class Memory:
         return g, q
 
     def _inside(self, annulus: Annulus, x: Array) -> tuple[Array, Array]:
-        """Return g and q at radii of an annulus, of the impact as recorded."""
+        """Return g and q at radii of an annulus."""
         if annulus.sign:
-            sign = float(annulus.sign)
+            sign = annulus.sign * abs(self._scale)
             return np.full(x.shape, sign), self.displacement + sign * (annulus.limit - x * x)
         record, laid = self._record, np.empty((x.size, 2))
         dense.loading_states(record.nodes, record.series, self._moved, x, laid)
-        return laid[:, 0], self.displacement - laid[:, 1]
+        return self._scale * laid[:, 0], self.displacement - self._scale * laid[:, 1]
 
 
 def memory_at(
     record: Record, times: Array, moved: Array, now: dict[str, float], scale: float
 ) -> Memory:
     """Return the memory at the instant that `now` describes; `scale` is as in `Solution`."""
-    d, u = now["penetration"], now["displacement"] / scale
+    d, edge, front = now["penetration"], now["contact_radius"], now["stick_radius"]
     step = int(np.searchsorted(times, now["time"], side="right")) - 1
-    node = record.nodes[step]
+    node, mirror = record.nodes[step], -1 if scale < 0.0 else 1
     stretch = int(node[STRETCH])
-    front = now["stick_radius"]
-    annuli = []
-    inner = 0.0
+    annuli, inner = [], 0.0
     for row in record.stacks[stretch, : record.depths[stretch]]:
-        outer = min(float(row[OUTER]), front)
+        outer, sign = min(float(row[OUTER]), front), mirror * int(row[SLIP_SIGN])
         if outer > inner:
-            annuli.append(Annulus(inner, outer, int(row[SLIP_SIGN]), _limit(record, moved, row)))
+            annuli.append(Annulus(inner, outer, sign, _limit(record, moved, row)))
             inner = outer
-    if node[MODE] in (STICK, RETRACED):
-        annuli.append(Annulus(inner, now["contact_radius"], 0, np.nan))
-    else:
+    if edge > inner:
         sign = int(node[SIGN])
-        annuli.append(Annulus(inner, now["contact_radius"], sign, d - sign * u))
-    return Memory(now["time"], d, u, tuple(annuli), record, moved, scale)
+        limit = d - sign * now["displacement"] / scale
+        sticks = node[MODE] in (STICK, RETRACED)
+        annuli.append(Annulus(inner, edge, *((0, np.nan) if sticks else (mirror * sign, limit))))
+    return Memory(now["time"], d, now["displacement"], tuple(annuli), record, moved, scale)
 
 
 def _limit(record: Record, moved: Array, row: Array) -> float:

@@ -27,7 +27,7 @@ SURFACE = np.zeros(1)
 CUSPS = 24  # so many radii at most, where the memory jumps, join the grid
 STARTS = 3  # peaks of the grid that are refined
 TOLERANCE = {"xatol": 1e-7, "fatol": 1e-13, "maxiter": 400}
-ALIKE = 1e-13  # of the largest: among such places the one with most coordinates on borders is taken
+ALIKE = 1e-13  # of the largest: a place in the plane y = 0 that comes so near is taken
 
 
 class Largest(NamedTuple):
@@ -55,8 +55,7 @@ def largest(measure: Measure, profile: Profile, depths: Array = DEPTHS) -> Large
     """Return the largest value of a measure of the stress below a contact.
 
     A coarse grid over one side of the plane of symmetry finds the peaks; the highest are refined.
-    The stress has cusps on the surface where the memory jumps, and may be largest on the surface
-    or in the plane y = 0: such places are tried as well.
+    Radii where the memory jumps are on the grid, since the surface stress has cusps there.
 
     Parameters
     ----------
@@ -83,7 +82,7 @@ def largest(measure: Measure, profile: Profile, depths: Array = DEPTHS) -> Large
         return Largest(0.0, 0.0, 0.0, 0.0)
 
     def measured(places: Array) -> Array:
-        return measure(b * _cartesian(places)) / b
+        return np.asarray(measure(b * _cartesian(places)) / b)
 
     axes = (_radii(profile), ANGLES, depths)
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
@@ -91,7 +90,7 @@ def largest(measure: Measure, profile: Profile, depths: Array = DEPTHS) -> Large
     peaks = np.argwhere(values == maximum_filter(values, size=3, mode="nearest"))
     highest = sorted(peaks, key=lambda peak: -values[tuple(peak)])[:STARTS]
     refined = (_refined(measured, axes, peak) for peak in highest)
-    tried = np.concatenate([_with_borders(place, profile.edges / b) for place in refined])
+    tried = np.concatenate([_and_in_plane(place) for place in refined])
     found = measured(tried)
     best = np.flatnonzero(found >= found.max() - ALIKE * abs(found.max()))[-1:]
     return Largest(*map(float, b * np.append(found[best], _cartesian(tried[best]))))
@@ -101,7 +100,7 @@ def _radii(profile: Profile) -> Array:
     """Return the radii of the grid: evenly spaced, at cusps, and as dense outside as inside."""
     signs = (-1.0) ** np.arange(profile.g.shape[1])
     inner, outer = profile.g @ signs, profile.g.sum(axis=1)
-    jumps = np.abs(np.append(inner[1:], 2.0) - outer)  # 2 or so: the edge is always one
+    jumps = np.abs(np.append(inner[1:], np.inf) - outer)  # the edge of the contact is always one
     cusps = profile.edges[1:][np.argsort(-jumps)[:CUSPS]] / profile.edges[-1]
     mirrored = 2.0 - cusps
     return np.unique(np.concatenate([RADII, cusps, mirrored[mirrored < RADII[-1]]]))
@@ -132,15 +131,12 @@ def _refined(measured: Measure, axes: Axes, peak: NDArray[np.intp]) -> Array:
     return placed(result.x)
 
 
-def _with_borders(place: Array, edges: Array) -> Array:
-    """Return a place and its neighbours on edges of memory, in the plane y = 0, on the surface."""
+def _and_in_plane(place: Array) -> Array:
+    """Return a place and the nearest one in the plane y = 0, across which stress varies least."""
     r, angle, z = place
-    edge = edges[np.argmin(np.abs(edges - r))]
-    plane = 180.0 if angle > 90.0 else 0.0
-    choices = np.meshgrid([r, edge], [angle, plane], [z, 0.0], indexing="ij")
-    return np.stack([choice.ravel() for choice in choices], axis=-1)
+    return np.array([place, [r, 180.0 if angle > 90.0 else 0.0, z]])
 
 
 def _cartesian(cylindrical: Array) -> Array:
     r, angle, z = cylindrical.T
-    return np.stack([r * cosdg(angle), r * sindg(angle), z], axis=-1)
+    return np.stack([r * cosdg(angle), r * np.abs(sindg(angle)), z], axis=-1)

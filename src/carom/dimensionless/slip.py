@@ -98,7 +98,7 @@ def slid(
 def directions(front: Array, lateral_ratio: float) -> tuple[Array, Array]:
     """Return frictional power in a slip ring, and that times the angle of slip from the traction.
 
-    For fronts a/b in [0, 1), per unit of slip rate: integral over the ring of sqrt(1 - r^2) |w|,
+    For fronts a/b in [0, 1), per unit of slip rate: integral over the ring of sqrt(1 - r^2) w_x,
     and the same times |atan2(lambda w_2 sin 2 theta, w_0 - lambda w_2 cos 2 theta)|.
     """
     nodes, weights = np.polynomial.legendre.leggauss(32)
@@ -110,6 +110,6 @@ def directions(front: Array, lateral_ratio: float) -> tuple[Array, Array]:
     lateral = (2.0 / np.pi * lateral_ratio * a * w / r**2)[..., np.newaxis]
     along, across = mean - lateral * np.cos(2.0 * theta), lateral * np.sin(2.0 * theta)
     area = weights * np.cos(phi) * (1.0 - a) * r * np.sqrt(1.0 - r**2)
-    power = area[..., np.newaxis] * weights * np.hypot(along, across)
+    power = area[..., np.newaxis] * weights * along
     angle = np.abs(np.arctan2(across, along))
     return power.sum((1, 2)), (power * angle).sum((1, 2))

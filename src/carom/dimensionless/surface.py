@@ -27,8 +27,20 @@ def normal_displacement(d: float, r: float) -> float:
     """Return u_z of both surfaces together, inside and outside (Johnson 1985, 3.41, 3.42)."""
     if r * r <= d:
         return d - 0.5 * r * r
-    b, w = np.sqrt(d), np.sqrt(r * r - d)
-    return float(((2.0 * d - r * r) * np.arctan2(b, w) + b * w) / np.pi)
+    angle = 2.0 * np.arctan2(np.sqrt(d), np.sqrt(r * r - d))
+    return float(r * r / (2.0 * np.pi) * sine_less_chord(angle))
+
+
+@kernel
+def sine_less_chord(angle: float) -> float:
+    """Return sin x - x cos x without cancellation for small x."""
+    if angle > 0.5:
+        return float(np.sin(angle) - angle * np.cos(angle))
+    term, total = angle**3 / 3.0, 0.0
+    for k in range(1, 8):
+        total += term
+        term *= -(angle**2) / (2.0 * k * (2.0 * k + 3.0))
+    return total
 
 
 @kernel
@@ -83,6 +95,8 @@ def slip_shape(front: float, r: float) -> tuple[float, float]:
     The stick zone moves as a punch: w_x = W (w_0 - lambda w_2 cos 2 theta), w_y = -W lambda w_2
     sin 2 theta, w_0 = (2/pi) acos(a/r), w_2 = (2/pi) a sqrt(r^2 - a^2)/r^2.
     """
+    if front <= 0.0:
+        return 1.0, 0.0
     if r <= front:
         return 0.0, 0.0
     w = np.sqrt((r - front) * (r + front))

@@ -32,7 +32,7 @@ FEWEST = 3  # of them, where the contact is small on the map
 ROOM = 0.3  # the stick zone with a word in it, in contact radii
 AROUND = 28  # slip arrows along a ring too narrow for that
 NARROW = 1.5  # such a ring, in distances between those arrows
-LONGEST = 0.2  # arrow, in contact radii
+LONGEST = 0.8  # arrow, in distances between those on a lattice
 ZONES = ("contact", "stick")
 MAPPED = ("traction_x", "pressure")
 
@@ -103,7 +103,7 @@ def patch_panel(
     )
     shading.set_clip_path(Circle((0.0, 0.0), contact, transform=axis.transData))
     _draw_zones(axis, contact, stick, slip_band(dataset).hatch)
-    _draw_arrows(axis, arrows(dataset, reach), length, contact)
+    _draw_arrows(axis, arrows(dataset, reach), length)
     axis.set_aspect("equal")
     ends = (-reach * length, reach * length)
     axis.set(xlim=ends, ylim=ends, xlabel=symbol("x", unit), ylabel=symbol("y", unit))
@@ -140,12 +140,16 @@ def _draw_zones(axis: Axes, contact: float, stick: float, hatch: str) -> None:
 
 
 class Arrows(NamedTuple):
-    """Where the surfaces slip on each other, and how fast, in SI units: arrays of one length."""
+    """Where the surfaces slip on each other, and how fast, in SI units: arrays of one length.
+
+    `longest` is how long the arrow of the fastest is drawn, in m.
+    """
 
     x: Array
     y: Array
     along: Array
     across: Array
+    longest: float
 
     @property
     def fastest(self) -> float:
@@ -159,29 +163,30 @@ def arrows(dataset: "xr.Dataset", reach: float | None = None) -> Arrows:
     They are as many as fit on a map that goes to `reach`.
     """
     if "slip_velocity_x" not in dataset:
-        return Arrows(*np.empty((4, 0)))
+        nothing = np.empty(0)
+        return Arrows(nothing, nothing, nothing, nothing, 0.0)
     x, y = dataset["x"].values, dataset["y"].values
     contact, stick = (float(dataset[f"{name}_radius"]) for name in ZONES)
-    room = MARGIN * contact / (reach or _reach(dataset))
-    wanted_x, wanted_y = _places(contact, stick, min(room, 1.0))
+    room = min(MARGIN * contact / (reach or _reach(dataset)), 1.0)
+    count = max(FEWEST, round(ACROSS * room))
+    wanted_x, wanted_y = _places(contact, stick, count)
     places = np.column_stack([_nearest(y, wanted_y), _nearest(x, wanted_x)])
     rows, columns = np.unique(places, axis=0).T
     slips = dataset["zone"].values[rows, columns] == SLIP
     rows, columns = rows[slips], columns[slips]
-    speeds = (dataset[f"slip_velocity_{axis}"].values[rows, columns] for axis in "xy")
-    return Arrows(x[columns], y[rows], *speeds)
+    along, across = (dataset[f"slip_velocity_{axis}"].values[rows, columns] for axis in "xy")
+    return Arrows(x[columns], y[rows], along, across, LONGEST * 2.0 * contact / count)
 
 
-def _places(contact: float, stick: float, room: float) -> tuple[Array, Array]:
+def _places(contact: float, stick: float, count: int) -> tuple[Array, Array]:
     """Return points on a lattice, or in the middle of a slip ring too narrow for one."""
-    across = max(FEWEST, round(ACROSS * room))
-    spacing = 2.0 * contact / across
+    spacing = 2.0 * contact / count
     if stick > 0.0 and contact - stick < NARROW * spacing:
-        around = across * AROUND // ACROSS
+        around = count * AROUND // ACROSS
         angles = 2.0 * np.pi * (np.arange(around) + 0.5) / around
         middle = 0.5 * (contact + stick)
         return middle * np.cos(angles), middle * np.sin(angles)
-    line = spacing * (np.arange(across) - 0.5 * (across - 1))
+    line = spacing * (np.arange(count) - 0.5 * (count - 1))
     x, y = np.meshgrid(line, line)
     return x.ravel(), y.ravel()
 
@@ -190,10 +195,10 @@ def _nearest(grid: Array, places: Array) -> Any:
     return np.abs(grid[:, np.newaxis] - places).argmin(axis=0)
 
 
-def _draw_arrows(axis: Axes, found: Arrows, length: float, contact: float) -> None:
+def _draw_arrows(axis: Axes, found: Arrows, length: float) -> None:
     if found.fastest == 0.0:
         return
-    unit = LONGEST * contact / found.fastest
+    unit = found.longest * length / found.fastest
     shape: dict[str, Any] = {
         "width": 0.01,
         "headwidth": 3.6,
