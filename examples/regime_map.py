@@ -16,7 +16,7 @@ from carom.plots import plot_regime_map, save_figure
 
 def main(folder: str | Path = ".") -> str:
     """Check the borders and the section at chi = 1.44; draw the map."""
-    psi, chi = np.linspace(0.03, 6.03, 91), np.linspace(0.1, 5, 64)
+    psi, chi = np.linspace(0.02, 6.02, 151), np.linspace(0.103, 5.003, 121)
     found = carom.regime_map(psi, chi)
     names = found.sequence_name.values[found.sequence.values]
     begins = np.char.startswith(names.astype(str), "stick")

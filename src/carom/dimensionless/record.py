@@ -35,11 +35,11 @@ def new_record(wanted: bool) -> Record:
     """Return an empty record, without room for anything if none is wanted."""
     room = 1 if wanted else 0
     return Record(
-        nodes=np.zeros((room * MAX_NODES, 5)),
-        series=np.zeros((room * MAX_NODES, ORDER + 1, KEPT)),
-        stacks=np.zeros((room * MAX_STRETCHES, MAX_ANNULI, COLUMNS)),
-        depths=np.zeros(room * MAX_STRETCHES, dtype=np.int64),
-        changes=np.zeros((room * (MAX_PHASES + 1), 5)),
+        nodes=np.empty((room * MAX_NODES, 5)),
+        series=np.empty((room * MAX_NODES, ORDER + 1, KEPT)),
+        stacks=np.empty((room * MAX_STRETCHES, MAX_ANNULI, COLUMNS)),
+        depths=np.empty(room * MAX_STRETCHES, dtype=np.int64),
+        changes=np.empty((room * (MAX_PHASES + 1), 5)),
         counts=np.zeros(3, dtype=np.int64),
     )
 
