@@ -60,6 +60,8 @@ def test_impact_as_json_equals_the_library(run):
     assert record["result"]["psi_out"] == hit.psi_out
     assert [phase["kind"] for phase in record["phases"]] == [p.kind for p in hit.phases]
     assert record["result"]["spin_out"] == hit.spin_out
+    told = [(phase["slip_angle_max"], phase["slip_angle_mean"]) for phase in record["phases"]]
+    assert told == list(hit.slip_angles)
 
 
 def test_case_file_and_flags_that_override_it(run):
@@ -88,6 +90,22 @@ def test_output_files(run):
     assert table.time[0] == 0.0
     assert len(table) == 400
     assert {path.name for path in Path().iterdir()} == {"hit.nc", "hit.png", "hit.csv"}
+
+
+def test_animation(run, monkeypatch):
+    from PIL import Image
+
+    monkeypatch.setattr("carom.cli.impact.FRAMES", 3)
+    code, _, err = run(*BALL, *SPEED, "--animate", "hit.gif")
+    assert code == 0
+    assert "stored hit.gif" in err
+    with Image.open("hit.gif") as film:
+        assert film.n_frames == 3
+    monkeypatch.setenv("PATH", "")
+    code, _, err = run(*BALL, *SPEED, "--animate", "hit.mp4", "--plot", "hit.png")
+    assert code == 2
+    assert "ffmpeg is not found; install it, or use .gif" in err
+    assert [path.name for path in Path().iterdir()] == ["hit.gif"]
 
 
 def test_curve(run):
