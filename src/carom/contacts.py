@@ -43,12 +43,12 @@ class Contact:
     def numbers(self) -> dict[str, float]:
         """Return the numbers that describe the contact by name, in SI units."""
         return {
-            **self.scalars,
             "friction": self.pair.friction,
             "penetration": self.penetration * self.scales.length,
             "displacement": self.displacement * self.scales.tangential_length,
             "contact_radius": self.radius,
             "stick_radius": self.stick_radius * self.scales.radius,
+            **self.scalars,
         }
 
 
@@ -88,6 +88,7 @@ def contact_in_impact(
         slip_speed=drift or solution.slip_rate(instant) * scales.tangential_speed,
         scalars={
             "time": time,
+            "displacement": now["displacement"] * scales.tangential_length + drift * time,
             "normal_force": d**1.5 * scales.force,
             "tangential_force": now["force"] * scales.tangential_force,
         },
