@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom.pairs import ContactScales, Pair
-from carom.quantities import InputError, number, refusal
+from carom.quantities import InputError, refusal, without_units
 
 Array = NDArray[np.float64]
 Given = ArrayLike | str | None
@@ -68,11 +68,9 @@ def _one_of(**controls: Given) -> tuple[str, Array]:
 
 def _values(name: str, given: ArrayLike | str) -> Array:
     """Return a control as numbers in SI units, without a dimension if it is a single one."""
-    if isinstance(given, str):
-        given = number(name, given)
-    allowed = "must be numbers in SI units, a single one or a list"
+    allowed = "must be numbers in SI units, or texts with a unit, a single one or a list"
     try:
-        values = np.asarray(given, dtype=np.float64)
+        values = np.asarray(without_units(name, given), dtype=np.float64)
     except (TypeError, ValueError):
         raise refusal(name, given, allowed) from None
     if values.ndim > 1 or values.size == 0:

@@ -1,5 +1,7 @@
 """Rebound curves: psi_2 and restitution against psi_1, with the borders between regimes."""
 
+from __future__ import annotations
+
 from collections import Counter
 from collections.abc import Callable, Sequence
 from itertools import chain
@@ -40,7 +42,7 @@ def borders(chi: float) -> tuple[float, float, float]:
     return 1.0, 2.0 * chi, 4.0 * chi - 1.0
 
 
-def curve(chi: float | Sequence[float], psi: ArrayLike) -> "xr.Dataset":
+def curve(chi: float | Sequence[float], psi: ArrayLike) -> xr.Dataset:
     """Return psi_2 and restitutions against psi_1, one row per chi, as a labelled dataset.
 
     e_c = psi_2/psi_1 is that of the contact point; e_t = 1 - (2/7)(1 - e_c) that of the centre of a
@@ -85,7 +87,7 @@ def curve(chi: float | Sequence[float], psi: ArrayLike) -> "xr.Dataset":
 
 def regime_map(
     psi: ArrayLike, chi: ArrayLike, *, progress: Callable[[int, int], object] | None = None
-) -> "xr.Dataset":
+) -> xr.Dataset:
     """Return which phases follow which for every psi_1 and chi, as a labelled dataset.
 
     `sequence` (chi, psi_in) is the place of the sequence in `sequence_name`, the commonest first,

@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 
 GRID = 101  # points along x and y where none are asked for
 REACH = 1.5  # of that grid, in contact radii
+ROUNDING = 8.0 * np.finfo(np.float64).eps
 OUTSIDE, STICK, SLIP = 0, 1, 2
 ZONES = {"long_name": "zone of the contact", **flags(("outside", "stick", "slip"))}
 
@@ -35,7 +36,7 @@ def surface_fields(
     Arguments, result and errors as `Impact.fields`.
     """
     dims, coords, px, py = _places(contact, x, y, points)
-    r = np.hypot(px, py) / contact.scales.radius
+    r = _distances(contact, px, py)
     unique, back = np.unique(r, return_inverse=True)
     radial = _radial(contact, unique)[back.reshape(r.shape)]
     angle = 2.0 * np.arctan2(py, px)
@@ -83,6 +84,12 @@ def _places(
     across = default if y is None else line("y", y)
     px, py = np.meshgrid(along, across)
     return ("y", "x"), {"x": along, "y": across}, px, py
+
+
+def _distances(contact: Contact, px: Array, py: Array) -> Array:
+    """Return dimensionless distances from the centre, those at the edge freed from rounding."""
+    r, edge = np.hypot(px, py) / contact.scales.radius, np.sqrt(contact.penetration)
+    return np.where(np.abs(r - edge) <= ROUNDING * edge, edge, r)
 
 
 def _radial(contact: Contact, r: Array) -> Array:
@@ -137,4 +144,4 @@ def _zones(contact: Contact, r: Array) -> NDArray[np.int8]:
 
 
 def _in_contact(contact: Contact, r: Array) -> NDArray[np.bool_]:
-    return np.asarray((r * r <= contact.penetration) & (contact.penetration > 0.0))
+    return np.asarray((r <= np.sqrt(contact.penetration)) & (contact.penetration > 0.0))

@@ -1,5 +1,7 @@
 """One oblique impact with units: two bodies and their velocities in, the rebound out."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import astuple, dataclass
 from functools import cached_property
@@ -53,8 +55,12 @@ class Impact(Outcome):
         """How far the assumptions of the theory hold, as numbers with a verdict."""
         return judge(self.pair, self.normal_speed, self.duration)
 
-    def history(self, n: int = 200) -> "xr.Dataset":
-        """Return the impact at n times: a dataset with forces, velocities, radii, energies."""
+    def history(self, n: int = 200) -> xr.Dataset:
+        """Return the impact at n times: a dataset with forces, velocities, radii, energies.
+
+        The times are evenly spaced from the first touch to the last; maximum compression is in the
+        middle, at half of `duration`.
+        """
         times = counted("n", n, 2)
         columns = history_columns(self.pair, self.normal_speed, self._before, self.solution, times)
         angles = self.slip_angles
@@ -77,7 +83,7 @@ class Impact(Outcome):
         return self.solution.slip_angles(self.pair.lateral_ratio)
 
     def contact(self, time: Value) -> Contact:
-        """Return the contact at a time since the first touch, 0 to `duration`, in s.
+        """Return the contact at a time since the first touch: what fields and stresses come from.
 
         Raises InputError for a time outside the contact.
         """
@@ -97,7 +103,7 @@ class Impact(Outcome):
         y: ArrayLike | None = None,
         *,
         points: ArrayLike | None = None,
-    ) -> "xr.Dataset":
+    ) -> xr.Dataset:
         """Return tractions, zones, displacements and slip at the surface at a time.
 
         Pressure and traction are Barber's (1) and (6); the displacements, of both surfaces together
@@ -118,7 +124,10 @@ class Impact(Outcome):
         Returns
         -------
         xarray.Dataset
-            Along (y, x), or along `point`; units in its attributes.
+            Along (y, x), or along `point`: pressure, traction_x, zone (0 outside, 1 stick, 2 slip),
+            displacement_x, displacement_y, displacement_z, slip_x, slip_y, slip_velocity_x,
+            slip_velocity_y; and as numbers contact_radius, stick_radius, normal_force,
+            tangential_force, penetration, displacement, time, friction.
 
         Raises
         ------
@@ -145,7 +154,7 @@ class Impact(Outcome):
         *,
         points: ArrayLike | None = None,
         body: str = "second",
-    ) -> "xr.Dataset":
+    ) -> xr.Dataset:
         """Return the stress below the surface of one body at a time, and where it is largest.
 
         Pressure (1) and traction (6) as slices of the memory, each slice a line of Boussinesq's and
@@ -167,9 +176,10 @@ class Impact(Outcome):
         Returns
         -------
         xarray.Dataset
-            Along (z, x), or along `point`: components, principal stresses, von Mises stress,
-            largest shear; of the whole body the largest von Mises stress and the largest tension of
-            the surface, each with its place.
+            Along (z, x), or along `point`: sigma_xx, sigma_yy, sigma_zz, sigma_xy, sigma_xz,
+            sigma_yz, principal_1 to principal_3, von_mises, max_shear; of the whole body
+            max_von_mises and, on its surface, max_tension, with their places, max_von_mises_x and
+            so on.
 
         Raises
         ------
@@ -189,15 +199,15 @@ class Impact(Outcome):
         """
         return stress_dataset(self.contact(time), x=x, z=z, points=points, body=body)
 
-    def radial(self, time: Value, n: int = 401) -> "xr.Dataset":
+    def radial(self, time: Value, n: int = 401) -> xr.Dataset:
         """Return pressure, traction and the memory g, q along a radius at a time in s."""
         return radial_fields(self.contact(time), counted("n", n, 2))
 
-    def to_dataset(self) -> "xr.Dataset":
+    def to_dataset(self) -> xr.Dataset:
         """Return all of the result as one dataset, with a history of 400 times."""
         return self.history(400)
 
-    def plot(self, path: str | Path | None = None) -> "Figure":
+    def plot(self, path: str | Path | None = None) -> Figure:
         """Draw the impact; with a path, store the figure there."""
         from carom.plots import plot_impact, save_figure
 

@@ -1,5 +1,7 @@
 """Quasi-static load paths of a contact: any history of normal and tangential load, with units."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field
 from math import isfinite
 from operator import index
@@ -77,7 +79,7 @@ class LoadPath:
         penetration: Given = None,
         tangential_force: Given = None,
         displacement: Given = None,
-    ) -> "LoadPath":
+    ) -> LoadPath:
         """Return the path continued, in the same or another control; arguments as `load_path`.
 
         Examples
@@ -125,7 +127,7 @@ class LoadPath:
         y: ArrayLike | None = None,
         *,
         points: ArrayLike | None = None,
-    ) -> "xr.Dataset":
+    ) -> xr.Dataset:
         """Return tractions, zones, displacements and slip after a step, as `Impact.fields`."""
         return surface_fields(self.contact(step), x, y, points=points)
 
@@ -137,15 +139,15 @@ class LoadPath:
         *,
         points: ArrayLike | None = None,
         body: str = "second",
-    ) -> "xr.Dataset":
+    ) -> xr.Dataset:
         """Return the stress below the surface of one body after a step, as `Impact.stress`."""
         return stress_dataset(self.contact(step), x=x, z=z, points=points, body=body)
 
-    def radial(self, step: int = -1, n: int = 401) -> "xr.Dataset":
+    def radial(self, step: int = -1, n: int = 401) -> xr.Dataset:
         """Return pressure, traction and the memory g, q along a radius after a step."""
         return radial_fields(self.contact(step), counted("n", n, 2))
 
-    def to_dataset(self) -> "xr.Dataset":
+    def to_dataset(self) -> xr.Dataset:
         """Return the path as a dataset along `step`, which `carom.storage.save` can store."""
         count = {"units": "1", "long_name": "step of the load path"}
         return labelled_dataset(

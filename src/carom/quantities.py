@@ -54,6 +54,15 @@ def number(name: str, value: Any, unit: str | None = None) -> float:
     return result
 
 
+def without_units(name: str, given: Any) -> Any:
+    """Return what is given, one value or a list, with text such as "5 mm" made SI numbers."""
+    if isinstance(given, str):
+        return number(name, given)
+    if isinstance(given, list | tuple):
+        return [number(name, each) if isinstance(each, str) else each for each in given]
+    return given
+
+
 def positive(name: str, value: Any) -> float:
     """Return a positive finite value in SI units, or raise InputError."""
     result = number(name, value)

@@ -4,7 +4,7 @@ import os
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from carom.quantities import InputError, refusal
 from carom.tables import as_csv, from_csv
@@ -17,8 +17,15 @@ FIGURES = (".png", ".pdf", ".svg")
 ANIMATIONS = (".gif", ".mp4")
 
 
-def save(dataset: "xr.Dataset", path: str | Path) -> Path:
-    """Store a dataset as .nc or .csv and return its path; `read` gives it back as it was.
+class Result(Protocol):
+    """What can be made a dataset: an impact, a load path."""
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return all of it as one dataset."""
+
+
+def save(result: "xr.Dataset | Result", path: str | Path) -> Path:
+    """Store a dataset or a result as .nc or .csv and return its path; `read` gives it back.
 
     A file that is there is replaced whole or not at all. CSV is one table, with everything else in
     comments before it: `pandas.read_csv(path, comment="#")` reads it, too.
@@ -26,7 +33,7 @@ def save(dataset: "xr.Dataset", path: str | Path) -> Path:
     Raises
     ------
     InputError
-        If the name ends otherwise, or the file cannot be written.
+        If the name ends otherwise, the file cannot be written, or there is no dataset to store.
 
     Examples
     --------
@@ -37,7 +44,7 @@ def save(dataset: "xr.Dataset", path: str | Path) -> Path:
     ...     save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.csv").name
     'curve.csv'
     """
-    target = checked_output(path, TABLES)
+    target, dataset = checked_output(path, TABLES), _dataset(result)
 
     def write(where: Path) -> None:
         if target.suffix.lower() == ".nc":
@@ -48,6 +55,16 @@ def save(dataset: "xr.Dataset", path: str | Path) -> Path:
             where.write_text(as_csv(dataset), encoding="utf-8", newline="\n")
 
     return replace_whole(target, write)
+
+
+def _dataset(result: "xr.Dataset | Result") -> "xr.Dataset":
+    import xarray as xr
+
+    if isinstance(result, xr.Dataset):
+        return result
+    if not hasattr(result, "to_dataset"):
+        raise refusal("result", result, "must be a dataset, an impact or a load path")
+    return result.to_dataset()
 
 
 def read(path: str | Path) -> "xr.Dataset":

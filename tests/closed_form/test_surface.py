@@ -113,10 +113,12 @@ def test_slip_is_the_change_of_shift_since_the_points_met(psi, chi):
     """Integrating the slip rate over time gives [U - u] between touch and now."""
     solution = carom.solve(psi, chi)
     rng = np.random.default_rng(3)
-    for place in (0.2, 0.45, 0.52, 0.7, 0.95):
+    for place in (0.2, 0.45, 0.5, 0.505, 0.52, 0.7, 0.95):
         time = place * solution.duration
         now = solution.at(time)
-        r = np.sort(rng.uniform(0.0, now.contact_radius[0], 6))
+        edge = now.contact_radius[0]
+        beside = edge * (1.0 - np.array([2e-3, 5e-4, 1e-6]))  # touched last of all
+        r = np.sort(np.append(rng.uniform(0.0, edge, 6), beside))
         slid = solution.slid(time, r)
         touched = [hertz.time(at**2, np.sqrt(1.0 - at**5)) for at in r]
         for at, touch, ours in zip(r, touched, slid, strict=True):

@@ -93,3 +93,25 @@ def test_what_is_at_the_ends_of_the_contact(hit):
         assert float(hit.fields(time).pressure.max()) == 0.0
         assert float(hit.stress(time, body="first").von_mises.max()) == 0.0
         assert float(hit.radial(time).traction_x[0]) == 0.0
+
+
+def test_texts_with_units_are_taken_everywhere(hit):
+    plain = hit.fields(1e-6, x=[1e-4], y=[0.0, 2e-5])
+    assert hit.fields("1 us", x="0.1 mm", y=["0 mm", "20 um"]).identical(plain)
+    moves = {"normal_force": "10 N", "tangential_force": ["0 N", "500 mN"]}
+    path = carom.load_path(hit.pair, **moves)
+    assert path.tangential_force == pytest.approx([0.0, 0.5], abs=1e-12)
+    with pytest.raises(carom.InputError, match="x: '0.1 s' cannot be used"):
+        hit.fields(1e-6, x="0.1 s")
+    with pytest.raises(carom.InputError, match="tangential_force: '1 m' cannot be used"):
+        carom.load_path(hit.pair, normal_force=10.0, tangential_force=["0 N", "1 m"])
+
+
+def test_storing_results(hit, tmp_path):
+    stored = carom.save(hit, tmp_path / "hit.nc")
+    assert carom.read(stored).identical(hit.to_dataset())
+    with pytest.raises(
+        carom.InputError, match="result: 'hit' .* dataset, an impact or a load path"
+    ):
+        carom.save("hit", tmp_path / "other.nc")
+    assert [path.name for path in tmp_path.iterdir()] == ["hit.nc"]

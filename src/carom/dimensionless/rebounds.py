@@ -1,5 +1,7 @@
 """Rebounds of many impacts at once."""
 
+from __future__ import annotations
+
 import os
 import warnings
 from concurrent.futures import ThreadPoolExecutor

@@ -34,6 +34,15 @@ def slid_in_gross_slip(
 
 
 @kernel
+def touch(node: Array, series: Series, r: float) -> float:
+    """Return how far into a step the edge of the growing contact reaches r."""
+    if r < 0.8:
+        return float(position(node, series, B, r, False))
+    speed = np.sqrt(max(1.0 - r**5, 0.0))  # monotone where the step goes beyond the turning point
+    return float(position(node, series, V, speed, True))
+
+
+@kernel
 def slid_in_ring(node: Array, series: Series, r: float, h_end: float) -> tuple[float, float]:
     """Return the radial functions of the slip of a point from the start of a step to h_end."""
     h0 = 0.0
@@ -42,7 +51,7 @@ def slid_in_ring(node: Array, series: Series, r: float, h_end: float) -> tuple[f
             return 0.0, 0.0
         h0 = position(node, series, A, r, True)
     if series[0, B] < r and series[0, V] > 0.0:
-        h0 = max(h0, position(node, series, B, r, False))
+        h0 = max(h0, touch(node, series, r))
     mean, lateral = 0.0, 0.0
     high = h_end
     for level in range(LEVELS):
