@@ -69,8 +69,9 @@ def _one_of(**controls: Given) -> tuple[str, Array]:
 def _values(name: str, given: ArrayLike | str) -> Array:
     """Return a control as numbers in SI units, without a dimension if it is a single one."""
     allowed = "must be numbers in SI units, or texts with a unit, a single one or a list"
+    given = without_units(name, given)
     try:
-        values = np.asarray(without_units(name, given), dtype=np.float64)
+        values = np.asarray(given, dtype=np.float64)
     except (TypeError, ValueError):
         raise refusal(name, given, allowed) from None
     if values.ndim > 1 or values.size == 0:

@@ -25,8 +25,9 @@ def scattered(name: str, given: ArrayLike, columns: int) -> Array:
 
 def line(name: str, given: ArrayLike) -> Array:
     """Return positions along an axis as an array of shape (n,), or raise InputError."""
+    given = without_units(name, given)
     try:
-        values = np.atleast_1d(np.asarray(without_units(name, given), dtype=np.float64))
+        values = np.atleast_1d(np.asarray(given, dtype=np.float64))
     except (TypeError, ValueError):
         raise refusal(name, given, "must be a list of finite numbers in m") from None
     if values.ndim != 1 or values.size == 0 or not np.all(np.isfinite(values)):
