@@ -62,14 +62,16 @@ def main(folder: str | Path = ".") -> str:
     difference = np.sqrt(np.mean((exact - size) ** 2)) / (peak / 1e6)
     assert difference < 0.03, f"CONTACT's tractions differ by {difference:.1%} of mu p_0"
 
-    figure, (axes,) = new_figure(1, 2, width=DOUBLE, height=62)
+    figure, (axes,) = new_figure(1, 2, width=DOUBLE, height=66)
     milli = 1e3
     axes[0].plot(r * milli, found / 1e6, color=BLUE, label="$f$")
     limit = peak * np.sqrt(1 - (r / a) ** 2) / 1e6
     axes[0].plot(r * milli, limit, color=BLACK, ls=DASHES[1], lw=0.8, label=r"$\mu p$")
-    axes[0].plot(np.hypot(x, y), size, ".", color=VERMILION, ms=3, label="CONTACT")
+    axes[0].plot(np.hypot(x, y), size, ".", color=VERMILION, ms=3, label="CONTACT", clip_on=False)
     axes[0].axvline(c * milli, color="0.5", lw=0.6)
-    axes[0].text(c * milli, 0.02, " $a$, stick inside", ha="left")
+    place = {"y": 0.02, "transform": axes[0].get_xaxis_transform()}
+    axes[0].text(c * milli, s="stick, $r < a$ ", ha="right", **place)
+    axes[0].text(c * milli, s=" slip", ha="left", **place)
     axes[0].set(xlim=(0, 1.05 * a * milli), ylim=(0, None))
     axes[0].set(xlabel="distance from the centre, $r$ (mm)", ylabel="traction (MPa)")
     axes[1].plot(
@@ -77,11 +79,13 @@ def main(folder: str | Path = ".") -> str:
     )
     stick = path.stick_radius / a
     axes[1].plot(share, stick, color=VERMILION, ls=DASHES[1], label="stick radius, $a/b$")
-    axes[1].plot(share[5::10], moved[5::10] / moved[-1], "o", mfc="white", mec=BLUE)
-    axes[1].plot(share[5::10], (1 - share[5::10]) ** (1 / 3), "o", mfc="white", mec=VERMILION)
+    circles = {"marker": "o", "ls": "", "mfc": "white", "clip_on": False}
+    axes[1].plot(share[5::10], moved[5::10] / moved[-1], mec=BLUE, **circles)
+    axes[1].plot(share[5::10], (1 - share[5::10]) ** (1 / 3), mec=VERMILION, **circles)
+    axes[1].plot([], [], mec=BLACK, label="closed form", **circles)
     axes[1].set(xlabel=r"tangential force, $T/\mu P$", ylabel="share", xlim=(0, 1), ylim=(0, 1.05))
     for axis in axes:
-        legend_above(axis, 3)
+        legend_above(axis, 2)
     save_figure(figure, Path(folder) / "cattaneo_mindlin.png")
     return f"traction within {error:.0e} of mu p_0; CONTACT within {difference:.1%} of it (rms)"
 

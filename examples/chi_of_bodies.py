@@ -48,11 +48,14 @@ def main(folder: str | Path = ".") -> str:
         pair = carom.Pair(ball, carom.HalfSpace(material=stuff), friction=0.2)
         np.testing.assert_allclose(pair.chi, chi_16(stuff.poisson, 0.4), rtol=1e-14)
         seen.setdefault(stuff.poisson, name)
-    axis.plot(list(seen), chi_16(np.array(list(seen)), 0.4), "o", color=BLACK, ms=2.5)
+    dots = {"marker": "o", "ls": "", "color": BLACK, "ms": 2.5, "clip_on": False}
+    axis.plot(
+        list(seen), chi_16(np.array(list(seen)), 0.4), label="materials of the catalogue", **dots
+    )
     axis.axhline(0.5, color="0.5", lw=0.5)
     axis.text(0.2, 0.52, r"$\chi = 1/2$")
     axis.set(xlim=(0, 0.5), ylim=(0.2, 2.6), xlabel=label("poisson"), ylabel=label("chi", room=44))
-    axis.legend(ncols=2, loc="upper right")
+    axis.legend(ncols=2, loc="upper right", columnspacing=0.8)
     save_figure(figure, Path(folder) / "chi_of_bodies.png")
     return (
         f"chi of {len(carom.materials())} materials and {len(SHAPES)} shapes is (16), {worst:.0e}"

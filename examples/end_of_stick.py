@@ -12,7 +12,7 @@ import numpy as np
 
 import carom
 from carom.dimensionless.stick import Stick, transition_speed
-from carom.plots.style import DASHES, LINES, legend_above, new_figure, save_figure, styled
+from carom.plots.style import BLACK, DASHES, LINES, legend_above, new_figure, save_figure, styled
 
 CHIS = (0.8, 1.44, 2.5)
 
@@ -25,14 +25,14 @@ def stick_phase(psi, chi):
 @styled
 def main(folder: str | Path = ".") -> str:
     """Check begin and end of stick of whole impacts against the closed form; draw both."""
-    figure, ((axis,),) = new_figure(height=66)
+    figure, ((axis,),) = new_figure(height=72)
     worst = 0.0
     for chi, color, dash in zip(CHIS, LINES, DASHES, strict=False):
         psi = np.concatenate([np.linspace(0.01, 0.999, 17), np.linspace(1.001, 1.999 * chi, 17)])
         sticks = [stick_phase(at, chi) for at in psi]
         starts, ends = np.array([[stick.start, stick.end] for stick in sticks]).T
         assert np.all((ends > 0) & (ends < starts)), "stick ends before maximum penetration"
-        axis.plot(psi, ends, color=color, ls=dash, label=rf"$\chi = {chi:g}$")
+        axis.plot(psi, ends, color=color, ls=dash, label=rf"end, $\chi = {chi:g}$")
         axis.plot(psi, starts, color=color, ls=dash, lw=0.6)
         for at, closed in zip(psi[1::4], np.column_stack([starts, ends])[1::4], strict=True):
             impact = carom.solve(at, chi)
@@ -44,11 +44,14 @@ def main(folder: str | Path = ".") -> str:
             np.testing.assert_allclose(state.psi[1] / state.speed[1], -1, atol=1e-8, err_msg="|g|")
             if at > 1:
                 np.testing.assert_allclose(state.speed[0], transition_speed(at, chi), atol=1e-9)
-            axis.plot(at, state.speed[1], "o", mfc="white", mec=color, mew=0.8)
+            axis.plot(at, state.speed[1], "o", mfc="white", mec=color, mew=0.8, clip_on=False)
     assert worst < 1e-9, f"stick of whole impacts differs by {worst:.1e}"
+    axis.plot([], [], color=BLACK, lw=0.6, label="begin (thin)")
+    axis.plot([], [], "o", mfc="white", mec=BLACK, mew=0.8, label="end in whole impacts")
     axis.text(0.1, 1.02, "stick from the first touch", va="bottom", fontsize=6.5)
-    axis.set(xlim=(0, 5), ylim=(0, 1.1), xlabel=r"$\psi_1$", ylabel="$V_z/V_1$ at the end of stick")
-    legend_above(axis, 3)
+    axis.set(xlim=(0, 5), ylim=(0, 1.1), xlabel=r"$\psi_1$")
+    axis.set_ylabel("$V_z/V_1$ at begin and end of stick")
+    legend_above(axis, 2)
     save_figure(figure, Path(folder) / "end_of_stick.png")
     return f"begin and end of stick are those of the closed form within {worst:.0e}"
 

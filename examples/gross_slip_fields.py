@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.patches import Circle
+from matplotlib.ticker import MaxNLocator
 
 import carom
 from carom.plots.style import BLUE, DASHES, DOUBLE, MAP, VERMILION, new_figure, save_figure, styled
@@ -62,7 +63,9 @@ def main(folder: str | Path = ".") -> str:
     micro = 1e6
     middle = line.size // 2
     along, across = patch.isel(y=middle), patch.isel(x=middle)
-    axes[0].plot(line * micro, along.traction_x / largest, color="black", label=r"$f/\mu p_0$")
+    within = np.abs(line) < b
+    traction = along.traction_x[within] / largest
+    axes[0].plot(line[within] * micro, traction, color="black", label=r"$f/\mu p_0$")
     axes[0].plot(
         line * micro, along.displacement_x / wide, color=BLUE, ls=DASHES[1], label="$u_x$, $y = 0$"
     )
@@ -77,8 +80,12 @@ def main(folder: str | Path = ".") -> str:
     axes[0].legend(loc="lower center")
     for axis, name in zip(axes[1:], "xy", strict=True):
         values = patch[f"displacement_{name}"].where(x**2 + y**2 < (1.05 * b) ** 2) * 1e9
-        shading = axis.contourf(line * micro, line * micro, values, 10, cmap=MAP)
-        lines = axis.contour(line * micro, line * micro, values, 10, colors="white", linewidths=0.4)
+        levels = MaxNLocator(10, symmetric=name == "y").tick_values(values.min(), values.max())
+        shading = axis.contourf(line * micro, line * micro, values, levels, cmap=MAP)
+        lines = axis.contour(
+            line * micro, line * micro, values, levels, colors="white", linewidths=0.4,
+            negative_linestyles="solid",
+        )  # fmt: skip
         for drawn in (shading, lines):
             drawn.set_clip_path(Circle((0, 0), b * micro, transform=axis.transData))
         axis.add_patch(Circle((0, 0), b * micro, fill=False, lw=1))

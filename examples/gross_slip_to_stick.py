@@ -61,6 +61,8 @@ def main(folder: str | Path = ".") -> str:
             line = psi - 2 * CHI * (1 - h.speed[sliding])
             np.testing.assert_allclose(h.psi[sliding], line, atol=1e-12, err_msg="(33)")
             axes[0].plot(*2 * [transition_speed(psi, CHI)], "o", color=color)
+    axes[0].plot([], [], "o", color=BLACK, label="gross slip ends, (34)")
+    axes[0].legend(loc="lower left")
     axes[0].text(1.04, 0.92, r"$\psi = V_z/V_1$", color="0.4", va="center", ha="right")
     axes[0].set(xlim=(1.5, 0), xticks=[1, 0.5, 0], xlabel="$V_z/V_1$", ylabel=r"$\psi$")
     axes[0].axhline(0, color="0.5", lw=0.5)
@@ -77,6 +79,7 @@ def main(folder: str | Path = ".") -> str:
             worst = max(worst, abs(then.psi[0] - then.speed[0]))
             axes[1].plot(at, then.speed[0], "o", mfc="white", mec=color, mew=0.8)
     assert worst < 1e-11, f"(32), (34) differ from whole impacts by {worst:.1e}"
+    axes[1].plot([], [], "o", mfc="white", mec=BLACK, mew=0.8, label="whole impacts")
     axes[1].axhline(0, color="0.5", lw=0.5)
     axes[1].set(ylim=(-1.05, 1.05), xlabel=r"$\psi_1$", ylabel="$V_z/V_1$ where gross slip ends")
 
@@ -93,7 +96,8 @@ def main(folder: str | Path = ".") -> str:
         axes[2].plot(x, stick.g(x=x), color=color, ls=dash, label=rf"$\psi_1 = {psi:g}$")
         axes[2].plot(x, as_printed(stick, x), color="0.6", ls=dash, lw=0.9)
     axes[2].axhline(0, color="0.5", lw=0.5)
-    axes[2].plot([], [], color="0.6", lw=0.8, label="(35) as printed")
+    axes[2].plot([], [], color=BLACK, lw=1.6, label="gross slip, $g = 1$")
+    axes[2].plot([], [], color="0.6", lw=0.9, label="(35) as printed")
     axes[1].legend(loc="upper right")
     axes[2].set(xlim=(0, 1), ylim=(-1, 1.15), xlabel="$x = (b/b_{max})^5$", ylabel="memory, $g$")
     axes[2].legend(loc="lower left")

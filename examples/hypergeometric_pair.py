@@ -90,7 +90,8 @@ def main(folder: str | Path = ".") -> str:
             xytext=(0.5, height - 0.7),
             arrowprops={"arrowstyle": "-", "lw": 0.4},
         )
-    axes[0].axvline(0.95, color=BLACK, lw=0.6, ls=DASHES[2])
+    axes[0].plot([], [], color="0.4", lw=0.7, label="series (21), cut")
+    axes[0].axvline(0.95, color=BLACK, lw=0.6, ls=DASHES[2], label="$x = 0.95$")
     axes[0].set(ylim=(-6, 2), ylabel=rf"solutions for $\chi$ = {CHI:g}")
     axes[1].plot(fine, h_1(fine), color=BLUE, label=r"stick from the touch, $\psi_1 = 1$: $h_1$")
     axes[1].plot([0, start], [1, 1], color=BLACK, lw=2, label=rf"gross slip, $\psi_1 = {PSI:g}$")

@@ -68,7 +68,10 @@ def main(folder: str | Path = ".") -> str:
         np.testing.assert_allclose(
             found, pressure_1(r, contact.radius), atol=1e-12 * hit.max_pressure, err_msg="(1)"
         )
-        axes[2].plot(r * 1e6, found / 1e9, color=color, ls=dash, label=f"{share:g} $t_c$")
+        inside = r <= contact.radius
+        axes[2].plot(
+            r[inside] * 1e6, found[inside] / 1e9, color=color, ls=dash, label=f"{share:g} $t_c$"
+        )
     axes[2].set(xlabel="distance from the centre, $r$ (µm)", ylabel="pressure, $p$ (GPa)")
     axes[2].set(xlim=(0, 255), xticks=[0, 100, 200], ylim=(0, 5))
     axes[1].set(xlim=(0, 255), xticks=[0, 100, 200])

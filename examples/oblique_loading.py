@@ -51,7 +51,8 @@ def main(folder: str | Path = ".") -> str:
         traction = patch.traction_x / (PAIR.friction * patch.pressure[0])
         profile = min(ratio, 1.0) * np.sqrt(np.maximum(1 - (r / r[-1]) ** 2, 0))
         np.testing.assert_allclose(traction[:-1], profile[:-1], atol=1e-7)
-        axes[0].plot(path.normal_force, path.tangential_force, color=color, ls=dash)
+        drawn = going_in if ratio < 1 else slice(None)  # dashes on dashes would look solid
+        axes[0].plot(path.normal_force[drawn], path.tangential_force[drawn], color=color, ls=dash)
         axes[1].plot(r * 1e6, traction, color=color, ls=dash, label=f"{ratio:g} of the critical")
     assert worst < 1e-10, f"F_x differs by {worst:.1e} of mu P"
     impact = carom.solve(0.8, 0.5).history(200)
@@ -59,6 +60,7 @@ def main(folder: str | Path = ".") -> str:
     normal = np.array([0, path.normal_force.max()])
     for side in (-1, 1):
         axes[0].plot(normal, side * PAIR.friction * normal, color="0.6", lw=0.6, zorder=0)
+    axes[0].text(normal[1] / 2, 1.25 * PAIR.friction * normal[1] / 2, r"$+\mu F_z$", ha="right")
     axes[0].text(normal[1] / 2, -1.25 * PAIR.friction * normal[1] / 2, r"$-\mu F_z$", ha="right")
     axes[0].set_xlim(0, None)
     axes[0].axhline(0, color="0.5", lw=0.5)

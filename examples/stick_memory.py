@@ -14,7 +14,7 @@ from scipy.special import gamma, hyp2f1
 
 import carom
 from carom.dimensionless.stick import Stick
-from carom.plots.style import DASHES, LINES, legend_above, new_figure, save_figure, styled
+from carom.plots.style import BLACK, DASHES, LINES, legend_above, new_figure, save_figure, styled
 
 CHIS = (0.3, 0.5, 1.44, 4.0, 6.0)
 PSI = 0.3
@@ -78,6 +78,8 @@ def main(folder: str | Path = ".") -> str:
     np.testing.assert_allclose(Stick.from_touch(PSI, 0.5).g(x=x), PSI, rtol=1e-15, err_msg="(37)")
     np.testing.assert_allclose(series(x, 4.0), 1 - 3.5 * x, rtol=1e-12)
     assert worst < 1e-10, f"the memory of whole impacts differs by {worst:.1e}"
+    axis.plot([], [], color=BLACK, lw=0.5, label="thin: $|g| > 1$")
+    axis.plot([], [], "o", mfc="white", mec=BLACK, mew=0.7, ms=2.8, label="whole impacts")
     axis.text(0.02, 1 / PSI - 0.12, rf"$|g| < 1$ for $\psi_1 = {PSI:g}$", va="top")
     axis.set(xlim=(0, 1), ylim=(-4.6, 4.6))
     axis.set(xlabel="$x = cb^5 = (b/b_{max})^5$", ylabel=r"$g/\psi_1 = F(\alpha, \beta; 3/5; x)$")

@@ -12,6 +12,7 @@ import numpy as np
 
 import carom
 from carom.plots.style import (
+    BLACK,
     BLUE,
     DASHES,
     DOUBLE,
@@ -67,9 +68,13 @@ def main(folder: str | Path = ".") -> str:
         axes[0].plot(fine * micro, shape / 1e12, color=color, ls=dash)
         marks = {"mfc": "white", "mec": color, "mew": 0.8}
         axes[0].plot(r[::4] * micro, traction[::4] / 1e12, "o", **marks)
-        axes[1].plot(fine * micro, 0 * fine + by_8, color=color, ls=dash)
-        axes[1].plot(r[::4] * micro, along[::4], "o", **marks, label=f"{time * micro:.1f} µs")
+        at = f"{time * micro:.1f} µs"
+        axes[1].plot(fine * micro, 0 * fine + by_8, color=color, ls=dash, label=at)
+        axes[1].plot(r[::4] * micro, along[::4], "o", **marks)
     assert worst < 1e-6, f"(8), (10): the patch does not move as a whole, {worst:.1e}"
+    axes[0].plot([], [], color=BLACK, label="(7), as under a punch")
+    axes[0].plot([], [], "o", **{**marks, "mec": BLACK}, label="differences of fields")
+    axes[0].legend(loc="upper left", bbox_to_anchor=(0, 0.9))
     for axis in axes:
         axis.axhline(0, color="0.5", lw=0.5)
         axis.set(xlim=(0, None), xlabel="distance from the centre, $r$ (µm)")

@@ -9,10 +9,12 @@ Barber (1979), ZAMP 30:468, equation (6) and section 7; here with the slip ring 
 from pathlib import Path
 
 import numpy as np
+from matplotlib.patches import Patch
 from numpy.polynomial.chebyshev import chebval
 
 import carom
 from carom.plots.style import (
+    BANDS,
     BLACK,
     BLUE,
     DASHES,
@@ -58,6 +60,16 @@ def places(profile):
     return np.hstack(parts)
 
 
+def explain(figure, axis):
+    """Say in a legend what the lines and the zones are."""
+    marks = {"stick": STICK}
+    marks |= {f"slip{SIGNS[sign]}": BANDS["slip", sign] for sign in (1, -1)}
+    marks |= {f"gross slip{SIGNS[sign]}": BANDS["gross slip", sign] for sign in (1, -1)}
+    zones = [Patch(fc=b.face, ec=b.edge, hatch=b.hatch, label=name) for name, b in marks.items()]
+    lines = axis.get_legend_handles_labels()[0]
+    figure.legend(handles=[*lines, *zones], loc="outside upper center", ncols=7)
+
+
 @styled
 def main(folder: str | Path = ".") -> str:
     """Check (6), Coulomb's law, (11) and (12) at six instants; draw the tractions."""
@@ -85,10 +97,12 @@ def main(folder: str | Path = ".") -> str:
         shade(axis, stick * unit, b * unit, slip_band(patch))
         line = np.column_stack([np.linspace(0, b, 400), np.zeros(400)])
         fine = hit.fields(share * hit.duration, points=line)
-        axis.plot(line[:, 0] * unit, fine.traction_x / scale, color=BLUE, lw=1.6)
-        for side in (-1, 1):
-            limit = side * PAIR.friction * fine.pressure / scale
-            axis.plot(line[:, 0] * unit, limit, color=BLACK, ls=DASHES[1], lw=0.8)
+        axis.plot(line[:, 0] * unit, fine.traction_x / scale, color=BLUE, lw=1.6, label="traction")
+        limit = PAIR.friction * fine.pressure / scale
+        for side, name in ((-1, None), (1, r"limits, $\pm\mu p$")):
+            axis.plot(
+                line[:, 0] * unit, side * limit, color=BLACK, ls=DASHES[1], lw=0.8, label=name
+            )
         axis.axhline(0, color="0.5", lw=0.5)
         phase = patch.attrs["phase_kind"] + SIGNS[int(patch.attrs["phase_sign"])]
         axis.set_title(f"{phase}, {share:g} $t_c$")
@@ -98,6 +112,7 @@ def main(folder: str | Path = ".") -> str:
     for axis in axes[:, 0]:
         axis.set_ylabel(r"traction, $f/\mu p_{max}$")
     assert worst < 1e-10, f"(6) by quadrature differs by {worst:.1e}"
+    explain(figure, axes[0, 0])
     save_figure(figure, Path(folder) / "tractions_through_impact.png")
     return f"(6) by quadrature within {worst:.0e} of mu p_max; (11), (12) and Coulomb's law hold"
 

@@ -15,7 +15,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 from PIL import Image
 
-from carom.plots.impact import forces_panel, phase_handles
+from carom.plots.impact import FORCES, HISTORY, RADII, forces_panel, phase_handles
 from carom.plots.patch import patch_panel, patch_title
 from carom.plots.style import (
     BANDS,
@@ -23,11 +23,11 @@ from carom.plots.style import (
     BLUE,
     DOUBLE,
     MAP,
+    draws,
     label,
     new_figure,
     prefixed,
     scaled,
-    styled,
 )
 from carom.quantities import InputError, refusal
 from carom.storage import ANIMATIONS, checked_output, replace_whole
@@ -42,7 +42,7 @@ RESOLUTION = {".gif": 110, ".mp4": 200}  # in dots per inch
 MARGIN = 1.08  # around the largest contact
 
 
-@styled
+@draws(HISTORY, *FORCES, *RADII, "max_pressure", along="time")
 def animate(
     history: "xr.Dataset",
     frames: Iterable["xr.Dataset"],

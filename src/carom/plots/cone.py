@@ -13,12 +13,12 @@ from carom.plots.style import (
     DASHES,
     VERMILION,
     Array,
+    draws,
     label,
     legend_above,
     new_figure,
     phases,
     scaled,
-    styled,
 )
 
 if TYPE_CHECKING:
@@ -31,11 +31,15 @@ PATHS: dict[str, dict[str, Any]] = {
     "load path": {"color": BLUE, "ls": "-", "lw": 1.2},
 }
 AHEAD = 0.02  # from the foot to the head of an arrow, as a share of the figure
+APART = 0.1  # between the heads of arrows, likewise
 SHORTEST = 0.15  # of a phase with an arrow
 ARROWS = 8  # on a path without phases
 
 
-@styled
+@draws(
+    "the course of an impact or a load path, what Impact.history or LoadPath.to_dataset returns",
+    *("normal_force", "tangential_force", "friction"),
+)
 def plot_cone(dataset: "xr.Dataset") -> Figure:
     """Draw F_x against F_z inside Coulomb's cone, |F_x| <= mu F_z, for an impact or a load path.
 
@@ -63,11 +67,11 @@ def plot_cone(dataset: "xr.Dataset") -> Figure:
     for kind, part in _parts(dataset, points):
         known = axis.get_legend_handles_labels()[1]
         axis.plot(*part.T, **PATHS[kind], label=None if kind in known else kind)
-        for ends in _arrows(part / edge, 1 if kind != "load path" else ARROWS):
+        for ends in _apart(_arrows(part / edge, 1 if kind != "load path" else ARROWS)):
             _arrow(axis, ends * edge, PATHS[kind]["color"])
         if kind == "load path":
-            axis.plot(*part[0], "o", mfc="white", color=BLUE, label="start")
-            axis.plot(*part[-1], "o", color=BLUE, label="end")
+            axis.plot(*part[0], "o", mfc="white", color=BLUE, ms=6.0, label="start")
+            axis.plot(*part[-1], "o", color=BLUE, ms=3.0, label="end")
     axis.set_xlabel(label("normal_force", unit))
     axis.set_ylabel(label("tangential_force", tangential_unit))
     legend_above(axis, 4)
@@ -107,6 +111,15 @@ def _arrows(points: Array, count: int) -> list[Array]:
     feet = (np.arange(count) + 0.4) / count * along[-1]
     ends = np.column_stack([feet, feet + AHEAD])
     return list(np.stack([np.interp(ends, along, line) for line in points.T], axis=-1))
+
+
+def _apart(found: list[Array]) -> list[Array]:
+    """Return the arrows that come to lie on no earlier one: a path may be retraced."""
+    kept: list[Array] = []
+    for ends in found:
+        if all(np.hypot(*(ends[1] - other[1])) > APART for other in kept):
+            kept.append(ends)
+    return kept
 
 
 def _arrow(axis: Axes, ends: Array, color: str) -> None:

@@ -16,13 +16,13 @@ from carom.plots.style import (
     SIGNS,
     VERMILION,
     Array,
+    draws,
     label,
     legend_above,
     new_figure,
     phases,
     scaled,
     shade,
-    styled,
 )
 
 if TYPE_CHECKING:
@@ -37,8 +37,13 @@ ENERGIES = {
     "frictional_work": ("lost to friction", "#6E6E6E", "\\\\\\\\"),
 }
 
+HISTORY = "the history of an impact, what Impact.history returns"
+FORCES = ("tangential_force", "normal_force", "friction", "time")
+VELOCITIES = ("contact_velocity", "normal_velocity")
+RADII = ("contact_radius", "stick_radius", "time")
 
-@styled
+
+@draws(HISTORY, *FORCES, *VELOCITIES, *RADII, *ENERGIES, along="time")
 def plot_impact(dataset: "xr.Dataset") -> Figure:
     """Draw forces, velocities, radii and energies of an impact against time, phases shaded.
 
@@ -65,13 +70,13 @@ def plot_impact(dataset: "xr.Dataset") -> Figure:
     return figure
 
 
-@styled
+@draws(HISTORY, *FORCES, along="time")
 def plot_forces(dataset: "xr.Dataset") -> Figure:
     """Draw the tangential force between its limits, mu F_z, against time, in one column."""
     return _single(dataset, forces_panel)
 
 
-@styled
+@draws(HISTORY, *RADII, along="time")
 def plot_radii(dataset: "xr.Dataset") -> Figure:
     """Draw the radii of the contact and of its stick zone against time, in one column."""
     return _single(dataset, radii_panel)
@@ -139,10 +144,20 @@ def radii_panel(axis: Axes, dataset: "xr.Dataset") -> None:
     contact, unit, scale = scaled(dataset, "contact_radius")
     stick = dataset["stick_radius"].values * scale
     axis.plot(time, contact, color=BLACK, label="contact, $b$")
-    axis.plot(time, stick, color=BLUE, ls=DASHES[1], label="stick zone, $a$")
+    line = _stick_line(stick, contact)
+    axis.plot(time, line, color=BLUE, ls=DASHES[1], label="stick zone, $a$")
     axis.set_ylim(0.0, 1.06 * contact.max())
     axis.set_ylabel(f"radius, $a$, $b$ ({unit})")
     legend_above(axis, 2)
+
+
+def _stick_line(stick: Array, contact: Array) -> Array:
+    """Return the radius of the stick zone while there is one, to where it has shrunk to nothing.
+
+    Stick that begins all over the contact is no line from zero: there is none in gross slip.
+    """
+    before = np.concatenate([[0.0], stick[:-1]])
+    return np.where((stick > 0.0) | (before > 0.0) | (contact == 0.0), stick, np.nan)
 
 
 def energies_panel(axis: Axes, dataset: "xr.Dataset") -> None:

@@ -11,13 +11,13 @@ from matplotlib.patheffects import withStroke
 from carom.plots.style import (
     MAP,
     Array,
+    draws,
     label,
     moment,
     new_figure,
     prefixed,
     scaled,
     slip_band,
-    styled,
     symbol,
 )
 from carom.quantities import InputError, refusal
@@ -32,12 +32,18 @@ FEWEST = 3  # of them, where the contact is small on the map
 ROOM = 0.3  # the stick zone with a word in it, in contact radii
 AROUND = 28  # slip arrows along a ring too narrow for that
 NARROW = 1.5  # such a ring, in distances between those arrows
-LONGEST = 0.8  # arrow, in distances between those on a lattice
+THIN = 0.06  # ring, in contact radii: none fits in
+LONGEST = 0.8  # arrow, in distances between arrows
+ROUNDING = 1e-9  # relative, of an arrow that ends on the border
 ZONES = ("contact", "stick")
 MAPPED = ("traction_x", "pressure")
+SIGNED = ("traction_x",)
 
 
-@styled
+@draws(
+    "the fields of a contact on a grid of x and y, what Impact.fields or LoadPath.fields returns",
+    *("pressure", "traction_x", "zone", "x", "y", *(f"{name}_radius" for name in ZONES)),
+)
 def plot_patch(dataset: "xr.Dataset", variable: str = "traction_x") -> Figure:
     """Draw the contact from above: traction or pressure, stick and slip zones, slip velocities.
 
@@ -73,11 +79,18 @@ def plot_patch(dataset: "xr.Dataset", variable: str = "traction_x") -> Figure:
     figure, axes = new_figure(height=64.0 + 4.0 * len(title.splitlines()))  # the map is square
     axis = axes[0, 0]
     scale, unit = prefixed(dataset[variable].values, "Pa")
-    shading = patch_panel(axis, dataset, variable, scale)
+    limits = _limits(dataset[variable].values * scale) if variable in SIGNED else {}
+    shading = patch_panel(axis, dataset, variable, scale, **limits)
     bar = figure.colorbar(shading, ax=axis, label=label(variable, unit), pad=0.02, aspect=28)
     bar.outline.set_linewidth(0.6)
     axis.set_title(title)
     return figure
+
+
+def _limits(values: Array) -> dict[str, float]:
+    """Return limits of a shading that put zero in the middle of its colours."""
+    largest = float(np.abs(values).max()) or 1.0
+    return {"vmin": -largest, "vmax": largest}
 
 
 def patch_panel(
@@ -169,26 +182,31 @@ def arrows(dataset: "xr.Dataset", reach: float | None = None) -> Arrows:
     contact, stick = (float(dataset[f"{name}_radius"]) for name in ZONES)
     room = min(MARGIN * contact / (reach or _reach(dataset)), 1.0)
     count = max(FEWEST, round(ACROSS * room))
-    wanted_x, wanted_y = _places(contact, stick, count)
-    places = np.column_stack([_nearest(y, wanted_y), _nearest(x, wanted_x)])
-    rows, columns = np.unique(places, axis=0).T
-    slips = dataset["zone"].values[rows, columns] == SLIP
-    rows, columns = rows[slips], columns[slips]
+    at_x, at_y, longest = _places(contact, stick, count)
+    rows, columns = _nearest(y, at_y), _nearest(x, at_x)
+    inside = np.hypot(np.abs(at_x) + 0.5 * longest, at_y) < contact * (1.0 + ROUNDING)
+    inside &= np.hypot(at_x, at_y) > stick
+    inside &= dataset["zone"].values[rows, columns] == SLIP
     along, across = (dataset[f"slip_velocity_{axis}"].values[rows, columns] for axis in "xy")
-    return Arrows(x[columns], y[rows], along, across, LONGEST * 2.0 * contact / count)
+    return Arrows(at_x[inside], at_y[inside], along[inside], across[inside], longest)
 
 
-def _places(contact: float, stick: float, count: int) -> tuple[Array, Array]:
-    """Return points on a lattice, or in the middle of a slip ring too narrow for one."""
+def _places(contact: float, stick: float, count: int) -> tuple[Array, Array, float]:
+    """Return points on a lattice, or in the middle of a slip ring too narrow for one.
+
+    Also how long an arrow may be that neither meets the next one nor leaves the ring.
+    """
     spacing = 2.0 * contact / count
     if stick > 0.0 and contact - stick < NARROW * spacing:
         around = count * AROUND // ACROSS
         angles = 2.0 * np.pi * (np.arange(around) + 0.5) / around
         middle = 0.5 * (contact + stick)
-        return middle * np.cos(angles), middle * np.sin(angles)
+        longest = min(LONGEST * middle * 2.0 * np.pi / around, contact - stick)
+        angles = angles if contact - stick > THIN * contact else angles[:0]
+        return middle * np.cos(angles), middle * np.sin(angles), longest
     line = spacing * (np.arange(count) - 0.5 * (count - 1))
     x, y = np.meshgrid(line, line)
-    return x.ravel(), y.ravel()
+    return x.ravel(), y.ravel(), LONGEST * spacing
 
 
 def _nearest(grid: Array, places: Array) -> Any:

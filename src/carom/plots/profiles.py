@@ -15,6 +15,7 @@ from carom.plots.style import (
     VERMILION,
     Array,
     Band,
+    draws,
     label,
     legend_above,
     moment,
@@ -23,7 +24,6 @@ from carom.plots.style import (
     scaled,
     shade,
     slip_band,
-    styled,
 )
 from carom.quantities import InputError
 
@@ -35,7 +35,10 @@ MARGIN = 1.2  # of a line through the contact, in contact radii
 NEAR = 1e-9  # relative: a y that is 0 but for rounding
 
 
-@styled
+@draws(
+    "fields on the line y = 0 or along the radius, what Impact.fields or Impact.radial returns",
+    *("pressure", "traction_x", "contact_radius", "stick_radius", "friction"),
+)
 def plot_profiles(dataset: "xr.Dataset") -> Figure:
     """Draw the traction f between its limits, mu p, along the line y = 0 of the contact.
 

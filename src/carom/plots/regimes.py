@@ -15,6 +15,7 @@ from scipy.ndimage import distance_transform_cdt
 
 from carom.plots.style import (
     BANDS,
+    BLACK,
     DASHES,
     DOUBLE,
     LINES,
@@ -22,11 +23,11 @@ from carom.plots.style import (
     STICK,
     Array,
     Band,
+    draws,
     label,
     legend_above,
     new_figure,
     shade,
-    styled,
 )
 
 if TYPE_CHECKING:
@@ -45,7 +46,7 @@ REGIMES = {
 }
 
 
-@styled
+@draws("rebound curves, what carom.curve returns", "psi_out", "psi_in", "chi", "border")
 def plot_curve(dataset: "xr.Dataset") -> Figure:
     """Draw psi_2 against psi_1, one line per chi, with the borders of the regimes.
 
@@ -67,13 +68,15 @@ def plot_curve(dataset: "xr.Dataset") -> Figure:
     single = dataset.sizes["chi"] == 1
     for row in range(dataset.sizes["chi"]):
         _draw_line(axis, dataset.isel(chi=row), row, dots=not single)
+    if not single:
+        axis.plot([], [], MARKERS[0], color=BLACK, label="regime borders")
     lines, _ = axis.get_legend_handles_labels()
     bands = _shade_regimes(axis, dataset) if single else []
     axis.set_xlim(psi[0], psi[-1])
     axis.set_xlabel(label("psi_in", room=44))
     axis.set_ylabel(label("psi_out", room=36))
     entries = [*lines, *bands]
-    legend_above(axis, 2 if single or len(entries) in (2, 4) else 3, handles=entries)
+    legend_above(axis, 2 if single or len(entries) < 5 else 3, handles=entries)
     return figure
 
 
@@ -114,7 +117,10 @@ def _short(name: str) -> str:
     return name.replace(",", "").replace(" +", "+").replace(" -", MINUS)
 
 
-@styled
+@draws(
+    "a map of regimes, what carom.curves.regime_map returns",
+    *("sequence", "sequence_name", "psi_in", "chi"),
+)
 def plot_regime_map(dataset: "xr.Dataset") -> Figure:
     """Draw which phases follow which over psi_1 and chi, with the borders 1, 2 chi, 4 chi - 1.
 

@@ -6,9 +6,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
-from carom.plots.style import MAP, Array, label, moment, new_figure, scaled, styled, symbol
+from carom.plots.style import MAP, Array, draws, label, moment, new_figure, scaled, symbol
 from carom.quantities import InputError, refusal
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ CONTOURS = 9
 NEAR = 1e-6  # relative: a largest stress that lies in the plane drawn
 
 
-@styled
+@draws("stresses on a grid of z and x, what Impact.stress returns", "z", "x")
 def plot_stress(dataset: "xr.Dataset", variable: str = "von_mises") -> Figure:
     """Draw a stress in the plane y = 0 below the surface, with contours; a cross at the largest.
 
@@ -65,8 +66,10 @@ def plot_stress(dataset: "xr.Dataset", variable: str = "von_mises") -> Figure:
     bar.add_lines(contours)
     bar.set_ticks(list(contours.levels))
     column, row, largest = _largest(dataset, variable)
-    axis.plot(column * length, row * length, "+", ms=7.0, mew=1.3, color="black", zorder=5)
     _mark_contact(axis, dataset, length)
+    place = column * length, row * length
+    (mark,) = axis.plot(*place, "+", ms=7.0, mew=1.3, color="black", clip_on=False, zorder=5)
+    mark.set_path_effects([withStroke(linewidth=2.8, foreground="white")])
     axis.set_aspect("equal")
     axis.set(xlim=(x[0], x[-1]), ylim=(z.max(), z.min()))
     axis.set(xlabel=symbol("x", unit), ylabel=label("z", unit))

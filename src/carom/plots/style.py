@@ -4,6 +4,7 @@ import textwrap
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import wraps
+from inspect import signature
 from pathlib import Path
 from typing import Any, NamedTuple, ParamSpec, TypeVar
 
@@ -14,6 +15,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from carom.glossary import GLOSSARY
+from carom.quantities import InputError
 from carom.storage import FIGURES, checked_output, replace_whole
 
 Array = NDArray[np.float64]
@@ -76,6 +78,42 @@ def styled(draw: Callable[P, T]) -> Callable[P, T]:
             return draw(*args, **kwargs)
 
     return drawn
+
+
+def draws(what: str, *needed: str, along: str = "") -> Callable[[Callable[P, T]], Callable[P, T]]:
+    """Style a function whose first argument is a dataset, and refuse datasets of another kind.
+
+    `what` tells what it draws and what makes such a dataset; all of `needed` must be in it, and
+    the first of them must go along a dimension, if one is named.
+    """
+
+    def decorate(draw: Callable[P, T]) -> Callable[P, T]:
+        parameters, styled_draw = signature(draw), styled(draw)
+
+        @wraps(draw)
+        def checked(*args: P.args, **kwargs: P.kwargs) -> T:
+            given: Any = next(iter(parameters.bind(*args, **kwargs).arguments.values()))
+            lacks = _lacking(given, needed, along)
+            if lacks:
+                name = getattr(draw, "__name__", "")
+                raise InputError(f"{name} draws {what}; what was given {lacks}")
+            return styled_draw(*args, **kwargs)
+
+        return checked
+
+    return decorate
+
+
+def _lacking(given: Any, needed: tuple[str, ...], along: str) -> str:
+    """Return what keeps an object from being a dataset of a kind; nothing if it is one."""
+    if not hasattr(given, "data_vars"):
+        return f"is no dataset but of type {type(given).__name__}"
+    missing = [name for name in needed if name not in given.variables]
+    if missing:
+        return f"has no {missing[0]}"
+    lies = given[needed[0]].dims
+    wrong = lies != (along,) if along else not lies
+    return f"has no {needed[0]} along {along or 'anything'}" if wrong else ""
 
 
 @contextmanager
