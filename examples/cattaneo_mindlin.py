@@ -82,7 +82,7 @@ def main(folder: str | Path = ".") -> str:
     circles = {"marker": "o", "ls": "", "mfc": "white", "clip_on": False}
     axes[1].plot(share[5::10], moved[5::10] / moved[-1], mec=BLUE, **circles)
     axes[1].plot(share[5::10], (1 - share[5::10]) ** (1 / 3), mec=VERMILION, **circles)
-    axes[1].plot([], [], mec=BLACK, label="closed form", **circles)
+    axes[1].plot([], [], "o", mfc="white", mec=BLACK, label="closed form")
     axes[1].set(xlabel=r"tangential force, $T/\mu P$", ylabel="share", xlim=(0, 1), ylim=(0, 1.05))
     for axis in axes:
         legend_above(axis, 2)

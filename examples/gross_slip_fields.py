@@ -63,9 +63,9 @@ def main(folder: str | Path = ".") -> str:
     micro = 1e6
     middle = line.size // 2
     along, across = patch.isel(y=middle), patch.isel(x=middle)
-    within = np.abs(line) < b
-    traction = along.traction_x[within] / largest
-    axes[0].plot(line[within] * micro, traction, color="black", label=r"$f/\mu p_0$")
+    within = b * np.sin(np.linspace(-np.pi / 2, np.pi / 2, 121))
+    rubs = hit.fields(time, points=np.column_stack([within, 0 * within])).traction_x / largest
+    axes[0].plot(within * micro, rubs, color="black", label=r"$f/\mu p_0$")
     axes[0].plot(
         line * micro, along.displacement_x / wide, color=BLUE, ls=DASHES[1], label="$u_x$, $y = 0$"
     )
@@ -89,7 +89,8 @@ def main(folder: str | Path = ".") -> str:
         for drawn in (shading, lines):
             drawn.set_clip_path(Circle((0, 0), b * micro, transform=axis.transData))
         axis.add_patch(Circle((0, 0), b * micro, fill=False, lw=1))
-        figure.colorbar(shading, ax=axis, location="top", label=f"$u_{name}$ (nm)", aspect=24)
+        bar = figure.colorbar(shading, ax=axis, location="top", label=f"$u_{name}$ (nm)", aspect=24)
+        bar.set_ticks(levels[:: len(levels) // 4])
         axis.set(aspect="equal", xlabel="$x$ (µm)", ylabel="$y$ (µm)")
     save_figure(figure, Path(folder) / "gross_slip_fields.png")
     spread = np.ptp(rates[0]) / rate_30

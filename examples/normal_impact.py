@@ -61,9 +61,10 @@ def main(folder: str | Path = ".") -> str:
     axes[1].set(xlabel="radius of contact, $b$ (µm)", ylabel="normal velocity, $V_z$ (m/s)")
     for axis in axes[:2]:
         axis.axhline(0, color="0.5", lw=0.5)
-    r = np.linspace(0, b.max(), 201)
     for share, color, dash in zip((0.05, 0.15, 0.3, 0.5), LINES, DASHES, strict=False):
         contact = hit.contact(share * hit.duration)
+        rim = contact.radius * (1 - np.geomspace(1e-6, 0.1, 40))
+        r = np.sort(np.append(np.linspace(0, b.max(), 201), rim))
         found = hit.fields(share * hit.duration, points=np.column_stack([r, 0 * r])).pressure
         np.testing.assert_allclose(
             found, pressure_1(r, contact.radius), atol=1e-12 * hit.max_pressure, err_msg="(1)"

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from carom.arrays import numbers
 from carom.pairs import Pair
 from carom.quantities import refusal
 
@@ -111,20 +112,35 @@ def critical_obliquity(pair: Pair) -> Obliquity:
     >>> round(critical_obliquity(pair).force, 4)
     0.1974
     """
+    _check_pair(pair)
     return Obliquity(atan(pair.friction), atan(pair.friction / pair.kappa))
 
 
 def _share(pair: Pair, normal: ArrayLike, tangential: ArrayLike) -> tuple[Array, Array]:
     """Return T/(mu P), and mu P in N."""
-    if pair.friction == 0.0:
-        raise refusal("friction", pair.friction, "must be positive; without it all slides freely")
-    load, across = np.asarray(normal, dtype=np.float64), np.asarray(tangential, dtype=np.float64)
+    _check_pair(pair)
+    allowed = "must be finite numbers in N, shapes that broadcast"
+    load = numbers("normal_force", normal, allowed)
+    across = numbers("tangential_force", tangential, allowed)
     if not np.all((load > 0.0) & np.isfinite(load)):
         raise refusal("normal_force", normal, "must be positive and finite")
+    if not np.all(np.isfinite(across)):
+        raise refusal("tangential_force", tangential, allowed)
     most = pair.friction * load
-    if not np.all(np.abs(across) <= most):
+    try:
+        share = np.asarray(across / most)
+    except ValueError:
+        raise refusal("tangential_force", across, f"{allowed}: P has {load.shape}") from None
+    if not np.all(np.abs(share) <= 1.0):
         raise refusal("tangential_force", tangential, "Coulomb's law allows at most mu P")
-    return np.asarray(across / most), most
+    return share, most
+
+
+def _check_pair(pair: Pair) -> None:
+    if not isinstance(pair, Pair):
+        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    if pair.friction == 0.0:
+        raise refusal("friction", pair.friction, "must be positive; without it all slides freely")
 
 
 def _gross_displacement(pair: Pair, most: Array) -> Array:

@@ -14,6 +14,8 @@ from carom.pairs import ContactScales, Pair
 
 Array = NDArray[np.float64]
 
+ROUNDING = 8.0 * np.finfo(np.float64).eps  # of a time that has passed through seconds
+
 
 @dataclass(frozen=True, eq=False)
 class Contact:
@@ -62,7 +64,9 @@ def contact_in_impact(
 ) -> Contact:
     """Return the contact at a time in s of an impact; `drift` is V_x where no friction acts."""
     scales = pair.scales(normal_speed)
-    instant = min(time / scales.time, solution.duration)
+    instant = _at_change(time / scales.time, solution)
+    phase = solution.phase_at(instant)
+    kind, sign = ("gross slip", int(np.sign(drift))) if drift else (phase.kind, phase.sign)
     now = now_at(solution.at(instant))
     d = now["penetration"]
 
@@ -92,5 +96,13 @@ def contact_in_impact(
             "normal_force": d**1.5 * scales.force,
             "tangential_force": now["force"] * scales.tangential_force,
         },
-        attributes=attributes,
+        attributes={"phase_kind": kind, "phase_sign": sign, **attributes},
     )
+
+
+def _at_change(instant: float, solution: Solution) -> float:
+    """Return the instant, or that of a change of phase from which only rounding parts it."""
+    for change in (*(phase.start for phase in solution.phases), solution.duration):
+        if abs(instant - change) <= ROUNDING * change:
+            return change
+    return instant

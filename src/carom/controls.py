@@ -5,8 +5,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from carom.arrays import numbers
 from carom.pairs import ContactScales, Pair
-from carom.quantities import InputError, refusal, without_units
+from carom.quantities import InputError, refusal
 
 Array = NDArray[np.float64]
 Given = ArrayLike | str | None
@@ -52,7 +53,7 @@ def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved
             at = int(np.argmax(d < 0.0))
             raise refusal("normal_force", float(d[at]), f"step {at}: it must not be negative")
         unit = pair.contact_scales(1.0).force
-        d = (d / unit) ** (2.0 / 3.0)
+        d = np.cbrt(d / unit) ** 2
     return Steps(d, target, np.full(n, along[0] == "tangential_force"))
 
 
@@ -69,13 +70,9 @@ def _one_of(**controls: Given) -> tuple[str, Array]:
 def _values(name: str, given: ArrayLike | str) -> Array:
     """Return a control as numbers in SI units, without a dimension if it is a single one."""
     allowed = "must be numbers in SI units, or texts with a unit, a single one or a list"
-    given = without_units(name, given)
-    try:
-        values = np.asarray(given, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise refusal(name, given, allowed) from None
+    values = numbers(name, given, allowed)
     if values.ndim > 1 or values.size == 0:
-        raise refusal(name, f"an array of shape {values.shape}", allowed)
+        raise refusal(name, values, allowed)
     if not np.all(np.isfinite(values)):
         at = int(np.argmin(np.isfinite(values)))
         raise refusal(name, float(values.flat[at]), f"step {at}: it must be finite")

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from carom.arrays import line, scattered
 from carom.contacts import Contact
 from carom.dimensionless import surface
 from carom.dimensionless.profile import evaluate
-from carom.positions import line, scattered
 from carom.quantities import refusal
 from carom.results import flags, labelled_dataset
 
@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 
 GRID = 101  # points along x and y where none are asked for
 REACH = 1.5  # of that grid, in contact radii
+FAR = 1e50  # dimensionless; nothing changes beyond
 ROUNDING = 8.0 * np.finfo(np.float64).eps
 OUTSIDE, STICK, SLIP = 0, 1, 2
 ZONES = {"long_name": "zone of the contact", **flags(("outside", "stick", "slip"))}
@@ -89,6 +90,7 @@ def _places(
 def _distances(contact: Contact, px: Array, py: Array) -> Array:
     """Return dimensionless distances from the centre, those at the edge freed from rounding."""
     r, edge = np.hypot(px, py) / contact.scales.radius, np.sqrt(contact.penetration)
+    r = np.minimum(r, FAR)
     return np.where(np.abs(r - edge) <= ROUNDING * edge, edge, r)
 
 

@@ -91,10 +91,11 @@ class Impact(Outcome):
         if not 0.0 <= instant <= self.duration:
             allowed = f"must lie within the contact, from 0 to {self.duration:.6g} s"
             raise refusal("time", time, allowed)
-        phase = [phase for phase in self.phases if phase.start <= instant][-1]
         drift = 0.0 if isfinite(self.psi_in) else self.contact_velocity
-        state = {"phase_kind": phase.kind, "phase_sign": phase.sign, "inputs": self.inputs()}
-        return contact_in_impact(self.pair, self.normal_speed, drift, self.solution, instant, state)
+        inputs = {"inputs": self.inputs()}
+        return contact_in_impact(
+            self.pair, self.normal_speed, drift, self.solution, instant, inputs
+        )
 
     def fields(
         self,
@@ -109,7 +110,8 @@ class Impact(Outcome):
         Pressure and traction are Barber's (1) and (6); the displacements, of both surfaces together
         and caused by the tractions, are superposed from those of punches, u_x = u_0 + lambda u_2
         cos 2 theta, u_y = lambda u_2 sin 2 theta, lambda = nu/(2 - nu) for equal materials, which
-        is (29) in gross slip. Slip is that of the first body on the second, since the points met.
+        is (29) in gross slip: displacement of the second surface against the first. Slip is that of
+        the first body on the second since the points met: U less what the surfaces gave way.
 
         Parameters
         ----------

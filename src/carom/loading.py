@@ -14,7 +14,7 @@ from carom.bodies import describe
 from carom.contacts import Contact
 from carom.controls import Given, Steps, read_steps
 from carom.dimensionless import paths
-from carom.dimensionless.strata import profile_of
+from carom.dimensionless.strata import SLOPE, profile_of
 from carom.fields import radial_fields, surface_fields
 from carom.pairs import ContactScales, Pair
 from carom.quantities import counted, refusal
@@ -82,6 +82,8 @@ class LoadPath:
     ) -> LoadPath:
         """Return the path continued, in the same or another control; arguments as `load_path`.
 
+        The whole path is followed anew: many steps are better given at once than one by one.
+
         Examples
         --------
         >>> import carom
@@ -104,7 +106,7 @@ class LoadPath:
         k = self._step(step)
         d, u = self.penetration[: k + 1], self.displacement[: k + 1]
         if not d[k] > 0.0:
-            raise refusal("step", step, f"the bodies are apart then, by {-d[k]:g} m")
+            raise refusal("step", step, "the bodies do not press on each other then")
         scales = self.scales
         path = paths.follow_path(*self._steps.first(k + 1).dimensionless(scales))
         d, u = d / scales.length, u / scales.tangential_length
@@ -117,7 +119,7 @@ class LoadPath:
             profile=profile_of(path.stack),
             slid=lambda radii: paths.slid(d, u, radii) * scales.tangential_length,
             scalars={name: float(getattr(self, name)[k]) for name in COLUMNS[2:4]},
-            attributes={"inputs": self.inputs()},
+            attributes=_state(path.stack) | {"inputs": self.inputs()},
         )
 
     def fields(
@@ -169,6 +171,14 @@ class LoadPath:
         except (TypeError, IndexError):
             allowed = f"must be a whole number from 0 to {n - 1}, or negative, from the end"
             raise refusal("step", step, allowed) from None
+
+
+def _state(stack: Array) -> dict[str, Any]:
+    """Return what the contact does after a step: kind of phase, and the sign of slip."""
+    g = float(stack[-1, SLOPE])
+    if abs(g) < 1.0:
+        return {"phase_kind": "stick", "phase_sign": 0}
+    return {"phase_kind": "gross slip" if len(stack) == 2 else "slip", "phase_sign": int(g)}
 
 
 def load_path(

@@ -14,6 +14,8 @@ class InputError(ValueError):
     """What was given cannot be used; the message names it, its value, and what is allowed."""
 
 
+LONGEST = 120  # characters of a value that a refusal shows
+
 HINTS = {
     "m": "5 mm",
     "Pa": "210 GPa",
@@ -58,7 +60,7 @@ def without_units(name: str, given: Any) -> Any:
     """Return what is given, one value or a list, with text such as "5 mm" made SI numbers."""
     if isinstance(given, str):
         return number(name, given)
-    if isinstance(given, list | tuple):
+    if isinstance(given, list | tuple) and name in GLOSSARY:
         return [number(name, each) if isinstance(each, str) else each for each in given]
     return given
 
@@ -96,7 +98,11 @@ def counted(name: str, value: Any, least: int) -> int:
 
 def refusal(name: str, value: Any, allowed: str) -> InputError:
     """Return the error that refuses a value."""
-    return InputError(f"{name}: {value!r} cannot be used; {allowed}")
+    shape = getattr(value, "shape", ())
+    shown = f"an array of shape {shape}" if shape else repr(value)
+    if len(shown) > LONGEST:
+        shown = f"{shown[:LONGEST]}..."
+    return InputError(f"{name}: {' '.join(shown.split())} cannot be used; {allowed}")
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

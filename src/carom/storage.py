@@ -90,7 +90,7 @@ def read(path: str | Path) -> "xr.Dataset":
     ...     read(stored).psi_out.values.round(4)
     array([[ 0.0471, -0.839 ]])
     """
-    source = Path(path)
+    source = _as_path("file", path)
     if source.suffix.lower() not in TABLES:
         raise refusal("file", str(path), f"must end in {' or '.join(TABLES)}")
     if not source.is_file():
@@ -98,7 +98,15 @@ def read(path: str | Path) -> "xr.Dataset":
     return _from_netcdf(source) if source.suffix.lower() == ".nc" else _from_csv(source)
 
 
+def _as_path(name: str, path: str | Path) -> Path:
+    try:
+        return Path(path)
+    except TypeError:
+        raise refusal(name, path, "must be the name of a file") from None
+
+
 def _from_netcdf(path: Path) -> "xr.Dataset":
+    import numpy as np
     import xarray as xr
 
     try:
@@ -109,6 +117,10 @@ def _from_netcdf(path: Path) -> "xr.Dataset":
         raise refusal("file", str(path), "it is damaged, or not NetCDF-4") from None
     if not str(dataset.attrs.get("source")).startswith("carom "):
         raise refusal("file", str(path), "it was not stored by Carom")
+    dataset.attrs = {
+        name: value.item() if isinstance(value, np.generic) else value
+        for name, value in dataset.attrs.items()
+    }
     return dataset.drop_encoding()
 
 
@@ -125,7 +137,7 @@ def _from_csv(path: Path) -> "xr.Dataset":
 
 def checked_output(path: str | Path, endings: tuple[str, ...]) -> Path:
     """Return the path of an output file, or raise InputError if it cannot become one."""
-    target = Path(path)
+    target = _as_path("output file", path)
     if target.suffix.lower() not in endings:
         raise refusal("output file", str(path), f"must end in {' or '.join(endings)}")
     if target.is_dir() or not target.parent.is_dir():

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from carom.arrays import line, scattered
 from carom.contacts import Contact
 from carom.dimensionless.extremes import SURFACE, Largest, largest, principal_stresses, von_mises
 from carom.dimensionless.subsurface import COMPONENTS, stresses
-from carom.positions import line, scattered
 from carom.quantities import nearest, refusal
 from carom.results import labelled_dataset
 

@@ -28,7 +28,7 @@ STIFFNESS = 4 / 3 * PAIR.effective_modulus * PAIR.effective_radius**0.5
 
 
 def depth(force):
-    return (force / STIFFNESS) ** (2 / 3)
+    return np.cbrt(force / STIFFNESS) ** 2
 
 
 def radius(force):
@@ -233,7 +233,7 @@ def test_bodies_that_never_touch():
     assert np.all(path.displacement == [1e-6, 2e-6])
     for name in ("normal_force", "tangential_force", "contact_radius", "stick_radius"):
         assert np.all(getattr(path, name) == 0.0)
-    with pytest.raises(InputError, match=r"step: -1 .* apart"):
+    with pytest.raises(InputError, match=r"step: -1 .* do not press"):
         path.contact()
 
 
@@ -279,8 +279,12 @@ def test_what_cannot_be_followed():
     for step in (1, -2, 0.5):
         with pytest.raises(InputError, match=f"step: {step} "):
             load_path(PAIR, normal_force=1.0, displacement=0.0).contact(step)
-    for force in (0.31, np.nan):
-        with pytest.raises(InputError, match=r"tangential_force: .* at most mu P"):
-            cattaneo_mindlin(PAIR, 1.0, force)
+    refused = {0.31: "at most mu P", np.nan: "finite", True: "finite", (1.0, 2.0): "broadcast"}
+    for force, message in refused.items():
+        with pytest.raises(InputError, match=f"tangential_force: .* {message}"):
+            cattaneo_mindlin(PAIR, [1.0, 2.0, 3.0], force)
+    with pytest.raises(InputError, match="pair: "):
+        critical_obliquity("steel")
+    assert cattaneo_mindlin(PAIR, "1 N", "0.1 N") == cattaneo_mindlin(PAIR, 1.0, 0.1)
     with pytest.raises(InputError, match="amplitude: "):
         loop_energy(PAIR, 1.0, -0.1)

@@ -38,8 +38,8 @@ def test_times(hit, ask, time, message):
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"points": [1.0, 2.0]}, r"points: 'an array of shape \(2,\)' cannot .* shape \(n, 2\)"),
-        ({"points": np.zeros((4, 3))}, r"shape \(4, 3\)' .* must be .* of shape \(n, 2\)"),
+        ({"points": [1.0, 2.0]}, r"points: an array of shape \(2,\) cannot .* shape \(n, 2\)"),
+        ({"points": np.zeros((4, 3))}, r"shape \(4, 3\) .* must be .* of shape \(n, 2\)"),
         ({"points": np.zeros((0, 2))}, r"shape \(0, 2\)"),
         ({"points": [[0.0, 0.0], [0.0, NAN]]}, "row 1 is not finite"),
         ({"points": "here"}, r"points: 'here' .* shape \(n, 2\)"),
@@ -47,6 +47,11 @@ def test_times(hit, ask, time, message):
         ({"x": []}, "x: .* list of finite numbers"),
         ({"y": [0.0, NAN]}, "y: .* list of finite numbers"),
         ({"x": [[0.0, 1.0]]}, "x: .* list of finite numbers"),
+        ({"x": [True, False]}, "x: .* list of finite numbers"),
+        ({"x": [None, 0.0]}, "x: .* list of finite numbers"),
+        ({"x": np.array(["2020-01-01"], "M8[D]")}, "x: .* list of finite numbers"),
+        ({"x": np.ma.masked_array([0.0, 1.0], [0, 1])}, "x: .* list of finite numbers"),
+        ({"points": np.array([["here", 1.0]] * 40, dtype=object)}, r"shape \(40, 2\)"),
     ],
 )
 def test_places_on_the_surface(hit, given, message):
@@ -88,6 +93,12 @@ def test_number_of_frames(hit, tmp_path, frames):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_names_of_files(hit):
+    for store in (hit.plot, hit.animate, lambda path: carom.save(hit, path), carom.read):
+        with pytest.raises(carom.InputError, match="file: 5 cannot be used; must be the name"):
+            store(5)
+
+
 def test_what_is_at_the_ends_of_the_contact(hit):
     """At the first and last touch there is a contact of radius zero, without stress."""
     for time in (0.0, hit.duration):
@@ -112,8 +123,6 @@ def test_texts_with_units_are_taken_everywhere(hit):
 def test_storing_results(hit, tmp_path):
     stored = carom.save(hit, tmp_path / "hit.nc")
     assert carom.read(stored).identical(hit.to_dataset())
-    with pytest.raises(
-        carom.InputError, match=r"result: 'hit' .* an impact or a load path"
-    ):
+    with pytest.raises(carom.InputError, match=r"result: 'hit' .* an impact or a load path"):
         carom.save("hit", tmp_path / "other.nc")
     assert [path.name for path in tmp_path.iterdir()] == ["hit.nc"]

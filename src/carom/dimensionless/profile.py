@@ -38,6 +38,12 @@ def evaluate(coefficients: Array, low: float, high: float, x: float) -> float:
     return float(coefficients[0] + y * one - last)
 
 
+@kernel
+def is_constant(coefficients: Array) -> bool:
+    """Tell whether a series has no term but the first, as where slip or a straight step laid it."""
+    return not np.any(coefficients[1:])
+
+
 def radii(low: float, high: float) -> Array:
     """Return the radii of a panel at which `coefficients` wants its values."""
     return 0.5 * (low + high) + 0.5 * (high - low) * NODES

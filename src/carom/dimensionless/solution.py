@@ -195,7 +195,8 @@ class Solution:
         middle, half = 0.5 * (phase.start + phase.end), 0.5 * (phase.end - phase.start)
         now = self.at(middle + half * np.sin(0.5 * np.pi * nodes))
         power, turned = slip.directions(now.stick_radius / now.contact_radius, lateral_ratio)
-        rate = np.abs(now.psi - phase.sign * now.speed) * now.contact_radius**3
+        rate = now.psi - phase.sign * abs(self.scale) * now.speed
+        rate = np.abs(rate) * now.contact_radius**3
         rate *= weights * np.cos(0.5 * np.pi * nodes)
         return SlipAngle(float(np.arcsin(lateral_ratio)), float(rate @ turned / (rate @ power)))
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.dimensionless._jit import kernel
-from carom.dimensionless.profile import Profile, evaluate
+from carom.dimensionless.profile import Profile, evaluate, is_constant
 
 Array = NDArray[np.float64]
 
@@ -53,6 +53,9 @@ def traction(profile: Profile, r: float) -> float:
             continue
         first, last = np.sqrt(low * low - r * r), np.sqrt(high * high - r * r)
         half = 0.5 * (last - first)
+        if is_constant(profile.g[i]):
+            total += profile.g[i, 0] * (last - first)
+            continue
         for k in range(ABSCISSAS.size):
             w = first + half * (1.0 + ABSCISSAS[k])
             x = min(np.sqrt(r * r + w * w), high)
@@ -79,6 +82,11 @@ def displacement(profile: Profile, r: float) -> tuple[float, float]:
         if low >= r:
             break
         first, last = np.arcsin(low / r), np.arcsin(min(high / r, 1.0))
+        if is_constant(profile.g[i]):
+            one, two = uniform_panel(profile, i, r, first, last)
+            mean += one
+            lateral += two
+            continue
         half = 0.5 * (last - first)
         for k in range(ABSCISSAS.size):
             angle = first + half * (1.0 + ABSCISSAS[k])
@@ -86,6 +94,19 @@ def displacement(profile: Profile, r: float) -> tuple[float, float]:
             mean += weight * evaluate(profile.q[i], low, high, x)
             lateral += weight * (x * np.cos(angle)) ** 2 * evaluate(profile.g[i], low, high, x)
     return 2.0 / np.pi * mean, 4.0 / np.pi * lateral
+
+
+@kernel
+def uniform_panel(
+    profile: Profile, i: int, r: float, first: float, last: float
+) -> tuple[float, float]:
+    """Return what a panel of constant g adds to both integrals, between two angles phi."""
+    low, high, g = profile.edges[i], profile.edges[i + 1], profile.g[i, 0]
+    rim = evaluate(profile.q[i], low, high, high)
+    span = last - first
+    squares = r * r * (0.5 * span - 0.5 * np.sin(span) * np.cos(first + last))
+    lateral = g * r * r * (span / 8.0 - np.sin(2.0 * span) * np.cos(2.0 * (first + last)) / 16.0)
+    return (rim + g * high * high) * span - g * squares, lateral
 
 
 @kernel

@@ -185,7 +185,7 @@ def arrows(dataset: "xr.Dataset", reach: float | None = None) -> Arrows:
     at_x, at_y, longest = _places(contact, stick, count)
     rows, columns = _nearest(y, at_y), _nearest(x, at_x)
     inside = np.hypot(np.abs(at_x) + 0.5 * longest, at_y) < contact * (1.0 + ROUNDING)
-    inside &= np.hypot(at_x, at_y) > stick
+    inside &= np.hypot(at_x, at_y) >= stick
     inside &= dataset["zone"].values[rows, columns] == SLIP
     along, across = (dataset[f"slip_velocity_{axis}"].values[rows, columns] for axis in "xy")
     return Arrows(at_x[inside], at_y[inside], along[inside], across[inside], longest)

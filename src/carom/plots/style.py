@@ -113,7 +113,7 @@ def _lacking(given: Any, needed: tuple[str, ...], along: str) -> str:
         return f"has no {missing[0]}"
     lies = given[needed[0]].dims
     wrong = lies != (along,) if along else not lies
-    return f"has no {needed[0]} along {along or 'anything'}" if wrong else ""
+    return f"has no {needed[0]} along {along or 'a dimension'}" if wrong else ""
 
 
 @contextmanager

@@ -1,0 +1,73 @@
+"""Figures of extreme impacts can be drawn; what cannot be drawn is refused in one line."""
+
+import pytest
+
+import carom
+from carom import plots
+from carom.curves import regime_map
+
+MICROSLIP = 21e-6  # an instant of the impact below with a slip ring
+DRAWN = {
+    "history": ("plot_impact", "plot_forces", "plot_radii", "plot_cone"),
+    "fields": ("plot_patch", "plot_profiles"),
+    "radial": ("plot_profiles",),
+    "stress": ("plot_stress",),
+    "curve": ("plot_curve",),
+    "map": ("plot_regime_map",),
+    "impact": (),
+}
+
+
+@pytest.fixture(scope="module")
+def hit():
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    return carom.impact(pair, speed=2.0, angle="30 deg")
+
+
+@pytest.mark.parametrize(
+    ("draw", "said"),
+    [
+        (lambda hit: plots.plot_patch(hit.fields(MICROSLIP), "zone"), "traction_x or pressure"),
+        (lambda hit: plots.plot_patch(hit.fields(MICROSLIP, points=[[0, 0]])), "grid of x and y"),
+        (lambda hit: plots.plot_profiles(hit.fields(MICROSLIP, [0, 1e-4], [1e-4])), "y = 0"),
+        (lambda hit: plots.plot_stress(hit.stress(MICROSLIP), "stress"), "von_mises"),
+        (lambda hit: plots.plot_stress(hit.fields(MICROSLIP)), "grid of z and x"),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_in_one_line(hit, draw, said):
+    with pytest.raises(carom.InputError) as refused:
+        draw(hit)
+    assert said in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("kind", DRAWN)
+def test_datasets_of_another_kind_are_refused_in_one_line(hit, kind):
+    """The line tells what the function draws and what makes such a dataset; no KeyError."""
+    makes = {
+        "history": lambda: hit.history(51),
+        "fields": lambda: hit.fields(MICROSLIP),
+        "radial": lambda: hit.radial(MICROSLIP),
+        "stress": lambda: hit.stress(MICROSLIP),
+        "curve": lambda: carom.curve(1.44, [0.0, 1.0]),
+        "map": lambda: regime_map([0.5, 2.0], [1.0, 1.44]),
+        "impact": lambda: hit,
+    }
+    given = makes[kind]()
+    for name in (name for name in plots.__all__ if name.startswith("plot_")):
+        if name in DRAWN[kind]:
+            getattr(plots, name)(given)
+            continue
+        with pytest.raises(carom.InputError, match=rf"^{name} draws .*, what .* returns; ") as said:
+            getattr(plots, name)(given)
+        assert "\n" not in str(said.value)
+
+
+def test_the_first_touch_and_an_impact_without_friction_can_be_drawn(hit):
+    plots.plot_patch(hit.fields(0.0))
+    smooth = carom.Pair(hit.pair.first, hit.pair.second, friction=0.0)
+    free = carom.impact(smooth, speed=2.0, angle="30 deg")
+    for draw in (plots.plot_impact, plots.plot_cone):
+        draw(free.history(20))
+    plots.plot_patch(free.fields(MICROSLIP))
