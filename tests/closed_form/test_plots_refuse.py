@@ -1,6 +1,8 @@
 """Figures of extreme impacts can be drawn; what cannot be drawn is refused in one line."""
 
+import numpy as np
 import pytest
+from matplotlib.quiver import Quiver
 
 import carom
 from carom import plots
@@ -29,7 +31,10 @@ def hit():
     ("draw", "said"),
     [
         (lambda hit: plots.plot_patch(hit.fields(MICROSLIP), "zone"), "traction_x or pressure"),
-        (lambda hit: plots.plot_patch(hit.fields(MICROSLIP, points=[[0, 0]])), "grid of x and y"),
+        (
+            lambda hit: plots.plot_patch(hit.fields(MICROSLIP, points=[[0, 0]])),
+            "grid of rising x and y",
+        ),
         (lambda hit: plots.plot_profiles(hit.fields(MICROSLIP, [0, 1e-4], [1e-4])), "y = 0"),
         (lambda hit: plots.plot_stress(hit.stress(MICROSLIP), "stress"), "von_mises"),
         (lambda hit: plots.plot_stress(hit.fields(MICROSLIP)), "grid of z and x"),
@@ -71,3 +76,45 @@ def test_the_first_touch_and_an_impact_without_friction_can_be_drawn(hit):
     for draw in (plots.plot_impact, plots.plot_cone):
         draw(free.history(20))
     plots.plot_patch(free.fields(MICROSLIP))
+
+
+def small(name, hit):
+    """Return a dataset of a touching contact, or of a single value, and what draws it."""
+    return {
+        "stress at touch": (plots.plot_stress, hit.stress(0.0)),
+        "patch at touch": (plots.plot_patch, hit.fields(0.0)),
+        "profiles at touch": (plots.plot_profiles, hit.radial(0.0)),
+        "two times": (plots.plot_impact, hit.history(2)),
+        "one psi": (plots.plot_curve, carom.curve(1.44, [1.0])),
+        "one cell": (plots.plot_regime_map, carom.regime_map([1.5], [1.44])),
+        "one depth": (plots.plot_stress, hit.stress(1e-5, z=[0.0])),
+        "one place": (plots.plot_patch, hit.fields(1e-5, x=[0.0], y=[0.0])),
+        "places twice": (plots.plot_profiles, hit.fields(1e-5, x=[0.0, 0.0], y=[0.0, 0.0])),
+    }[name]
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["stress at touch", "patch at touch", "profiles at touch", "two times", "one psi", "one cell"],
+)
+def test_small_datasets_are_drawn_without_a_warning(hit, name):
+    draw, dataset = small(name, hit)
+    assert draw(dataset).axes
+
+
+@pytest.mark.parametrize("name", ["one depth", "one place", "places twice"])
+def test_what_is_no_map_or_line_is_refused(hit, name):
+    draw, dataset = small(name, hit)
+    with pytest.raises(carom.InputError, match=r"on a grid of rising|no line through"):
+        draw(dataset)
+
+
+def test_arrows_of_a_load_path_are_slips():
+    """Where there is no time, arrows show how far the surfaces have slid, against the traction."""
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    pushed = carom.load_path(pair, normal_force=[10.0, 10.0], tangential_force=[0.0, -1.5])
+    figure = plots.plot_patch(pushed.fields())
+    (arrows,) = [item for item in figure.axes[0].collections if isinstance(item, Quiver)]
+    assert np.all(arrows.U < 0.0)
+    assert figure.axes[0].get_title().startswith("slip \N{MINUS SIGN}\nlongest arrow: 2")

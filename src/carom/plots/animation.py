@@ -23,6 +23,7 @@ from carom.plots.style import (
     BLUE,
     DOUBLE,
     MAP,
+    check_grid,
     draws,
     label,
     new_figure,
@@ -132,6 +133,7 @@ class _Film:
 
     def picture(self, fields: "xr.Dataset") -> Image.Image:
         """Return one frame."""
+        check_grid(fields, "traction_x", "y", "x")
         self._draw_patch(fields)
         self._move_marker(fields)
         moving = (self.patch, self.line, self.dot)

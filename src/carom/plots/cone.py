@@ -19,6 +19,7 @@ from carom.plots.style import (
     new_figure,
     phases,
     scaled,
+    span,
 )
 
 if TYPE_CHECKING:
@@ -85,8 +86,7 @@ def _draw_cone(axis: Axes, normal: float, tangential: float) -> None:
     axis.plot(corners, limit, color="0.45", lw=0.8, label=r"$\pm\mu F_z$")
     axis.plot(corners, -limit, color="0.45", lw=0.8)
     axis.axhline(0.0, color="0.6", lw=0.5, zorder=1)
-    axis.set_xlim(0.0, normal)
-    axis.set_ylim(-1.02 * tangential, 1.02 * tangential)
+    span(axis, (0.0, normal), (-1.02 * tangential, 1.02 * tangential))
 
 
 def _parts(dataset: "xr.Dataset", points: Array) -> Iterator[tuple[str, Array]]:

@@ -23,6 +23,7 @@ from carom.plots.style import (
     phases,
     scaled,
     shade,
+    span,
 )
 
 if TYPE_CHECKING:
@@ -106,7 +107,7 @@ def time_axis(axis: Axes, dataset: "xr.Dataset") -> Array:
     time, unit, scale = scaled(dataset, "time")
     for phase in phases(dataset):
         shade(axis, phase.start * scale, phase.end * scale, BANDS[phase.kind, phase.sign])
-    axis.set_xlim(time[0], time[-1])
+    span(axis, time)
     axis.set_xlabel(label("time", unit))
     return time
 
@@ -146,7 +147,7 @@ def radii_panel(axis: Axes, dataset: "xr.Dataset") -> None:
     axis.plot(time, contact, color=BLACK, label="contact, $b$")
     line = _stick_line(stick, contact)
     axis.plot(time, line, color=BLUE, ls=DASHES[1], label="stick zone, $a$")
-    axis.set_ylim(0.0, 1.06 * contact.max())
+    span(axis, y=(0.0, 1.06 * contact.max()))
     axis.set_ylabel(f"radius, $a$, $b$ ({unit})")
     legend_above(axis, 2)
 

@@ -11,6 +11,7 @@ from matplotlib.patheffects import withStroke
 from carom.plots.style import (
     MAP,
     Array,
+    check_grid,
     draws,
     label,
     moment,
@@ -20,7 +21,7 @@ from carom.plots.style import (
     slip_band,
     symbol,
 )
-from carom.quantities import InputError, refusal
+from carom.quantities import refusal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -73,8 +74,7 @@ def plot_patch(dataset: "xr.Dataset", variable: str = "traction_x") -> Figure:
     """
     if variable not in MAPPED:
         raise refusal("variable", variable, f"must be {' or '.join(MAPPED)}")
-    if dataset["pressure"].dims != ("y", "x"):
-        raise InputError("fields: a map needs them on a grid of x and y, not at points")
+    check_grid(dataset, "pressure", "y", "x")
     title = patch_title(dataset)
     figure, axes = new_figure(height=64.0 + 4.0 * len(title.splitlines()))  # the map is square
     axis = axes[0, 0]
@@ -126,7 +126,7 @@ def patch_panel(
 def patch_title(dataset: "xr.Dataset", reach: float | None = None, like: Any = None) -> str:
     """Return phase and time, in a unit that suits `like`, and the speed of the longest arrow."""
     fastest = arrows(dataset, reach).fastest
-    scale, unit = prefixed(fastest, "m/s")
+    scale, unit = prefixed(fastest, dataset[f"{_slip(dataset)}_x"].units)
     key = f"longest arrow: {fastest * scale:.3g}\u00a0{unit}" if fastest else ""
     return "\n".join([moment(dataset, like), key]).strip()
 
@@ -171,13 +171,10 @@ class Arrows(NamedTuple):
 
 
 def arrows(dataset: "xr.Dataset", reach: float | None = None) -> Arrows:
-    """Return the slip velocities at some points of the grid, all in the slip zone.
+    """Return the slip velocities at some points of the grid, all in the slip zone; or the slips.
 
     They are as many as fit on a map that goes to `reach`.
     """
-    if "slip_velocity_x" not in dataset:
-        nothing = np.empty(0)
-        return Arrows(nothing, nothing, nothing, nothing, 0.0)
     x, y = dataset["x"].values, dataset["y"].values
     contact, stick = (float(dataset[f"{name}_radius"]) for name in ZONES)
     room = min(MARGIN * contact / (reach or _reach(dataset)), 1.0)
@@ -187,8 +184,14 @@ def arrows(dataset: "xr.Dataset", reach: float | None = None) -> Arrows:
     inside = np.hypot(np.abs(at_x) + 0.5 * longest, at_y) < contact * (1.0 + ROUNDING)
     inside &= np.hypot(at_x, at_y) >= stick
     inside &= dataset["zone"].values[rows, columns] == SLIP
-    along, across = (dataset[f"slip_velocity_{axis}"].values[rows, columns] for axis in "xy")
+    name = _slip(dataset)
+    along, across = (dataset[f"{name}_{axis}"].values[rows, columns] for axis in "xy")
     return Arrows(at_x[inside], at_y[inside], along[inside], across[inside], longest)
+
+
+def _slip(dataset: "xr.Dataset") -> str:
+    """Return what arrows show: slip velocities, or slips where there is no time."""
+    return "slip_velocity" if "slip_velocity_x" in dataset else "slip"
 
 
 def _places(contact: float, stick: float, count: int) -> tuple[Array, Array, float]:

@@ -24,6 +24,7 @@ from carom.plots.style import (
     scaled,
     shade,
     slip_band,
+    span,
 )
 from carom.quantities import InputError
 
@@ -73,7 +74,7 @@ def plot_profiles(dataset: "xr.Dataset") -> Figure:
     for axis in axes.flat:
         _shade_zones(axis, line, scale, place)
         axis.axhline(0.0, color="0.5", lw=0.5, zorder=1)
-        axis.set_xlim(max(place[0], -reach), min(place[-1], reach))
+        span(axis, (max(place[0], -reach), min(place[-1], reach)))
     _tractions(axes[0, 0], line, place)
     if radial:
         _memory(axes[1, 0], line, place)
@@ -89,8 +90,12 @@ def _middle(dataset: "xr.Dataset") -> "xr.Dataset":
     y = np.atleast_1d(dataset["y"].values)
     along = "point" if "point" in dataset.dims else "y"
     line = dataset.isel({along: np.flatnonzero(np.abs(y) <= NEAR * np.abs(y).max())})
-    line = line.sortby("x") if along == "point" else line.squeeze("y") if line.sizes["y"] else line
-    if line["x"].size < 2 or line["pressure"].size != line["x"].size:
+    if along == "point":
+        line = line.sortby("x")
+    elif line.sizes["y"]:
+        line = line.isel(y=0)
+    places = line["x"].values
+    if places.size < 2 or line["pressure"].size != places.size or not np.all(np.diff(places) > 0.0):
         raise InputError("fields: they hold no line through the contact; give points with y = 0")
     return line
 

@@ -28,6 +28,7 @@ from carom.plots.style import (
     legend_above,
     new_figure,
     shade,
+    span,
 )
 
 if TYPE_CHECKING:
@@ -72,7 +73,7 @@ def plot_curve(dataset: "xr.Dataset") -> Figure:
         axis.plot([], [], MARKERS[0], color=BLACK, label="regime borders")
     lines, _ = axis.get_legend_handles_labels()
     bands = _shade_regimes(axis, dataset) if single else []
-    axis.set_xlim(psi[0], psi[-1])
+    span(axis, psi)
     axis.set_xlabel(label("psi_in", room=44))
     axis.set_ylabel(label("psi_out", room=36))
     entries = [*lines, *bands]
@@ -150,7 +151,7 @@ def plot_regime_map(dataset: "xr.Dataset") -> Figure:
     norm = BoundaryNorm(np.arange(0.5, counts.max() + 1.0), shades.N)
     axis.pcolormesh(psi, chi, shown, cmap=shades, norm=norm, shading="nearest", rasterized=True)
     axis.add_collection(_outlines(psi, chi, codes), autolim=False)
-    axis.set(xlim=psi[[0, -1]], ylim=chi[[0, -1]])
+    span(axis, psi, chi)
     axis.set(xlabel=label("psi_in"), ylabel=label("chi", room=44))
     _letter_regions(axis, dataset)
     _draw_borders(axis)

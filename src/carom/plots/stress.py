@@ -9,7 +9,17 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
-from carom.plots.style import MAP, Array, draws, label, moment, new_figure, scaled, symbol
+from carom.plots.style import (
+    MAP,
+    Array,
+    check_grid,
+    draws,
+    label,
+    moment,
+    new_figure,
+    scaled,
+    symbol,
+)
 from carom.quantities import InputError, refusal
 
 if TYPE_CHECKING:
@@ -48,6 +58,8 @@ def plot_stress(dataset: "xr.Dataset", variable: str = "von_mises") -> Figure:
     >>> figure.axes[0].get_ylabel()
     'depth below the surface, $z$\\xa0(µm)'
     """
+    if dataset["von_mises"].ndim == 2:
+        check_grid(dataset, "von_mises", "z", "x")
     known = [str(name) for name, item in dataset.items() if item.dims == ("z", "x")]
     if not known:
         raise InputError("stress: a map needs it on a grid of z and x, not at points")
@@ -62,9 +74,10 @@ def plot_stress(dataset: "xr.Dataset", variable: str = "von_mises") -> Figure:
     bar = figure.colorbar(shading, ax=axis, location="bottom", aspect=32, pad=0.03)
     bar.set_label(label(variable, stress_unit))
     bar.outline.set_linewidth(0.6)
-    contours = _contours(axis, x, z, values)
-    bar.add_lines(contours)
-    bar.set_ticks(list(contours.levels))
+    if np.ptp(values) > 0.0:
+        contours = _contours(axis, x, z, values)
+        bar.add_lines(contours)
+        bar.set_ticks(list(contours.levels))
     column, row, largest = _largest(dataset, variable)
     _mark_contact(axis, dataset, length)
     place = column * length, row * length

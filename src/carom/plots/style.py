@@ -116,6 +116,22 @@ def _lacking(given: Any, needed: tuple[str, ...], along: str) -> str:
     return f"has no {needed[0]} along {along or 'a dimension'}" if wrong else ""
 
 
+def check_grid(dataset: Any, name: str, *dims: str) -> None:
+    """Refuse fields that do not lie on a grid with two rising positions or more along each side."""
+    places = [np.asarray(dataset[dim].values) for dim in dims if dim in dataset.coords]
+    known = name in getattr(dataset, "data_vars", ()) and dataset[name].dims == dims
+    if not known or any(line.size < 2 or np.any(np.diff(line) <= 0.0) for line in places):
+        wanted = " and ".join(reversed(dims))
+        raise InputError(f"{name}: a map needs it on a grid of rising {wanted}, two or more each")
+
+
+def span(axis: Axes, x: ArrayLike = (), y: ArrayLike = ()) -> None:
+    """Let axes go from the first to the last of these values, where they differ."""
+    for values, limit in ((np.asarray(x), axis.set_xlim), (np.asarray(y), axis.set_ylim)):
+        if values.size and values[0] != values[-1]:
+            limit(float(values[0]), float(values[-1]))
+
+
 @contextmanager
 def style() -> Iterator[None]:
     """Set matplotlib to the style of this package for a while."""
