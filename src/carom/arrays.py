@@ -1,11 +1,22 @@
 """Reading arrays that users give: numbers, points, the lines of a grid."""
 
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom.quantities import refusal, without_units
 
 Array = NDArray[np.float64]
+
+
+class Places(NamedTuple):
+    """Places of a dataset: its dimensions and coordinates, and an array of shape (..., columns)."""
+
+    dims: tuple[str, ...]
+    coords: dict[str, Any]
+    at: Array
 
 
 def numbers(name: str, given: ArrayLike, allowed: str) -> Array:
@@ -41,3 +52,29 @@ def line(name: str, given: ArrayLike) -> Array:
     if values.ndim != 1 or values.size == 0 or not np.all(np.isfinite(values)):
         raise refusal(name, given, allowed)
     return values
+
+
+def places(
+    space: str,
+    grid: Mapping[str, ArrayLike | None],
+    default: Mapping[str, Array],
+    points: ArrayLike | None,
+) -> Places:
+    """Return points, or a grid along two of the axes of space, the others zero there.
+
+    Raises InputError if both are given, or one cannot be used.
+    """
+    if points is not None:
+        if any(given is not None for given in grid.values()):
+            wanted = " and ".join(grid)
+            raise refusal("points", f"points with {wanted}", f"give a grid by {wanted}, or points")
+        at = scattered("points", points, len(space))
+        return Places(("point",), {name: ("point", at[:, i]) for i, name in enumerate(space)}, at)
+    lines = {
+        name: default[name] if given is None else line(name, given) for name, given in grid.items()
+    }
+    columns = dict(zip(lines, np.meshgrid(*lines.values()), strict=True))
+    zero = np.zeros_like(next(iter(columns.values())))
+    at = np.stack([columns.get(name, zero) for name in space], axis=-1)
+    coords = {name: lines.get(name, 0.0) for name in space}
+    return Places(tuple(reversed(lines)), coords, at)

@@ -5,11 +5,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from carom.arrays import line, scattered
+from carom.arrays import places
 from carom.contacts import Contact
 from carom.dimensionless import surface
 from carom.dimensionless.profile import evaluate
-from carom.quantities import refusal
 from carom.results import flags, labelled_dataset
 
 if TYPE_CHECKING:
@@ -36,7 +35,10 @@ def surface_fields(
 
     Arguments, result and errors as `Impact.fields`.
     """
-    dims, coords, px, py = _places(contact, x, y, points)
+    reach = REACH * (contact.radius or contact.scales.radius)
+    side = np.linspace(-reach, reach, GRID)
+    dims, coords, at = places("xy", {"x": x, "y": y}, {"x": side, "y": side}, points)
+    px, py = np.moveaxis(at, -1, 0)
     r = _distances(contact, px, py)
     unique, back = np.unique(r, return_inverse=True)
     radial = _radial(contact, unique)[back.reshape(r.shape)]
@@ -68,23 +70,6 @@ def radial_fields(contact: Contact, n: int = 401) -> "xr.Dataset":
         {"distance": r * contact.scales.radius},
         {"title": "contact along a radius", **contact.attributes},
     )
-
-
-def _places(
-    contact: Contact, x: ArrayLike | None, y: ArrayLike | None, points: ArrayLike | None
-) -> tuple[tuple[str, ...], dict[str, Any], Array, Array]:
-    if points is not None:
-        if x is not None or y is not None:
-            raise refusal("points", "points and x, y", "give a grid by x and y, or points")
-        at = scattered("points", points, 2)
-        coords = {"x": ("point", at[:, 0]), "y": ("point", at[:, 1])}
-        return ("point",), coords, at[:, 0], at[:, 1]
-    reach = REACH * (contact.radius or contact.scales.radius)
-    default = np.linspace(-reach, reach, GRID)
-    along = default if x is None else line("x", x)
-    across = default if y is None else line("y", y)
-    px, py = np.meshgrid(along, across)
-    return ("y", "x"), {"x": along, "y": across}, px, py
 
 
 def _distances(contact: Contact, px: Array, py: Array) -> Array:

@@ -1,11 +1,11 @@
 """Stress below the surface of either body of a contact."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from carom.arrays import line, scattered
+from carom.arrays import places
 from carom.contacts import Contact
 from carom.dimensionless.extremes import SURFACE, Largest, largest, principal_stresses, von_mises
 from carom.dimensionless.subsurface import COMPONENTS, stresses
@@ -35,17 +35,20 @@ def stress_dataset(
     Arguments, result and errors as `Impact.stress`.
     """
     friction, poisson = _of_body(contact, body)
-    dims, coords, at = _places(contact, x, z, points)
+    reach = REACH * (contact.radius or contact.scales.radius)
+    default = {"x": np.linspace(-reach, reach, ALONG), "z": np.linspace(0.0, reach, DOWN)}
+    dims, coords, at = places("xyz", {"x": x, "z": z}, default, points)
+    _refuse_outside("z" if points is None else "points", at[..., 2])
 
-    def stress_at(places: Array) -> Array:
-        return stresses(places, contact.profile, friction=friction, poisson=poisson)
+    def stress_at(where: Array) -> Array:
+        return stresses(where, contact.profile, friction=friction, poisson=poisson)
 
     stress = contact.scales.pressure * stress_at(at.reshape(-1, 3) / contact.scales.radius)
     columns = {name: (dims, v.reshape(at.shape[:-1])) for name, v in _columns(stress).items()}
     tension = largest(
-        lambda places: principal_stresses(stress_at(places))[:, 0], contact.profile, SURFACE
+        lambda where: principal_stresses(stress_at(where))[:, 0], contact.profile, SURFACE
     )
-    mises = largest(lambda places: von_mises(stress_at(places)), contact.profile)
+    mises = largest(lambda where: von_mises(stress_at(where)), contact.profile)
     numbers = _entries(contact, "max_von_mises", mises) | _entries(contact, "max_tension", tension)
     return labelled_dataset(
         {**columns, **numbers, **contact.numbers(), "poisson": poisson},
@@ -78,24 +81,6 @@ def _of_body(contact: Contact, body: str) -> tuple[float, float]:
         raise refusal("body", body, f"it is rigid and has no stress; ask for the {other} body")
     pull = 1.0 if body == "second" else -1.0
     return pull * contact.pair.friction, material.poisson
-
-
-def _places(
-    contact: Contact, x: ArrayLike | None, z: ArrayLike | None, points: ArrayLike | None
-) -> tuple[tuple[str, ...], dict[str, Any], Array]:
-    if points is not None:
-        if x is not None or z is not None:
-            raise refusal("points", "points and x, z", "give a grid by x and z, or points")
-        at = scattered("points", points, 3)
-        _refuse_outside("points", at[:, 2])
-        return ("point",), {name: ("point", at[:, i]) for i, name in enumerate("xyz")}, at
-    reach = REACH * (contact.radius or contact.scales.radius)
-    along = np.linspace(-reach, reach, ALONG) if x is None else line("x", x)
-    down = np.linspace(0.0, reach, DOWN) if z is None else line("z", z)
-    _refuse_outside("z", down)
-    px, pz = np.meshgrid(along, down)
-    at = np.stack([px, np.zeros_like(px), pz], axis=-1)
-    return ("z", "x"), {"x": along, "y": 0.0, "z": down}, at
 
 
 def _refuse_outside(name: str, depth: Array) -> None:
