@@ -8,7 +8,8 @@ import tempfile
 from importlib.util import find_spec
 from pathlib import Path
 
-KERNELS = sorted(Path(find_spec("carom.dimensionless").submodule_search_locations[0]).glob("*.py"))
-KEY = hashlib.sha256(b"".join(path.read_bytes() for path in KERNELS)).hexdigest()[:16]
+SOURCES = sorted(Path(find_spec("carom").submodule_search_locations[0]).rglob("*.py"))
+KERNELS = [text for text in (path.read_bytes() for path in SOURCES) if b"@kernel" in text]
+KEY = hashlib.sha256(b"".join(KERNELS)).hexdigest()[:16]
 
 os.environ["NUMBA_CACHE_DIR"] = str(Path(tempfile.gettempdir()) / f"carom-kernels-{KEY}")

@@ -17,11 +17,16 @@ if TYPE_CHECKING:
         material_sources,
         materials,
     )
+    from carom.collisions import Collisions, CollisionStatus, collide
     from carom.curves import curve, regime_map
     from carom.dimensionless.phases import Status
     from carom.dimensionless.rebounds import rebound
     from carom.dimensionless.solution import Solution, solve
     from carom.impacts import Impact, impact
+    from carom.laws.exact import ReboundLaw
+    from carom.laws.fitting import WaltonFit, fit_walton
+    from carom.laws.mixture import MixtureLaw
+    from carom.laws.rigid import RoughLaw, SmoothLaw, WaltonLaw
     from carom.loading import LoadPath, load_path
     from carom.pairs import Pair
     from carom.quantities import InputError
@@ -37,7 +42,12 @@ _HOMES = {
         "material_sources",
         "materials",
     ),
+    "carom.collisions": ("CollisionStatus", "Collisions", "collide"),
     "carom.curves": ("curve", "regime_map"),
+    "carom.laws.exact": ("ReboundLaw",),
+    "carom.laws.fitting": ("WaltonFit", "fit_walton"),
+    "carom.laws.mixture": ("MixtureLaw",),
+    "carom.laws.rigid": ("RoughLaw", "SmoothLaw", "WaltonLaw"),
     "carom.pairs": ("Pair",),
     "carom.quantities": ("InputError",),
     "carom.impacts": ("Impact", "impact"),
@@ -51,18 +61,28 @@ _MODULES = ("classical", "plots")
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
+    "CollisionStatus",
+    "Collisions",
     "Cup",
     "HalfSpace",
     "Impact",
     "InputError",
     "LoadPath",
     "Material",
+    "MixtureLaw",
     "Pair",
+    "ReboundLaw",
+    "RoughLaw",
+    "SmoothLaw",
     "Solution",
     "Sphere",
     "Status",
+    "WaltonFit",
+    "WaltonLaw",
     "classical",
+    "collide",
     "curve",
+    "fit_walton",
     "impact",
     "load_path",
     "material",

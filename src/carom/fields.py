@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from carom.arrays import places
 from carom.contacts import Contact
 from carom.dimensionless import surface
-from carom.dimensionless.profile import evaluate
+from carom.dimensionless.chebyshev import evaluate
 from carom.results import flags, labelled_dataset
 
 if TYPE_CHECKING:

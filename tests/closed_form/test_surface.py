@@ -5,7 +5,8 @@ import pytest
 
 import carom
 from carom.dimensionless import hertz, slip, surface
-from carom.dimensionless.profile import coefficients, evaluate, flat, radii, stacked
+from carom.dimensionless.chebyshev import evaluate
+from carom.dimensionless.profile import coefficients, flat, radii, stacked
 
 IMPACTS = [
     (0.5, 1.44),  # stick, slip -, gross slip -

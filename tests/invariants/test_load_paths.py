@@ -23,7 +23,7 @@ from carom.dimensionless.paths import (
     follow_path,
     slid,
 )
-from carom.dimensionless.profile import evaluate
+from carom.dimensionless.chebyshev import evaluate
 from carom.dimensionless.strata import RADIUS, RIM, SLOPE, profile_of
 from carom.loading import load_path
 from carom.quantities import InputError

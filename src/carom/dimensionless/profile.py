@@ -6,14 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.dimensionless._jit import kernel
+from carom.dimensionless.chebyshev import nodes, transform
 
 Array = NDArray[np.float64]
 
 TERMS = 17  # of a Chebyshev series on a panel
-ANGLES = (np.arange(TERMS) + 0.5) * np.pi / TERMS
-NODES = np.cos(ANGLES)
-TRANSFORM = np.cos(np.outer(np.arange(TERMS), ANGLES)) * (2.0 / TERMS)
-TRANSFORM[0] *= 0.5
 
 
 class Profile(NamedTuple):
@@ -29,16 +26,6 @@ class Profile(NamedTuple):
 
 
 @kernel
-def evaluate(coefficients: Array, low: float, high: float, x: float) -> float:
-    """Return the value at x of a Chebyshev series on [low, high] (Clenshaw 1955)."""
-    y = (2.0 * x - low - high) / (high - low)
-    last, one = 0.0, 0.0
-    for k in range(coefficients.size - 1, 0, -1):
-        last, one = one, coefficients[k] + 2.0 * y * one - last
-    return float(coefficients[0] + y * one - last)
-
-
-@kernel
 def is_constant(coefficients: Array) -> bool:
     """Tell whether a series has no term but the first, as where slip or a straight step laid it."""
     return not np.any(coefficients[1:])
@@ -46,12 +33,12 @@ def is_constant(coefficients: Array) -> bool:
 
 def radii(low: float, high: float) -> Array:
     """Return the radii of a panel at which `coefficients` wants its values."""
-    return 0.5 * (low + high) + 0.5 * (high - low) * NODES
+    return 0.5 * (low + high) + 0.5 * (high - low) * nodes(TERMS)
 
 
 def coefficients(values: Array) -> Array:
     """Return the Chebyshev coefficients of a panel from the values at `radii`."""
-    return np.asarray(TRANSFORM @ values, dtype=np.float64)
+    return np.asarray(transform(TERMS) @ values, dtype=np.float64)
 
 
 def flat(low: float, high: float, g: float, q_high: float) -> tuple[Array, Array]:

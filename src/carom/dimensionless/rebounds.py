@@ -13,14 +13,14 @@ from numpy.typing import ArrayLike, NDArray
 from carom.dimensionless._jit import kernel
 from carom.dimensionless.motion import PSI
 from carom.dimensionless.phases import Status, new_work, run_phases
-from carom.dimensionless.record import Record, new_record
+from carom.dimensionless.record import KIND, KIND_SIGN, Record, new_record
 from carom.dimensionless.stretches import Work
 
 Array = NDArray[np.float64]
 
 TOLERANCE = 1e-10  # of one Taylor step; keeps psi_2 to a tenth of what `rebound` promises
 LINEAR = 1e-6  # below, psi_2 is taken proportional to psi_1: rounding would cost more
-BLOCK = 256
+BLOCK, SMALLEST_BLOCK = 256, 16  # impacts that a thread takes at once
 
 
 @kernel
@@ -39,6 +39,16 @@ def outgoing(psi: float, chi: float, work: Work, record: Record) -> tuple[float,
 
 
 @kernel
+def code_of_phases(record: Record) -> int:
+    """Return a number that tells one sequence of phases and stretches of memory from another."""
+    code = 1 + record.counts[1]
+    for row in range(record.counts[2]):
+        digit = 3 * int(record.changes[row, KIND]) + int(record.changes[row, KIND_SIGN]) + 1
+        code = (code * 16 + digit) % 2147483629  # a prime: sequences of any length stay apart
+    return code
+
+
+@kernel
 def fill(
     psi: Array,
     chi: Array,
@@ -46,10 +56,13 @@ def fill(
     record: Record,
     psi_out: Array,
     status: NDArray[np.int8],
+    sequence: NDArray[np.int64],
 ) -> None:
-    """Write psi_2 and the status of every impact."""
+    """Write psi_2, the status and the sequence of phases of every impact."""
     for i in range(psi.size):
+        record.counts[:] = 0
         psi_out[i], status[i] = outgoing(psi[i], chi[i], work, record)
+        sequence[i] = code_of_phases(record)
 
 
 @overload
@@ -117,9 +130,7 @@ def rebound(
     psi_in, chi_in = _real("psi", psi), _real("chi", chi)
     shape = np.broadcast_shapes(psi_in.shape, chi_in.shape)
     flat_psi, flat_chi = (np.array(np.broadcast_to(x, shape)).ravel() for x in (psi_in, chi_in))
-    psi_out = np.empty(flat_psi.size)
-    status = np.empty(flat_psi.size, dtype=np.int8)
-    _fill_blocks(flat_psi, flat_chi, psi_out, status, threads)
+    psi_out, status, _ = solved(flat_psi, flat_chi, threads)
     result = psi_out.reshape(shape) if shape else float(psi_out[0])
     if return_status:
         return result, status.reshape(shape) if shape else int(status[0])
@@ -134,22 +145,30 @@ def _real(name: str, values: ArrayLike) -> Array:
     return np.asarray(given, dtype=np.float64)
 
 
-def _fill_blocks(
-    psi: Array, chi: Array, psi_out: Array, status: NDArray[np.int8], threads: int | None
-) -> None:
-    def block(start: int) -> None:
-        part = slice(start, start + BLOCK)
-        fill(psi[part], chi[part], new_work(), new_record(False), psi_out[part], status[part])
+def solved(
+    psi: Array, chi: Array, threads: int | None = None
+) -> tuple[Array, NDArray[np.int8], NDArray[np.int64]]:
+    """Return psi_2, `Status` and a number for the sequence of phases of impacts, in threads."""
+    psi_out, status = np.empty(psi.size), np.empty(psi.size, dtype=np.int8)
+    sequence = np.empty(psi.size, dtype=np.int64)
+    threads = threads or available_cores()
+    size = min(BLOCK, max(SMALLEST_BLOCK, -(-psi.size // (2 * threads))))
 
-    starts = range(0, psi.size, BLOCK)
-    workers = min(threads or available_cores(), len(starts))
+    def block(start: int) -> None:
+        part = slice(start, start + size)
+        results = psi_out[part], status[part], sequence[part]
+        fill(psi[part], chi[part], new_work(), new_record(False), *results)
+
+    starts = range(0, psi.size, size)
+    workers = min(threads, len(starts))
     if workers <= 1:
         for start in starts:
             block(start)
-        return
+        return psi_out, status, sequence
     block(0)  # compiles, if need be, in one thread
     with ThreadPoolExecutor(workers) as pool:
         list(pool.map(block, starts[1:]))
+    return psi_out, status, sequence
 
 
 def available_cores() -> int:

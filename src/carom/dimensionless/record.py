@@ -21,7 +21,7 @@ KEPT = SLOWER + 1
 
 
 class Record(NamedTuple):
-    """Rows filled so far: `counts` of nodes, stretches, changes. Empty arrays record nothing."""
+    """Rows filled so far: `counts` of nodes, stretches, changes. Empty arrays keep nothing."""
 
     nodes: NDArray[np.float64]
     series: NDArray[np.float64]
@@ -32,14 +32,14 @@ class Record(NamedTuple):
 
 
 def new_record(wanted: bool) -> Record:
-    """Return an empty record, without room for anything if none is wanted."""
+    """Return an empty record, with room for changes of phase only if not more is wanted."""
     room = 1 if wanted else 0
     return Record(
         nodes=np.empty((room * MAX_NODES, 5)),
         series=np.empty((room * MAX_NODES, ORDER + 1, KEPT)),
         stacks=np.empty((room * MAX_STRETCHES, MAX_ANNULI, COLUMNS)),
         depths=np.empty(room * MAX_STRETCHES, dtype=np.int64),
-        changes=np.empty((room * (MAX_PHASES + 1), 5)),
+        changes=np.empty((MAX_PHASES + 1, 5)),
         counts=np.zeros(3, dtype=np.int64),
     )
 
@@ -62,11 +62,11 @@ def is_full(record: Record) -> bool:
 @kernel
 def note_stretch(record: Record, stack: Stack, depth: int) -> None:
     """Keep the memory as it is below the front when a stretch starts."""
+    row = record.counts[1]
     if is_wanted(record):
-        row = record.counts[1]
         record.stacks[row, :depth] = stack[:depth]
         record.depths[row] = depth
-        record.counts[1] = row + 1
+    record.counts[1] = row + 1
 
 
 @kernel
@@ -86,14 +86,13 @@ def note_node(record: Record, mode: int, clock: int, sign: int, h: float, series
 @kernel
 def note_change(record: Record, kind: int, sign: int, cause: int, series: Series) -> None:
     """Keep the start of a phase and what brought it about."""
-    if is_wanted(record):
-        row = record.counts[2]
-        record.changes[row, KIND] = kind
-        record.changes[row, KIND_SIGN] = sign
-        record.changes[row, CAUSE] = cause
-        record.changes[row, AT_B] = series[0, B]
-        record.changes[row, AT_V] = series[0, V]
-        record.counts[2] = row + 1
+    row = record.counts[2]
+    record.changes[row, KIND] = kind
+    record.changes[row, KIND_SIGN] = sign
+    record.changes[row, CAUSE] = cause
+    record.changes[row, AT_B] = series[0, B]
+    record.changes[row, AT_V] = series[0, V]
+    record.counts[2] = row + 1
 
 
 def trimmed(record: Record) -> Record:

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom.dimensionless._jit import kernel
-from carom.dimensionless.profile import Profile, evaluate
+from carom.dimensionless.chebyshev import evaluate
+from carom.dimensionless.profile import Profile
 
 Array = NDArray[np.float64]
 Components = tuple[complex, complex, complex, complex, complex, complex]

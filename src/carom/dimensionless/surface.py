@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.dimensionless._jit import kernel
-from carom.dimensionless.profile import Profile, evaluate, is_constant
+from carom.dimensionless.chebyshev import evaluate
+from carom.dimensionless.profile import Profile, is_constant
 
 Array = NDArray[np.float64]
 

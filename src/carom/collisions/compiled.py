@@ -1,0 +1,179 @@
+"""Collisions on NumPy arrays: compiled, in threads over blocks, at the speed of memory."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.collisions.records import SKEW, CollisionStatus, Inertia
+from carom.dimensionless._jit import kernel
+from carom.dimensionless.rebounds import available_cores
+from carom.laws.rules import LARGEST, Rule, one_plus_beta
+
+Flat = NDArray[np.floating]  # x, y, z of one pair after the other
+Array = NDArray[np.float64]
+
+CHUNK = 256  # pairs whose numbers stay in the nearest cache
+BLOCK = 65536  # pairs that a thread takes at once
+
+
+class Motions(NamedTuple):
+    """Velocities and spins of both bodies, flat."""
+
+    velocity1: Flat
+    spin1: Flat
+    velocity2: Flat
+    spin2: Flat
+
+
+class Scratch(NamedTuple):
+    """What a chunk of collisions needs in between; the first four are flat vectors."""
+
+    linear: Array  # v_1 - v_2, then the impulse J on the second body
+    angular: Array  # R_1 omega_1 + R_2 omega_2, then n x J
+    axis: Array  # the normal, of length one to the last bit
+    sliding: Array  # V_t of the contact point
+    closing: Array  # V_n
+    slope: Array
+    fraction: Array  # 1 + beta
+    place: Array
+    panel: NDArray[np.int32]
+
+
+def new_scratch() -> Scratch:
+    """Return room for one chunk."""
+    vectors, numbers = np.empty((4, 3 * CHUNK)), np.empty((4, CHUNK))
+    linear, angular, axis, sliding = vectors
+    closing, slope, fraction, place = numbers
+    panel = np.empty(CHUNK, dtype=np.int32)
+    return Scratch(linear, angular, axis, sliding, closing, slope, fraction, place, panel)
+
+
+@kernel
+def approach(motions: Motions, inertia: Inertia, scratch: Scratch) -> None:
+    """Write the relative velocity of the centres and what the spins add to it."""
+    for k in range(motions.velocity1.size):
+        scratch.linear[k] = motions.velocity1[k] - motions.velocity2[k]
+        scratch.angular[k] = inertia.radius1 * motions.spin1[k] + inertia.radius2 * motions.spin2[k]
+
+
+@kernel
+def contact_velocity(
+    normal: Flat, scale: float, scratch: Scratch, status: NDArray[np.int8]
+) -> None:
+    """Write V_t, V_n and scale |V_t|/V_n of the contact points, and what is wrong with a pair."""
+    for i in range(status.size):
+        x, y, z = 3 * i, 3 * i + 1, 3 * i + 2
+        nx, ny, nz = float(normal[x]), float(normal[y]), float(normal[z])
+        skew = nx * nx + ny * ny + nz * nz - 1.0
+        unit = 1.0 - skew * (0.5 - 0.375 * skew)  # 1/|n|
+        nx, ny, nz = unit * nx, unit * ny, unit * nz
+        ux, uy, uz = scratch.linear[x], scratch.linear[y], scratch.linear[z]
+        ax, ay, az = scratch.angular[x], scratch.angular[y], scratch.angular[z]
+        closing = ux * nx + uy * ny + uz * nz
+        tx = ux - closing * nx + ay * nz - az * ny
+        ty = uy - closing * ny + az * nx - ax * nz
+        tz = uz - closing * nz + ax * ny - ay * nx
+        square = tx * tx + ty * ty + tz * tz
+        scratch.axis[x], scratch.axis[y], scratch.axis[z] = nx, ny, nz
+        scratch.sliding[x], scratch.sliding[y], scratch.sliding[z] = tx, ty, tz
+        scratch.closing[i] = closing
+        scratch.slope[i] = min(scale * np.sqrt(square) / closing, LARGEST)
+        code = 0 if closing > 0.0 else CollisionStatus.SEPARATING.value
+        code = code if abs(skew) <= SKEW else CollisionStatus.NORMAL_NOT_UNIT.value
+        finite = abs(closing) + square + abs(skew) < np.inf
+        status[i] = code if finite else CollisionStatus.NOT_FINITE.value
+
+
+@kernel
+def impulses(
+    inertia: Inertia, restitution: float, scratch: Scratch, status: NDArray[np.int8]
+) -> None:
+    """Write the impulse J on the second body and n x J; zero where nothing collides."""
+    for i in range(status.size):
+        x, y, z = 3 * i, 3 * i + 1, 3 * i + 2
+        nx, ny, nz = scratch.axis[x], scratch.axis[y], scratch.axis[z]
+        tx, ty, tz = scratch.sliding[x], scratch.sliding[y], scratch.sliding[z]
+        push = (1.0 + restitution) * inertia.normal_mass * scratch.closing[i]
+        drag = inertia.tangential_mass * scratch.fraction[i]
+        tx, ty, tz = drag * tx, drag * ty, drag * tz
+        hit = status[i] == 0
+        scratch.linear[x] = push * nx + tx if hit else 0.0
+        scratch.linear[y] = push * ny + ty if hit else 0.0
+        scratch.linear[z] = push * nz + tz if hit else 0.0
+        scratch.angular[x] = ny * tz - nz * ty if hit else 0.0
+        scratch.angular[y] = nz * tx - nx * tz if hit else 0.0
+        scratch.angular[z] = nx * ty - ny * tx if hit else 0.0
+
+
+@kernel
+def add(before: Flat, factor: float, change: Array, after: Flat) -> None:
+    """Write before + factor change."""
+    for k in range(before.size):
+        after[k] = before[k] + factor * change[k]
+
+
+@kernel
+def part(motions: Motions, low: int, high: int) -> Motions:
+    """Return the motions of some of the pairs."""
+    a, b = 3 * low, 3 * high
+    return Motions(
+        motions.velocity1[a:b], motions.spin1[a:b], motions.velocity2[a:b], motions.spin2[a:b]
+    )
+
+
+@kernel
+def collide_block(
+    before: Motions,
+    normal: Flat,
+    inertia: Inertia,
+    rule: Rule,
+    scratch: Scratch,
+    after: Motions,
+    status: NDArray[np.int8],
+) -> None:
+    """Write the motions after collisions, chunk by chunk; `after` may be `before`."""
+    for low in range(0, status.size, CHUNK):
+        high = min(low + CHUNK, status.size)
+        old, new, code = part(before, low, high), part(after, low, high), status[low:high]
+        approach(old, inertia, scratch)
+        contact_velocity(normal[3 * low : 3 * high], rule.scale, scratch, code)
+        slope, panel, place = scratch.slope, scratch.panel, scratch.place
+        one_plus_beta(slope, high - low, rule, panel, place, scratch.fraction)
+        impulses(inertia, rule.restitution, scratch, code)
+        add(old.velocity1, -inertia.inverse_mass1, scratch.linear, new.velocity1)
+        add(old.spin1, -inertia.spin_rate1, scratch.angular, new.spin1)
+        if inertia.inverse_mass2 > 0.0:
+            add(old.velocity2, inertia.inverse_mass2, scratch.linear, new.velocity2)
+            add(old.spin2, -inertia.spin_rate2, scratch.angular, new.spin2)
+
+
+def collide_all(
+    before: Motions,
+    normal: Flat,
+    inertia: Inertia,
+    rule: Rule,
+    after: Motions,
+    status: NDArray[np.int8],
+    threads: int | None,
+) -> None:
+    """Write the motions after all collisions; the result does not depend on the threads."""
+
+    def block(low: int) -> None:
+        high = min(low + BLOCK, status.size)
+        flat, some = slice(3 * low, 3 * high), slice(low, high)
+        old, new = (Motions(*(each[flat] for each in whole)) for whole in (before, after))
+        collide_block(old, normal[flat], inertia, rule, new_scratch(), new, status[some])
+
+    starts = range(0, status.size, BLOCK)
+    workers = min(threads or available_cores(), len(starts))
+    if workers <= 1:
+        for low in starts:
+            block(low)
+        return
+    block(0)  # compiles, if need be, in one thread
+    with ThreadPoolExecutor(workers) as pool:
+        list(pool.map(block, starts[1:]))

@@ -1,0 +1,138 @@
+"""Collisions against the array API standard: JAX, torch, CuPy and others; differentiable.
+
+The physics of `compiled`, on whole arrays and in their own precision.
+"""
+
+from functools import reduce
+from typing import Any, NamedTuple
+
+import array_api_compat
+import numpy as np
+
+from carom.collisions.reading import ALLOWED, NAMES, common_shape, is_foreign, vectors
+from carom.collisions.records import SKEW, Collisions, CollisionStatus, Inertia
+from carom.laws.portable import constants, floating, part_lost
+from carom.laws.rules import Rule
+from carom.quantities import InputError, refusal
+
+
+class Approach(NamedTuple):
+    """How the contact points approach."""
+
+    axis: Any  # the normal, of length one to the last bit
+    skew: Any  # of the squared length of the normal from 1
+    closing: Any  # V_n
+    sliding: Any  # V_t
+    square: Any  # |V_t|^2
+
+
+def collide_arrays(given: tuple[Any, ...], inertia: Inertia, rule: Rule) -> Collisions:
+    """Return velocities and spins after collisions, as `compiled.collide_all` does.
+
+    Arrays must be of one library; lists and NumPy arrays among them take its type and device.
+    """
+    arrays, xp = _alike(given)
+    shape = common_shape(arrays)
+    kind = next(each for each in arrays if each is not None)
+    whole = [
+        constants(np.zeros(shape), kind, xp) if each is None else xp.broadcast_to(each, shape)
+        for each in arrays
+    ]
+    status = _status(_approach(whole, inertia, xp), xp)
+    hit = xp.expand_dims(status == CollisionStatus.COLLIDED.value, axis=-1)
+    # rows that are left alone must have finite gradients, too: those of a head-on collision
+    along = constants([0.0, 0.0, 1.0], kind, xp)
+    harmless = (along, 0.0 * along, 0.0 * along, 0.0 * along, along)
+    safe = [xp.where(hit, each, calm) for each, calm in zip(whole, harmless, strict=True)]
+    impulse, twist = _impulses(_approach(safe, inertia, xp), inertia, rule, xp)
+    factors = (
+        -inertia.inverse_mass1,
+        -inertia.spin_rate1,
+        inertia.inverse_mass2,
+        -inertia.spin_rate2,
+    )
+    velocity1, spin1, velocity2, spin2 = (
+        xp.where(hit, before + factor * change, before) if factor else before
+        for before, factor, change in zip(whole, factors, 2 * (impulse, twist), strict=False)
+    )
+    return Collisions(velocity1, spin1, velocity2, spin2, status)
+
+
+def _alike(given: tuple[Any, ...]) -> tuple[list[Any], Any]:
+    """Return what is given as arrays of one library and type, and that library."""
+    foreign = [each for each in given if is_foreign(each)]
+    try:
+        xp = array_api_compat.array_namespace(*foreign)
+    except TypeError:
+        names = sorted({type(each).__module__.partition(".")[0] for each in foreign})
+        raise InputError(
+            f"arrays: of {' and '.join(names)} together cannot be used; give all of one library"
+        ) from None
+    real = {
+        name: _real(name, each) for name, each in zip(NAMES, given, strict=True) if is_foreign(each)
+    }
+    kind = reduce(xp.result_type, (each.dtype for each in real.values()))
+    real = {name: xp.astype(each, kind, copy=False) for name, each in real.items()}
+    sample = next(iter(real.values()))
+    return [
+        real[name] if name in real else _converted(name, each, sample, xp)
+        for name, each in zip(NAMES, given, strict=True)
+    ], xp
+
+
+def _real(name: str, array: Any) -> Any:
+    if tuple(array.shape[-1:]) != (3,):
+        raise refusal(name, array, ALLOWED)
+    return floating(name, array)[0]
+
+
+def _converted(name: str, values: Any, sample: Any, xp: Any) -> Any:
+    plain = vectors(name, values)
+    return None if plain is None else constants(plain, sample, xp)
+
+
+def _approach(motions: list[Any], inertia: Inertia, xp: Any) -> Approach:
+    velocity1, spin1, velocity2, spin2, normal = motions
+    linear = velocity1 - velocity2
+    angular = inertia.radius1 * spin1 + inertia.radius2 * spin2
+    skew = _dot(normal, normal, xp) - 1.0
+    axis = (1.0 - skew * (0.5 - 0.375 * skew)) * normal  # n/|n|
+    closing = _dot(linear, axis, xp)
+    sliding = linear - closing * axis + _cross(angular, axis, xp)
+    return Approach(axis, skew, closing, sliding, _dot(sliding, sliding, xp))
+
+
+def _status(approach: Approach, xp: Any) -> Any:
+    """Return what becomes of each pair."""
+    skew, closing = xp.abs(approach.skew), approach.closing
+
+    def code(status: CollisionStatus) -> Any:
+        return xp.full_like(closing, status.value, dtype=xp.int8)
+
+    status = xp.where(
+        closing > 0.0, code(CollisionStatus.COLLIDED), code(CollisionStatus.SEPARATING)
+    )
+    status = xp.where(skew <= SKEW, status, code(CollisionStatus.NORMAL_NOT_UNIT))
+    finite = xp.isfinite(xp.abs(closing) + approach.square + skew)
+    return xp.where(finite, status, code(CollisionStatus.NOT_FINITE))[..., 0]
+
+
+def _impulses(approach: Approach, inertia: Inertia, rule: Rule, xp: Any) -> tuple[Any, Any]:
+    """Return the impulse J on the second body and n x J, where all pairs collide."""
+    axis, closing, square = approach.axis, approach.closing, approach.square
+    moves = square > 0.0
+    root = xp.sqrt(xp.where(moves, square, xp.ones_like(square)))  # has a slope at zero, too
+    speed = rule.scale * xp.where(moves, root, xp.zeros_like(root))
+    drag = inertia.tangential_mass * part_lost(speed, closing, rule, xp) * approach.sliding
+    push = (1.0 + rule.restitution) * inertia.normal_mass * closing * axis
+    return push + drag, _cross(axis, drag, xp)
+
+
+def _dot(one: Any, two: Any, xp: Any) -> Any:
+    return xp.sum(one * two, axis=-1, keepdims=True)
+
+
+def _cross(one: Any, two: Any, xp: Any) -> Any:
+    ax, ay, az = (one[..., k] for k in range(3))
+    bx, by, bz = (two[..., k] for k in range(3))
+    return xp.stack((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx), axis=-1)

@@ -1,0 +1,74 @@
+"""What a collision takes and gives: status, inertia of the pair, velocities and spins."""
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Any, NamedTuple
+
+from carom.bodies import Sphere
+from carom.pairs import Counterbody, Pair
+
+SKEW = 1e-5  # of a normal's squared length from 1; so much is rounding, and made up for
+
+
+class CollisionStatus(IntEnum):
+    """What became of a pair; its `message` says so in words."""
+
+    COLLIDED = 0
+    SEPARATING = 1
+    NOT_FINITE = 2
+    NORMAL_NOT_UNIT = 3
+
+    @property
+    def message(self) -> str:
+        """The status in words."""
+        return MESSAGES[self]
+
+
+MESSAGES = {
+    CollisionStatus.COLLIDED: "collided",
+    CollisionStatus.SEPARATING: "left alone: the bodies do not approach",
+    CollisionStatus.NOT_FINITE: "left alone: a number is not finite, or too large",
+    CollisionStatus.NORMAL_NOT_UNIT: "left alone: the normal is not a unit vector",
+}
+
+
+class Inertia(NamedTuple):
+    """How a pair takes an impulse; inverse masses and spin rates R/I of a fixed body are zero."""
+
+    radius1: float
+    radius2: float
+    inverse_mass1: float
+    inverse_mass2: float
+    spin_rate1: float
+    spin_rate2: float
+    normal_mass: float
+    tangential_mass: float
+
+
+@dataclass(frozen=True, eq=False)
+class Collisions:
+    """Velocities and spins after collisions, as arrays like those before; SI units.
+
+    `status`, one for each pair, holds values of `CollisionStatus`: 0 where the bodies collided.
+    """
+
+    velocity1: Any
+    spin1: Any
+    velocity2: Any
+    spin2: Any
+    status: Any
+
+
+def inertia_of(pair: Pair) -> Inertia:
+    """Return the inertia of a pair in SI units."""
+    radius1, mass1, spin1 = _response(pair.first)
+    radius2, mass2, spin2 = _response(pair.second)
+    effective = pair.normal_mass, pair.tangential_mass
+    return Inertia(radius1, radius2, mass1, mass2, spin1, spin2, *effective)
+
+
+def _response(body: Counterbody) -> tuple[float, float, float]:
+    """Return radius, 1/M and R/I = 1/(M R K^2/R^2) of a body; zeros of a fixed one."""
+    if not isinstance(body, Sphere):
+        return 0.0, 0.0, 0.0
+    return body.radius, 1.0 / body.mass, 1.0 / (body.mass * body.radius * body.gyration_ratio)

@@ -1,0 +1,1 @@
+"""Collision laws: the exact one as a table, and those that are used in its place."""

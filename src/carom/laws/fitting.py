@@ -1,0 +1,73 @@
+"""How near Walton's law can come to the exact one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from carom.laws.exact import law_of
+from carom.laws.rigid import WaltonLaw
+from carom.pairs import Pair
+from carom.quantities import positive, refusal
+
+Array = NDArray[np.float64]
+
+POINTS = 2001
+
+
+@dataclass(frozen=True)
+class WaltonFit:
+    """Walton's law fitted to the exact one, and the error in psi_2 that remains over the span."""
+
+    law: WaltonLaw
+    rms_error: float
+    max_error: float
+    span: float
+
+
+def fit_walton(pair: Pair, span: float | None = None) -> WaltonFit:
+    """Return Walton's friction and beta_0 that come closest to the exact rebound of a pair.
+
+    Least squares in psi_2, evenly over psi_1 from 0 to the span, of psi_1 - min((1 + beta_0) psi_1,
+    4 chi mu_W/mu) against the exact psi_2 (Walton 1993; Maw, Barber & Fawcett 1976).
+
+    Parameters
+    ----------
+    pair : Pair
+        The bodies; their friction must not be zero.
+    span : float, optional
+        Largest psi_1, by default 4 chi: nearly up to gross slip throughout and a little beyond.
+
+    Raises
+    ------
+    InputError
+        If the pair has no friction, or the span is not positive.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> fit = carom.fit_walton(pair)
+    >>> round(fit.law.tangential_restitution, 2), round(fit.rms_error, 2)
+    (0.38, 0.16)
+    """
+    if pair.friction == 0.0:
+        raise refusal("friction", pair.friction, "must be positive: without it nothing is to fit")
+    reach = 4.0 * pair.chi if span is None else positive("psi_in", span)
+    psi = np.linspace(0.0, reach, POINTS)
+    exact, limit = law_of(pair.chi)(psi), 4.0 * pair.chi
+
+    def residual(parameters: Array) -> Array:
+        one_plus_beta, ratio = parameters
+        return np.asarray(psi - np.minimum(one_plus_beta * psi, limit * ratio) - exact)
+
+    found = least_squares(residual, (1.3, 1.0), bounds=((0.0, 0.0), (2.0, inf)), x_scale=0.1)
+    beta, ratio = float(found.x[0]) - 1.0, float(found.x[1])
+    law = WaltonLaw(friction=ratio * pair.friction, tangential_restitution=beta)
+    error = residual(found.x)
+    return WaltonFit(law, float(np.sqrt(np.mean(error**2))), float(np.max(np.abs(error))), reach)

@@ -1,0 +1,79 @@
+"""What a collision needs of a law: restitution, and the change of the tangential velocity."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.dimensionless._jit import kernel
+
+Array = NDArray[np.float64]
+
+LARGEST = 1e300  # a bound on slopes, so that no infinity times zero occurs
+
+
+class Rule(NamedTuple):
+    """A law for one pair of bodies, as numbers.
+
+    With the slope w = scale * V_x/V_n of the approach the contact point loses the part
+    1 + beta = min(series(w), sliding/w) of its tangential velocity, beta = -V_x'/V_x, and
+    V_n' = -restitution * V_n. The series has the powers of (slopes w + shifts) on the panel that
+    starts at the last of `edges` not above w.
+    """
+
+    restitution: float
+    scale: float
+    sliding: float
+    edges: Array  # (n,)
+    slopes: Array  # (n,)
+    shifts: Array  # (n,)
+    powers: Array  # (terms, n)
+
+
+def constant_rule(restitution: float, scale: float, sliding: float, one_plus_beta: float) -> Rule:
+    """Return the rule of a law with one beta, up to the bound of sliding."""
+    zero = np.zeros(1)
+    return frozen(
+        Rule(restitution, scale, sliding, zero, zero, zero, np.full((1, 1), one_plus_beta))
+    )
+
+
+def frozen(rule: Rule) -> Rule:
+    """Return the rule, its arrays protected: one compiled kernel serves all rules."""
+    for values in rule[3:]:
+        values.setflags(write=False)
+    return rule
+
+
+@kernel
+def find_panels(slope: Array, count: int, edges: Array, panel: NDArray[np.int32]) -> None:
+    """Write the panel of each slope: a binary search, side by side for all."""
+    panel[:count] = 0
+    width = edges.size
+    for _ in range(64):
+        if width <= 1:
+            break
+        half = width >> 1
+        for i in range(count):
+            ahead = panel[i] + half
+            panel[i] = ahead if slope[i] >= edges[ahead] else panel[i]
+        width -= half
+
+
+@kernel
+def one_plus_beta(
+    slope: Array, count: int, rule: Rule, panel: NDArray[np.int32], place: Array, out: Array
+) -> None:
+    """Write 1 + beta at each slope; `panel` and `place` are scratch space of the same size."""
+    find_panels(slope, count, rule.edges, panel)
+    highest = rule.powers.shape[0] - 1
+    for i in range(count):
+        place[i] = rule.slopes[panel[i]] * slope[i] + rule.shifts[panel[i]]
+        out[i] = rule.powers[highest, panel[i]]
+    for term in range(highest - 1, -1, -1):
+        row = rule.powers[term]
+        for i in range(count):
+            out[i] = out[i] * place[i] + row[panel[i]]
+    for i in range(count):  # beyond [0, 2] energy would grow
+        bound = min(2.0, rule.sliding / slope[i])
+        out[i] = max(0.0, bound if bound < out[i] else out[i])
