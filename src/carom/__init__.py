@@ -31,6 +31,9 @@ if TYPE_CHECKING:
     from carom.pairs import Pair
     from carom.quantities import InputError
     from carom.storage import read, save
+    from carom.sweeps import sweep
+    from carom.sweeps.designs import Grid, LatinHypercube, Table
+    from carom.sweeps.evaluation import PointStatus
 
 _HOMES = {
     "carom.bodies": (
@@ -53,6 +56,9 @@ _HOMES = {
     "carom.impacts": ("Impact", "impact"),
     "carom.loading": ("LoadPath", "load_path"),
     "carom.storage": ("read", "save"),
+    "carom.sweeps": ("sweep",),
+    "carom.sweeps.designs": ("Grid", "LatinHypercube", "Table"),
+    "carom.sweeps.evaluation": ("PointStatus",),
     "carom.dimensionless.phases": ("Status",),
     "carom.dimensionless.rebounds": ("rebound",),
     "carom.dimensionless.solution": ("Solution", "solve"),
@@ -64,19 +70,23 @@ __all__ = [
     "CollisionStatus",
     "Collisions",
     "Cup",
+    "Grid",
     "HalfSpace",
     "Impact",
     "InputError",
+    "LatinHypercube",
     "LoadPath",
     "Material",
     "MixtureLaw",
     "Pair",
+    "PointStatus",
     "ReboundLaw",
     "RoughLaw",
     "SmoothLaw",
     "Solution",
     "Sphere",
     "Status",
+    "Table",
     "WaltonFit",
     "WaltonLaw",
     "classical",
@@ -94,6 +104,7 @@ __all__ = [
     "regime_map",
     "save",
     "solve",
+    "sweep",
 ]
 
 

@@ -3,13 +3,14 @@
 import math
 import tomllib
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from importlib.resources import files
-from typing import Any
+from typing import Any, TypeVar, cast
 
 from carom.quantities import (
     InputError,
     nearest,
+    not_negative,
     number,
     positive,
     refusal,
@@ -17,12 +18,20 @@ from carom.quantities import (
 
 Value = float | str
 VALUES = ("young", "poisson", "density", "yield_strength")
+T = TypeVar("T")
 
 
 def _set(record: object, **values: object) -> None:
     """Fill a frozen record."""
     for name, value in values.items():
         object.__setattr__(record, name, value)
+
+
+def unchecked(kind: type[T], **values: object) -> T:
+    """Return a frozen record with fields as they are: arrays, checked point by point elsewhere."""
+    record = object.__new__(kind)
+    _set(record, **values)
+    return record
 
 
 @dataclass(frozen=True, init=False)
@@ -193,20 +202,22 @@ class Sphere:
             gyration_radius=None
             if gyration_radius is None
             else positive("gyration_radius", gyration_radius),
-            inner_radius=0.0 if inner_radius is None else positive("inner_radius", inner_radius),
+            inner_radius=0.0
+            if inner_radius is None
+            else not_negative("inner_radius", inner_radius),
         )
         if not self.inner_radius < self.radius:
             raise refusal("inner_radius", inner_radius, f"must be below the radius, {radius!r}")
         if self.material.density is None:
             raise refusal("density", None, "a sphere that moves needs a material with a density")
 
-    @property
+    @cached_property
     def mass(self) -> float:
         """Mass in kg."""
         volume = 4.0 / 3.0 * math.pi * (self.radius**3 - self.inner_radius**3)
-        return volume * (self.material.density or 0.0)
+        return volume * cast(float, self.material.density)
 
-    @property
+    @cached_property
     def gyration_ratio(self) -> float:
         """K^2/R^2: 2/5 for a solid sphere, 2/3 for a thin shell."""
         if self.gyration_radius is not None:

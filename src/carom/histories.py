@@ -44,12 +44,12 @@ PAIR = (
 class Tangential(NamedTuple):
     """Tangential motion: speed of the first centre relative to the second, and the spins.
 
-    Each is a number, or an array along time.
+    Each is a number, or an array: along time, or of many impacts.
     """
 
-    tangential_speed: Any
-    spin: Any
-    spin2: Any
+    tangential_speed: float
+    spin: float
+    spin2: float
 
     def after(self, pair: Pair, impulse: Any) -> "Tangential":
         """Return the motion after an impulse on the contact point of the first body, against +x."""
@@ -59,12 +59,12 @@ class Tangential(NamedTuple):
         )
         return Tangential(self.tangential_speed - impulse / pair.normal_mass, *spins)
 
-    def contact_velocity(self, pair: Pair) -> Any:
+    def contact_velocity(self, pair: Pair) -> float:
         """Return the velocity of the contact point, V_x = v_t + R spin + R_2 spin2, in m/s."""
         carried = (body.radius * spin for body, spin in zip(pair.moving, self[1:], strict=False))
         return self.tangential_speed + sum(carried)
 
-    def spin_energy(self, pair: Pair) -> Any:
+    def spin_energy(self, pair: Pair) -> float:
         """Return the kinetic energy of the spins, (1/2) sum I omega^2, in J."""
         moving = zip(pair.moving, self[1:], strict=False)
         return sum(0.5 * inertia(body) * spin**2 for body, spin in moving)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from math import isfinite
 from pathlib import Path
@@ -15,11 +15,11 @@ from numpy.typing import ArrayLike
 from carom.approach import approach
 from carom.bodies import Sphere, Value
 from carom.contacts import Contact, contact_in_impact
-from carom.dimensionless.solution import Phase, SlipAngle, solve
+from carom.dimensionless.solution import Phase, SlipAngle, Solution, solve
 from carom.fields import radial_fields, surface_fields
 from carom.histories import Tangential, history_columns
 from carom.outcomes import Outcome
-from carom.pairs import Pair
+from carom.pairs import Pair, representable
 from carom.quantities import InputError, counted, finite, number, refusal
 from carom.results import Validity, labelled
 from carom.stress import stress_dataset
@@ -37,6 +37,8 @@ class Impact(Outcome):
     SI units. Tangential speeds are those of the first body relative to the second, positive spin
     adds to the tangential speed of the contact point: V_x = v_t + R spin + R_2 spin2.
     """
+
+    solution: Solution = field(repr=False)
 
     @cached_property
     def phases(self) -> tuple[Phase, ...]:
@@ -293,8 +295,7 @@ def impact(
 def _refuse_overflow(pair: Pair, normal: float, velocity: float) -> None:
     """Refuse sizes and speeds whose scales leave the range of floating-point numbers."""
     try:
-        scales = (*astuple(pair.scales(normal)), velocity)
-        fits = all(isfinite(value) for value in scales) and min(scales[:4]) > 0.0
+        fits = representable(pair.scales(normal), velocity)
     except (OverflowError, ZeroDivisionError):
         fits = False
     if not fits:

@@ -2,19 +2,27 @@
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import atan2, hypot, isfinite, nan
-from typing import Any
+from math import nan
+from typing import Any, Protocol
 
 from carom.bodies import describe
 from carom.dimensionless import hertz
-from carom.dimensionless.solution import Solution
+from carom.elementwise import arctan2, hypot, isfinite, quotient, where
 from carom.histories import PAIR, RESULTS, Tangential
 from carom.pairs import Pair, Scales
 
 
+class Solved(Protocol):
+    """What an outcome needs of a solution; a number, or an array of them."""
+
+    @property
+    def psi_out(self) -> float:
+        """Tangential velocity of the contact point after, dimensionless."""
+
+
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """How two bodies leave an impact; SI units.
+    """How two bodies leave an impact; SI units. Every field but the bodies may be an array.
 
     Tangential speeds are those of the first body relative to the second, positive spin adds to the
     tangential speed of the contact point: V_x = v_t + R spin + R_2 spin2.
@@ -25,29 +33,28 @@ class Outcome:
     tangential_speed: float
     spin: float
     spin2: float
-    solution: Solution = field(repr=False)
+    solution: Solved = field(repr=False)
 
-    @property
+    @cached_property
     def contact_velocity(self) -> float:
         """Tangential velocity of the contact point before, V_x in m/s."""
-        return float(self._before.contact_velocity(self.pair))
+        return self._before.contact_velocity(self.pair)
 
-    @property
+    @cached_property
     def contact_velocity_out(self) -> float:
         """Tangential velocity of the contact point after, in m/s."""
-        if not isfinite(self.psi_in):
-            return self.contact_velocity
-        return self.psi_out * self.scales.tangential_speed
+        slowed = self.psi_out * self.scales.tangential_speed
+        return where(isfinite(self.psi_in), slowed, self.contact_velocity)
 
-    @property
+    @cached_property
     def psi_in(self) -> float:
         """kappa V_x/(mu V_1) before; infinite without friction."""
         return self.pair.psi(self.contact_velocity, self.normal_speed)
 
-    @property
+    @cached_property
     def psi_out(self) -> float:
         """kappa V_x/(mu V_1) after; infinite without friction."""
-        return self.solution.psi_out if isfinite(self.psi_in) else self.psi_in
+        return where(isfinite(self.psi_in), self.solution.psi_out, self.psi_in)
 
     @property
     def tangential_impulse(self) -> float:
@@ -57,23 +64,23 @@ class Outcome:
     @property
     def tangential_speed_out(self) -> float:
         """Tangential speed of the first centre relative to the second after, in m/s."""
-        return float(self._after.tangential_speed)
+        return self._after.tangential_speed
 
     @property
     def spin_out(self) -> float:
         """Spin of the first body after, in rad/s."""
-        return float(self._after.spin)
+        return self._after.spin
 
     @property
     def spin2_out(self) -> float:
         """Spin of the second body after, in rad/s; zero for a half-space or cup."""
-        return float(self._after.spin2)
+        return self._after.spin2
 
     @property
     def _before(self) -> Tangential:
         return Tangential(self.tangential_speed, self.spin, self.spin2)
 
-    @property
+    @cached_property
     def _after(self) -> Tangential:
         return self._before.after(self.pair, self.tangential_impulse)
 
@@ -85,7 +92,7 @@ class Outcome:
     @property
     def rebound_angle(self) -> float:
         """Angle of rebound of the centre from the normal, in rad; negative if it goes back."""
-        return atan2(self.tangential_speed_out, self.normal_speed)
+        return arctan2(self.tangential_speed_out, self.normal_speed)
 
     @property
     def normal_restitution(self) -> float:
@@ -116,7 +123,7 @@ class Outcome:
     @property
     def duration(self) -> float:
         """Duration of the contact, in s."""
-        return float(hertz.DURATION) * self.scales.time
+        return hertz.DURATION * self.scales.time
 
     @property
     def max_penetration(self) -> float:
@@ -155,4 +162,4 @@ class Outcome:
 
 
 def _ratio(after: float, before: float) -> float:
-    return after / before if before != 0.0 else nan
+    return where(before == 0.0, nan, quotient(after, before))

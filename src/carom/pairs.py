@@ -1,9 +1,12 @@
 """A pair of bodies: what of them enters an impact, and the scales that make it dimensionless."""
 
-from dataclasses import asdict, dataclass
-from math import copysign, inf, pi, sqrt
+from dataclasses import dataclass
+from functools import cached_property, reduce
+from math import pi
+from operator import and_
 
 from carom.bodies import Cup, HalfSpace, Material, Sphere, Value
+from carom.elementwise import isfinite, quotient, sqrt, where
 from carom.quantities import InputError, not_negative, refusal
 
 Counterbody = Sphere | HalfSpace | Cup
@@ -28,6 +31,13 @@ class Scales(ContactScales):
     time: float
     energy: float
     tangential_speed: float
+
+
+def representable(scales: Scales, contact_velocity: float) -> bool:
+    """Return whether these scales are numbers that floating point can hold."""
+    finite = [isfinite(value) for value in (*vars(scales).values(), contact_velocity)]
+    sizes = (scales.length, scales.radius, scales.force, scales.pressure)
+    return reduce(and_, [*finite, *(size > 0.0 for size in sizes)])
 
 
 @dataclass(frozen=True, init=False)
@@ -71,27 +81,27 @@ class Pair:
         object.__setattr__(self, "second", second)
         object.__setattr__(self, "friction", not_negative("friction", friction))
 
-    @property
+    @cached_property
     def effective_modulus(self) -> float:
         """E* in Pa."""
         return 1.0 / sum((1.0 - m.poisson**2) / m.young for m in self._materials)
 
-    @property
+    @cached_property
     def effective_shear_modulus(self) -> float:
         """G* in Pa."""
         return 1.0 / sum((2.0 - m.poisson) / (4.0 * m.shear_modulus) for m in self._materials)
 
-    @property
+    @cached_property
     def effective_radius(self) -> float:
         """R* in m."""
         return 1.0 / (self.first.curvature + self.second.curvature)
 
-    @property
+    @cached_property
     def normal_mass(self) -> float:
         """m_n in kg."""
         return 1.0 / sum(1.0 / body.mass for body in self.moving)
 
-    @property
+    @cached_property
     def tangential_mass(self) -> float:
         """m_t in kg."""
         return 1.0 / sum((1.0 + 1.0 / body.gyration_ratio) / body.mass for body in self.moving)
@@ -144,7 +154,7 @@ class Pair:
         stiffness = self.effective_modulus * sqrt(self.effective_radius)
         length = (15.0 * self.normal_mass * normal_speed**2 / (16.0 * stiffness)) ** 0.4
         return Scales(
-            **asdict(self.contact_scales(length)),
+            **vars(self.contact_scales(length)),
             time=length / normal_speed,
             energy=0.5 * self.normal_mass * normal_speed**2,
             tangential_speed=self.friction * normal_speed / self.kappa,
@@ -152,11 +162,8 @@ class Pair:
 
     def psi(self, contact_velocity: float, normal_speed: float) -> float:
         """Return kappa V_x/(mu V_1), infinite without friction."""
-        if contact_velocity == 0.0:
-            return 0.0
-        if self.friction * normal_speed == 0.0:
-            return copysign(inf, contact_velocity)
-        return self.kappa * contact_velocity / (self.friction * normal_speed)
+        ratio = quotient(self.kappa * contact_velocity, self.friction * normal_speed)
+        return where(contact_velocity == 0.0, 0.0, ratio)
 
     @property
     def _materials(self) -> tuple[Material, Material]:

@@ -7,6 +7,7 @@ import typer
 from carom.cli.curve import curve_command
 from carom.cli.impact import impact_command
 from carom.cli.materials import materials_command
+from carom.cli.sweep import sweep_command
 from carom.quantities import InputError
 
 app = typer.Typer(
@@ -19,6 +20,7 @@ app = typer.Typer(
 )
 app.command("impact")(impact_command)
 app.command("curve")(curve_command)
+app.command("sweep")(sweep_command)
 app.command("materials")(materials_command)
 
 

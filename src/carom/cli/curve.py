@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 ROWS = 17  # of the printed table
+HEADERS = (".h",)
 
 
 def curve_command(
@@ -20,12 +21,22 @@ def curve_command(
     points: Annotated[str, typer.Option(help="Number of psi_1, at least 2.")] = "401",
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
     plot: Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")] = None,
-    output: Annotated[str | None, typer.Option(help="Store the curve: .csv or .nc.")] = None,
+    output: Annotated[
+        str | None, typer.Option(help="Store the curve: .csv or .nc; with --export c: .h.")
+    ] = None,
+    export: Annotated[
+        str | None, typer.Option(help="Print source code of psi_2(psi_1) instead: c.")
+    ] = None,
 ) -> None:
     """Tabulate psi_2, restitution and the borders of the regimes against psi_1.
 
-    Example: carom curve --chi 1.44 --chi 2 --plot curve.png
+    Examples: carom curve --chi 1.44 --chi 2 --plot curve.png;
+    carom curve --chi 1.44 --export c --output rebound.h
     """
+    if export is not None:
+        table = {"--json": as_json, "--plot": plot, "--from": start != "0", "--to": stop}
+        _export(chi, export, output, table | {"--points": points != "401"})
+        return
     import numpy as np
 
     from carom.cli.compiling import announced
@@ -52,6 +63,29 @@ def curve_command(
 
             typer.echo(f"stored {save_figure(plot_curve(dataset), plot)}", err=True)
     typer.echo(json.dumps(_record(dataset), indent=2) if as_json else _table(dataset))
+
+
+def _export(chi: list[str], language: str, output: str | None, others: dict[str, Any]) -> None:
+    """Print or store a header that holds the rebound at each chi."""
+    from carom.cli.compiling import announced
+    from carom.laws.exact import ReboundLaw
+    from carom.laws.header import c_header
+    from carom.quantities import InputError, positive, refusal
+    from carom.storage import checked_output, replace_whole
+
+    if language != "c":
+        raise refusal("export", language, "must be c, a header for C and C++")
+    unused = next((name for name, given in others.items() if given), None)
+    if unused is not None:
+        raise InputError(f"{unused}: is of no use with --export; leave one of them out")
+    target = None if output is None else checked_output(output, HEADERS)
+    with announced():
+        text = c_header([ReboundLaw(positive("chi", value)) for value in chi])
+    if target is None:
+        typer.echo(text, nl=False)
+        return
+    replace_whole(target, lambda where: where.write_text(text, encoding="utf-8", newline="\n"))
+    typer.echo(f"stored {target}", err=True)
 
 
 def _record(dataset: "xr.Dataset") -> list[dict[str, Any]]:

@@ -62,7 +62,8 @@ def impact_command(
 
     A case file with figures: carom impact examples/steel_ball.toml --plot hit.png --animate hit.gif
     """
-    from carom.cli.cases import merged, outputs, read_case, solve_case
+    from carom.cases import read_case
+    from carom.cli.cases import merged, outputs, solve_case
     from carom.cli.compiling import announced
 
     flags = {

@@ -5,22 +5,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, Protocol
 
-import array_api_compat
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from carom.bodies import Sphere
 from carom.collisions.compiled import Motions, collide_all
 from carom.collisions.portable import collide_arrays
+from carom.collisions.reading import NAMES, common_shape, is_foreign, vectors
 from carom.collisions.records import Collisions, CollisionStatus, Inertia, inertia_of
 from carom.laws.exact import law_of
 from carom.laws.rules import Rule
 from carom.pairs import Pair
-from carom.quantities import InputError, refusal
+from carom.quantities import counted, refusal
 
 __all__ = ["CollisionLaw", "CollisionStatus", "Collisions", "collide"]
-
-NAMES = ("velocity1", "spin1", "velocity2", "spin2", "normal")
 
 
 class CollisionLaw(Protocol):
@@ -93,36 +91,38 @@ def collide(
         raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
     if spin2 is not None and not isinstance(pair.second, Sphere):
         raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
-    rule = (law or law_of(pair.chi)).rule(pair)
+    if threads is not None:
+        threads = counted("threads", threads, 1)
+    rule = _rule(law, pair)
     given = (velocity1, spin1, velocity2, spin2, normal)
-    if any(_is_foreign(each) for each in given):
+    if any(is_foreign(each) for each in given):
         if inplace:
             raise refusal("inplace", inplace, "only NumPy arrays can be written into")
         return collide_arrays(given, inertia_of(pair), rule)
     return _collide_numpy(given, inertia_of(pair), rule, inplace, threads)
 
 
-def _is_foreign(values: Any) -> bool:
-    return array_api_compat.is_array_api_obj(values) and not isinstance(
-        values, np.ndarray | np.generic
-    )
+def _rule(law: CollisionLaw | None, pair: Pair) -> Rule:
+    chosen = law_of(pair.chi) if law is None else law
+    if isinstance(chosen, type) or not callable(getattr(chosen, "rule", None)):
+        raise refusal("law", law, "must be a ReboundLaw, SmoothLaw, RoughLaw or WaltonLaw")
+    return chosen.rule(pair)
 
 
 def _collide_numpy(
     given: tuple[Any, ...], inertia: Inertia, rule: Rule, inplace: bool, threads: int | None
 ) -> Collisions:
-    arrays = [_vectors(name, values) for name, values in zip(NAMES, given, strict=True)]
-    shape = _common_shape(arrays)
+    arrays = [vectors(name, values) for name, values in zip(NAMES, given, strict=True)]
+    shape = common_shape(arrays)
     kind = np.result_type(*(each for each in arrays if each is not None))
     *before, axis = (_whole(each, shape, kind) for each in arrays)
-    moving = (True, True, inertia.inverse_mass2 > 0.0, inertia.inverse_mass2 > 0.0)
+    moving = 4 if inertia.inverse_mass2 > 0.0 else 2
     if inplace:
-        for name, values, whole, moves in zip(NAMES, given, before, moving, strict=False):
-            _check_writable(name, values, whole, moves)
-    after = [
-        np.empty_like(each) if moves and not inplace else each
-        for each, moves in zip(before, moving, strict=True)
-    ]
+        _check_writable(given, [*before, axis], moving)
+        after = before
+    else:
+        after = [np.empty_like(each) for each in before[:moving]]
+        after += [each.copy() for each in before[moving:]]
     status = np.empty(shape[:-1], dtype=np.int8)
     old, normal = Motions(*(_read_only(each) for each in before)), _read_only(axis)
     new = Motions(*(each.reshape(-1) for each in after))
@@ -138,31 +138,6 @@ def _read_only(array: NDArray[np.floating]) -> NDArray[np.floating]:
     return flat
 
 
-def _vectors(name: str, values: ArrayLike | None) -> NDArray[np.floating] | None:
-    """Return what is given as vectors of floating-point numbers."""
-    if values is None:
-        return None
-    try:
-        array = np.asarray(values)
-    except ValueError:
-        raise refusal(name, values, "must be an array of shape (..., 3)") from None
-    if array.dtype.kind not in "fiu" or array.shape[-1:] != (3,):
-        raise refusal(name, values, "must be an array of real numbers of shape (..., 3)")
-    return array if array.dtype == np.float32 else np.asarray(array, dtype=np.float64)
-
-
-def _common_shape(arrays: Sequence[NDArray[np.floating] | None]) -> tuple[int, ...]:
-    shapes = {name: a.shape for name, a in zip(NAMES, arrays, strict=True) if a is not None}
-    for name in ("velocity1", "normal"):
-        if name not in shapes:
-            raise InputError(f"{name}: missing; give an array of shape (..., 3)")
-    try:
-        return np.broadcast_shapes(*shapes.values())
-    except ValueError:
-        words = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
-        raise InputError(f"shapes: {words} do not broadcast; give (N, 3) or (3,) each") from None
-
-
 def _whole(
     array: NDArray[np.floating] | None, shape: tuple[int, ...], kind: np.dtype[Any]
 ) -> NDArray[np.floating]:
@@ -172,12 +147,18 @@ def _whole(
     return np.ascontiguousarray(whole, dtype=kind)
 
 
-def _check_writable(name: str, given: Any, whole: NDArray[np.floating], moves: bool) -> None:
-    """Refuse what cannot be written into: whatever had to be copied to be used."""
-    if given is None or not moves:
-        return
-    if not (isinstance(given, np.ndarray) and np.shares_memory(given, whole)):
-        allowed = f"to be written in place it must be a C-ordered {whole.dtype} array of full shape"
-        raise refusal(name, given, f"{allowed}, {whole.shape}")
-    if not given.flags.writeable:
-        raise refusal(name, given, "it is read-only; pass inplace=False")
+def _check_writable(
+    given: tuple[Any, ...], used: Sequence[NDArray[np.floating]], moving: int
+) -> None:
+    """Refuse to write into what had to be copied to be used, or lies in the same memory."""
+    for place, (name, values, whole) in enumerate(zip(NAMES, given, used, strict=True)):
+        if values is None or place >= moving:
+            continue
+        if not (isinstance(values, np.ndarray) and np.shares_memory(values, whole)):
+            allowed = f"to be written in place it must be a C-ordered {whole.dtype} array of shape"
+            raise refusal(name, values, f"{allowed} {whole.shape}")
+        if not values.flags.writeable:
+            raise refusal(name, values, "it is read-only; pass inplace=False")
+        for other, array in zip(NAMES, used, strict=True):
+            if other != name and np.may_share_memory(whole, array):
+                raise refusal(name, values, f"it shares memory with {other}; pass inplace=False")

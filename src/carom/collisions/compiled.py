@@ -111,9 +111,10 @@ def impulses(
 
 @kernel
 def add(before: Flat, factor: float, change: Array, after: Flat) -> None:
-    """Write before + factor change."""
+    """Write before + factor change; where nothing changes not even the sign of a zero does."""
     for k in range(before.size):
-        after[k] = before[k] + factor * change[k]
+        step = factor * change[k]
+        after[k] = before[k] + step if step != 0.0 else before[k]
 
 
 @kernel

@@ -41,7 +41,7 @@ def outgoing(psi: float, chi: float, work: Work, record: Record) -> tuple[float,
 @kernel
 def code_of_phases(record: Record) -> int:
     """Return a number that tells one sequence of phases and stretches of memory from another."""
-    code = 1 + record.counts[1]
+    code = 1 + int(record.counts[1])
     for row in range(record.counts[2]):
         digit = 3 * int(record.changes[row, KIND]) + int(record.changes[row, KIND_SIGN]) + 1
         code = (code * 16 + digit) % 2147483629  # a prime: sequences of any length stay apart

@@ -15,7 +15,7 @@ from carom.dimensionless import hertz
 from carom.dimensionless.chebyshev import Panels, fitted
 from carom.dimensionless.phases import Status
 from carom.dimensionless.rebounds import solved
-from carom.laws.portable import like, one_plus_beta
+from carom.laws.portable import applied, lost
 from carom.laws.rules import Rule, frozen
 from carom.pairs import Pair
 from carom.quantities import InputError, positive, refusal
@@ -77,22 +77,24 @@ class ReboundLaw:
 
     def __call__(self, psi: Any) -> Any:
         """Return psi_2 for an array of any library that follows the array API standard."""
-        incoming, xp = like(psi)
-        return incoming - incoming * one_plus_beta(xp.abs(incoming), self._rule, xp)
+        return applied(lambda incoming, xp: incoming - lost(incoming, self._rule, xp), "psi", psi)
 
     def impulse(self, psi: Any) -> Any:
         """Return tangential impulse over friction times normal impulse, (psi_1 - psi_2)/(4 chi).
 
         It is 1 in gross slip throughout; mu 2 m_n V_1 makes it N s.
         """
-        incoming, xp = like(psi)
-        return incoming * one_plus_beta(xp.abs(incoming), self._rule, xp) / (4.0 * self.chi)
+        bound = self._rule.sliding
+        return applied(lambda incoming, xp: lost(incoming, self._rule, xp) / bound, "psi", psi)
 
     def dissipation(self, psi: Any) -> Any:
         """Return the dissipated energy psi_1^2 - psi_2^2; (m_t/2)(mu V_1/kappa)^2 makes it J."""
-        incoming, xp = like(psi)
-        lost = one_plus_beta(xp.abs(incoming), self._rule, xp)
-        return incoming**2 * lost * (2.0 - lost)
+
+        def energy(incoming: Any, xp: Any) -> Any:
+            change = lost(incoming, self._rule, xp)
+            return change * (2.0 * incoming - change)
+
+        return applied(energy, "psi", psi)
 
     @property
     def duration(self) -> float:
@@ -107,7 +109,10 @@ class ReboundLaw:
     def rule(self, pair: Pair) -> Rule:
         """Return what a collision of this pair needs; InputError if its chi is another."""
         if abs(pair.chi - self.chi) > 1e-9 * self.chi:
-            raise refusal("law", f"chi = {self.chi:.10g}", f"the pair has chi = {pair.chi:.10g}")
+            raise InputError(
+                f"law: it is for chi = {self.chi:.10g}, the pair has chi = {pair.chi:.10g}; "
+                "make ReboundLaw(pair.chi)"
+            )
         if pair.friction == 0.0:
             return self._rule._replace(sliding=0.0)
         return self._rule._replace(scale=pair.kappa / pair.friction)
@@ -137,15 +142,18 @@ class ReboundLaw:
         """Return the law of a stored table, to the last bit, without solving an impact."""
         try:
             edges, rows = (np.array(table[name], float) for name in ("edges", "coefficients"))
-            fits = rows.ndim == 2 and edges.shape == (rows.shape[0] + 1,)
             chi = positive("chi", table["chi"])
+            whole = _is_whole(chi, edges, rows)
         except (KeyError, TypeError, ValueError):
-            fits = False
-        if not fits or not np.all(np.isfinite(rows)) or np.any(np.diff(edges) <= 0.0):
+            whole = False
+        if not whole:
             raise InputError("table: not one of a ReboundLaw; give what to_dict returned")
         law = object.__new__(cls)
         law._hold(chi, Panels(edges, rows))
         return law
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self).from_dict, (self.to_dict(),)
 
     def __repr__(self) -> str:
         return f"ReboundLaw(chi={self.chi!r})"
@@ -157,9 +165,24 @@ def law_of(chi: float) -> ReboundLaw:
     return ReboundLaw(chi)
 
 
+def _borders(chi: float) -> list[float]:
+    return [SMALLEST, 1.0] if chi <= 0.5 else [SMALLEST, 1.0, 2.0 * chi, 4.0 * chi - 1.0]
+
+
+def _is_whole(chi: float, edges: Array, rows: Array) -> bool:
+    """Tell whether a table is that of a law: its ends, its order, no gap in psi_2 at an edge."""
+    borders = _borders(chi)
+    if rows.ndim != 2 or rows.shape[1] == 0 or edges.shape != (rows.shape[0] + 1,):
+        return False
+    ends = edges[0] == borders[0] and edges[-1] == borders[-1]
+    starts = rows @ (-1.0) ** np.arange(rows.shape[1])
+    after = np.append(starts[1:], 1.0 - 4.0 * chi / borders[-1])
+    gaps = np.abs(rows.sum(axis=1) - after) * edges[1:]
+    return bool(ends and np.all(np.diff(edges) > 0.0) and np.all(gaps < 1e-8))
+
+
 def _panels(chi: float) -> Panels:
     """Return the table of r = psi_2/psi_1 between the regime borders."""
-    borders = [SMALLEST, 1.0] if chi <= 0.5 else [SMALLEST, 1.0, 2.0 * chi, 4.0 * chi - 1.0]
 
     def ratio(psi: Array) -> tuple[Array, NDArray[np.int64]]:
         outgoing, status, sequence = solved(psi, np.full(psi.size, chi))
@@ -168,4 +191,4 @@ def _panels(chi: float) -> Panels:
             raise refusal("chi", chi, f"its rebounds are {message}")
         return outgoing / psi, sequence
 
-    return fitted(ratio, borders, DEGREE, TOLERANCE, singular=borders[1:2])
+    return fitted(ratio, _borders(chi), DEGREE, TOLERANCE, singular=(1.0,))

@@ -1,0 +1,135 @@
+"""`carom sweep`: many impacts from a case file with a table [sweep]."""
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from math import degrees, isfinite, isnan
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from carom.glossary import GLOSSARY
+
+if TYPE_CHECKING:
+    from carom.cases import Case
+    from carom.sweeps.summaries import Summary
+
+
+def sweep_command(
+    case: Annotated[Path, typer.Argument(help="Case file with a table [sweep].")],
+    store: Annotated[
+        str | None, typer.Option(help="Store block by block in a Zarr folder, e.g. sweep.zarr.")
+    ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Continue what the store has of this sweep.")
+    ] = False,
+    output: Annotated[str | None, typer.Option(help="Store at the end: .nc or .csv.")] = None,
+    scheduler: Annotated[
+        str | None, typer.Option(help="Use a dask cluster, e.g. tcp://host:8786.")
+    ] = None,
+    workers: Annotated[int | None, typer.Option(help="Threads (default: all cores).")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    progress: Annotated[
+        bool | None,
+        typer.Option("--progress/--no-progress", help="Show a bar (default: on a terminal)."),
+    ] = None,
+) -> None:
+    """Solve the impacts of a grid, a Latin hypercube or a table of cases.
+
+    Example: carom sweep examples/sweep.toml --output sweep.nc
+
+    One that may be killed: carom sweep examples/sweep.toml --store sweep.zarr --resume
+    """
+    from carom.cases import read_case
+    from carom.cli.compiling import announced
+    from carom.storage import TABLES, checked_output, save
+    from carom.sweeps import sweep
+    from carom.sweeps.plans import plan
+    from carom.sweeps.summaries import summary
+
+    content = read_case(case)
+    file = output or _file(content)
+    if file is not None:
+        checked_output(file, TABLES)
+    design, outputs = plan(content, case)
+    with announced(), _stopping():
+        dataset = sweep(
+            content,
+            design,
+            outputs=outputs,
+            store=store,
+            resume=resume,
+            scheduler=scheduler,
+            workers=workers,
+            progress=progress,
+        )
+    if file is not None:
+        save(dataset, file)
+    result = summary(dataset, outputs)
+    typer.echo(json.dumps(_record(result, store, file), indent=2) if as_json else _table(result))
+    for path in filter(None, (store, file)):
+        typer.echo(f"stored {path}", err=True)
+    if store is None and file is None:
+        typer.echo("not stored; --store sweep.zarr or --output sweep.nc keeps it", err=True)
+
+
+def _file(content: "Case") -> str | None:
+    """Return the file that the case asks for; figures are of one impact."""
+    from carom.cli.cases import outputs
+    from carom.quantities import refusal
+
+    files = outputs(content)
+    for name in ("plot", "animation"):
+        if (path := getattr(files, name)) is not None:
+            raise refusal(name, path, "a sweep draws none; leave it out")
+    return files.data
+
+
+@contextmanager
+def _stopping() -> Iterator[None]:
+    """If a sweep stops, say in one line why and what is safe, and exit with 1."""
+    from carom.sweeps.records import SweepStopped
+
+    try:
+        yield
+    except (SweepStopped, KeyboardInterrupt) as error:
+        stopped = "stopped; " if isinstance(error, KeyboardInterrupt) else ""
+        typer.echo(f"carom: {stopped}{error}", err=True)
+        raise typer.Exit(1) from None
+
+
+def _record(result: "Summary", store: str | None, output: str | None) -> dict[str, Any]:
+    """Return the summary as what JSON can hold; what is not a number becomes null."""
+    ranges = {
+        name: {"min": _finite(low), "max": _finite(high), "units": GLOSSARY[name].unit}
+        for name, (low, high) in result.ranges.items()
+    }
+    return {
+        "points": result.points,
+        "sizes": result.sizes,
+        "status": result.statuses,
+        "ranges": ranges,
+        "store": store,
+        "output": output,
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if isfinite(value) else None
+
+
+def _table(result: "Summary") -> str:
+    along = ", ".join(f"{name} ({size})" for name, size in result.sizes.items())
+    statuses = [f"  {meaning:58s} {count:13d}" for meaning, count in result.statuses.items()]
+    head = f"  {'':58s} {'from':>13s} {'to':>13s}"
+    ranges = [_range(name, *span) for name, span in result.ranges.items()]
+    return "\n".join([f"{result.points} points along {along}", *statuses, head, *ranges])
+
+
+def _range(name: str, low: float, high: float) -> str:
+    unit = GLOSSARY[name].unit
+    if unit == "rad":
+        low, high, unit = degrees(low), degrees(high), "deg"
+    values = " ".join("-".rjust(13) if isnan(x) else f"{x:13.6g}" for x in (low, high))
+    return f"  {GLOSSARY[name].meaning:58s} {values}{'' if unit == '1' else f' {unit}'}"

@@ -1,0 +1,137 @@
+"""The exact rebound as a C header: tables and their evaluation, for simulations in C or C++."""
+
+from collections.abc import Sequence
+from string import Template
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.laws.exact import ReboundLaw
+from carom.quantities import InputError
+from carom.results import carom_version
+
+HEADER = Template("""\
+/* The exact oblique impact of elastic spheres: psi_2(psi_1), to 1e-9, at chi = $chis.
+ *
+ * Written by Carom $version; its licence, BSD 3-Clause, is that of this file.
+ *
+ * psi = kappa V_x / (mu V_1) is the tangential velocity of the contact point over that of approach,
+ * with kappa = G* / E*, chi = (kappa / 2)(m_n / m_t). After the impact
+ *
+ *     V_x' = (mu V_1 / kappa) psi_2,    J_x = m_t (V_x' - V_x),    V_n' = -V_n.
+ *
+ * psi_2 = psi_1 r(|psi_1|), r a polynomial on each panel; psi_2 = psi_1 -+ 4 chi in gross slip
+ * throughout (Maw, Barber & Fawcett 1976; Barber 1979). C99 or C++, no state, nothing to link.
+ */
+#ifndef $guard
+#define $guard
+$functions
+#endif
+""")
+
+FUNCTION = Template("""
+/* Return psi_2 at chi = $chi; NaN of NaN. */
+static inline double $name(double psi)
+{
+    enum { panels = $panels, terms = $terms };
+    /* where panels begin, the first also taking what lies below, and where the last one ends */
+    static const double edges[panels + 1] = {
+$edges
+    };
+    /* place = slope |psi| + shift goes from -1 to 1 over a panel */
+    static const double places[panels][2] = {
+$places
+    };
+    /* 1 - r in rising powers of the place */
+    static const double powers[panels][terms] = {
+$powers
+    };
+    const double limit = $limit; /* 4 chi: psi_1 - psi_2 in gross slip */
+    const double size = psi < 0.0 ? -psi : psi;
+    double place, part, lost;
+    int low = 0, high = panels, middle, k;
+
+    if (size >= edges[panels])
+        return psi < 0.0 ? psi + limit : psi - limit;
+    while (high - low > 1) {
+        middle = (low + high) / 2;
+        if (size < edges[middle])
+            high = middle;
+        else
+            low = middle;
+    }
+    place = places[low][0] * size + places[low][1];
+    part = powers[low][terms - 1];
+    for (k = terms - 2; k >= 0; --k)
+        part = part * place + powers[low][k];
+    part = part < 0.0 ? 0.0 : part > 2.0 ? 2.0 : part; /* beyond, energy would grow */
+    lost = part * size > limit ? limit : part * size;
+    return psi < 0.0 ? psi + lost : psi - lost;
+}
+""")
+
+
+def c_header(laws: Sequence[ReboundLaw]) -> str:
+    """Return a C99 header that evaluates one law or more, as `ReboundLaw` does.
+
+    One law becomes `double carom_rebound(double psi)`; of several, each has its chi in its name:
+    `carom_rebound_1_44`.
+
+    Parameters
+    ----------
+    laws : sequence of ReboundLaw
+        Their chi must differ.
+
+    Raises
+    ------
+    InputError
+        If a chi comes twice.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.laws.header import c_header
+    >>> text = c_header([carom.ReboundLaw(0.5), carom.ReboundLaw(1.44)])
+    >>> print(*(line for line in text.splitlines() if line.startswith("static")), sep="\n")
+    static inline double carom_rebound_0_5(double psi)
+    static inline double carom_rebound_1_44(double psi)
+    """
+    suffixes = [_identifier(law.chi) for law in laws]
+    for index, law in enumerate(laws):
+        if suffixes[index] in suffixes[:index]:
+            raise InputError(f"chi: {law.chi:g} comes twice; give each chi once")
+    names = ["carom_rebound"] if len(laws) == 1 else [f"carom_rebound_{one}" for one in suffixes]
+    return HEADER.substitute(
+        chis=", ".join(repr(law.chi) for law in laws),
+        version=carom_version(),
+        guard=f"CAROM_REBOUND_{'_AND_'.join(suffixes)}_H".upper(),
+        functions="".join(map(_function, names, laws)),
+    )
+
+
+def _identifier(chi: float) -> str:
+    return f"{chi!r}".removesuffix(".0").translate(str.maketrans(".-", "_m", "+"))
+
+
+def _function(name: str, law: ReboundLaw) -> str:
+    table = law._rule
+    places = zip(table.slopes[:-1], table.shifts[:-1], strict=True)
+    return FUNCTION.substitute(
+        name=name,
+        chi=repr(law.chi),
+        panels=len(law.coefficients),
+        terms=len(table.powers),
+        edges=_row(table.edges, 8),
+        places="\n".join(f"{' ' * 8}{{{float(a)!r}, {float(b)!r}}}," for a, b in places),
+        powers="\n".join(
+            f"{' ' * 8}{{\n{_row(panel, 12)}\n{' ' * 8}}}," for panel in table.powers.T[:-1]
+        ),
+        limit=repr(table.sliding),
+    )
+
+
+def _row(values: NDArray[np.float64], indent: int) -> str:
+    """Return numbers that C reads to the last bit, three a line."""
+    words = [repr(float(value)) for value in values]
+    lines = (words[start : start + 3] for start in range(0, len(words), 3))
+    return ",\n".join(" " * indent + ", ".join(line) for line in lines)

@@ -1,0 +1,132 @@
+"""Many impacts: any inputs as axes or as samples in, one labelled dataset out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, closing, contextmanager, nullcontext
+from math import prod
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from carom.quantities import InputError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from carom.sweeps.blocks import Box, Values
+    from carom.sweeps.designs import Design
+    from carom.sweeps.evaluation import Problem
+    from carom.sweeps.records import Record
+
+__all__ = ["sweep"]
+
+
+def sweep(
+    case: Mapping[str, Any],
+    design: Design,
+    *,
+    outputs: Sequence[str] | None = None,
+    store: str | Path | None = None,
+    resume: bool = False,
+    scheduler: str | None = None,
+    workers: int | None = None,
+    progress: bool | None = None,
+) -> xr.Dataset:
+    """Return many impacts as one dataset: those of a design, each with a status that explains it.
+
+    Every point is the impact of `carom.impact`, solved exactly (Maw, Barber & Fawcett 1976). The
+    result does not depend, to the last bit, on who computed it: threads here, or a dask cluster.
+
+    Parameters
+    ----------
+    case : mapping
+        What all impacts have in common, as in a case file: friction, speed, angle, first, second.
+    design : Grid, LatinHypercube or Table
+        In what they differ.
+    outputs : sequence of str, optional
+        Names of results, by default all.
+    store : str or Path, optional
+        A folder, ending in .zarr, that takes the results block by block; the dataset that is
+        returned then reads them when they are used.
+    resume : bool
+        Continue what the store has of this sweep: nothing that was finished is computed again.
+    scheduler : str, optional
+        Address of the scheduler of a dask.distributed cluster, tcp://host:8786, whose workers have
+        the same versions of carom, numpy and numba.
+    workers : int, optional
+        Threads of this process, by default one for each core.
+    progress : bool, optional
+        Show a bar on stderr once two seconds have passed; by default if that is a terminal.
+
+    Returns
+    -------
+    xarray.Dataset
+        Along the dimensions of the design: the outputs, NaN where there is none, and `status`.
+
+    Raises
+    ------
+    InputError
+        If something cannot be used: the case, the design, a store of another sweep or version, or
+        one that another process is writing, a scheduler that does not answer.
+    SweepStopped
+        If it could not go on, for instance as the disk is full; what is stored is safe.
+
+    Examples
+    --------
+    >>> from carom.sweeps import sweep
+    >>> from carom.sweeps.designs import Grid
+    >>> case = {"first": {"radius": "5 mm", "material": "steel"}, "speed": "2 m/s"}
+    >>> grid = Grid({"angle": ["20 deg", "60 deg"], "friction": [0.1, 0.2, 0.3]})
+    >>> result = sweep(case, grid)
+    >>> dict(result.sizes), int(result.status.max())
+    ({'angle': 2, 'friction': 3}, 0)
+    """
+    from carom.sweeps.evaluation import Problem
+    from carom.sweeps.schedulers import team
+
+    problem = Problem(case, design, outputs)
+    with team(scheduler, workers, problem) as those, _record(problem, store, resume) as record:
+        with _telling_what_is_safe(record), closing(those.results(record.todo)) as results:
+            _fill(record, prod(design.shape), results, progress)
+        return record.dataset()
+
+
+def _fill(
+    record: Record, total: int, results: Iterable[tuple[Box, Values]], progress: bool | None
+) -> None:
+    """Write blocks as they come, and show how far it is."""
+    from carom.sweeps.blocks import points
+    from carom.sweeps.progress import progress_bar
+
+    left = sum(points(box) for box in record.todo)
+    with progress_bar(total, total - left, progress) as bar:
+        for box, values in results:
+            record.write(box, values)
+            bar.update(points(box))
+
+
+def _record(
+    problem: Problem, store: str | Path | None, resume: bool
+) -> AbstractContextManager[Record]:
+    """Return what keeps the results: a store, or memory."""
+    if store is None:
+        if resume:
+            raise InputError("resume: there is nothing to continue; give the store, too")
+        from carom.sweeps.records import Memory
+
+        return nullcontext(Memory(problem))
+    from carom.sweeps.stores import opened
+
+    return opened(store, problem, resume)
+
+
+@contextmanager
+def _telling_what_is_safe(record: Record) -> Iterator[None]:
+    from carom.sweeps.records import SweepStopped
+
+    try:
+        yield
+    except SweepStopped as error:
+        raise SweepStopped(f"{error}; {record.safe()}") from None
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(record.safe()) from None

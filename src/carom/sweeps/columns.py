@@ -1,0 +1,146 @@
+"""Every input of a block of impacts by name: what a case says and what a design gives, together."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.cases import KINDS, MOTION, SIZES, Case, as_kind, check_case, material_values, pair_of
+from carom.quantities import InputError, not_negative
+from carom.sweeps.designs import Design
+from carom.sweeps.inputs import BODIES, ELASTIC, Choice, leaf, refuse_contradictions
+
+OF_SECOND = {  # what describes a second body of each kind
+    "half-space": ("material.young", "material.poisson"),
+    "cup": ("radius", "material.young", "material.poisson"),
+    "sphere": (*SIZES, *(f"material.{name}" for name in ELASTIC)),
+}
+OPTIONAL = ("gyration_radius", "inner_radius")
+AT_REST = {"angle": 0.0, "tangential_speed": 0.0, "spin": 0.0, "spin2": 0.0}
+
+
+@dataclass(frozen=True, eq=False)
+class Common:
+    """What the impacts of a sweep have in common, in SI units, made by `common`.
+
+    `kinds` are those of the second body, `inherits` whether it is made of what the first is.
+    """
+
+    fixed: Mapping[str, float]
+    kinds: tuple[str, ...]
+    inherits: bool
+
+    def columns(self, given: Mapping[str, Any], design: Design, kind: str) -> dict[str, Any]:
+        """Return the inputs of impacts on a body of this kind: numbers, or an array of them."""
+        columns: dict[str, Any] = {name: np.float64(v) for name, v in self.fixed.items()}
+        for name, values in given.items():
+            if leaf(name) == "material":
+                columns |= _taken_apart(name, values, design.choices[name])
+            elif leaf(name) != "kind":
+                columns[name] = values
+        if kind == "sphere":
+            _inherit(columns, "radius")
+        if self.inherits:
+            _inherit(columns, *(f"material.{name}" for name in ELASTIC))
+        return {**AT_REST, **{n: v for n, v in columns.items() if _belongs(n, kind)}}
+
+    def groups(self, given: Mapping[str, Any], design: Design) -> Iterator[tuple[str, Any]]:
+        """Yield the kinds of second bodies, and the points of each."""
+        if "second.kind" not in given:
+            yield self.kinds[0], slice(None)
+            return
+        for code, choice in enumerate(design.choices["second.kind"]):
+            where = np.flatnonzero(given["second.kind"] == code)
+            if where.size:
+                yield choice.label, where
+
+
+def common(case: Case, design: Design) -> Common:
+    """Return what the impacts have in common.
+
+    Raises InputError if case and design do not give everything that an impact needs, or something
+    in two ways, or what the second body does not have.
+    """
+    check_case(case)
+    second, names = case.get("second", {}), design.names
+    kinds: tuple[str, ...] = (as_kind(second.get("kind", KINDS[0])),)
+    if "second.kind" in names:
+        kinds = tuple(choice.label for choice in design.choices["second.kind"])
+    inherits = second.get("material") is None and "second.material" not in names
+    fixed = {name: value for name, value in _numbers(case) if not _replaced(name, names)}
+    if fixed.get("spin2") == 0.0:  # every body may be without
+        del fixed["spin2"]
+    if "sphere" not in kinds:  # a material may have more than a fixed body needs
+        fixed.pop("second.material.density", None)
+    refuse_contradictions({*names, *(name for name in fixed if "material" not in name)})
+    whole = Common(fixed, kinds, inherits)
+    _refuse_foreign(whole, names)
+    _refuse_missing(whole, design)
+    if not any("." in name for name in names):
+        pair_of({**case, "friction": 0.0})  # bodies that do not fit are refused at once
+    return whole
+
+
+def _numbers(case: Case) -> Iterator[tuple[str, float]]:
+    """Yield the numbers of a case by name, each of them checked."""
+    for name, check in {"friction": not_negative, **MOTION}.items():
+        if case.get(name) is not None:
+            yield name, check(name, case[name])
+    for body in BODIES:
+        table = case.get(body, {})
+        for name, check in SIZES.items():
+            if table.get(name) is not None:
+                yield f"{body}.{name}", check(name, table[name])
+        if table.get("material") is not None:
+            for name, value in material_values(table["material"]).items():
+                if name in ELASTIC:
+                    yield f"{body}.material.{name}", value
+
+
+def _replaced(name: str, names: tuple[str, ...]) -> bool:
+    """Whether a design gives this number, or the material that it is of."""
+    return name in names or (".material." in name and name.rpartition(".")[0] in names)
+
+
+def _inherit(columns: dict[str, Any], *names: str) -> None:
+    for name in names:
+        if f"first.{name}" in columns:
+            columns.setdefault(f"second.{name}", columns[f"first.{name}"])
+
+
+def _belongs(name: str, kind: str) -> bool:
+    body, _, rest = name.partition(".")
+    return rest in OF_SECOND[kind] if body == "second" else name != "spin2" or kind == "sphere"
+
+
+def _taken_apart(
+    name: str, codes: NDArray[Any], choices: tuple[Choice, ...]
+) -> dict[str, NDArray[np.float64]]:
+    """Return the numbers of materials that are given by name; the last code, -1, has none."""
+    numbers = {}
+    for key in ELASTIC:
+        table = np.array([*(choice.values.get(key, np.nan) for choice in choices), np.nan])
+        numbers[f"{name}.{key}"] = table[codes]
+    return numbers
+
+
+def _refuse_foreign(whole: Common, names: tuple[str, ...]) -> None:
+    for name in (*names, *whole.fixed):
+        if name in ("second.kind", "second.material"):
+            continue
+        if not any(_belongs(name, kind) for kind in whole.kinds):
+            raise InputError(f"{name}: a {' or '.join(whole.kinds)} has none; leave it out")
+
+
+def _refuse_missing(whole: Common, design: Design) -> None:
+    given = design.inputs(tuple(slice(0, 1) for _ in design.shape))
+    for kind in whole.kinds:
+        columns = whole.columns(given, design, kind)
+        needed = ["friction", "first.radius", *(f"first.material.{name}" for name in ELASTIC)]
+        needed += [f"second.{name}" for name in OF_SECOND[kind] if name not in OPTIONAL]
+        needed += ["normal_speed" if "normal_speed" in columns else "speed"]
+        for name in needed:
+            if name not in columns:
+                raise InputError(f"{name}: missing; give it in the case or in the design")

@@ -1,0 +1,133 @@
+"""Inputs of sweeps: their names, their meaning, and those whose values are names themselves."""
+
+from collections.abc import Iterable, Mapping
+from math import isinf
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.cases import MOTION, SIZES, as_kind, material_values, read_material
+from carom.glossary import GLOSSARY
+from carom.quantities import InputError, nearest, refusal
+
+Array = NDArray[np.float64]
+Box = tuple[slice, ...]
+CODE = np.int8
+
+ELASTIC = ("young", "poisson", "density")
+BODIES = ("first", "second")
+CHOSEN = ("first.material", "second.material", "second.kind")  # by name, not by number
+INPUTS = (
+    "friction",
+    *MOTION,
+    *(f"{body}.{size}" for body in BODIES for size in SIZES),
+    *(f"{body}.material.{value}" for body in BODIES for value in ELASTIC),
+    *CHOSEN,
+)
+EXCLUSIVE = [  # what cannot be given together, and why
+    ({"speed", "angle"}, {"normal_speed", "tangential_speed"}, "both tell how the bodies approach")
+]
+for _body in BODIES:
+    _values = {f"{_body}.material.{value}" for value in ELASTIC}
+    _inertia = ({f"{_body}.gyration_radius"}, {f"{_body}.inner_radius"}, "both give its inertia")
+    EXCLUSIVE += [_inertia, ({f"{_body}.material"}, _values, "both tell what it is made of")]
+UNREADABLE = -1  # code of a choice
+MOST = np.iinfo(CODE).max  # choices
+
+
+class Choice(NamedTuple):
+    """One of the values of an input that has names: a material with its numbers, or a kind."""
+
+    label: str
+    values: dict[str, float]
+
+    def description(self) -> dict[str, Any]:
+        """Return it as JSON can hold it."""
+        numbers = {name: "inf" if isinf(value) else value for name, value in self.values.items()}
+        return {"label": self.label, **numbers}
+
+
+Choices = Mapping[str, tuple[Choice, ...]]
+
+
+def leaf(name: str) -> str:
+    """Return the last part of a name: what the glossary calls it."""
+    return name.rpartition(".")[2]
+
+
+def variable(name: str) -> str:
+    """Return how datasets call an input."""
+    return name.replace(".", "_")
+
+
+def input_attributes(name: str, choices: Choices) -> dict[str, Any]:
+    """Return unit and meaning of an input for a dataset, or its meaning alone if it has names."""
+    body = f" of the {name.partition('.')[0]} body" if "." in name else ""
+    if name in choices:
+        return {"long_name": f"{leaf(name)}{body}"}
+    entry = GLOSSARY[leaf(name)]
+    meaning = f"{entry.meaning}{body}"
+    return {"units": entry.unit, "long_name": meaning, "symbol": entry.symbol}
+
+
+def checked_names(given: Iterable[Any]) -> tuple[str, ...]:
+    """Return names of inputs, or raise InputError for one that is unknown or contradicts others."""
+    names = tuple(given)
+    if not names:
+        raise InputError("design: no inputs; give at least one, e.g. 'angle'")
+    for name in names:
+        if name not in INPUTS:
+            hint = nearest(str(name), INPUTS) or f"known are {', '.join(INPUTS)}"
+            raise InputError(f"{name}: not an input of an impact; {hint}")
+    refuse_contradictions(names)
+    return names
+
+
+def refuse_contradictions(names: Iterable[str]) -> None:
+    """Raise InputError if one thing is given in two ways."""
+    given = set(names)
+    for some, others, why in EXCLUSIVE:
+        if given & some and given & others:
+            one, other = min(given & some), min(given & others)
+            raise InputError(f"{one}: give it or {other}, not both; {why}")
+
+
+def read_choices(name: str, given: Any) -> tuple[Choice, ...]:
+    """Return the choices of an input that has names, or raise InputError."""
+    listed = given if isinstance(given, list | tuple | np.ndarray) else [given]
+    return checked_choices(name, [read_choice(name, value) for value in listed])
+
+
+def checked_choices(name: str, choices: list[Choice]) -> tuple[Choice, ...]:
+    """Return choices, or raise InputError if there are none, too many, or some are alike."""
+    if not 0 < len(choices) <= MOST:
+        raise refusal(name, f"{len(choices)} names", f"give 1 to {MOST}")
+    labels = [choice.label for choice in choices]
+    for label in labels:
+        if labels.count(label) > 1:
+            raise refusal(name, label, "it is given twice; names must differ")
+    return tuple(choices)
+
+
+def read_choice(name: str, value: Any) -> Choice:
+    """Return a choice, or raise InputError if there is none of that name."""
+    if leaf(name) == "kind":
+        return Choice(as_kind(value), {})
+    stuff = read_material(value)
+    known = {key: number for key, number in material_values(stuff).items() if key in ELASTIC}
+    unnamed = ", ".join(f"{key}={number:g}" for key, number in known.items())
+    return Choice(value if isinstance(value, str) else stuff.name or unnamed, known)
+
+
+def as_mapping(name: str, given: Any) -> Mapping[str, Any]:
+    """Return what is given by names of inputs, or raise InputError if it is not."""
+    if not isinstance(given, Mapping):
+        raise refusal(name, given, "must be a mapping from names of inputs to values")
+    return given
+
+
+def fill_record(record: object, **values: object) -> None:
+    """Fill a frozen record."""
+    for name, value in values.items():
+        object.__setattr__(record, name, value)

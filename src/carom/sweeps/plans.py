@@ -1,0 +1,80 @@
+"""The table [sweep] of a case file, made into a design.
+
+[sweep]                       # a grid of all axes, unless samples or a table are given
+samples = 1000                # a Latin hypercube in the ranges of the axes
+seed = 1
+table = "cases.csv"           # or the cases themselves, one a row
+outputs = ["rebound_angle"]   # all by default
+
+[sweep.axes]
+angle = {from = "0 deg", to = "85 deg", points = 86}
+friction = [0.1, 0.2]
+"""
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from carom.cases import SWEEP, Case, line_of
+from carom.quantities import InputError, nearest, refusal
+from carom.sweeps.designs import Design, Grid, LatinHypercube, Table
+
+KEYS = ("samples", "seed", "table", "outputs", "axes")
+EXAMPLE = 'angle = {from = "0 deg", to = "85 deg", points = 86}'
+
+
+def plan(case: Case, path: Path) -> tuple[Design, list[str] | None]:
+    """Return the design and the outputs that a case file asks for.
+
+    Raises InputError if there is no [sweep], for what is unknown, and for what does not fit
+    together.
+    """
+    given = case.get(SWEEP)
+    if not isinstance(given, Mapping):
+        raise InputError(f"{SWEEP}: missing in {path}; add [sweep.axes] with {EXAMPLE}")
+    _check_keys(given, path)
+    outputs = given.get("outputs")
+    if "outputs" in given and not isinstance(outputs, list):
+        raise refusal("outputs", outputs, 'must be a list of names, e.g. ["rebound_angle"]')
+    return _design(given, path), outputs
+
+
+def _design(given: Mapping[str, Any], path: Path) -> Design:
+    if "table" in given:
+        _refuse(given, ("samples", "seed", "axes"), "a table of cases")
+        if not isinstance(given["table"], str):
+            raise refusal("table", given["table"], "must be the name of a CSV file")
+        return Table(path.parent / given["table"])
+    axes = given.get("axes")
+    if not isinstance(axes, Mapping):
+        raise refusal("axes", axes, f"must be a table, [sweep.axes], with {EXAMPLE}")
+    if "samples" in given:
+        return LatinHypercube(_flat(axes), samples=given["samples"], seed=given.get("seed", 0))
+    _refuse(given, ("seed",), "a grid")
+    return Grid(_flat(axes))
+
+
+def _check_keys(given: Mapping[str, Any], path: Path) -> None:
+    text = path.read_text(encoding="utf-8-sig")
+    for key in given:
+        if key not in KEYS:
+            line = max(line_of(key, text, SWEEP), line_of(f"{SWEEP}.{key}", text, ""))
+            hint = nearest(key, KEYS) or f"known are {', '.join(KEYS)}"
+            raise InputError(f"{key}: unknown key in {path}, line {line}; {hint}")
+
+
+def _refuse(given: Mapping[str, Any], names: Iterable[str], kind: str) -> None:
+    for name in names:
+        if name in given:
+            raise refusal(name, given[name], f"{kind} has none; leave it out")
+
+
+def _flat(axes: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Return axes by dotted names; first.radius without quotes is a table in a table for TOML."""
+    flat: dict[str, Any] = {}
+    for name, axis in axes.items():
+        if isinstance(axis, Mapping) and axis and not axis.keys() & {"from", "to", "points"}:
+            flat |= _flat(axis, f"{prefix}{name}.")
+        else:
+            flat[prefix + name] = axis
+    return flat

@@ -1,0 +1,177 @@
+"""Impacts of many points at once: bodies whose numbers are arrays, and a status for each point."""
+
+from collections.abc import Mapping, Sequence
+from enum import IntEnum
+from math import pi
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.approach import components
+from carom.bodies import Cup, HalfSpace, Material, Sphere, unchecked
+from carom.dimensionless.phases import Status
+from carom.dimensionless.rebounds import rebound
+from carom.histories import PAIR
+from carom.outcomes import Outcome
+from carom.pairs import Counterbody, Pair, representable
+from carom.sweeps.inputs import ELASTIC, Array, leaf
+
+Codes = NDArray[np.int8]
+Columns = Mapping[str, Any]  # inputs by name: a number, or an array with one for every point
+
+
+class PointStatus(IntEnum):
+    """What became of one point of a sweep; its `message` says so in words.
+
+    Examples
+    --------
+    >>> PointStatus(3).message
+    'bodies do not approach'
+    """
+
+    NOT_RUN = -1
+    SOLVED = 0
+    NOT_A_NUMBER = 1
+    OUT_OF_RANGE = 2
+    NOT_APPROACHING = 3
+    BEYOND_FLOATING_POINT = 4
+    TOO_MANY_PHASES = 5
+    UNRESOLVED = 6
+
+    @property
+    def message(self) -> str:
+        """The status in words."""
+        return MESSAGES[self]
+
+
+MESSAGES = {
+    PointStatus.NOT_RUN: "not run yet",
+    PointStatus.SOLVED: "solved",
+    PointStatus.NOT_A_NUMBER: "input missing or not a finite number",
+    PointStatus.OUT_OF_RANGE: "input out of range",
+    PointStatus.NOT_APPROACHING: "bodies do not approach",
+    PointStatus.BEYOND_FLOATING_POINT: "numbers beyond floating point",
+    PointStatus.TOO_MANY_PHASES: "not solved as chi is too large",
+    PointStatus.UNRESOLVED: "not solved as a phase did not end",
+}
+NOT_RUN = PointStatus.NOT_RUN
+OF_SOLVER = {
+    Status.SOLVED: PointStatus.SOLVED,
+    Status.PSI_NOT_FINITE: PointStatus.BEYOND_FLOATING_POINT,
+    Status.CHI_NOT_POSITIVE: PointStatus.BEYOND_FLOATING_POINT,
+    Status.TOO_MANY_PHASES: PointStatus.TOO_MANY_PHASES,
+    Status.UNRESOLVED: PointStatus.UNRESOLVED,
+}
+FROM_SOLVER = np.array([OF_SOLVER[status] for status in Status], dtype=np.int8)
+POSITIVE = ("radius", "gyration_radius", "young", "density")
+NOT_NEGATIVE = ("friction", "inner_radius")
+APPROACHING = ("speed", "normal_speed")
+
+
+class Rebounds(NamedTuple):
+    """What an outcome needs of many solutions."""
+
+    psi_out: Any
+
+
+def evaluate(
+    columns: Columns, kind: str, size: int, outputs: Sequence[str], threads: int | None
+) -> tuple[dict[str, Array], Codes]:
+    """Return the outputs of so many impacts, NaN where one is not solved, and their status."""
+    with np.errstate(all="ignore"):
+        status = _status(columns, kind, size)
+        psi_out = np.full(size, np.nan)
+        outcome = _outcome(columns, kind, psi_out)  # psi_out is filled before it is asked for
+        fits = representable(outcome.scales, outcome.contact_velocity)
+        lost = (status == PointStatus.SOLVED) & np.logical_not(fits)
+        status[lost] = PointStatus.BEYOND_FLOATING_POINT
+        psi, chi = (np.broadcast_to(x, size) for x in (outcome.psi_in, outcome.pair.chi))
+        run = (status == PointStatus.SOLVED) & np.isfinite(psi)  # without friction psi is infinite
+        psi_out[run], ended = rebound(psi[run], chi[run], threads=threads, return_status=True)
+        status[run] = FROM_SOLVER[ended]
+        solved = status == PointStatus.SOLVED
+        values = {name: np.where(solved, _result(outcome, name), np.nan) for name in outputs}
+    return values, status
+
+
+def _result(outcome: Outcome, name: str) -> Any:
+    return getattr(outcome.pair if name in PAIR else outcome, name)
+
+
+def _status(columns: Columns, kind: str, size: int) -> Codes:
+    """Return what is known before solving; of two faults the one that is marked later."""
+    status = np.zeros(size, dtype=np.int8)
+
+    def mark(bad: Any, reason: PointStatus) -> None:
+        status[np.broadcast_to(bad, size)] = reason
+
+    for name, values in columns.items():
+        key = leaf(name)
+        if key in POSITIVE:
+            mark(~(values > 0.0), PointStatus.OUT_OF_RANGE)
+        elif key in NOT_NEGATIVE:
+            mark(~(values >= 0.0), PointStatus.OUT_OF_RANGE)
+        elif key == "poisson":
+            mark(~((values > -1.0) & (values <= 0.5)), PointStatus.OUT_OF_RANGE)
+    mark(_misfit(columns, kind), PointStatus.OUT_OF_RANGE)
+    for name in APPROACHING:
+        if name in columns:
+            mark(~(columns[name] > 0.0), PointStatus.NOT_APPROACHING)
+    if "speed" in columns:
+        mark(~(np.abs(columns["angle"]) < pi / 2), PointStatus.NOT_APPROACHING)
+    for name, values in columns.items():
+        rigid = values == np.inf if leaf(name) == "young" else False
+        mark(~(np.isfinite(values) | rigid), PointStatus.NOT_A_NUMBER)
+    return status
+
+
+def _misfit(columns: Columns, kind: str) -> Any:
+    """Return where bodies are out of proportion, or both rigid."""
+    spheres = ("first", "second") if kind == "sphere" else ("first",)
+    young = np.isinf(columns["first.material.young"]) & np.isinf(columns["second.material.young"])
+    hollow = [
+        columns[f"{body}.inner_radius"] >= columns[f"{body}.radius"]
+        for body in spheres
+        if f"{body}.inner_radius" in columns
+    ]
+    tight = [columns["second.radius"] <= columns["first.radius"]] if kind == "cup" else []
+    return np.logical_or.reduce(np.broadcast_arrays(young, *hollow, *tight))
+
+
+def _outcome(columns: Columns, kind: str, psi_out: Array) -> Outcome:
+    pair = unchecked(
+        Pair,
+        first=_sphere(columns, "first"),
+        second=_second(columns, kind),
+        friction=columns["friction"],
+    )
+    if "speed" in columns:
+        normal, tangential = components(columns["speed"], columns["angle"])
+    else:
+        normal, tangential = columns["normal_speed"], columns["tangential_speed"]
+    return Outcome(pair, normal, tangential, columns["spin"], columns["spin2"], Rebounds(psi_out))
+
+
+def _second(columns: Columns, kind: str) -> Counterbody:
+    if kind == "sphere":
+        return _sphere(columns, "second")
+    stuff = _material(columns, "second")
+    if kind == "cup":
+        return unchecked(Cup, radius=columns["second.radius"], material=stuff)
+    return unchecked(HalfSpace, material=stuff)
+
+
+def _sphere(columns: Columns, body: str) -> Sphere:
+    return unchecked(
+        Sphere,
+        radius=columns[f"{body}.radius"],
+        material=_material(columns, body),
+        gyration_radius=columns.get(f"{body}.gyration_radius"),
+        inner_radius=columns.get(f"{body}.inner_radius", 0.0),
+    )
+
+
+def _material(columns: Columns, body: str) -> Material:
+    values = {name: columns.get(f"{body}.material.{name}") for name in ELASTIC}
+    return unchecked(Material, **values, yield_strength=None, name=None)

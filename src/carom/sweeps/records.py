@@ -1,0 +1,91 @@
+"""What every sweep is kept in: a labelled dataset, here in memory."""
+
+import json
+from collections.abc import Mapping
+from hashlib import sha256
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.results import labelled_dataset
+from carom.sweeps.blocks import Box, Values, boxes, chunk_shape
+from carom.sweeps.evaluation import Problem
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+LONG = 1000  # values of an axis; the dataset has them as its coordinate
+TITLE = "sweep of oblique impacts of elastic spheres"
+
+
+class SweepStopped(RuntimeError):
+    """A sweep could not go on; the message says why, what is safe, and how to continue."""
+
+
+class Record(Protocol):
+    """Where the blocks of a sweep are kept."""
+
+    todo: list[Box]
+
+    def write(self, box: Box, values: Values) -> None:
+        """Keep a block."""
+
+    def safe(self) -> str:
+        """Return what has been finished, and how to go on."""
+
+    def dataset(self) -> "xr.Dataset":
+        """Return the sweep."""
+
+
+class Memory:
+    """A sweep in memory, of which nothing is left if it is stopped."""
+
+    def __init__(self, problem: Problem) -> None:
+        self._problem = problem
+        shape = problem.design.shape
+        self._arrays = {
+            name: np.empty(shape, info.dtype) for name, info in problem.variables().items()
+        }
+        self.todo = list(boxes(shape, chunk_shape(shape)))
+
+    def write(self, box: Box, values: Values) -> None:
+        """Keep a block."""
+        for name, part in values.items():
+            self._arrays[name][box] = part
+
+    def safe(self) -> str:
+        """Return what has been finished, and how to go on."""
+        return "nothing is stored; with --store DIR.zarr (store=) it could be continued"
+
+    def dataset(self) -> "xr.Dataset":
+        """Return the sweep."""
+        return blank_dataset(self._problem, self._arrays)
+
+
+def blank_dataset(
+    problem: Problem, arrays: Mapping[str, NDArray[Any]] | None = None
+) -> "xr.Dataset":
+    """Return the dataset of a sweep with its coordinates, and with these arrays as variables."""
+    known = problem.variables()
+    variables = {
+        name: (problem.design.dims, values, known[name].attributes)
+        for name, values in (arrays or {}).items()
+    }
+    attributes = {"title": TITLE, "inputs": identity(problem)}
+    return labelled_dataset(variables, problem.design.coords(), attributes)
+
+
+def identity(problem: Problem) -> dict[str, Any]:
+    """Return what tells a sweep from others as JSON holds it, a hash for what is long."""
+    whole: dict[str, Any] = _condensed(json.loads(json.dumps(problem.description())))
+    return whole
+
+
+def _condensed(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: _condensed(part) for name, part in value.items()}
+    if isinstance(value, list) and len(value) > LONG:
+        digest = sha256(json.dumps(value).encode()).hexdigest()
+        return {"length": len(value), "first": value[0], "last": value[-1], "sha256": digest}
+    return value

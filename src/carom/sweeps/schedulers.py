@@ -1,0 +1,151 @@
+"""Where the blocks of a sweep are computed: in threads of this process, or on a dask cluster."""
+
+import logging
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    CancelledError,
+    Executor,
+    Future,
+    ThreadPoolExecutor,
+    wait,
+)
+from contextlib import contextmanager
+from functools import lru_cache
+from importlib.metadata import version
+from itertools import islice
+from typing import Any, NamedTuple
+
+from carom.dimensionless.rebounds import available_cores
+from carom.quantities import InputError, counted, refusal
+from carom.results import carom_version
+from carom.sweeps.blocks import Box, Values
+from carom.sweeps.evaluation import Problem
+from carom.sweeps.extras import extra
+from carom.sweeps.records import SweepStopped
+
+ANSWER = 5.0  # seconds a scheduler, and its first worker, have to answer
+CLUSTER = "a scheduler"
+AHEAD = 2  # blocks in flight for each thread
+
+
+class Team(NamedTuple):
+    """Those who compute blocks: how one is submitted, how many work at once, how they are lost."""
+
+    submit: Callable[[Box], Future[Values]]
+    size: int
+    losses: Mapping[type[BaseException], str]
+
+    def results(self, blocks: Sequence[Box]) -> Generator[tuple[Box, Values], None, None]:
+        """Yield blocks with their values in the order in which they are finished."""
+        queue = iter(blocks)
+        flying: dict[Future[Values], Box] = {}
+        try:
+            while True:
+                for box in islice(queue, AHEAD * self.size - len(flying)):
+                    flying[self.submit(box)] = box
+                if not flying:
+                    return
+                for future in wait(flying, return_when=FIRST_COMPLETED).done:
+                    yield flying.pop(future), future.result()
+        except tuple(self.losses) as error:
+            raise SweepStopped(self.losses[type(error)]) from None
+        finally:
+            for future in flying:
+                future.cancel()
+
+
+@contextmanager
+def team(scheduler: str | None, workers: int | None, problem: Problem) -> Iterator[Team]:
+    """Hold those who compute a problem: threads here, or the workers of a dask scheduler."""
+    if scheduler is None:
+        with _threads(workers, problem) as here:
+            yield here
+    elif workers is not None:
+        raise refusal("workers", workers, "a cluster has its own; leave it out with a scheduler")
+    else:
+        with _cluster(scheduler, problem) as there:
+            yield there
+
+
+@contextmanager
+def _threads(workers: int | None, problem: Problem) -> Iterator[Team]:
+    size = available_cores() if workers is None else counted("workers", workers, 1)
+    with ThreadPoolExecutor(size, "sweep") as pool:
+        yield Team(lambda box: pool.submit(problem.block, box), size, {})
+
+
+@contextmanager
+def _cluster(address: str, problem: Problem) -> Iterator[Team]:
+    with _client(address) as client:
+        size = _checked_threads(client, address)
+        executor: Executor = client.get_executor(pure=False)
+        shared = client.submit(_itself, problem, pure=False)  # a task, made anew if it is lost
+        losses = {
+            CancelledError: f"the scheduler {address} is gone",
+            extra("distributed", CLUSTER).KilledWorker: "one worker after another died",
+        }
+        yield Team(
+            lambda box: executor.submit(_remote_block, shared, box, versions()), size, losses
+        )
+
+
+@contextmanager
+def _client(address: str) -> Iterator[Any]:
+    distributed = extra("distributed", CLUSTER)
+    try:
+        client = distributed.Client(address, timeout=ANSWER, set_as_default=False)
+    except OSError:
+        raise InputError(
+            f"scheduler: {address!r} does not answer; start one with 'dask scheduler', and workers "
+            "with 'dask worker ADDRESS'"
+        ) from None
+    except (ValueError, TypeError):
+        raise refusal("scheduler", address, "must be an address such as tcp://host:8786") from None
+    log = logging.getLogger("distributed.client")  # what it tells is told here in one line
+    level = log.level
+    log.setLevel(logging.CRITICAL)
+    try:
+        with client:
+            yield client
+    finally:
+        log.setLevel(level)
+
+
+def _checked_threads(client: Any, address: str) -> int:
+    """Return the number of threads of a cluster; raise InputError if it cannot be used."""
+    try:
+        client.wait_for_workers(1, timeout=ANSWER)
+    except TimeoutError:
+        raise refusal("scheduler", address, f"no workers; start: dask worker {address}") from None
+    for worker, found in client.run(versions, on_error="return").items():
+        _require_same(worker, found)
+    return sum(client.nthreads().values())
+
+
+@lru_cache(maxsize=1)
+def versions() -> dict[str, str]:
+    """Return the versions of what decides the last bit of a result."""
+    return {"carom": carom_version()} | {name: version(name) for name in ("numpy", "numba")}
+
+
+def _require_same(worker: str, found: Any, expected: dict[str, str] | None = None) -> None:
+    """Raise InputError if a worker does not have the versions of this process."""
+    if not isinstance(found, dict):
+        raise InputError(f"scheduler: worker {worker} cannot load this version of carom ({found})")
+    for name, wanted in (expected or versions()).items():
+        if found.get(name) != wanted:
+            raise InputError(
+                f"scheduler: worker {worker} has {name} {found.get(name)}, not {wanted} as here; "
+                "install the same"
+            )
+
+
+def _itself(problem: Problem) -> Problem:
+    return problem
+
+
+def _remote_block(problem: Problem, box: Box, expected: dict[str, str]) -> Values:
+    """Compute a block in a worker, also in one that has joined late."""
+    _require_same("that joined", versions(), expected)
+    return problem.block(box)

@@ -1,0 +1,209 @@
+"""A sweep in a Zarr store: made whole, written block by block by one process, continued.
+
+Each file is written whole or not at all, the status of a block after everything else of it. So a
+block is finished exactly when no point of it has the status `NOT_RUN`, whatever happened to the
+process that wrote it.
+"""
+
+import errno
+import json
+import os
+import shutil
+import uuid
+import warnings
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from itertools import islice
+from pathlib import Path
+from textwrap import shorten
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from carom.quantities import refusal
+from carom.results import carom_version
+from carom.sweeps.blocks import Box, Values, boxes, chunk_shape
+from carom.sweeps.chunks import codecs, write_chunk
+from carom.sweeps.evaluation import NOT_RUN, Problem
+from carom.sweeps.extras import extra
+from carom.sweeps.records import SweepStopped, blank_dataset, identity
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+STATUS = "status"
+LOCK = f"{STATUS}/.lock"  # a place that zarr does not list
+SUFFIX = ".zarr"
+FULL = (errno.ENOSPC, errno.EDQUOT)
+SHOWN = 3  # differences in a refusal
+
+
+class Store:
+    """A sweep in a Zarr store, for the process that holds its lock."""
+
+    def __init__(self, path: Path, names: Iterable[str]) -> None:
+        self.path = path
+        self._names = list(names)
+        status = extra("zarr", "a store").open_array(path / STATUS, mode="r")
+        self._chunks = status.chunks
+        blocks = list(boxes(status.shape, status.chunks))
+        self.todo = [box for box in blocks if np.any(status[box] == NOT_RUN)]
+        self._number, self._finished = len(blocks), len(blocks) - len(self.todo)
+
+    def write(self, box: Box, values: Values) -> None:
+        """Write a block, its status last; raises SweepStopped if that fails."""
+        corner = [part.start // size for part, size in zip(box, self._chunks, strict=True)]
+        try:
+            for name in sorted(values, key=STATUS.__eq__):
+                write_chunk(self.path / name, corner, self._chunks, values[name])
+        except OSError as error:
+            advice = "; free space" if error.errno in FULL else ""
+            raise SweepStopped(f"{self.path}: {error.strerror}{advice}") from None
+        self._finished += 1
+
+    def safe(self) -> str:
+        """Return what has been finished, and how to go on."""
+        number = f"{self._finished} of {self._number} blocks"
+        return f"{number} are safe in {self.path}; --resume (resume=True) continues there"
+
+    def dataset(self) -> "xr.Dataset":
+        """Return the sweep, its values read when they are used."""
+        return read_store(self.path)[self._names]
+
+
+@contextmanager
+def opened(folder: str | Path, problem: Problem, resume: bool) -> Iterator[Store]:
+    """Make a store, or check the one that is there, and hold it against other processes.
+
+    Raises InputError if it is there and `resume` is not set, if another process holds it, or if it
+    is not of this sweep.
+    """
+    path = _checked(folder)
+    if not path.exists():
+        _create(path, problem)
+    elif not resume:
+        raise refusal("store", str(path), "it is there; --resume (resume=True) continues it")
+    else:
+        _check(path, problem)
+    with _locked(path):
+        yield Store(path, problem.variables())
+
+
+def _checked(folder: str | Path) -> Path:
+    if not isinstance(folder, str | Path) or Path(folder).suffix.lower() != SUFFIX:
+        raise refusal("store", str(folder), f"must be the name of a folder that ends in {SUFFIX}")
+    path = Path(folder)
+    if not path.parent.is_dir():
+        raise refusal("store", str(path), "the folder around it must exist; make it first")
+    return path
+
+
+@contextmanager
+def _locked(path: Path) -> Iterator[None]:
+    filelock = extra("filelock", "a store")
+    lock = filelock.FileLock(path / LOCK, blocking=False)
+    try:
+        lock.acquire()
+    except filelock.Timeout:
+        raise refusal("store", str(path), "another process is writing it; wait for it") from None
+    except OSError as error:
+        raise refusal("store", str(path), f"cannot be written; {error.strerror}") from None
+    try:
+        yield
+    finally:
+        lock.release()
+
+
+def _create(path: Path, problem: Problem) -> None:
+    """Make a store without points, whole or not at all."""
+    new = path.parent / f".{path.stem}-{uuid.uuid4().hex}"
+    try:
+        try:
+            with warnings.catch_warnings():  # of what the format 3 does not yet have on paper
+                warnings.simplefilter("ignore")
+                _fill(new, problem)
+            os.rename(new, path)
+        finally:
+            shutil.rmtree(new, ignore_errors=True)
+    except OSError as error:
+        raise refusal("store", str(path), f"cannot be made; {error.strerror}") from None
+
+
+def _fill(path: Path, problem: Problem) -> None:
+    zarr = extra("zarr", "a store")
+    blank_dataset(problem).to_zarr(path, zarr_format=3, consolidated=False)
+    group = zarr.open_group(path, mode="r+")
+    design = problem.design
+    for name, info in problem.variables().items():
+        group.create_array(
+            name,
+            shape=design.shape,
+            chunks=chunk_shape(design.shape),
+            dtype=info.dtype,
+            fill_value=_blank(name, info.dtype),
+            dimension_names=design.dims,
+            **codecs(),
+            attributes=_jsonable(info.attributes),
+        )
+    zarr.consolidate_metadata(path)
+
+
+def _blank(name: str, dtype: Any) -> Any:
+    """Return what stands for a point that has not been run."""
+    if name == STATUS:
+        return NOT_RUN.value
+    return np.nan if np.dtype(dtype).kind == "f" else None
+
+
+def _jsonable(attributes: Mapping[str, Any]) -> dict[str, Any]:
+    return {
+        name: value.tolist() if isinstance(value, np.ndarray | np.generic) else value
+        for name, value in attributes.items()
+    }
+
+
+def _check(path: Path, problem: Problem) -> None:
+    """Raise InputError unless this is a store of this sweep."""
+    dataset = read_store(path)
+    version = str(dataset.attrs["source"]).removeprefix("carom ")
+    if version != carom_version():
+        raise refusal(
+            "store", str(path), f"it is of carom {version}, and this is carom {carom_version()}"
+        )
+    found = islice(_differences(json.loads(dataset.attrs["inputs"]), identity(problem), ""), SHOWN)
+    if words := "; ".join(found):
+        raise refusal("store", str(path), f"it is of another sweep: {words}")
+
+
+def _differences(there: Any, here: Any, name: str) -> Iterator[str]:
+    """Yield in words in what two descriptions differ."""
+    if isinstance(there, dict) and isinstance(here, dict):
+        for key in {**there, **here}:
+            yield from _differences(there.get(key), here.get(key), f"{name}.{key}".strip("."))
+    elif there != here:
+        shown = (
+            "not given" if value is None else shorten(str(value), 40) for value in (there, here)
+        )
+        yield "{} is {} there and {} here".format(name, *shown)
+
+
+def read_store(path: Path) -> "xr.Dataset":
+    """Return the sweep in a store of Carom's, its values read when they are used.
+
+    Raises InputError if it is not one.
+    """
+    extra("zarr", "a store")
+    import xarray as xr
+
+    try:
+        dataset: xr.Dataset = xr.open_zarr(path, chunks=None, consolidated=True, decode_times=False)
+    except Exception:  # zarr and xarray raise what they like at a damaged store
+        raise refusal("store", str(path), "it is damaged, or not a Zarr store") from None
+    is_ours = str(dataset.attrs.get("source")).startswith("carom ") and STATUS in dataset
+    if not is_ours or "inputs" not in dataset.attrs:
+        raise refusal("store", str(path), "it was not stored by Carom")
+    for variable in dataset.variables.values():  # what JSON has made a list
+        if "flag_values" in variable.attrs:
+            flags = np.asarray(variable.attrs["flag_values"], variable.dtype)
+            variable.attrs["flag_values"] = flags
+    return dataset

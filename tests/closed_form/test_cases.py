@@ -1,0 +1,68 @@
+"""Cases as mappings: what they say is what the bodies and speeds then are."""
+
+import math
+
+import pytest
+
+import carom
+from carom import InputError
+from carom.cases import check_case, material_values, motion_of, pair_of, read_case, read_material
+
+TOML = """
+friction = 0.3
+speed = "2 m/s"
+angle = "30 deg"
+[first]
+radius = "5 mm"
+inner_radius = "1 mm"
+material = {young = "210 GPa", poisson = 0.3, density = 7850}
+[second]
+kind = "sphere"
+material = "glass"
+"""
+
+
+def test_a_file_makes_the_pair_that_it_describes(tmp_path):
+    """Against the same pair made by hand; the second sphere takes the radius of the first."""
+    path = tmp_path / "case.toml"
+    path.write_text(TOML)
+    case = read_case(path)
+    stuff = carom.Material(young=210e9, poisson=0.3, density=7850)
+    first = carom.Sphere(radius=0.005, inner_radius=0.001, material=stuff)
+    second = carom.Sphere(radius=0.005, material="glass")
+    assert pair_of(case) == carom.Pair(first, second, 0.3)
+    assert carom.impact(pair_of(case), **motion_of(case)).tangential_speed == pytest.approx(1.0)
+
+
+def test_a_sphere_may_have_a_hole_of_no_size():
+    assert carom.Sphere(radius=1, material="steel", inner_radius=0).mass == pytest.approx(
+        carom.Sphere(radius=1, material="steel").mass, rel=1e-15
+    )
+
+
+def test_values_of_materials_with_and_without_gaps():
+    """A name has all its values, a table those it gives, in SI units."""
+    assert material_values("steel")["young"] == carom.material("steel").young
+    assert material_values({"young": "1 GPa"}) == {"young": 1e9}
+    given = material_values("poisson=0.25, density=2 g/cm^3")
+    assert given == {"poisson": 0.25, "density": pytest.approx(2000.0)}
+    assert material_values("rigid") == {"young": math.inf, "poisson": 0.0}
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: check_case({"frction": 1}), "frction: unknown key; did you mean 'friction'"),
+        (lambda: check_case({"first": {"radios": 1}}), "radios: unknown key; .*'radius'"),
+        (lambda: check_case({"first": "steel"}), r"first: 'steel' .*\[first\]"),
+        (lambda: check_case({"second": {"material": {"yung": 1}}}), "yung: .*'young'"),
+        (lambda: check_case([1]), "case: .*mapping"),
+        (lambda: material_values({"poisson": 0.6}), "poisson: 0.6"),
+        (lambda: material_values({"modulus": 1}), "modulus: unknown in a material"),
+        (lambda: read_material({"young": 1e9}), "poisson: missing"),
+        (lambda: pair_of({"first": {}}), "friction: missing"),
+    ],
+)
+def test_what_is_no_case_is_refused(make, message):
+    with pytest.raises(InputError, match=message):
+        make()

@@ -1,0 +1,233 @@
+"""Collisions in three dimensions against Newton's and Euler's equations, solved pair by pair."""
+
+from itertools import product
+from math import pi
+
+import numpy as np
+import pytest
+
+import carom
+
+STEEL = carom.Material(young=210e9, poisson=0.3, density=7850.0)
+GLASS = carom.Material(young=70e9, poisson=0.22, density=2500.0)
+RUBBER = carom.Material(young=5e6, poisson=0.49, density=1100.0)
+BALL = carom.Sphere(radius=5e-3, material=STEEL)
+SHELL = carom.Sphere(radius=8e-3, material=GLASS, inner_radius=7e-3)
+LOADED = carom.Sphere(radius=3e-3, material=RUBBER, gyration_radius=0.5e-3)
+PAIRS = {
+    "unequal": carom.Pair(BALL, SHELL, friction=0.2),
+    "equal": carom.Pair(SHELL, SHELL, friction=0.05),
+    "soft on hard": carom.Pair(LOADED, BALL, friction=0.7),
+    "half-space": carom.Pair(SHELL, carom.HalfSpace(material=STEEL), friction=0.3),
+    "cup": carom.Pair(BALL, carom.Cup(radius=20e-3, material=GLASS), friction=0.1),
+}
+NAMES = ("velocity1", "spin1", "velocity2", "spin2")
+
+
+def random_collisions(pair, count, seed):
+    """Return approaching pairs, from grazing to head-on, from sticking to spinning fast."""
+    rng = np.random.default_rng(seed)
+    normal = rng.normal(size=(count, 3))
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    velocity1, velocity2 = rng.normal(size=(2, count, 3))
+    slow = 10.0 ** rng.uniform(-3.0, 0.5, (count, 1))
+    closing = np.sum((velocity1 - velocity2) * normal, axis=1, keepdims=True)
+    velocity1 += (np.abs(closing) * slow - closing) * normal
+    spin1, spin2 = rng.normal(size=(2, count, 3)) * 10.0 ** rng.uniform(-1, 4, (2, count, 1))
+    moving = {"velocity1": velocity1, "spin1": spin1, "velocity2": velocity2, "normal": normal}
+    return moving | ({"spin2": spin2} if isinstance(pair.second, carom.Sphere) else {})
+
+
+def inertia(body):
+    """Return radius, mass and moment of inertia, by volume integrals of shells of radius r."""
+    if not isinstance(body, carom.Sphere):
+        return 0.0, np.inf, np.inf
+    outer, inner, density = body.radius, body.inner_radius, body.material.density
+    mass = 4.0 * pi * density * (outer**3 - inner**3) / 3.0
+    if body.gyration_radius is not None:
+        return outer, mass, mass * body.gyration_radius**2
+    return outer, mass, 8.0 * pi / 3.0 * density * (outer**5 - inner**5) / 5.0
+
+
+def cross_matrix(r):
+    return np.array([[0.0, -r[2], r[1]], [r[2], 0.0, -r[0]], [-r[1], r[0], 0.0]])
+
+
+def collided(pair, tangential, normal, restitution=1.0, **motion):
+    """Return motions after one collision: J from the 3 x 3 compliance of the contact points.
+
+    `tangential(V_t, V_n, compliance ratio)` returns V_t' of the contact points.
+    """
+    (radius1, mass1, moment1), (radius2, mass2, moment2) = inertia(pair.first), inertia(pair.second)
+    v1, w1, v2 = (motion[name] for name in NAMES[:3])
+    w2 = motion.get("spin2", np.zeros(3))
+    arm1, arm2 = radius1 * normal, -radius2 * normal
+    V = v1 + np.cross(w1, arm1) - v2 - np.cross(w2, arm2)
+    closing = V @ normal
+    sliding = V - closing * normal
+    compliance = np.eye(3) * (1.0 / mass1 + 1.0 / mass2)
+    for arm, moment in ((arm1, moment1), (arm2, moment2)):
+        compliance -= cross_matrix(arm) @ cross_matrix(arm) / moment
+    ratio = np.trace(compliance) / 2.0 - (along := normal @ compliance @ normal) / 2.0
+    out = tangential(sliding, closing, ratio / along) - restitution * closing * normal
+    J = np.linalg.solve(compliance, V - out)
+    spin1, spin2 = w1 + np.cross(arm1, -J) / moment1, w2 + np.cross(arm2, J) / moment2
+    return v1 - J / mass1, spin1, v2 + J / mass2, spin2
+
+
+def exact_rebound(pair):
+    """Return V_t' of the exact theory; E*, G* of Hertz and Mindlin, chi of the compliances."""
+    one, two = pair.first.material, pair.second.material
+    normal = sum((1.0 - m.poisson**2) / m.young for m in (one, two))
+    shear = sum((2.0 - m.poisson) * (1.0 + m.poisson) / (2.0 * m.young) for m in (one, two))
+    kappa = normal / shear
+
+    def tangential(sliding, closing, ratio):
+        scale = kappa / (pair.friction * closing)
+        psi = scale * np.linalg.norm(sliding)
+        return sliding * (carom.rebound(psi, 0.5 * kappa * ratio) / psi)
+
+    return tangential
+
+
+def walton(friction, beta, restitution):
+    """Return V_t' of Walton's law, as a force balance: stick if Coulomb's law allows."""
+
+    def tangential(sliding, closing, ratio):
+        speed = np.linalg.norm(sliding)
+        slowed = friction * (1.0 + restitution) * closing * ratio
+        return sliding * (-beta if speed * (1.0 + beta) <= slowed else 1.0 - slowed / speed)
+
+    return tangential
+
+
+def largest_error(pair, law, tangential, restitution, given, count):
+    """Return the largest difference over the speeds that enter each collision."""
+    after = carom.collide(pair, law=law, **given)
+    assert np.all(after.status == carom.CollisionStatus.COLLIDED)
+    radii = (1.0, inertia(pair.first)[0], 1.0, inertia(pair.second)[0])
+    worst = 0.0
+    for i in range(count):
+        row = {name: values[i] for name, values in given.items()}
+        wanted = collided(pair, tangential, row.pop("normal"), restitution, **row)
+        speed = sum(r * np.linalg.norm(row.get(n, 0.0)) for r, n in zip(radii, NAMES, strict=True))
+        for name, radius, value in zip(NAMES, radii, wanted, strict=True):
+            change = np.max(np.abs(getattr(after, name)[i] - value))
+            worst = max(worst, (radius or 1.0) * change / speed)
+    return worst
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_exact_law_is_newton_euler_with_the_rebound(name):
+    """The law's 1e-9 in psi_2 is far below 1e-9 in speeds; 1e-9 of the speeds that enter."""
+    pair = PAIRS[name]
+    given = random_collisions(pair, 150, 1)
+    assert largest_error(pair, None, exact_rebound(pair), 1.0, given, 150) <= 1e-9
+
+
+@pytest.mark.parametrize("name", PAIRS)
+@pytest.mark.parametrize("restitution", [1.0, 0.6, 0.0])
+def test_rigid_laws_are_newton_euler_to_rounding(name, restitution):
+    """Smooth, rough and Walton's, for every restitution, to 1e-13 of the speeds that enter."""
+    pair = PAIRS[name]
+    given = random_collisions(pair, 40, 2)
+    laws = [(carom.SmoothLaw(restitution=restitution), walton(0.0, 0.0, restitution))]
+    laws += [(carom.RoughLaw(restitution=restitution), walton(np.inf, 1.0, restitution))]
+    for friction, beta in product((0.0, 0.1, 5.0), (-1.0, -0.3, 0.5, 1.0)):
+        law = carom.WaltonLaw(
+            friction=friction, restitution=restitution, tangential_restitution=beta
+        )
+        laws.append((law, walton(friction, beta, restitution)))
+    for law, tangential in laws:
+        assert largest_error(pair, law, tangential, restitution, given, 40) <= 1e-13, law
+
+
+@pytest.mark.parametrize("name", PAIRS)
+@pytest.mark.parametrize("sideways", [-4.0, -0.5, 0.01, 0.7, 3.0])
+def test_in_the_plane_is_the_impact(name, sideways):
+    """x tangential, normal along z, spins about y: what `impact` returns, to 1e-9 of the speeds."""
+    pair = PAIRS[name]
+    two = isinstance(pair.second, carom.Sphere)
+    spin, spin2 = 30.0, -20.0 if two else 0.0
+    hit = carom.impact(pair, normal_speed=1.1, tangential_speed=sideways, spin=spin, spin2=spin2)
+    after = carom.collide(
+        pair,
+        velocity1=[sideways, 0.0, 1.1],
+        spin1=[0.0, spin, 0.0],
+        normal=[0.0, 0.0, 1.0],
+        **({"spin2": [0.0, spin2, 0.0]} if two else {}),
+    )
+    relative = after.velocity1 - after.velocity2
+    speed = 1e-9 * 10.0
+    assert relative == pytest.approx([hit.tangential_speed_out, 0.0, -1.1], abs=speed)
+    assert after.spin1 == pytest.approx([0.0, hit.spin_out, 0.0], abs=speed / pair.first.radius)
+    radius2 = pair.second.radius if two else 1.0
+    assert after.spin2 == pytest.approx([0.0, hit.spin2_out, 0.0], abs=speed / radius2)
+
+
+def contact_velocity(pair, normal, velocity1, spin1, velocity2, spin2):
+    radius1, radius2 = inertia(pair.first)[0], inertia(pair.second)[0]
+    V = velocity1 + np.cross(spin1, radius1 * normal)
+    V -= velocity2 + np.cross(spin2, -radius2 * normal)
+    closing = np.sum(V * normal, axis=1, keepdims=True)
+    return V - closing * normal, closing
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_limits_of_the_rigid_laws(name):
+    """Smooth leaves spins; rough reverses V_t; Walton becomes either; sliding is Coulomb's law."""
+    pair = PAIRS[name]
+    given = random_collisions(pair, 2000, 4)
+    before = {name: given.get(name, np.zeros((2000, 3))) for name in NAMES}
+    sliding, closing = contact_velocity(pair, given["normal"], **before)
+
+    def after(law):
+        motion = carom.collide(pair, law=law, **given)
+        return [getattr(motion, name) for name in NAMES]
+
+    smooth, rough = after(carom.SmoothLaw(restitution=0.8)), after(carom.RoughLaw(restitution=0.8))
+    assert np.array_equal(smooth[1], before["spin1"])
+    assert np.array_equal(smooth[3], before["spin2"])
+    reversed_, apart = contact_velocity(pair, given["normal"], *rough)
+    size = np.linalg.norm(sliding, axis=1, keepdims=True) + closing + 20.0
+    assert np.all(np.abs(reversed_ + sliding) <= 1e-14 * size)
+    assert np.all(np.abs(apart + 0.8 * closing) <= 1e-14 * size)
+    for friction, beta, limit in ((1e9, 1.0, rough), (0.0, 1.0, smooth), (1.0, -1.0, smooth)):
+        law = carom.WaltonLaw(friction=friction, restitution=0.8, tangential_restitution=beta)
+        for one, other in zip(after(law), limit, strict=True):
+            assert np.allclose(one, other, rtol=1e-13, atol=1e-13)
+    law = carom.WaltonLaw(friction=0.01, restitution=0.8, tangential_restitution=0.4)
+    J = pair.first.mass * (given["velocity1"] - after(law)[0])
+    along = np.sum(J * given["normal"], axis=1)
+    across = np.linalg.norm(J - along[:, np.newaxis] * given["normal"], axis=1)
+    assert np.all(across <= 0.01 * along * (1 + 1e-9) + 1e-13 * pair.first.mass)
+    assert np.mean(np.abs(across - 0.01 * along) <= 1e-9 * across) > 0.5  # most of them slide
+    assert np.allclose(along, 1.8 * pair.normal_mass * closing[:, 0], rtol=1e-9)
+
+
+def test_without_friction_is_smooth():
+    """Friction 0 leaves V_t and the spins alone: exact law and smooth law agree to the bit."""
+    pair = carom.Pair(BALL, SHELL, friction=0.0)
+    given = random_collisions(pair, 500, 6)
+    exact, smooth = (
+        carom.collide(pair, **given),
+        carom.collide(pair, law=carom.SmoothLaw(), **given),
+    )
+    for name in NAMES:
+        assert np.array_equal(getattr(exact, name), getattr(smooth, name))
+    assert np.array_equal(exact.spin1, given["spin1"])
+
+
+def test_a_moving_half_space_keeps_its_velocity():
+    """In the frame of the wall the collision is the same; the wall itself goes on."""
+    pair = PAIRS["half-space"]
+    given = random_collisions(pair, 300, 8)
+    after = carom.collide(pair, **given)
+    still = carom.collide(
+        pair,
+        velocity1=given["velocity1"] - given["velocity2"],
+        spin1=given["spin1"],
+        normal=given["normal"],
+    )
+    assert np.array_equal(after.velocity2, given["velocity2"])
+    assert np.allclose(after.velocity1, still.velocity1 + after.velocity2, rtol=0, atol=1e-11)

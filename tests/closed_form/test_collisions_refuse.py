@@ -1,0 +1,192 @@
+"""What `collide` and its laws take and refuse: a refusal is one line that names the argument."""
+
+import numpy as np
+import pytest
+
+import carom
+
+BALL = carom.Sphere(radius="5 mm", material="steel")
+SHELL = carom.Sphere(radius="8 mm", material="soda-lime-glass", inner_radius="7 mm")
+PAIR = carom.Pair(BALL, SHELL, friction=0.2)
+WALL = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
+NAMES = ("velocity1", "spin1", "velocity2", "spin2")
+ONE = {"velocity1": [1.0, 0.0, 1.0], "normal": [0.0, 0.0, 1.0]}
+
+
+def motion(*shape):
+    rng = np.random.default_rng(1)
+    given = {name: rng.normal(size=(*shape, 3)) for name in NAMES}
+    normal = rng.normal(size=(*shape, 3))
+    return given | {"normal": normal / np.linalg.norm(normal, axis=-1, keepdims=True)}
+
+
+def refused(name, pair=PAIR, **given):
+    with pytest.raises(carom.InputError, match=f"^{name}: [^\n]+$"):
+        carom.collide(pair, **(ONE | given))
+
+
+@pytest.mark.parametrize("name", ["velocity1", "spin1", "velocity2", "spin2", "normal"])
+@pytest.mark.parametrize(
+    "values",
+    [1.0, [], [1.0, 2.0], np.zeros((3, 1)), "fast", [["a", "b", "c"]], [[1j, 0.0, 0.0]],
+     [[True, False, True]], [[1.0, 2.0, 3.0], [1.0, 2.0]], [[None, 1.0, 2.0]], {"x": 1.0}],
+)  # fmt: skip
+def test_refuses_what_are_no_vectors(name, values):
+    """Not of shape (..., 3), not real, ragged."""
+    refused(name, **{name: values})
+
+
+def test_refuses_what_does_not_fit_together():
+    """Missing arguments, shapes that do not broadcast, the spin of a wall, another pair's law."""
+    refused("velocity1", velocity1=None)
+    refused("normal", normal=None)
+    refused("shapes", velocity1=np.zeros((4, 3)), spin2=np.zeros((2, 3)))
+    refused("spin2", pair=WALL, spin2=[0.0, 0.0, 1.0])
+    refused("pair", pair="balls")
+    refused("law", law=carom.ReboundLaw(1.0))
+    refused("law", pair=WALL, law=carom.ReboundLaw(PAIR.chi))
+
+
+@pytest.mark.parametrize("law", ["rough", 0.5, carom.RoughLaw, np.array([1.0, 2.0])])
+def test_refuses_what_is_no_law(law):
+    """A name, a number, a class that was not called."""
+    refused("law", law=law)
+
+
+@pytest.mark.parametrize("threads", [0, -1, 1.5, "two"])
+def test_refuses_bad_threads(threads):
+    """As `rebound` does: a whole number from 1 on."""
+    with pytest.raises(ValueError, match=r"^threads: [^\n]+$"):
+        carom.collide(PAIR, **ONE, threads=threads)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda v: v.tolist(),
+        lambda v: np.round(v).astype(int),
+        lambda v: v.astype(np.float32),
+        lambda v: v.astype(">f8"),
+        np.asfortranarray,
+        lambda v: np.repeat(v, 2, axis=0)[::2],
+        lambda v: v[:1],
+        lambda v: np.broadcast_to(v[0], v.shape),
+    ],
+    ids=["list", "int", "float32", "big-endian", "fortran", "strided", "row", "broadcast"],
+)
+@pytest.mark.parametrize("name", NAMES)
+def test_takes_any_array_but_writes_only_where_it_can(make, name):
+    """The values of a copy out of place; in place a refusal, and nothing is written anywhere."""
+    given = motion(5)
+    given[name] = make(given[name])
+    plain = {key: np.array(np.broadcast_to(each, (5, 3)), float) for key, each in given.items()}
+    after, wanted = carom.collide(PAIR, **given), carom.collide(PAIR, **plain)
+    for key in NAMES:
+        assert np.array_equal(getattr(after, key), getattr(wanted, key))
+        assert getattr(after, key).dtype == np.float64
+    assert np.any(after.status == 0)
+    before = {key: np.array(each) for key, each in given.items()}
+    refused(name, **given, inplace=True)
+    for key, values in before.items():
+        assert np.array_equal(values, given[key])
+
+
+def test_in_place_refuses_what_may_not_be_written():
+    """Read-only arrays, and arrays that lie in one another's memory."""
+    given = motion(5)
+    given["spin1"].setflags(write=False)
+    refused("spin1", **given, inplace=True)
+    given = motion(5)
+    for one, other in (("velocity1", "spin1"), ("velocity1", "velocity2"), ("spin2", "normal")):
+        with pytest.raises(carom.InputError, match=r"^\w+: [^\n]+$"):
+            carom.collide(PAIR, **(given | {other: given[one]}), inplace=True)
+    room = np.zeros((6, 3))
+    with pytest.raises(carom.InputError, match=r"^\w+: [^\n]+$"):
+        carom.collide(PAIR, **(given | {"velocity1": room[:5], "spin1": room[1:]}), inplace=True)
+
+
+def test_in_place_of_neighbours_in_one_block_of_memory():
+    """Arrays that lie side by side in one allocation are written like any others."""
+    given = motion(5)
+    room = np.stack([given[name] for name in NAMES])
+    wanted = carom.collide(PAIR, **given)
+    views = dict(zip(NAMES, room, strict=True))
+    carom.collide(PAIR, **views, normal=given["normal"], inplace=True)
+    for name, values in views.items():
+        assert np.array_equal(values, getattr(wanted, name))
+
+
+@pytest.mark.parametrize("shape", [(), (1,), (4,), (2, 5), (2, 1, 3), (0,), (3, 0)])
+def test_keeps_the_shape(shape):
+    """(3,), (N, 3), (2, 5, 3), empty: results in the same shape, status without the last axis."""
+    given = motion(*shape)
+    after = carom.collide(PAIR, **given)
+    assert np.shape(after.status) == shape
+    assert np.asarray(after.status).dtype == np.int8
+    flat = carom.collide(PAIR, **{name: each.reshape(-1, 3) for name, each in given.items()})
+    for name in NAMES:
+        assert getattr(after, name).shape == (*shape, 3)
+        assert np.array_equal(getattr(after, name).reshape(-1, 3), getattr(flat, name))
+
+
+def test_broadcasts_and_fills_in_zeros():
+    """One normal for all, one velocity against many, spins left out: as if written in full."""
+    given = motion(2, 5)
+    few = {"velocity1": given["velocity1"], "velocity2": given["velocity2"][0, 0]}
+    few["normal"] = given["normal"][:, :1]
+    full = {name: np.array(np.broadcast_to(each, (2, 5, 3))) for name, each in few.items()}
+    full |= {"spin1": np.zeros((2, 5, 3)), "spin2": np.zeros((2, 5, 3))}
+    after, wanted = carom.collide(PAIR, **few), carom.collide(PAIR, **full)
+    assert np.any(wanted.spin2 != 0.0)
+    for name in (*NAMES, "status"):
+        assert np.array_equal(getattr(after, name), getattr(wanted, name))
+
+
+@pytest.mark.parametrize("pair", [PAIR, WALL], ids=["spheres", "wall"])
+def test_out_of_place_touches_nothing(pair):
+    """Inputs keep their bits, stay writable, and results are memory of their own."""
+    given = motion(50)
+    if pair is WALL:
+        del given["spin2"]
+    before = {name: each.copy() for name, each in given.items()}
+    after = carom.collide(pair, **given)
+    for name, values in given.items():
+        assert values.tobytes() == before[name].tobytes()
+        assert values.flags.writeable
+    for name in NAMES:
+        assert not any(np.shares_memory(getattr(after, name), each) for each in given.values())
+        assert getattr(after, name).flags.writeable
+
+
+def test_says_what_became_of_a_pair():
+    """Each status has its words."""
+    words = {status: status.message for status in carom.CollisionStatus}
+    assert [int(status) for status in words] == [0, 1, 2, 3]
+    assert len(set(words.values())) == 4
+    fast = carom.collide(PAIR, velocity1=[1e200, 0.0, 1e200], normal=[0.0, 0.0, 1.0])
+    assert carom.CollisionStatus(int(fast.status)).name == "NOT_FINITE"
+    assert "too large" in words[carom.CollisionStatus.NOT_FINITE]
+
+
+@pytest.mark.parametrize(
+    ("law", "name", "values"),
+    [
+        (carom.SmoothLaw, "restitution", {"restitution": 1.1}),
+        (carom.RoughLaw, "restitution", {"restitution": -0.1}),
+        (carom.RoughLaw, "restitution", {"restitution": float("nan")}),
+        (carom.WaltonLaw, "friction", {"friction": -0.1, "tangential_restitution": 0.0}),
+        (carom.WaltonLaw, "friction", {"friction": np.inf, "tangential_restitution": 0.0}),
+        (carom.WaltonLaw, "restitution",
+         {"friction": 0.1, "restitution": 2.0, "tangential_restitution": 0.0}),
+        (carom.WaltonLaw, "tangential_restitution",
+         {"friction": 0.1, "tangential_restitution": 1.01}),
+        (carom.WaltonLaw, "tangential_restitution",
+         {"friction": 0.1, "tangential_restitution": -1.01}),
+        (carom.WaltonLaw, "tangential_restitution",
+         {"friction": 0.1, "tangential_restitution": "most"}),
+    ],
+)  # fmt: skip
+def test_laws_refuse_values_out_of_range(law, name, values):
+    """One line that names the parameter."""
+    with pytest.raises(carom.InputError, match=f"^{name}: [^\n]+$"):
+        law(**values)

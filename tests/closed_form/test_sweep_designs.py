@@ -1,0 +1,189 @@
+"""Designs of sweeps: grids, Latin hypercubes and tables hold the points that they promise."""
+
+import math
+
+import numpy as np
+import pytest
+
+from carom import InputError
+from carom.sweeps.designs import Grid, LatinHypercube, Table
+
+DEGREE = math.pi / 180.0
+
+
+def whole(design):
+    return tuple(slice(0, n) for n in design.shape)
+
+
+def test_a_grid_is_the_product_of_its_axes():
+    """The last axis varies fastest; a box of it is that part of the product."""
+    grid = Grid({"angle": ["10 deg", 0.5], "first.radius": ["5 mm", 1.0, 2.0]})
+    assert (grid.dims, grid.shape) == (("angle", "first_radius"), (2, 3))
+    points = grid.inputs((slice(1, 2), slice(1, 3)))
+    assert points["angle"].tolist() == [0.5, 0.5]
+    assert points["first.radius"].tolist() == [1.0, 2.0]
+    expected = np.repeat([10 * DEGREE, 0.5], 3)
+    np.testing.assert_allclose(grid.inputs(whole(grid))["angle"], expected, rtol=1e-15)
+
+
+def test_ranges_are_even_in_value_or_logarithm():
+    """Both ends are hit to the bit; differences, or quotients, of neighbours are equal."""
+    axes = {
+        "angle": {"from": "0 deg", "to": "85 deg", "points": 86},
+        "first.material.young": {"from": "1 MPa", "to": "1 GPa", "points": 7, "spacing": "log"},
+    }
+    coords = Grid(axes).coords()
+    angles, young = coords["angle"][1], coords["first_material_young"][1]
+    np.testing.assert_allclose(angles, np.arange(86) * DEGREE, rtol=1e-14)
+    np.testing.assert_allclose(young[1:] / young[:-1], math.sqrt(10.0), rtol=1e-14)
+    assert (young[0], young[-1]) == (1e6, 1e9)
+    for spacing in ("linear", "log"):  # 0.2 + (0.9 - 0.2) is not 0.9, nor 0.3 (0.7/0.3) 0.7
+        for start, stop in ((0.2, 0.9), (0.3, 0.7)):
+            axis = {"from": start, "to": stop, "points": 3, "spacing": spacing}
+            values = Grid({"friction": axis}).coords()["friction"][1]
+            assert (values[0], values[-1]) == (start, stop)
+    assert coords["first_material_young"][2]["units"] == "Pa"
+
+
+def test_axes_of_names_are_their_own_coordinates():
+    grid = Grid({"first.material": ["steel", "rubber"], "second.kind": ["cup", "sphere"]})
+    assert grid.coords()["first_material"][1] == ["steel", "rubber"]
+    assert grid.inputs(whole(grid))["second.kind"].tolist() == [0, 1, 0, 1]
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 7, 64, 255, 1000, 12345])
+def test_every_part_of_every_range_holds_one_sample(n):
+    """The definition of a Latin hypercube: of n equal parts each is hit exactly once."""
+    ranges = {"friction": (0, 1), "spin": (-3.0, 5.0), "angle": ("0 deg", "60 deg")}
+    points = LatinHypercube(ranges, samples=n, seed=5).inputs((slice(0, n),))
+    for name, start, stop in (("friction", 0, 1), ("spin", -3, 5), ("angle", 0, math.pi / 3)):
+        parts = np.floor((points[name] - start) / (stop - start) * n).astype(int)
+        assert np.array_equal(np.sort(parts), np.arange(n))
+
+
+def test_logarithmic_samples_are_even_in_the_logarithm():
+    wide = {"friction": {"from": 1e-3, "to": 1.0, "spacing": "log"}}
+    values = LatinHypercube(wide, samples=500).inputs((slice(0, 500),))["friction"]
+    parts = np.floor((3.0 + np.log10(values)) / 3.0 * 500).astype(int)
+    assert np.array_equal(np.sort(parts), np.arange(500))
+
+
+def test_samples_do_not_depend_on_the_block():
+    """Any block alone holds the same bits, at ten million points as well."""
+    design = LatinHypercube({"friction": (0.0, 1.0), "spin": (-1.0, 1.0)}, samples=10**7, seed=2)
+    together = design.inputs((slice(9_990_000, 10**7),))
+    for name, values in together.items():
+        pieces = [design.inputs((slice(i, i + 1250),))[name] for i in range(9_990_000, 10**7, 1250)]
+        assert np.array_equal(np.concatenate(pieces), values)
+        assert np.unique(np.floor(values * 1e7 / (2.0 if name == "spin" else 1.0))).size == 10_000
+
+
+def test_samples_are_random():
+    """Means, correlations of inputs, of neighbours and of seeds are as of independent numbers."""
+    n = 2**14 - 3
+    names = ("friction", "spin", "spin2", "speed")
+    seeds = [LatinHypercube(dict.fromkeys(names, (0.0, 1.0)), samples=n, seed=s) for s in (1, 2)]
+    columns = [v for design in seeds for v in design.inputs((slice(0, n),)).values()]
+    series = np.array([*columns, *(np.roll(column, 1) for column in columns)])
+    others = np.corrcoef(series)[~np.eye(len(series), dtype=bool)]
+    assert np.abs(others).max() < 4.5 / math.sqrt(n)
+    assert np.abs(others).max() > 1.0 / math.sqrt(n)  # random, not constructed
+    jitter = np.concatenate([np.mod(column * n, 1.0) for column in columns])
+    assert abs(jitter.mean() - 0.5) < 4.5 / math.sqrt(12 * jitter.size)
+    assert abs(jitter.var() - 1.0 / 12.0) < 0.002
+
+
+def test_a_file_of_cases(tmp_path):
+    """Units in the head or in the cell; what cannot be read is NaN and spoils no other cell."""
+    path = tmp_path / "cases.csv"
+    rows = ("0.1,36,0.5,steel", ".2, 72 , 90 deg,no such", "x,-1e1,nan,glass", ",3 m/s,5 kg, steel")
+    text = "\n".join(["# measured", "friction,speed [km/h],angle,first.material", *rows])
+    path.write_text(text)
+    table = Table(path)
+    points = table.inputs(whole(table))
+    nan = np.nan
+    np.testing.assert_array_equal(points["friction"], [0.1, 0.2, nan, nan])
+    np.testing.assert_allclose(points["speed"], [10.0, 20.0, -10 / 3.6, 3.0], rtol=1e-15)
+    np.testing.assert_allclose(points["angle"], [0.5, math.pi / 2, nan, nan], rtol=1e-15)
+    assert points["first.material"].tolist() == [0, -1, 1, 0]
+    assert [choice.label for choice in table.choices["first.material"]] == ["steel", "glass"]
+
+
+def test_columns_of_arrays(tmp_path):
+    """A mapping and a CSV file of the same numbers are the same table, to the last bit."""
+    rng = np.random.default_rng(1)
+    columns = {"friction": rng.uniform(size=50), "spin": rng.normal(size=50) * 1e5}
+    path = tmp_path / "cases.csv"
+    rows = zip(*columns.values(), strict=True)
+    path.write_text("friction,spin\n" + "\n".join(f"{a!s},{b!s}" for a, b in rows))
+    one, two = Table(columns), Table(str(path))
+    assert one.description() == two.description()
+    columns["spin"][7] = np.nextafter(columns["spin"][7], 0.0)
+    assert Table(columns).description() != two.description()
+
+
+def test_cells_of_lists():
+    values = Table({"angle": ["90 deg", 0.1, None, True]}).inputs((slice(0, 4),))["angle"]
+    np.testing.assert_array_equal(values, [math.pi / 2, 0.1, np.nan, np.nan])
+    masked = np.ma.array([0.25, 0.5], mask=[True, False])
+    assert np.isnan(Table({"friction": masked}).inputs((slice(0, 2),))["friction"][0])
+
+
+CUBE = {"friction": (0.1, 0.2)}
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Grid({}), "design: no inputs"),
+        (lambda: Grid(["angle"]), "axes: .*mapping"),
+        (lambda: Grid({"anlge": [1]}), "anlge: .*did you mean 'angle'"),
+        (lambda: Grid({"radius": [1]}), "radius: .*'first.radius'"),
+        (lambda: Grid({"angle": []}), "angle: .*at least one"),
+        (lambda: Grid({"friction": [0.1, math.nan]}), "friction: nan .*finite"),
+        (lambda: Grid({"friction": [0.1, math.inf]}), "friction: inf .*finite"),
+        (lambda: Grid({"friction": "0.1 kg"}), "friction: '0.1 kg'"),
+        (lambda: Grid({"angle": [0, 30, 60]}), "radians"),
+        (lambda: Grid({"angle": {"from": 0, "to": 60, "points": 3}}), "write '60 deg'"),
+        (lambda: Grid({"friction": {"from": 0, "to": 1}}), "friction.points: None"),
+        (lambda: Grid({"friction": {"from": 1, "to": 1, "points": 2}}), "elsewhere"),
+        (lambda: Grid({"friction": {"to": 1, "points": 2}}), "friction.from: missing"),
+        (lambda: Grid({"friction": {"from": 0, "to": 1, "points": 2, "step": 1}}), "step: unknown"),
+        (
+            lambda: Grid({"spin": {"from": -1, "to": 1, "points": 2, "spacing": "log"}}),
+            "log spacing needs positive",
+        ),
+        (
+            lambda: Grid({"spin": {"from": 1, "to": 2, "points": 2, "spacing": "cubic"}}),
+            "spin.spacing: 'cubic' .*linear or log",
+        ),
+        (lambda: Grid({"speed": [1], "normal_speed": [1]}), "speed .*not both|not both"),
+        (lambda: Grid({"first.material": ["stel"]}), "material: 'stel' .*steel"),
+        (lambda: Grid({"first.material": ["steel", "steel"]}), "given twice"),
+        (lambda: Grid({"second.kind": ["ball"]}), "kind: 'ball'"),
+        (lambda: LatinHypercube(CUBE, samples=0), "samples: 0"),
+        (lambda: LatinHypercube(CUBE, samples=10**13), "samples: "),
+        (lambda: LatinHypercube(CUBE, samples=1.5), "samples: 1.5"),
+        (lambda: LatinHypercube(CUBE, samples=2, seed=-1), "seed: -1"),
+        (lambda: LatinHypercube({"friction": [0.1, 0.2, 0.3]}, samples=2), "must be a range"),
+        (lambda: LatinHypercube({"friction": (0.1, 0.1)}, samples=2), "elsewhere"),
+        (lambda: Table("no such.csv"), "'no such.csv' cannot be read"),
+        (lambda: Table({"angle": [1, 2], "friction": [1]}), "equally long"),
+        (lambda: Table({"angle": []}), "no rows"),
+        (lambda: Table({"angle [kg]": [1]}), "angle: .*kilogram"),
+        (lambda: Table({"angle": [1], "angle [deg]": [1]}), "two columns"),
+        (lambda: Table(5), "table: 5"),
+    ],
+)
+def test_what_is_no_design_is_refused_in_a_line(make, message):
+    with pytest.raises(InputError, match=message) as refused:
+        make()
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("text", ["", "angle,friction\n1,2,3\n", "angle\n1\n2,3\n", "angle\n"])
+def test_what_is_no_table_is_refused(tmp_path, text):
+    path = tmp_path / "cases.csv"
+    path.write_text(text)
+    with pytest.raises(InputError, match="table: "):
+        Table(path)

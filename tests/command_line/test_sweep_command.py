@@ -1,0 +1,219 @@
+"""`carom sweep`, as a user would type it."""
+
+import errno
+import json
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import carom
+from carom.cli import main
+
+CASE = """\
+speed = "2 m/s"
+angle = "30 deg"
+friction = 0.2
+
+[first]
+radius = "5 mm"
+material = "steel"
+
+[sweep]
+outputs = ["rebound_angle", "spin_out"]
+
+[sweep.axes]
+angle = {from = "0 deg", to = "80 deg", points = 9}
+friction = [0.1, 0.3]
+"""
+CLOSED = "tcp://127.0.0.1:1"  # nobody listens there
+
+
+@pytest.fixture
+def run(capsys, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    Path("case.toml").write_text(CASE)
+
+    def call(*arguments):
+        code = main(["sweep", *arguments])
+        caught = capsys.readouterr()
+        return code, caught.out, caught.err
+
+    return call
+
+
+def changed(old: str, new: str) -> None:
+    assert old in CASE
+    Path("case.toml").write_text(CASE.replace(old, new))
+
+
+def test_every_point_is_the_impact_of_the_library(run):
+    code, out, err = run("case.toml", "--output", "sweep.nc")
+    assert (code, err) == (0, "stored sweep.nc\n")
+    result = carom.read("sweep.nc")
+    assert result.sizes == {"angle": 9, "friction": 2}
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    for friction in (0.1, 0.3):
+        pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=friction)
+        for angle in (20.0, 80.0):
+            hit = carom.impact(pair, speed=2.0, angle=f"{angle} deg")
+            point = result.sel(friction=friction).sel(angle=np.radians(angle), method="nearest")
+            for name in ("rebound_angle", "spin_out"):
+                assert float(point[name]) == pytest.approx(getattr(hit, name), rel=1e-9)
+    assert "18 points along angle (9), friction (2)" in out
+
+
+def test_without_a_place_it_says_how_to_keep_the_results(run):
+    code, out, err = run("case.toml")
+    assert code == 0
+    assert "18 points" in out
+    assert err == "not stored; --store sweep.zarr or --output sweep.nc keeps it\n"
+    assert not [path for path in Path().iterdir() if path.name != "case.toml"]
+
+
+def test_json_counts_the_points_and_gives_their_ranges(run):
+    code, out, _ = run("case.toml", "--json", "--store", "sweep.zarr")
+    record = json.loads(out)
+    stored = xr.open_zarr("sweep.zarr", chunks=None)
+    assert code == 0
+    assert (record["points"], record["sizes"]) == (18, {"angle": 9, "friction": 2})
+    assert list(record["status"].values()) == [18]
+    angles = record["ranges"]["rebound_angle"]
+    assert angles["min"] == float(stored.rebound_angle.min())
+    assert angles["max"] == float(stored.rebound_angle.max())
+    assert (angles["units"], record["store"], record["output"]) == ("rad", "sweep.zarr", None)
+
+
+def test_bad_points_are_counted_with_their_reason_and_the_exit_code_is_0(run):
+    Path("cases.csv").write_text("angle,friction\n10 deg,0.1\n20 deg,-0.1\n30 deg,nan\n")
+    axes = CASE[CASE.index("[sweep.axes]") :]
+    changed(axes, "")
+    Path("case.toml").write_text(Path("case.toml").read_text() + 'table = "cases.csv"\n')
+    code, out, _ = run("case.toml", "--json")
+    statuses = json.loads(out)["status"]
+    assert code == 0
+    assert sum(statuses.values()) == 3
+    assert statuses["solved"] == 1
+
+
+def test_resume_goes_on_and_is_needed(run):
+    assert run("case.toml", "--store", "sweep.zarr")[0] == 0
+    code, _, err = run("case.toml", "--store", "sweep.zarr")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "--resume" in err
+    assert run("case.toml", "--store", "sweep.zarr", "--resume")[0] == 0
+
+
+def test_hypercube_of_the_axes(run):
+    changed('outputs = ["rebound_angle", "spin_out"]', "samples = 7\nseed = 3")
+    drawn = Path("case.toml").read_text().replace(", points = 9", "")
+    radius = '"first.radius" = {from = "1 mm", to = "9 mm", spacing = "log"}'
+    Path("case.toml").write_text(drawn.replace("friction = [0.1, 0.3]", radius))
+    code, out, _ = run("case.toml", "--json", "--output", "sweep.csv")
+    assert code == 0
+    assert json.loads(out)["points"] == 7
+    radii = np.sort(carom.read("sweep.csv").first_radius)
+    strata = np.geomspace(1e-3, 9e-3, 8)
+    assert np.all((strata[:-1] <= radii) & (radii <= strata[1:]))
+
+
+def test_file_that_the_case_names_is_written(run):
+    changed("[sweep]", '[output]\ndata = "mine.nc"\n[sweep]')
+    assert run("case.toml")[0] == 0
+    assert carom.read("mine.nc").status.size == 18
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("outputs =", "output =", ("output", "line 10", "'outputs'")),
+        ("[sweep.axes]", "[sweep.axis]", ("axis", "line 12", "'axes'")),
+        ("friction = [", "fiction = [", ("fiction", "'friction'")),
+        ("outputs = [", "seed = 1\noutputs = [", ("seed", "grid")),
+        ("outputs = [", "samples = 0\noutputs = [", ("samples",)),
+        ("outputs = [", "samples = 9\noutputs = [", ("angle.points",)),
+        ('"spin_out"', '"spin_off"', ("spin_off", "'spin_out'")),
+        ("[0.1, 0.3]", "[]", ("friction", "at least one")),
+        ('["rebound_angle", "spin_out"]', '"spin_out"', ("outputs", "list of names")),
+        ("[sweep]", '[output]\nplot = "hit.png"\n[sweep]', ("plot", "a sweep draws none")),
+        ("[sweep.axes]", "[sweep.axes.first]", ("first.angle",)),
+    ],
+)
+def test_refuses_in_one_line(run, old, new, words):
+    changed(old, new)
+    code, out, err = run("case.toml")
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert [word for word in words if word not in err] == [], err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        (["--store", "sweep.nc"], ".zarr"),
+        (["--store", "nowhere/sweep.zarr"], "folder"),
+        (["--output", "sweep.zarr"], ".nc"),
+        (["--workers", "0"], "workers"),
+        (["--resume"], "store"),
+        (["--scheduler", "nonsense"], "tcp://host:8786"),
+        (["--scheduler", CLOSED, "--workers", "2"], "workers"),
+        (["--scheduler", CLOSED], "dask scheduler"),
+    ],
+)
+def test_refuses_flags_in_one_line_and_leaves_nothing(run, monkeypatch, arguments, word):
+    monkeypatch.setattr("carom.sweeps.schedulers.ANSWER", 0.5)
+    code, out, err = run("case.toml", *arguments)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert word in err
+    assert [path.name for path in Path().iterdir()] == ["case.toml"]
+
+
+def test_case_without_a_sweep_is_refused(run):
+    Path("case.toml").write_text(CASE[: CASE.index("[sweep]")])
+    code, _, err = run("case.toml")
+    assert code == 2
+    assert "[sweep.axes]" in err
+
+
+def test_full_disk_says_what_is_safe_and_resume_goes_on(run, monkeypatch):
+    replace, written = os.replace, []
+
+    def onto_a_full_disk(partial, target):
+        written.append(Path(target).parent.parent.parent.name)
+        if written.count("status") == 2:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        replace(partial, target)
+
+    with monkeypatch.context() as full:
+        full.setattr("carom.sweeps.blocks.FEWEST", 4)
+        full.setattr("carom.sweeps.chunks.os.replace", onto_a_full_disk)
+        code, out, err = run("case.toml", "--store", "sweep.zarr")
+    assert (code, out, err.count("\n")) == (1, "", 1)
+    assert "No space left on device; free space; 1 of 5 blocks are safe" in err
+    assert "--resume" in err
+    assert not list(Path("sweep.zarr").rglob("*.partial"))
+    code, out, _ = run("case.toml", "--store", "sweep.zarr", "--resume", "--json")
+    assert code == 0
+    assert json.loads(out)["status"] == {"solved": 18}
+
+
+def test_interrupted_it_says_what_is_safe_and_how_to_go_on(run, monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as pressed:
+        pressed.setattr("carom.sweeps.stores.write_chunk", interrupted)
+        code, out, err = run("case.toml", "--store", "sweep.zarr")
+    assert (code, out) == (1, "")
+    assert err == (
+        "carom: stopped; 0 of 1 blocks are safe in sweep.zarr; "
+        "--resume (resume=True) continues there\n"
+    )
+    assert run("case.toml", "--store", "sweep.zarr", "--resume")[0] == 0
+
+
+def test_help_has_an_example(run):
+    code, out, _ = run("--help")
+    assert code == 0
+    assert "carom sweep examples/sweep.toml --store sweep.zarr --resume" in " ".join(out.split())

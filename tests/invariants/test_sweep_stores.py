@@ -1,0 +1,263 @@
+"""A store holds one sweep of one version, of one process, and nothing else is ever touched."""
+
+import json
+import os
+import subprocess
+import sys
+from itertools import count
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+import zarr
+
+from carom.quantities import InputError
+from carom.sweeps import sweep
+from carom.sweeps.blocks import boxes, chunk_shape, points
+from carom.sweeps.chunks import codecs, write_chunk
+from carom.sweeps.designs import Grid, LatinHypercube, Table
+from carom.sweeps.evaluation import Problem
+
+CASE = {
+    "first": {"radius": "5 mm", "material": "steel"},
+    "friction": 0.2,
+    "speed": "2 m/s",
+    "angle": "30 deg",
+}
+GRID = Grid({"angle": np.linspace(0.0, 1.2, 7), "friction": [0.1, 0.2, 0.3]})
+DESIGNS = {
+    "grid": GRID,
+    "materials": Grid({"first.material": ["steel", "nylon"], "angle": ["10 deg", "40 deg"]}),
+    "hypercube": LatinHypercube({"angle": (0.0, 1.2), "first.radius": (1e-3, 9e-3)}, samples=9),
+    "table with faults": Table({"angle": [0.1, 0.2, np.nan], "speed": [1.0, -1.0, 2.0]}),
+}
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "sweep.zarr"
+
+
+def files(folder: Path) -> dict[Path, bytes]:
+    return {file: file.read_bytes() for file in folder.rglob("*") if file.is_file()}
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_store_and_memory_hold_the_same_dataset(path, name):
+    kept = sweep(CASE, DESIGNS[name])
+    stored = sweep(CASE, DESIGNS[name], store=path)
+    assert kept.identical(stored.load())
+    assert list(kept.data_vars) == list(stored.data_vars)
+    plain = xr.open_zarr(path, chunks=None)
+    for variable in kept.variables:
+        assert plain[variable].values.tobytes() == kept[variable].values.tobytes()
+        assert plain[variable].attrs.keys() == kept[variable].attrs.keys()
+    assert plain.attrs == kept.attrs
+    assert plain.attrs["Conventions"].startswith("CF-")
+
+
+def test_values_of_a_store_are_read_when_they_are_used(path):
+    stored = sweep(CASE, GRID, store=path)
+    assert not stored["rebound_angle"].variable._in_memory
+    assert np.isfinite(stored["rebound_angle"].values).all()
+
+
+@pytest.mark.parametrize(
+    ("shape", "chunk"), [((10,), (4,)), ((5, 7), (2, 7)), ((3, 4, 5), (2, 3, 2))]
+)
+def test_chunks_are_read_by_zarr_to_the_last_bit(tmp_path, shape, chunk):
+    values = np.random.default_rng(1).standard_normal(shape)
+    group = zarr.create_group(tmp_path / "group.zarr")
+    array = group.create_array("x", shape=shape, chunks=chunk, dtype="float64", **codecs())
+    for box in boxes(shape, chunk):
+        corner = [part.start // size for part, size in zip(box, chunk, strict=True)]
+        write_chunk(tmp_path / "group.zarr/x", corner, chunk, values[box])
+    assert array[...].tobytes() == values.tobytes()
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [(1,), (1000,), (999_983,), (10_000_000,), (86, 5), (100, 400), (3, 7, 11, 13), (2, 10**6)],
+)
+def test_blocks_cover_every_point_once_and_stay_small(shape):
+    chunk = chunk_shape(shape)
+    whole = list(boxes(shape, chunk))
+    assert sum(points(box) for box in whole) == np.prod(shape)
+    assert len({tuple(part.start for part in box) for box in whole}) == len(whole)
+    assert max(points(box) for box in whole) == np.prod(chunk) <= 2**14
+
+
+def test_finished_sweep_is_continued_without_computing_anything(path, monkeypatch):
+    first = sweep(CASE, GRID, store=path).load()
+    before = files(path)
+    monkeypatch.setattr(Problem, "block", None)
+    assert first.identical(sweep(CASE, GRID, store=path, resume=True).load())
+    assert before == files(path)
+
+
+def test_resume_begins_where_nothing_is(path):
+    assert sweep(CASE, GRID, store=path, resume=True).status.max() == 0
+
+
+class Killed(BaseException):
+    """Stands for a kill: nothing handles it."""
+
+
+def test_killed_before_or_after_any_of_its_files_it_ends_in_the_same_bits(tmp_path, monkeypatch):
+    """A block counts as finished exactly when the last of its three files is in its place."""
+    monkeypatch.setattr("carom.sweeps.blocks.FEWEST", 6)
+    outputs = ["rebound_angle", "spin_out"]
+    truth = sweep(CASE, GRID, outputs=outputs)
+    blocks, files_of_a_block = 4, 3
+    for instant in range(2 * blocks * files_of_a_block):
+        path = tmp_path / f"{instant}.zarr"
+        with monkeypatch.context() as doomed:
+            doomed.setattr("carom.sweeps.chunks.os.replace", killed_at(instant))
+            with pytest.raises(Killed):
+                sweep(CASE, GRID, outputs=outputs, store=path)
+        with monkeypatch.context() as counted:
+            counted.setattr(Problem, "block", logged := Logged(Problem.block))
+            result = sweep(CASE, GRID, outputs=outputs, store=path, resume=True)
+        assert len(logged.boxes) == blocks - (instant + 1) // 2 // files_of_a_block
+        assert truth.identical(result.load())
+
+
+def killed_at(instant: int):
+    """Return a way to put files in their place that is killed before, or after, one of them."""
+    replace, calls = os.replace, count()
+
+    def doomed(partial, target):
+        if Path(target).parent.parent.name != "c":  # not a chunk of a block
+            return replace(partial, target)
+        number = next(calls)
+        if instant == 2 * number:
+            raise Killed
+        replace(partial, target)
+        if instant == 2 * number + 1:
+            raise Killed
+        return None
+
+    return doomed
+
+
+class Logged:
+    """A method that remembers for which blocks it was called."""
+
+    def __init__(self, method) -> None:
+        self.boxes = []
+        self._method = method
+
+    def __get__(self, problem, _):
+        def block(box, threads=1):
+            self.boxes.append(box)
+            return self._method(problem, box, threads)
+
+        return block
+
+
+def test_store_is_refused_without_resume(path):
+    sweep(CASE, GRID, store=path)
+    with pytest.raises(InputError, match=r"it is there; --resume \(resume=True\) continues it"):
+        sweep(CASE, GRID, store=path)
+
+
+@pytest.mark.parametrize(
+    ("case", "design", "outputs", "words"),
+    [
+        ({**CASE, "speed": "3 m/s"}, GRID, None, "speed is 2.0 there and 3.0 here"),
+        (CASE, Grid({"angle": [0.1, 0.2], "friction": [0.1]}), None, "angle"),
+        (CASE, GRID, ["psi_out"], "outputs"),
+        ({**CASE, "second": {"kind": "sphere"}}, GRID, None, "second"),
+        (CASE, DESIGNS["hypercube"], None, "case.friction is not given there and 0.2 here"),
+    ],
+)
+def test_store_of_another_sweep_is_refused_with_the_difference(path, case, design, outputs, words):
+    sweep(CASE, GRID, store=path)
+    before = files(path)
+    with pytest.raises(InputError, match="it is of another sweep: ") as told:
+        sweep(case, design, outputs=outputs, store=path, resume=True)
+    assert words in str(told.value)
+    assert "\n" not in str(told.value)
+    assert before == files(path)
+
+
+def test_long_axes_are_told_apart_without_being_written_twice(path):
+    angles = np.linspace(0.0, 1.2, 2000)
+    stored = sweep(CASE, Grid({"angle": angles}), outputs=["psi_out"], store=path)
+    assert len(stored.attrs["inputs"]) < 2000
+    angles[1000] = np.nextafter(angles[1000], 2.0)
+    with pytest.raises(InputError, match=r"another sweep: design\.axes\.angle\.sha256 is "):
+        sweep(CASE, Grid({"angle": angles}), outputs=["psi_out"], store=path, resume=True)
+
+
+def test_store_of_another_version_is_refused(path):
+    sweep(CASE, GRID, store=path)
+    record = json.loads((path / "zarr.json").read_text())
+    record["attributes"]["source"] = "carom 0.0.1"
+    (path / "zarr.json").write_text(json.dumps(record))
+    with pytest.raises(InputError, match=r"it is of carom 0\.0\.1, and this is carom "):
+        sweep(CASE, GRID, store=path, resume=True)
+
+
+def empty(path: Path) -> None:
+    path.mkdir()
+
+
+def text(path: Path) -> None:
+    path.write_text("mine")
+
+
+def folder(path: Path) -> None:
+    path.mkdir()
+    (path / "letter.txt").write_text("mine")
+
+
+def foreign(path: Path) -> None:
+    xr.Dataset({"status": ("x", [1, 2])}, attrs={"source": "another program"}).to_zarr(
+        path, zarr_format=2
+    )
+
+
+@pytest.mark.parametrize("resume", [False, True])
+@pytest.mark.parametrize("make", [empty, text, folder, foreign])
+def test_what_is_not_a_store_of_carom_is_refused_and_left_as_it_is(path, make, resume):
+    make(path)
+    before = files(path.parent)
+    with pytest.raises(InputError, match="store: "):
+        sweep(CASE, GRID, store=path, resume=resume)
+    assert before == files(path.parent)
+    assert path.exists()
+
+
+def test_without_the_packages_of_the_extra_one_line_says_how_to_get_them(path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "zarr", None)
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(InputError, match=r"needs the package zarr; pip install 'carom\[cluster\]'"):
+        sweep(CASE, GRID, store=path)
+    with pytest.raises(InputError, match=r"needs the package distributed; pip install 'carom"):
+        sweep(CASE, GRID, scheduler="tcp://127.0.0.1:1")
+    assert not path.exists()
+
+
+MEMORY = """
+import resource, sys
+from carom.sweeps import sweep
+from carom.sweeps.designs import LatinHypercube
+
+# gross slip: points that cost little
+case = {"first": {"radius": "5 mm", "material": "steel"}, "friction": 0.01, "speed": "2 m/s"}
+for number, samples in enumerate((20_000, 20_000, 400_000)):
+    design = LatinHypercube({"angle": ("40 deg", "80 deg")}, samples=samples)
+    sweep(case, design, store=f"{sys.argv[1]}/{number}.zarr")
+    print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0)
+"""
+
+
+def test_memory_does_not_grow_with_the_points(tmp_path):
+    """The results of the largest sweep take 55 MB."""
+    command = [sys.executable, "-c", MEMORY, str(tmp_path)]
+    out = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    _, few, many = map(float, out.split())
+    assert many - few < 16.0
+    assert many < 500.0
