@@ -6,11 +6,10 @@ python benchmarks/sweeps.py --large    up to 1e7 impacts as well
 """
 
 import argparse
-import os
-import resource
 import subprocess
 import sys
 import time
+from math import nan
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
@@ -29,7 +28,8 @@ CASE = {
 }
 # psi_1 from 0 to 5.9 at chi = 1.44: stick, microslip and slip, hardly any gross slip
 RANGES = {"angle": ("0 deg", "55 deg"), "spin": ("-50 rad/s", "50 rad/s")}
-SMALLEST = 10_000
+LARGE = 10_000_000
+PLACE = {False: "in memory   ", True: "into a store"}
 
 
 class Run(NamedTuple):
@@ -44,19 +44,29 @@ def design(points: int) -> LatinHypercube:
     return LatinHypercube(RANGES, samples=points, seed=SEED)
 
 
-def run_here(points: int, workers: int) -> None:
-    """Sweep into a store and print the time and the peak memory; a small sweep loads the code."""
+def run_here(points: int, workers: int, stored: bool) -> None:
+    """Sweep and print the time and the peak memory; a small sweep before it loads the code."""
     with TemporaryDirectory(dir=".") as folder:
-        sweep(CASE, design(64), store=Path(folder) / "first.zarr", workers=workers)
+        first, second = (Path(folder) / f"{i}.zarr" if stored else None for i in range(2))
+        sweep(CASE, design(64), store=first, workers=workers)
         start = time.perf_counter()
-        sweep(CASE, design(points), store=Path(folder) / "sweep.zarr", workers=workers)
+        sweep(CASE, design(points), store=second, workers=workers)
         seconds = time.perf_counter() - start
-    print(seconds, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0)
+    print(seconds, peak_memory())
 
 
-def measured(points: int, workers: int, repeats: int = 1) -> Run:
+def peak_memory() -> float:
+    """Return the peak memory of this process in MB; what `resource` tells may be its parent's."""
+    status = Path("/proc/self/status")
+    if not status.exists():
+        return nan
+    words = status.read_text().split()
+    return float(words[words.index("VmHWM:") + 1]) / 1024.0
+
+
+def measured(points: int, workers: int, stored: bool, repeats: int) -> Run:
     """Return the best of a few runs, each in a process of its own."""
-    command = [sys.executable, __file__, "--run", str(points), str(workers)]
+    command = [sys.executable, __file__, "--run", str(points), str(workers), str(int(stored))]
     runs = []
     for _ in range(repeats):
         out = subprocess.run(command, check=True, capture_output=True, text=True).stdout
@@ -72,27 +82,31 @@ def kernel_seconds(points: int) -> float:
     return time.perf_counter() - start
 
 
-def report(sizes: list[int], repeats: int) -> None:
-    """Print what sweeps of several sizes cost on all cores, and the largest of them on one."""
+def report(sizes: list[int], kernel: float, repeats: int) -> None:
+    """Print what sweeps of several sizes cost on all cores, in memory and into a store."""
     cores = available_cores()
-    most = sizes[-1]
-    kernel_seconds(64)
-    alone = kernel_seconds(min(most, 1_000_000)) / min(most, 1_000_000)
-    runs = {points: measured(points, cores, repeats if points < most else 1) for points in sizes}
-    base = runs[most].seconds / most
-    for points, run in runs.items():
-        each = run.seconds / points
-        print(
-            f"{points:9.0e} impacts into a store, {cores} threads {run.seconds:9.2f} s,"
-            f" {each * 1e6:6.1f} us each, {each / alone:5.2f} times the kernel alone,"
-            f" {each / base:5.2f} of the largest; peak {run.memory:4.0f} MB"
-        )
+    for stored in (False, True):
+        # 1e7 results in memory are 1.4 GB: that is what stores are for
+        wanted = [points for points in sizes if stored or points < LARGE]
+        runs = {n: measured(n, cores, stored, repeats if n < 10**6 else 1) for n in wanted}
+        base = runs[wanted[-1]].seconds / wanted[-1]
+        for points, run in runs.items():
+            each = run.seconds / points
+            print(
+                f"{points:7.0e} impacts {PLACE[stored]}"
+                f" {run.seconds:8.2f} s, {each * 1e6:6.1f} us each: {each / kernel:5.2f} of the"
+                f" kernel alone, {each / base:5.2f} of the largest; peak {run.memory:4.0f} MB"
+            )
 
 
 def report_efficiency(points: int, repeats: int) -> None:
     """Print the parallel efficiency from one to two workers."""
-    one, two = (measured(points, workers, repeats).seconds for workers in (1, 2))
-    print(f"from 1 to 2 workers at {points:.0e}: efficiency {one / two / 2.0:.2f}")
+    for stored in (False, True):
+        one, two = (measured(points, workers, stored, repeats).seconds for workers in (1, 2))
+        where = "into a store" if stored else "in memory   "
+        print(
+            f"{points:7.0e} impacts {where} from 1 to 2 workers: efficiency {one / two / 2.0:.2f}"
+        )
 
 
 def main() -> None:
@@ -100,15 +114,20 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--smoke", action="store_true", help="only to see that it runs")
     parser.add_argument("--large", action="store_true", help="up to 1e7 impacts")
-    parser.add_argument("--run", nargs=2, type=int, help=argparse.SUPPRESS)
+    parser.add_argument("--run", nargs=3, type=int, help=argparse.SUPPRESS)
     given = parser.parse_args()
     if given.run:
-        run_here(*given.run)
+        points, workers, stored = given.run
+        run_here(points, workers, bool(stored))
         return
-    sizes = [2_000] if given.smoke else [SMALLEST, 100_000, 1_000_000]
-    report([*sizes, 10_000_000] if given.large else sizes, 1 if given.smoke else 3)
-    if (os.cpu_count() or 1) > 1:
-        report_efficiency(2_000 if given.smoke else 200_000, 1 if given.smoke else 3)
+    sizes = [2_000] if given.smoke else [10_000, 100_000, 1_000_000]
+    repeats = 1 if given.smoke else 3
+    kernel_seconds(64)  # compiles
+    kernel = min(kernel_seconds(sizes[-1] // 10) for _ in range(repeats)) / (sizes[-1] // 10)
+    print(f"kernel alone, {available_cores()} threads: {kernel * 1e6:.1f} us for an impact")
+    report([*sizes, LARGE] if given.large else sizes, kernel, repeats)
+    if available_cores() > 1:
+        report_efficiency(sizes[-1] // 5, repeats)
 
 
 if __name__ == "__main__":

@@ -39,7 +39,6 @@ UNTIL = 50  # collisions of a sphere
 Q = BALL.gyration_ratio
 NODES, WEIGHTS = (0.5 * each for each in np.polynomial.legendre.leggauss(120))
 
-
 WALTON = "Walton, fitted"
 LAWS = {"exact": None, WALTON: carom.fit_walton(PAIR).law, "perfectly rough": carom.RoughLaw()}
 LOOKS = {
@@ -96,7 +95,7 @@ class Gas:
         """Let one batch of candidates pass; return how many pairs collided.
 
         Of all pairs N (N-1)/2 each meets sigma_T g_max dt/V candidates in dt, and collides with
-        probability g/g_max; twice the largest speed is a g_max that no pair exceeds.
+        probability g/g_max; g_max is twice the largest speed, which no pair can exceed.
         """
         count, before = len(self.velocity), self.hits
         batch = max(count // 3, 1)
@@ -155,11 +154,11 @@ def unit(vectors):
 def cool(law, spheres, until, *, seed=1, name="gas"):
     """Follow a gas without spin until each sphere has had so many collisions."""
     gas = Gas(spheres, seed)
-    states = [gas.state()]
-    total = {"total": spheres * until / 2, "unit": " collisions", "unit_scale": True}
-    with tqdm(desc=name, delay=2, disable=None, dynamic_ncols=True, **total) as bar:
-        while 2 * gas.hits < spheres * until:
-            bar.update(gas.advance(law))
+    states, total = [gas.state()], spheres * until / 2
+    shown = {"unit": " collisions", "unit_scale": True, "dynamic_ncols": True}
+    with tqdm(desc=name, total=total, delay=2, disable=None, **shown) as bar:
+        while gas.hits < total:
+            bar.update(min(gas.advance(law), total - bar.n))
             states.append(gas.state())
     return History(*np.array(states).T)
 
@@ -183,8 +182,8 @@ def rates(law, ratio, pair=PAIR):
 def maxwellian(law, until):
     """Collisions of a sphere, T_tr and T_rot/T_tr of Maxwellian spheres that start without spin."""
     many = np.linspace(0, until, 201)
-    grown = solve_ivp(lambda _, y: rates(law, y[1]), (0, until), (0, 0), t_eval=many, rtol=1e-8)
-    return many, np.exp(grown.y[0]), grown.y[1]
+    run = solve_ivp(lambda _, y: rates(law, y[1]), (0, until), (0, 0), t_eval=many, rtol=1e-8)
+    return many, np.exp(run.y[0]), run.y[1]
 
 
 def lasting(law, pair):
@@ -214,11 +213,10 @@ def check_smooth(spheres):
 def check_rough(gas, spheres):
     """Check that perfectly rough spheres keep their energy and share it, at the rate of theory."""
     np.testing.assert_allclose(gas.translational + gas.rotational, 1, rtol=1e-12, err_msg="energy")
-    share = np.exp(-8 / 3 * Q / (1 + Q) ** 2)
-    found = np.interp(1, gas.collisions, gas.translational - gas.rotational)
-    assert abs(found - share) < 2e-3 + 2 / np.sqrt(spheres), f"T_tr - T_rot {found:.4f}"
-    late = (gas.translational - gas.rotational)[gas.collisions > 25]
-    assert abs(late.mean()) < 3 / np.sqrt(spheres), "equal temperatures"
+    gap = gas.translational - gas.rotational
+    found, decay = np.interp(1, gas.collisions, gap), np.exp(-8 / 3 * Q / (1 + Q) ** 2)
+    assert abs(found - decay) < 2e-3 + 2 / np.sqrt(spheres), f"T_tr - T_rot {found:.4f}"
+    assert abs(gap[gas.collisions > 25].mean()) < 3 / np.sqrt(spheres), "equal temperatures"
 
 
 def check_friction(name, gas, spheres):
@@ -228,9 +226,10 @@ def check_friction(name, gas, spheres):
     expected = [each[100] for each in maxwellian(LAWS[name], 1)[1:]]
     found = [np.interp(0.5, gas.collisions, each) for each in (gas.translational, gas.ratio)]
     np.testing.assert_allclose(found, expected, atol=2 * scatter, err_msg="start")
-    early, late = (gas.ratio[gas.between(*span)].mean() for span in ((25, 37), (37, 50)))
+    spans = (0.5 * UNTIL, 0.75 * UNTIL), (0.75 * UNTIL, UNTIL)
+    early, late = (gas.ratio[gas.between(*span)].mean() for span in spans)
     assert abs(late / early - 1) < 4 * scatter, "T_rot/T_tr settles"
-    bend = gas.slope(37, 50) / gas.slope(25, 37) - 1
+    bend = gas.slope(*spans[1]) / gas.slope(*spans[0]) - 1
     assert abs(bend) < 5 * scatter, f"t^-2: T_tr^(-1/2) bends by {bend:.2%}"
     return late
 
@@ -241,13 +240,14 @@ def draw(gases, ends):
     for name, gas in gases.items():
         for values in (gas.translational, gas.rotational):
             axes[0].loglog(gas.time[1:], values[1:], **LOOKS[name])
-        many, _, even = maxwellian(LAWS[name], UNTIL)
-        axes[1].plot(many, even, color="0.6", lw=0.8)
+        axes[1].plot(*maxwellian(LAWS[name], UNTIL)[::2], color="0.6", lw=0.8)
         axes[1].plot(gas.collisions, gas.ratio, **LOOKS[name], label=name)
+    axes[1].plot([], [], color="0.6", lw=0.8, label="Maxwellian")
     axes[0].plot([70, 400], [0.18, 0.18 * (70 / 400) ** 2], color="0.3", lw=0.8)
     axes[0].text(180, 0.04, "$t^{-2}$")
     axes[0].text(0.25, 1.15, "translational")
     axes[0].text(1.5, 0.05, "rotational")
+    axes[0].text(0.25, 6e-4, rf"$\mu = {PAIR.friction:g}$")
     axes[0].set(xlim=(0.2, 600), ylim=(4e-4, 2), ylabel="temperature, $T/T_0$")
     axes[0].set_xlabel("time (mean free times at the start)")
     axes[1].set(xlim=(0, UNTIL), ylim=(0, 1.1), xlabel="collisions of a sphere")
@@ -285,7 +285,15 @@ def main(folder: str | Path = ".", spheres: int = 20_000) -> str:
     )
 
 
+def count(text):
+    """A number of spheres on the command line, 1e6 too."""
+    number = float(text)
+    if not 1e3 <= number <= 1e9:
+        raise argparse.ArgumentTypeError(f"{text}: give 1000 or more; fewer scatter too much")
+    return int(number)
+
+
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--spheres", type=lambda text: int(float(text)), default=20_000)
+    parser.add_argument("--spheres", type=count, default=20_000)
     print(main(spheres=parser.parse_args().spheres))

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 import carom
+from carom.dimensionless.chebyshev import evaluate
 from carom.dimensionless.paths import (
     DISPLACEMENT,
     INSIDE,
@@ -23,7 +24,6 @@ from carom.dimensionless.paths import (
     follow_path,
     slid,
 )
-from carom.dimensionless.chebyshev import evaluate
 from carom.dimensionless.strata import RADIUS, RIM, SLOPE, profile_of
 from carom.loading import load_path
 from carom.quantities import InputError

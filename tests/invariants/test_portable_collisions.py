@@ -90,6 +90,9 @@ def motions(pair):
     for name in ("spin1", "velocity2", "spin2"):  # V_t = 0 exactly
         given[name][20] = 0.0
     given["normal"][21:40] *= 1.0 + 3e-6  # made up for
+    for name in NAMES:  # grazing: V_t/V_n is beyond any number
+        given[name][49] = [100.0, 0.0, 1e-307] if name == "velocity1" else 0.0
+    given["normal"][49] = [0.0, 0.0, 1.0]
     if not isinstance(pair.second, carom.Sphere):
         del given["spin2"]
     return given

@@ -29,6 +29,7 @@ def test_example_holds_and_draws(script, tmp_path, monkeypatch, capsys):
     """A script prints one line when its checks have passed and stores a figure of its name."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "Agg")
+    monkeypatch.setattr("sys.argv", [str(script)])
     runpy.run_path(str(script), run_name="__main__")
     assert len(capsys.readouterr().out.splitlines()) == 1
     (figure,) = tmp_path.iterdir()

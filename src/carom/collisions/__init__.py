@@ -71,7 +71,8 @@ def collide(
         velocity1, spin1, velocity2, spin2 in the shape and type of what was given, float32 or
         float64, and status, shape (...): `CollisionStatus`. Pairs that do not approach, or with
         numbers that cannot be used, are left alone. Arrays of other libraries (JAX, torch, CuPy)
-        are answered in kind, and can be differentiated.
+        are answered in kind, and can be differentiated; lists and NumPy arrays beside them take
+        their type and device.
 
     Raises
     ------
@@ -154,7 +155,8 @@ def _check_writable(
     for place, (name, values, whole) in enumerate(zip(NAMES, given, used, strict=True)):
         if values is None or place >= moving:
             continue
-        if not (isinstance(values, np.ndarray) and np.shares_memory(values, whole)):
+        same = isinstance(values, np.ndarray) and np.may_share_memory(values, whole)
+        if not same and whole.size:
             allowed = f"to be written in place it must be a C-ordered {whole.dtype} array of shape"
             raise refusal(name, values, f"{allowed} {whole.shape}")
         if not values.flags.writeable:

@@ -39,17 +39,16 @@ class Scratch(NamedTuple):
     closing: Array  # V_n
     slope: Array
     fraction: Array  # 1 + beta
-    place: Array
     panel: NDArray[np.int32]
 
 
 def new_scratch() -> Scratch:
     """Return room for one chunk."""
-    vectors, numbers = np.empty((4, 3 * CHUNK)), np.empty((4, CHUNK))
+    vectors, numbers = np.empty((4, 3 * CHUNK)), np.empty((3, CHUNK))
     linear, angular, axis, sliding = vectors
-    closing, slope, fraction, place = numbers
+    closing, slope, fraction = numbers
     panel = np.empty(CHUNK, dtype=np.int32)
-    return Scratch(linear, angular, axis, sliding, closing, slope, fraction, place, panel)
+    return Scratch(linear, angular, axis, sliding, closing, slope, fraction, panel)
 
 
 @kernel
@@ -142,8 +141,7 @@ def collide_block(
         old, new, code = part(before, low, high), part(after, low, high), status[low:high]
         approach(old, inertia, scratch)
         contact_velocity(normal[3 * low : 3 * high], rule.scale, scratch, code)
-        slope, panel, place = scratch.slope, scratch.panel, scratch.place
-        one_plus_beta(slope, high - low, rule, panel, place, scratch.fraction)
+        one_plus_beta(scratch.slope, high - low, rule, scratch.panel, scratch.fraction)
         impulses(inertia, rule.restitution, scratch, code)
         add(old.velocity1, -inertia.inverse_mass1, scratch.linear, new.velocity1)
         add(old.spin1, -inertia.spin_rate1, scratch.angular, new.spin1)

@@ -1,6 +1,5 @@
 """What a collision takes and gives: status, inertia of the pair, velocities and spins."""
 
-from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any, NamedTuple
 
@@ -45,8 +44,7 @@ class Inertia(NamedTuple):
     tangential_mass: float
 
 
-@dataclass(frozen=True, eq=False)
-class Collisions:
+class Collisions(NamedTuple):
     """Velocities and spins after collisions, as arrays like those before; SI units.
 
     `status`, one for each pair, holds values of `CollisionStatus`: 0 where the bodies collided.

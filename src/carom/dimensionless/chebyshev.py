@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 from carom.dimensionless._jit import kernel
 
 Array = NDArray[np.float64]
+Branched = Callable[[Array], tuple[Array, NDArray[np.int64]]]  # values, and on which branch each is
 
 GRADING = 0.15  # of a panel, beside a border at which the function may be singular
 NARROWEST = 1e-12  # of its place: no panel is split further
-BISECTIONS = 40  # that find a kink
-TAIL = 2  # coefficients whose size tells the error of a series
+BISECTIONS = 34  # that find a kink
+TAIL = 3  # coefficients whose size tells the error of a series
 
 
 class Panels(NamedTuple):
@@ -69,7 +70,7 @@ def from_extrema(degree: int) -> Array:
 
 
 def fitted(
-    function: Callable[[Array], tuple[Array, NDArray[np.int64]]],
+    function: Branched,
     borders: Sequence[float],
     degree: int,
     tolerance: float,
@@ -79,16 +80,16 @@ def fitted(
 
     `function` gives values and the number of the branch of f on which each lies: panels are cut
     where the branch changes. The last terms of a series tell its error, and a look between the
-    outer nodes, where a weak kink could hide. Where it is too large, a panel is halved, or cut close
-    to its lower end if that is `singular`.
+    outer nodes, where a weak kink could hide. Where it is too large, a panel is halved, or cut
+    close to its lower end if that is `singular`.
     """
+    recall = _remembering(function)
     waiting = list(pairwise(borders))
     done: list[tuple[float, float, Array]] = []
     while waiting:
         points = _points(waiting, degree)
-        distinct, where = np.unique(points, return_inverse=True)
-        found, branch = function(distinct)
-        values, branches = found[where].reshape(points.shape), branch[where].reshape(points.shape)
+        found, branch = recall(points.ravel())
+        values, branches = found.reshape(points.shape), branch.reshape(points.shape)
         rows = values @ from_extrema(degree).T
         errors = points[:, -1] * np.max(np.abs(rows[:, -TAIL:]), axis=1)
         _look_between(function, points, rows, errors, tolerance)
@@ -107,6 +108,24 @@ def fitted(
     return Panels(np.array(edges), np.array([row for _, _, row in done]))
 
 
+def _remembering(function: Branched) -> Branched:
+    """Return the function, asked once for each point: panels share their ends and middles."""
+    known: dict[float, tuple[float, int]] = {}
+
+    def recall(x: Array) -> tuple[Array, NDArray[np.int64]]:
+        asked = x.tolist()
+        new = [each for each in dict.fromkeys(asked) if each not in known]
+        if new:
+            values, branches = function(np.array(new))
+            known.update(
+                zip(new, zip(values.tolist(), branches.tolist(), strict=True), strict=True)
+            )
+        values, branches = zip(*(known[each] for each in asked), strict=True)
+        return np.array(values), np.array(branches)
+
+    return recall
+
+
 def _points(panels: Sequence[tuple[float, float]], degree: int) -> Array:
     """Return the extrema of every panel, the ends as they stand."""
     low, high = np.array(panels).T[:, :, np.newaxis]
@@ -116,13 +135,13 @@ def _points(panels: Sequence[tuple[float, float]], degree: int) -> Array:
 
 
 def _look_between(
-    function: Callable[[Array], tuple[Array, NDArray[np.int64]]],
+    function: Branched,
     points: Array,
     rows: Array,
     errors: Array,
     tolerance: float,
 ) -> None:
-    """Raise the errors that seem small enough to those found between the two nodes at either end."""
+    """Raise errors that seem small to those found between the two nodes at either end."""
     seem = np.flatnonzero(errors <= tolerance)
     if not seem.size:
         return
@@ -137,7 +156,7 @@ def _look_between(
 
 
 def _kinks(
-    function: Callable[[Array], tuple[Array, NDArray[np.int64]]],
+    function: Branched,
     points: Array,
     branches: NDArray[np.int64],
     wanted: NDArray[np.bool_],

@@ -16,13 +16,12 @@ from carom.dimensionless.chebyshev import Panels, fitted
 from carom.dimensionless.phases import Status
 from carom.dimensionless.rebounds import solved
 from carom.laws.portable import applied, lost
-from carom.laws.rules import Rule, frozen
+from carom.laws.rules import DEGREE, Rule, frozen
 from carom.pairs import Pair
 from carom.quantities import InputError, positive, refusal
 
 Array = NDArray[np.float64]
 
-DEGREE = 10
 SMALLEST = 1e-6  # psi_1: below, r is that of the first panel
 TOLERANCE = 4e-10  # of the tail of a series; the error stays below 1e-9
 
@@ -121,10 +120,10 @@ class ReboundLaw:
     def _rule(self) -> Rule:
         """The table in powers, with a last panel on which sliding alone counts."""
         low, high = self.edges[:-1], self.edges[1:]
-        powers = np.zeros((self.coefficients.shape[1], self.edges.size))
-        powers[:, :-1] = -np.array([chebyshev.cheb2poly(row) for row in self.coefficients]).T
-        powers[0, :-1] += 1.0
-        powers[0, -1] = 2.0
+        powers = np.zeros((self.edges.size, DEGREE + 1))
+        powers[:-1] = [-chebyshev.cheb2poly(row) for row in self.coefficients]
+        powers[:-1, 0] += 1.0
+        powers[-1, 0] = 2.0
         slopes = np.append(2.0 / (high - low), 0.0)
         shifts = np.append(-(high + low) / (high - low), 0.0)
         return frozen(Rule(1.0, 1.0, 4.0 * self.chi, self.edges, slopes, shifts, powers))
@@ -172,9 +171,11 @@ def _borders(chi: float) -> list[float]:
 def _is_whole(chi: float, edges: Array, rows: Array) -> bool:
     """Tell whether a table is that of a law: its ends, its order, no gap in psi_2 at an edge."""
     borders = _borders(chi)
-    if rows.ndim != 2 or rows.shape[1] == 0 or edges.shape != (rows.shape[0] + 1,):
+    if rows.shape != (edges.size - 1, DEGREE + 1) or edges.ndim != 1:
         return False
     ends = edges[0] == borders[0] and edges[-1] == borders[-1]
+    if not np.all(np.isfinite(edges)):
+        return False
     starts = rows @ (-1.0) ** np.arange(rows.shape[1])
     after = np.append(starts[1:], 1.0 - 4.0 * chi / borders[-1])
     gaps = np.abs(rows.sum(axis=1) - after) * edges[1:]

@@ -73,19 +73,7 @@ def _series(slope: Any, rule: Rule, xp: Any) -> Any:
     edges, slopes, shifts, powers = (constants(part, flat, xp) for part in rule[3:])
     panel = xp.searchsorted(edges[1:], flat, side="right")
     place = xp.take(slopes, panel) * flat + xp.take(shifts, panel)
-    value = xp.take(powers[-1, :], panel)
-    for term in range(powers.shape[0] - 2, -1, -1):
-        value = value * place + xp.take(powers[term, :], panel)
+    value = xp.take(powers[:, -1], panel)
+    for term in range(powers.shape[1] - 2, -1, -1):
+        value = value * place + xp.take(powers[:, term], panel)
     return xp.reshape(xp.clip(value, 0.0, 2.0), slope.shape)
-
-
-def like(values: Any) -> tuple[Any, Any]:
-    """Return real floating-point values as an array, and its library; lists become NumPy's."""
-    if not array_api_compat.is_array_api_obj(values):
-        values = np.asarray(values, dtype=np.float64)[()]
-    return floating("psi", values)
-
-
-def one_plus_beta(slope: Any, rule: Rule, xp: Any) -> Any:
-    """Return 1 + beta at slopes that are not negative."""
-    return part_lost(slope, xp.ones_like(slope), rule, xp)

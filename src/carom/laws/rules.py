@@ -9,6 +9,7 @@ from carom.dimensionless._jit import kernel
 
 Array = NDArray[np.float64]
 
+DEGREE = 10  # of a series, even: known to the compiler, which unrolls its sum
 LARGEST = 1e300  # a bound on slopes, so that no infinity times zero occurs
 
 
@@ -27,7 +28,7 @@ class Rule(NamedTuple):
     edges: Array  # (n,)
     slopes: Array  # (n,)
     shifts: Array  # (n,)
-    powers: Array  # (terms, n)
+    powers: Array  # (n, DEGREE + 1), or (1, 1) of a constant
 
 
 def constant_rule(restitution: float, scale: float, sliding: float, one_plus_beta: float) -> Rule:
@@ -62,18 +63,27 @@ def find_panels(slope: Array, count: int, edges: Array, panel: NDArray[np.int32]
 
 @kernel
 def one_plus_beta(
-    slope: Array, count: int, rule: Rule, panel: NDArray[np.int32], place: Array, out: Array
+    slope: Array, count: int, rule: Rule, panel: NDArray[np.int32], out: Array
 ) -> None:
-    """Write 1 + beta at each slope; `panel` and `place` are scratch space of the same size."""
-    find_panels(slope, count, rule.edges, panel)
-    highest = rule.powers.shape[0] - 1
-    for i in range(count):
-        place[i] = rule.slopes[panel[i]] * slope[i] + rule.shifts[panel[i]]
-        out[i] = rule.powers[highest, panel[i]]
-    for term in range(highest - 1, -1, -1):
-        row = rule.powers[term]
-        for i in range(count):
-            out[i] = out[i] * place[i] + row[panel[i]]
+    """Write 1 + beta at each slope; `panel` is scratch space of the same size."""
+    if rule.powers.shape[1] == 1:
+        out[:count] = rule.powers[0, 0]
+    else:
+        series(slope, count, rule, panel, out)
     for i in range(count):  # beyond [0, 2] energy would grow
         bound = min(2.0, rule.sliding / slope[i])
         out[i] = max(0.0, bound if bound < out[i] else out[i])
+
+
+@kernel
+def series(slope: Array, count: int, rule: Rule, panel: NDArray[np.int32], out: Array) -> None:
+    """Write the value of the series at each slope, two powers at a time."""
+    find_panels(slope, count, rule.edges, panel)
+    for i in range(count):
+        powers = rule.powers[panel[i]]
+        place = rule.slopes[panel[i]] * slope[i] + rule.shifts[panel[i]]
+        square = place * place
+        value = powers[DEGREE]
+        for term in range(DEGREE - 1, 0, -2):
+            value = value * square + (powers[term] * place + powers[term - 1])
+        out[i] = value
