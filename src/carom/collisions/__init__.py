@@ -86,7 +86,7 @@ def collide(
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> after = carom.collide(pair, velocity1=[[1.0, 0.0, 1.732]], normal=[0.0, 0.0, 1.0])
     >>> after.velocity1.round(3), after.spin1.round(1), after.status
-    (array([[ 0.583,  0.   , -1.732]]), array([[   0. , -208.6,    0. ]]), array([0], dtype=int8))
+    (array([[ 0.583,  0.   , -1.732]]), array([[   0. , -208.5,    0. ]]), array([0], dtype=int8))
     """
     if not isinstance(pair, Pair):
         raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")

@@ -10,7 +10,14 @@ SKEW = 1e-5  # of a normal's squared length from 1; so much is rounding, and mad
 
 
 class CollisionStatus(IntEnum):
-    """What became of a pair; its `message` says so in words."""
+    """What became of a pair; its `message` says so in words.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.CollisionStatus(1).message
+    'left alone: the bodies do not approach'
+    """
 
     COLLIDED = 0
     SEPARATING = 1

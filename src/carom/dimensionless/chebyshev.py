@@ -116,10 +116,8 @@ def _remembering(function: Branched) -> Branched:
         asked = x.tolist()
         new = [each for each in dict.fromkeys(asked) if each not in known]
         if new:
-            values, branches = function(np.array(new))
-            known.update(
-                zip(new, zip(values.tolist(), branches.tolist(), strict=True), strict=True)
-            )
+            answers = (part.tolist() for part in function(np.array(new)))
+            known.update(zip(new, zip(*answers, strict=True), strict=True))
         values, branches = zip(*(known[each] for each in asked), strict=True)
         return np.array(values), np.array(branches)
 

@@ -54,7 +54,7 @@ def fit_walton(pair: Pair, span: float | None = None) -> WaltonFit:
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> fit = carom.fit_walton(pair)
     >>> round(fit.law.tangential_restitution, 2), round(fit.rms_error, 2)
-    (0.38, 0.16)
+    (0.41, 0.16)
     """
     if pair.friction == 0.0:
         raise refusal("friction", pair.friction, "must be positive: without it nothing is to fit")
