@@ -190,3 +190,21 @@ def test_laws_refuse_values_out_of_range(law, name, values):
     """One line that names the parameter."""
     with pytest.raises(carom.InputError, match=f"^{name}: [^\n]+$"):
         law(**values)
+
+
+def test_lists_take_the_type_of_the_arrays():
+    """float32 velocities and a normal as a list: float32, in place, too."""
+    velocity = np.array([[0.3, 0.0, 1.0]], dtype=np.float32)
+    after = carom.collide(PAIR, velocity1=velocity, normal=[0.0, 0.0, 1.0])
+    assert after.velocity1.dtype == np.float32
+    same = carom.collide(PAIR, velocity1=velocity, normal=[0.0, 0.0, 1.0], inplace=True)
+    assert same.velocity1 is velocity
+    assert carom.collide(PAIR, velocity1=[[0, 0, 1]], normal=[0, 0, 1]).velocity1.dtype == float
+
+
+def test_what_broadcasts_is_not_written_in_place():
+    """One vector for a batch of one: the shape differs, though the memory would do."""
+    with pytest.raises(carom.InputError, match=r"velocity1: .*array of shape \(1, 3\)"):
+        carom.collide(
+            PAIR, velocity1=np.array([0.3, 0, 1.0]), normal=np.array([[0, 0, 1.0]]), inplace=True
+        )

@@ -224,7 +224,7 @@ def test_start_up_loads_nothing_that_is_not_needed():
     assert not loaded_by(plain) & {"xarray", "pint", "matplotlib", "pandas"}
 
 
-@pytest.mark.parametrize("command", ["impact", "curve", "materials"])
+@pytest.mark.parametrize("command", ["impact", "curve", "sweep", "materials"])
 def test_help_shows_an_example(run, command):
     code, out, _ = run(command, "--help")
     assert code == 0

@@ -30,8 +30,9 @@ def curve_command(
 ) -> None:
     """Tabulate psi_2, restitution and the borders of the regimes against psi_1.
 
-    Examples: carom curve --chi 1.44 --chi 2 --plot curve.png;
-    carom curve --chi 1.44 --export c --output rebound.h
+    Example: carom curve --chi 1.44 --chi 2 --plot curve.png
+
+    As C: carom curve --chi 1.44 --export c --output rebound.h
     """
     if export is not None:
         table = {"--json": as_json, "--plot": plot, "--from": start != "0", "--to": stop}

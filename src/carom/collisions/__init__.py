@@ -115,7 +115,7 @@ def _collide_numpy(
 ) -> Collisions:
     arrays = [vectors(name, values) for name, values in zip(NAMES, given, strict=True)]
     shape = common_shape(arrays)
-    kind = np.result_type(*(each for each in arrays if each is not None))
+    kind = _kind(given)
     *before, axis = (_whole(each, shape, kind) for each in arrays)
     moving = 4 if inertia.inverse_mass2 > 0.0 else 2
     if inplace:
@@ -130,6 +130,13 @@ def _collide_numpy(
     collide_all(old, normal, inertia, rule, new, status.reshape(-1), threads)
     velocities1, spins1, velocities2, spins2 = after
     return Collisions(velocities1, spins1, velocities2, spins2, status)
+
+
+def _kind(given: tuple[Any, ...]) -> np.dtype[Any]:
+    """Return the type of the arrays that were given; lists take it."""
+    types = [each.dtype for each in given if isinstance(each, np.ndarray)]
+    single = bool(types) and all(each == np.float32 for each in types)
+    return np.dtype(np.float32 if single else np.float64)
 
 
 def _read_only(array: NDArray[np.floating]) -> NDArray[np.floating]:
@@ -155,10 +162,14 @@ def _check_writable(
     for place, (name, values, whole) in enumerate(zip(NAMES, given, used, strict=True)):
         if values is None or place >= moving:
             continue
-        same = isinstance(values, np.ndarray) and np.may_share_memory(values, whole)
-        if not same and whole.size:
-            allowed = f"to be written in place it must be a C-ordered {whole.dtype} array of shape"
-            raise refusal(name, values, f"{allowed} {whole.shape}")
+        wanted = f"a C-ordered {whole.dtype} array of shape {whole.shape}"
+        if not isinstance(values, np.ndarray) or (values.shape, values.dtype) != (
+            whole.shape,
+            whole.dtype,
+        ):
+            raise refusal(name, values, f"to be written in place it must be {wanted}")
+        if not values.flags.c_contiguous:
+            raise refusal(name, values, f"it has gaps or another order; it must be {wanted}")
         if not values.flags.writeable:
             raise refusal(name, values, "it is read-only; pass inplace=False")
         for other, array in zip(NAMES, used, strict=True):

@@ -134,7 +134,7 @@ def rebound(
     result = psi_out.reshape(shape) if shape else float(psi_out[0])
     if return_status:
         return result, status.reshape(shape) if shape else int(status[0])
-    _warn_of_unsolved(status.reshape(shape))
+    warn_of_unsolved(status.reshape(shape))
     return result
 
 
@@ -179,7 +179,8 @@ def available_cores() -> int:
         return os.cpu_count() or 1
 
 
-def _warn_of_unsolved(status: NDArray[np.int8]) -> None:
+def warn_of_unsolved(status: NDArray[np.int8]) -> None:
+    """Warn once of impacts that were not solved: how many, where the first is, why."""
     unsolved = np.argwhere(status != Status.SOLVED)
     if unsolved.size or (status.ndim == 0 and status != Status.SOLVED):
         first = tuple(int(i) for i in unsolved[0]) if status.ndim else ()

@@ -56,6 +56,8 @@ def fit_walton(pair: Pair, span: float | None = None) -> WaltonFit:
     >>> round(fit.law.tangential_restitution, 2), round(fit.rms_error, 2)
     (0.41, 0.16)
     """
+    if not isinstance(pair, Pair):
+        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
     if pair.friction == 0.0:
         raise refusal("friction", pair.friction, "must be positive: without it nothing is to fit")
     reach = 4.0 * pair.chi if span is None else positive("psi_in", span)

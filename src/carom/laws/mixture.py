@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.dimensionless._jit import kernel
 from carom.dimensionless.patches import Patches, fitted_patches, value_at
-from carom.dimensionless.rebounds import rebound, solved
-from carom.quantities import positive, refusal
+from carom.dimensionless.rebounds import solved, warn_of_unsolved
+from carom.quantities import InputError, positive, refusal
 
 Array = NDArray[np.float64]
 
@@ -73,16 +73,23 @@ class MixtureLaw:
         whole = (SMALLEST, 3.0, self.low, self.high)
         self.patches = fitted_patches(_scaled_loss, whole, (1.0, 2.0), TOLERANCE, singular=1.0)
 
-    def __call__(self, psi: ArrayLike, chi: ArrayLike) -> Any:
-        """Return psi_2, broadcast; what lies outside the range of chi comes from `rebound`."""
-        incoming, ratio = np.broadcast_arrays(np.asarray(psi, float), np.asarray(chi, float))
+    def __call__(self, psi: ArrayLike, chi: ArrayLike, *, return_status: bool = False) -> Any:
+        """Return psi_2, broadcast; what lies outside the range of chi comes from `rebound`.
+
+        With `return_status` also a `Status` for each; without it a warning tells of what is NaN.
+        """
+        incoming, ratio = _broadcast(psi, chi)
         flat_psi, flat_chi = incoming.flatten(), ratio.flatten()
-        psi_out = np.empty(flat_psi.size)
+        psi_out, status = np.empty(flat_psi.size), np.zeros(flat_psi.size, dtype=np.int8)
         fill(flat_psi, flat_chi, self.patches, psi_out)
-        outside = np.isnan(psi_out)
-        if np.any(outside):
-            psi_out[outside] = rebound(flat_psi[outside], flat_chi[outside])
-        return psi_out.reshape(incoming.shape)[()]
+        outside = np.flatnonzero(np.isnan(psi_out))
+        if outside.size:
+            psi_out[outside], status[outside], _ = solved(flat_psi[outside], flat_chi[outside])
+        result, each = psi_out.reshape(incoming.shape)[()], status.reshape(incoming.shape)
+        if return_status:
+            return result, each[()]
+        warn_of_unsolved(each)
+        return result
 
     @property
     def nbytes(self) -> int:
@@ -91,6 +98,18 @@ class MixtureLaw:
 
     def __repr__(self) -> str:
         return f"MixtureLaw({self.low!r}, {self.high!r})"
+
+
+def _broadcast(psi: ArrayLike, chi: ArrayLike) -> tuple[Array, Array]:
+    try:
+        both = np.asarray(psi, dtype=np.float64), np.asarray(chi, dtype=np.float64)
+        one, two = np.broadcast_arrays(*both)
+    except (TypeError, ValueError):
+        raise InputError(
+            f"psi, chi: {psi!r:.40} and {chi!r:.40} cannot be used; give real numbers or arrays "
+            "whose shapes broadcast"
+        ) from None
+    return one, two
 
 
 def _scaled_loss(place: Array, chi: Array) -> Array:

@@ -27,6 +27,11 @@ def codecs() -> dict[str, Any]:
     }
 
 
+def chunk_file(array: Path, corner: Sequence[int]) -> Path:
+    """Return the file of the chunk with this index in the folder of an array."""
+    return array.joinpath("c", *map(str, corner))
+
+
 def write_chunk(
     array: Path, corner: Sequence[int], chunk: Sequence[int], values: NDArray[Any]
 ) -> None:
@@ -44,7 +49,7 @@ def write_chunk(
     zstd = extra("numcodecs.zstd", "a store").Zstd(LEVEL, checksum=True)
     whole = np.zeros(chunk, values.dtype.newbyteorder("<"))
     whole[tuple(slice(length) for length in values.shape)] = values
-    target = array.joinpath("c", *map(str, corner))
+    target = chunk_file(array, corner)
     target.parent.mkdir(parents=True, exist_ok=True)
     partial = target.with_name(f"{target.name}.partial")
     try:

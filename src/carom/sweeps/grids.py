@@ -100,4 +100,4 @@ class Grid:
             else values.tolist()
             for name, values in zip(self.names, self._axes, strict=True)
         }
-        return {"kind": "grid", "axes": axes}
+        return {"kind": "grid", "order": list(self.names), "axes": axes}

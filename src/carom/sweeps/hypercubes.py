@@ -108,8 +108,8 @@ class LatinHypercube:
             else reach._asdict()
             for name, reach in zip(self.names, self._ranges, strict=True)
         }
-        whole = {"samples": self.samples, "seed": self.seed, "ranges": ranges}
-        return {"kind": "latin hypercube", **whole}
+        whole = {"samples": self.samples, "seed": self.seed, "order": list(self.names)}
+        return {"kind": "latin hypercube", **whole, "ranges": ranges}
 
 
 def _counted(samples: int) -> int:

@@ -94,6 +94,7 @@ def _cluster(address: str, problem: Problem) -> Iterator[Team]:
 def _client(address: str) -> Iterator[Any]:
     distributed = extra("distributed", CLUSTER)
     try:
+        extra("distributed.comm.addressing", CLUSTER).parse_address(address, strict=True)
         client = distributed.Client(address, timeout=ANSWER, set_as_default=False)
     except OSError:
         raise InputError(

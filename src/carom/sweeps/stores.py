@@ -23,7 +23,7 @@ import numpy as np
 from carom.quantities import refusal
 from carom.results import carom_version
 from carom.sweeps.blocks import Box, Values, boxes, chunk_shape
-from carom.sweeps.chunks import codecs, write_chunk
+from carom.sweeps.chunks import chunk_file, codecs, write_chunk
 from carom.sweeps.evaluation import NOT_RUN, Problem
 from carom.sweeps.extras import extra
 from carom.sweeps.records import SweepStopped, blank_dataset, identity
@@ -44,18 +44,30 @@ class Store:
     def __init__(self, path: Path, names: Iterable[str]) -> None:
         self.path = path
         self._names = list(names)
-        status = extra("zarr", "a store").open_array(path / STATUS, mode="r")
-        self._chunks = status.chunks
-        blocks = list(boxes(status.shape, status.chunks))
-        self.todo = [box for box in blocks if np.any(status[box] == NOT_RUN)]
+        self._status = extra("zarr", "a store").open_array(path / STATUS, mode="r")
+        blocks = list(boxes(self._status.shape, self._status.chunks))
+        self.todo = [box for box in blocks if not self._is_finished(box)]
         self._number, self._finished = len(blocks), len(blocks) - len(self.todo)
+
+    def _is_finished(self, box: Box) -> bool:
+        """Tell whether a block is there as a whole; one whose status cannot be read is not."""
+        corner = self._corner(box)
+        if not all(chunk_file(self.path / name, corner).is_file() for name in self._names):
+            return False
+        try:
+            return not np.any(self._status[box] == NOT_RUN)
+        except Exception:  # zarr raises what it likes at a damaged file
+            return False
+
+    def _corner(self, box: Box) -> list[int]:
+        return [part.start // size for part, size in zip(box, self._status.chunks, strict=True)]
 
     def write(self, box: Box, values: Values) -> None:
         """Write a block, its status last; raises SweepStopped if that fails."""
-        corner = [part.start // size for part, size in zip(box, self._chunks, strict=True)]
+        corner, chunks = self._corner(box), self._status.chunks
         try:
             for name in sorted(values, key=STATUS.__eq__):
-                write_chunk(self.path / name, corner, self._chunks, values[name])
+                write_chunk(self.path / name, corner, chunks, values[name])
         except OSError as error:
             advice = "; free space" if error.errno in FULL else ""
             raise SweepStopped(f"{self.path}: {error.strerror}{advice}") from None
@@ -82,6 +94,7 @@ def opened(folder: str | Path, problem: Problem, resume: bool) -> Iterator[Store
     if not path.exists():
         _create(path, problem)
     elif not resume:
+        read_store(path)
         raise refusal("store", str(path), "it is there; --resume (resume=True) continues it")
     else:
         _check(path, problem)
@@ -173,6 +186,9 @@ def _check(path: Path, problem: Problem) -> None:
     found = islice(_differences(json.loads(dataset.attrs["inputs"]), identity(problem), ""), SHOWN)
     if words := "; ".join(found):
         raise refusal("store", str(path), f"it is of another sweep: {words}")
+    for name in problem.variables():
+        if not (path / name / "zarr.json").is_file():
+            raise refusal("store", str(path), f"it is damaged: {name} is missing; begin anew")
 
 
 def _differences(there: Any, here: Any, name: str) -> Iterator[str]:
