@@ -24,6 +24,8 @@ def vectors(name: str, values: ArrayLike | None) -> NDArray[np.floating] | None:
     """Return what is given as vectors of floating-point numbers, or raise InputError."""
     if values is None:
         return None
+    if isinstance(values, np.ma.MaskedArray):
+        raise refusal(name, values, "a mask is not heeded; give plain arrays, NaN where none is")
     try:
         array = np.asarray(values)
     except ValueError:
