@@ -99,7 +99,7 @@ def counted(name: str, value: Any, least: int) -> int:
 def refusal(name: str, value: Any, allowed: str) -> InputError:
     """Return the error that refuses a value."""
     shape = getattr(value, "shape", ())
-    shown = f"an array of shape {shape}" if shape else repr(value)
+    shown = f"an array of shape {shape}" if shape and isinstance(shape, tuple) else repr(value)
     if len(shown) > LONGEST:
         shown = f"{shown[:LONGEST]}..."
     return InputError(f"{name}: {' '.join(shown.split())} cannot be used; {allowed}")

@@ -18,7 +18,6 @@ from carom.sweeps.inputs import (
     CODE,
     UNREADABLE,
     Choice,
-    as_mapping,
     fill_record,
     input_attributes,
     variable,
@@ -94,9 +93,13 @@ class Problem:
     def __init__(
         self, case: Mapping[str, Any], design: Design, outputs: Sequence[str] | None = None
     ) -> None:
-        if not hasattr(design, "inputs"):
+        if isinstance(design, type) or not hasattr(design, "inputs"):
             raise refusal("design", design, "must be a Grid, LatinHypercube or Table")
-        shared = common(dict(as_mapping("case", case)), design)
+        if not isinstance(case, Mapping):
+            raise refusal(
+                "case", case, "must be a mapping like a case file, {'friction': 0.2}"
+            )
+        shared = common(dict(case), design)
         wanted = tuple(name for name in OUTPUTS if name != "spin2_out" or "sphere" in shared.kinds)
         wanted = wanted if outputs is None else _checked_outputs(outputs, design.names)
         fill_record(self, case=dict(case), design=design, outputs=wanted, _common=shared)
@@ -156,7 +159,7 @@ class Problem:
 
 def _checked_outputs(outputs: Sequence[str], names: Sequence[str]) -> tuple[str, ...]:
     known = tuple(dict.fromkeys((*RESULTS, *PAIR)))
-    if isinstance(outputs, str) or not outputs:
+    if not isinstance(outputs, list | tuple) or not outputs:
         raise refusal("outputs", outputs, "must be a list of names, e.g. ['rebound_angle']")
     for name in outputs:
         if name not in known:

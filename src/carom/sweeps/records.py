@@ -3,11 +3,13 @@
 import json
 from collections.abc import Mapping
 from hashlib import sha256
+from math import prod
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.quantities import refusal
 from carom.results import labelled_dataset
 from carom.sweeps.blocks import Box, Values, boxes, chunk_shape
 from carom.sweeps.evaluation import Problem
@@ -44,9 +46,13 @@ class Memory:
     def __init__(self, problem: Problem) -> None:
         self._problem = problem
         shape = problem.design.shape
-        self._arrays = {
-            name: np.empty(shape, info.dtype) for name, info in problem.variables().items()
-        }
+        try:
+            self._arrays = {
+                name: np.empty(shape, info.dtype) for name, info in problem.variables().items()
+            }
+        except MemoryError:
+            allowed = "its results do not fit into memory; give a store"
+            raise refusal("design", f"{prod(shape)} points", allowed) from None
         self.todo = list(boxes(shape, chunk_shape(shape)))
 
     def write(self, box: Box, values: Values) -> None:
