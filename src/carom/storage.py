@@ -1,11 +1,14 @@
 """Storing results as NetCDF or CSV and reading them again; files are replaced whole or not."""
 
+import errno
 import os
+import shutil
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
+from carom.extras import extra
 from carom.quantities import InputError, refusal
 from carom.tables import as_csv, from_csv
 
@@ -13,6 +16,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 TABLES = (".nc", ".csv")
+STORE, STATUS = ".zarr", "status"  # of a sweep
+OVERHEAD = 200_000  # bytes of a NetCDF file besides its values
 FIGURES = (".png", ".pdf", ".svg")
 ANIMATIONS = (".gif", ".mp4")
 
@@ -48,6 +53,7 @@ def save(result: "xr.Dataset | Result", path: str | Path) -> Path:
 
     def write(where: Path) -> None:
         if target.suffix.lower() == ".nc":
+            _require_room(where, dataset.nbytes)
             # what has no missing values declares none: CF forbids it of coordinates
             plain = {name: {"_FillValue": None} for name in dataset.variables}
             dataset.drop_encoding().to_netcdf(where, engine="h5netcdf", encoding=plain)
@@ -55,6 +61,15 @@ def save(result: "xr.Dataset | Result", path: str | Path) -> Path:
             where.write_text(as_csv(dataset), encoding="utf-8", newline="\n")
 
     return replace_whole(target, write)
+
+
+def _require_room(where: Path, size: int) -> None:
+    """Raise OSError if a NetCDF file of this size does not fit: HDF5 crashes on a full disk."""
+    needed = size + size // 20 + OVERHEAD
+    if shutil.disk_usage(where.parent).free < needed:
+        raise OSError(
+            errno.ENOSPC, f"{os.strerror(errno.ENOSPC)}, {needed / 1e6:.2g} MB are needed"
+        )
 
 
 def _dataset(result: "xr.Dataset | Result") -> "xr.Dataset":
@@ -68,12 +83,13 @@ def _dataset(result: "xr.Dataset | Result") -> "xr.Dataset":
 
 
 def read(path: str | Path) -> "xr.Dataset":
-    """Return the dataset that Carom stored as .nc or .csv, every value to the last bit.
+    """Return the dataset that Carom stored as .nc, .csv or .zarr, every value to the last bit.
 
     Parameters
     ----------
     path : str or Path
-        A file that `carom impact --output`, `carom curve --output` or `save` has written.
+        A file that `save` or the option --output of a command has written, or the store of a sweep,
+        .zarr, whose values are read when they are used.
 
     Raises
     ------
@@ -91,11 +107,37 @@ def read(path: str | Path) -> "xr.Dataset":
     array([[ 0.0471, -0.839 ]])
     """
     source = _as_path("file", path)
+    if source.suffix.lower() == STORE and source.is_dir():
+        return read_store(source)
     if source.suffix.lower() not in TABLES:
-        raise refusal("file", str(path), f"must end in {' or '.join(TABLES)}")
+        allowed = f"must end in {' or '.join(TABLES)}, or be the store of a sweep, {STORE}"
+        raise refusal("file", str(path), allowed)
     if not source.is_file():
         raise refusal("file", str(path), "there is no such file")
     return _from_netcdf(source) if source.suffix.lower() == ".nc" else _from_csv(source)
+
+
+def read_store(path: Path) -> "xr.Dataset":
+    """Return the sweep in a store of Carom's, its values read when they are used.
+
+    Raises InputError if it is not one.
+    """
+    extra("zarr", "a store")
+    import numpy as np
+    import xarray as xr
+
+    try:
+        dataset: xr.Dataset = xr.open_zarr(path, chunks=None, consolidated=True, decode_times=False)
+    except Exception:  # zarr and xarray raise what they like at a damaged store
+        raise refusal("store", str(path), "it is damaged, or not a Zarr store") from None
+    is_ours = str(dataset.attrs.get("source")).startswith("carom ") and STATUS in dataset
+    if not is_ours or "inputs" not in dataset.attrs:
+        raise refusal("store", str(path), "it was not stored by Carom")
+    for variable in dataset.variables.values():  # what JSON has made a list
+        if "flag_values" in variable.attrs:
+            flags = np.asarray(variable.attrs["flag_values"], variable.dtype)
+            variable.attrs["flag_values"] = flags
+    return dataset
 
 
 def _as_path(name: str, path: str | Path) -> Path:

@@ -2,6 +2,7 @@
 
 import json
 import warnings
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -218,4 +219,13 @@ def test_what_cannot_be_stored_is_refused(tmp_path):
     dates = xr.Dataset({"when": ("time", np.array(["2020-01-01"], dtype="datetime64[ns]"))})
     with pytest.raises(InputError, match=r"when: 'datetime64\[ns\]' cannot be used; CSV holds"):
         save(dates, tmp_path / "dates.csv")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_netcdf_on_a_full_disk_is_refused_before_it_is_begun(tmp_path, monkeypatch):
+    """HDF5 would take the process down; nothing is left behind."""
+    full = SimpleNamespace(total=10**6, used=10**6 - 5000, free=5000)
+    monkeypatch.setattr("shutil.disk_usage", lambda folder: full)
+    with pytest.raises(carom.InputError, match="No space left on device, .* MB are needed"):
+        carom.save(carom.curve(1.44, [0.5, 2.0]), tmp_path / "curve.nc")
     assert list(tmp_path.iterdir()) == []

@@ -34,6 +34,13 @@ def chunks(path, name):
     return sorted(file for file in (path / name / "c").rglob("*") if file.is_file())
 
 
+def test_a_store_is_read_like_any_other_file(whole):
+    """`carom.read` gives what the sweep returned."""
+    assert carom.read(whole[0]).load().identical(whole[1])
+    with pytest.raises(carom.InputError, match=r"must end in \.nc or \.csv, or be the store"):
+        carom.read(whole[0].with_name("none.zarr"))
+
+
 @pytest.mark.parametrize("name", ["status", "psi_out"])
 def test_chunk_that_is_missing_is_computed_again(whole, copy, name):
     """Only that block is written anew, and the result is the same to the last bit."""

@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 import carom
+from carom.storage import read_store
 from carom.sweeps import sweep
 from carom.sweeps.designs import Grid
-from carom.sweeps.stores import read_store
 
 SEED = 20261121
 CASE = {
@@ -34,7 +34,7 @@ import numpy as np
 import carom
 from carom.sweeps import sweep
 from carom.sweeps.designs import Grid
-from carom.sweeps.stores import read_store
+from carom.storage import read_store
 from carom.sweeps.evaluation import Problem
 
 path, case, axes = sys.argv[1], *map(json.loads, sys.argv[2:4])

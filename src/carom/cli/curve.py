@@ -25,7 +25,10 @@ def curve_command(
         str | None, typer.Option(help="Store the curve: .csv or .nc; with --export c: .h.")
     ] = None,
     export: Annotated[
-        str | None, typer.Option(help="Print source code of psi_2(psi_1) instead: c.")
+        str | None,
+        typer.Option(
+            help="Print psi_2(psi_1) as source code instead: c; one function for each --chi."
+        ),
     ] = None,
 ) -> None:
     """Tabulate psi_2, restitution and the borders of the regimes against psi_1.

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.sweeps.extras import extra
+from carom.extras import extra
 
 LEVEL = 1  # of compression: floating-point numbers gain nothing from more
 

@@ -96,9 +96,7 @@ class Problem:
         if isinstance(design, type) or not hasattr(design, "inputs"):
             raise refusal("design", design, "must be a Grid, LatinHypercube or Table")
         if not isinstance(case, Mapping):
-            raise refusal(
-                "case", case, "must be a mapping like a case file, {'friction': 0.2}"
-            )
+            raise refusal("case", case, "must be a mapping like a case file, {'friction': 0.2}")
         shared = common(dict(case), design)
         wanted = tuple(name for name in OUTPUTS if name != "spin2_out" or "sphere" in shared.kinds)
         wanted = wanted if outputs is None else _checked_outputs(outputs, design.names)

@@ -13,6 +13,7 @@ from carom.sweeps.inputs import Array, leaf
 
 SPACINGS = ("linear", "log")
 RANGE = ("from", "to", "spacing")
+MOST = 10**8  # values of an axis
 
 
 class Range(NamedTuple):
@@ -52,6 +53,8 @@ def read_axis(name: str, given: Any) -> Array:
     if not isinstance(given, Mapping):
         return read_values(name, given)
     points = counted(f"{name}.points", given.get("points"), 1)
+    if points > MOST:
+        raise refusal(f"{name}.points", points, f"must be at most {MOST:g}: an axis is in memory")
     ends = {key: value for key, value in given.items() if key != "points"}
     reach = read_range(name, ends, apart=points > 1)
     values = reach.at(np.linspace(0.0, 1.0, points))

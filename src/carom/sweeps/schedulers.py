@@ -17,11 +17,11 @@ from itertools import islice
 from typing import Any, NamedTuple
 
 from carom.dimensionless.rebounds import available_cores
+from carom.extras import extra
 from carom.quantities import InputError, counted, refusal
 from carom.results import carom_version
 from carom.sweeps.blocks import Box, Values
 from carom.sweeps.evaluation import Problem
-from carom.sweeps.extras import extra
 from carom.sweeps.records import SweepStopped
 
 ANSWER = 5.0  # seconds a scheduler, and its first worker, have to answer

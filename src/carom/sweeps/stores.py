@@ -20,20 +20,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from carom.extras import extra
 from carom.quantities import refusal
 from carom.results import carom_version
+from carom.storage import STATUS, STORE, read_store
 from carom.sweeps.blocks import Box, Values, boxes, chunk_shape
 from carom.sweeps.chunks import chunk_file, codecs, write_chunk
 from carom.sweeps.evaluation import NOT_RUN, Problem
-from carom.sweeps.extras import extra
 from carom.sweeps.records import SweepStopped, blank_dataset, identity
 
 if TYPE_CHECKING:
     import xarray as xr
 
-STATUS = "status"
 LOCK = f"{STATUS}/.lock"  # a place that zarr does not list
-SUFFIX = ".zarr"
 FULL = (errno.ENOSPC, errno.EDQUOT)
 SHOWN = 3  # differences in a refusal
 
@@ -103,8 +102,8 @@ def opened(folder: str | Path, problem: Problem, resume: bool) -> Iterator[Store
 
 
 def _checked(folder: str | Path) -> Path:
-    if not isinstance(folder, str | Path) or Path(folder).suffix.lower() != SUFFIX:
-        raise refusal("store", str(folder), f"must be the name of a folder that ends in {SUFFIX}")
+    if not isinstance(folder, str | Path) or Path(folder).suffix.lower() != STORE:
+        raise refusal("store", str(folder), f"must be the name of a folder that ends in {STORE}")
     path = Path(folder)
     if not path.parent.is_dir():
         raise refusal("store", str(path), "the folder around it must exist; make it first")
@@ -139,7 +138,11 @@ def _create(path: Path, problem: Problem) -> None:
         finally:
             shutil.rmtree(new, ignore_errors=True)
     except OSError as error:
-        raise refusal("store", str(path), f"cannot be made; {error.strerror}") from None
+        there = error.errno in (errno.EEXIST, errno.ENOTEMPTY)
+        reason = (
+            "another process has just made it" if there else f"cannot be made; {error.strerror}"
+        )
+        raise refusal("store", str(path), reason) from None
 
 
 def _fill(path: Path, problem: Problem) -> None:
@@ -201,25 +204,3 @@ def _differences(there: Any, here: Any, name: str) -> Iterator[str]:
             "not given" if value is None else shorten(str(value), 40) for value in (there, here)
         )
         yield "{} is {} there and {} here".format(name, *shown)
-
-
-def read_store(path: Path) -> "xr.Dataset":
-    """Return the sweep in a store of Carom's, its values read when they are used.
-
-    Raises InputError if it is not one.
-    """
-    extra("zarr", "a store")
-    import xarray as xr
-
-    try:
-        dataset: xr.Dataset = xr.open_zarr(path, chunks=None, consolidated=True, decode_times=False)
-    except Exception:  # zarr and xarray raise what they like at a damaged store
-        raise refusal("store", str(path), "it is damaged, or not a Zarr store") from None
-    is_ours = str(dataset.attrs.get("source")).startswith("carom ") and STATUS in dataset
-    if not is_ours or "inputs" not in dataset.attrs:
-        raise refusal("store", str(path), "it was not stored by Carom")
-    for variable in dataset.variables.values():  # what JSON has made a list
-        if "flag_values" in variable.attrs:
-            flags = np.asarray(variable.attrs["flag_values"], variable.dtype)
-            variable.attrs["flag_values"] = flags
-    return dataset

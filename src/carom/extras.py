@@ -1,4 +1,4 @@
-"""Packages that only some sweeps need."""
+"""Packages that only some tasks need."""
 
 from importlib import import_module
 from types import ModuleType
