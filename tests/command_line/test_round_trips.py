@@ -226,6 +226,6 @@ def test_netcdf_on_a_full_disk_is_refused_before_it_is_begun(tmp_path, monkeypat
     """HDF5 would take the process down; nothing is left behind."""
     full = SimpleNamespace(total=10**6, used=10**6 - 5000, free=5000)
     monkeypatch.setattr("shutil.disk_usage", lambda folder: full)
-    with pytest.raises(carom.InputError, match="No space left on device, .* MB are needed"):
+    with pytest.raises(carom.InputError, match=r"No space left on device, .* MB are needed"):
         carom.save(carom.curve(1.44, [0.5, 2.0]), tmp_path / "curve.nc")
     assert list(tmp_path.iterdir()) == []

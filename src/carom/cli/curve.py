@@ -26,9 +26,7 @@ def curve_command(
     ] = None,
     export: Annotated[
         str | None,
-        typer.Option(
-            help="Print psi_2(psi_1) as source code instead: c; one function for each --chi."
-        ),
+        typer.Option(help="Print psi_2(psi_1) as source code: c. One function for each --chi."),
     ] = None,
 ) -> None:
     """Tabulate psi_2, restitution and the borders of the regimes against psi_1.
