@@ -109,11 +109,13 @@ def impulses(
 
 
 @kernel
-def add(before: Flat, factor: float, change: Array, after: Flat) -> None:
+def add(before: Flat, factor: float, change: Array, after: Flat, inplace: bool) -> None:
     """Write before + factor change; where nothing changes not even the sign of a zero does."""
-    for k in range(before.size):
+    if not inplace:
+        after[:] = before
+    for k in range(after.size):  # one array only: a loop over two that may be one is not vectorised
         step = factor * change[k]
-        after[k] = before[k] + step if step != 0.0 else before[k]
+        after[k] = after[k] + step if step != 0.0 else after[k]
 
 
 @kernel
@@ -134,8 +136,9 @@ def collide_block(
     scratch: Scratch,
     after: Motions,
     status: NDArray[np.int8],
+    inplace: bool,
 ) -> None:
-    """Write the motions after collisions, chunk by chunk; `after` may be `before`."""
+    """Write the motions after collisions, chunk by chunk; in place `after` is `before`."""
     for low in range(0, status.size, CHUNK):
         high = min(low + CHUNK, status.size)
         old, new, code = part(before, low, high), part(after, low, high), status[low:high]
@@ -143,11 +146,11 @@ def collide_block(
         contact_velocity(normal[3 * low : 3 * high], rule.scale, scratch, code)
         one_plus_beta(scratch.slope, high - low, rule, scratch.panel, scratch.fraction)
         impulses(inertia, rule.restitution, scratch, code)
-        add(old.velocity1, -inertia.inverse_mass1, scratch.linear, new.velocity1)
-        add(old.spin1, -inertia.spin_rate1, scratch.angular, new.spin1)
+        add(old.velocity1, -inertia.inverse_mass1, scratch.linear, new.velocity1, inplace)
+        add(old.spin1, -inertia.spin_rate1, scratch.angular, new.spin1, inplace)
         if inertia.inverse_mass2 > 0.0:
-            add(old.velocity2, inertia.inverse_mass2, scratch.linear, new.velocity2)
-            add(old.spin2, -inertia.spin_rate2, scratch.angular, new.spin2)
+            add(old.velocity2, inertia.inverse_mass2, scratch.linear, new.velocity2, inplace)
+            add(old.spin2, -inertia.spin_rate2, scratch.angular, new.spin2, inplace)
 
 
 def collide_all(
@@ -165,8 +168,9 @@ def collide_all(
         high = min(low + BLOCK, status.size)
         flat, some = slice(3 * low, 3 * high), slice(low, high)
         old, new = (Motions(*(each[flat] for each in whole)) for whole in (before, after))
-        collide_block(old, normal[flat], inertia, rule, new_scratch(), new, status[some])
+        collide_block(old, normal[flat], inertia, rule, new_scratch(), new, status[some], inplace)
 
+    inplace = np.may_share_memory(before.velocity1, after.velocity1)
     starts = range(0, status.size, BLOCK)
     workers = min(threads or available_cores(), len(starts))
     if workers <= 1:
