@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 TOLERANCE = 1e-10  # of one Taylor step; keeps psi_2 to a tenth of what `rebound` promises
 LINEAR = 1e-6  # below, psi_2 is taken proportional to psi_1: rounding would cost more
-BLOCK, SMALLEST_BLOCK = 256, 16  # impacts that a thread takes at once
+BLOCK, SMALLEST_BLOCK = 256, 8  # impacts that a thread takes at once
 
 
 @kernel

@@ -28,7 +28,7 @@ TOLERANCE = 4e-10  # of the tail of a series; the error stays below 1e-9
 
 @dataclass(frozen=True, eq=False)
 class ReboundLaw:
-    """The exact rebound at one chi, tabulated to 1e-9 for chi up to 30.
+    """The exact rebound at one chi, tabulated to 1e-9 for chi up to 10.
 
     psi_2 = psi_1 r(|psi_1|), r as Chebyshev series on panels up to the border of gross slip
     throughout, psi_2 = psi_1 -+ 4 chi from there on (Maw, Barber & Fawcett 1976; Barber (33)).
@@ -36,8 +36,8 @@ class ReboundLaw:
     Parameters
     ----------
     chi : float
-        (kappa/2)(m_n/m_t), positive; spheres have 0.5 to 3. Made in 20 to 60 ms up to 3, in seconds
-        beyond 30, where impacts have many phases and the error reaches 2e-9.
+        (kappa/2)(m_n/m_t), positive; spheres have 0.5 to 3. Made in 20 to 70 ms up to 3, in seconds
+        beyond 30. Beyond 10 impacts have many phases, and the error reaches 2e-9.
 
     Attributes
     ----------

@@ -11,7 +11,7 @@ from carom.quantities import InputError
 from carom.results import carom_version
 
 HEADER = Template("""\
-/* The exact oblique impact of elastic spheres: psi_2(psi_1), to 1e-9, at chi = $chis.
+/* The exact oblique impact of elastic spheres: psi_2(psi_1), to 1e-9 (chi <= 10), at chi = $chis.
  *
  * Written by Carom $version; its licence, BSD 3-Clause, is that of this file.
  *
