@@ -10,14 +10,17 @@ from carom.pairs import Pair
 from carom.quantities import not_negative, number, refusal
 
 
-def _ratio(name: str, value: float, least: float) -> float:
-    result = number(name, value, "1")
-    if not least <= result <= 1.0:
-        raise refusal(name, value, f"must lie between {least:g} and 1")
-    return result
+def _check_ratios(law: object, **least: float) -> None:
+    """Read the coefficients of a frozen law; raise InputError unless they lie from these to 1."""
+    for name, low in least.items():
+        given = getattr(law, name)
+        value = number(name, given, "1")
+        if not low <= value <= 1.0:
+            raise refusal(name, given, f"must lie between {low:g} and 1")
+        object.__setattr__(law, name, value)
 
 
-@dataclass(frozen=True, init=False)
+@dataclass(frozen=True, kw_only=True)
 class SmoothLaw:
     """Smooth spheres: V_n' = -e V_n, V_t' = V_t; spins never change.
 
@@ -38,17 +41,17 @@ class SmoothLaw:
     SmoothLaw(restitution=0.9)
     """
 
-    restitution: float
+    restitution: float = 1.0
 
-    def __init__(self, *, restitution: float = 1.0) -> None:
-        object.__setattr__(self, "restitution", _ratio("restitution", restitution, 0.0))
+    def __post_init__(self) -> None:
+        _check_ratios(self, restitution=0.0)
 
     def rule(self, pair: Pair) -> Rule:
         """Return what a collision of this pair needs."""
         return constant_rule(self.restitution, 1.0, 0.0, 0.0)
 
 
-@dataclass(frozen=True, init=False)
+@dataclass(frozen=True, kw_only=True)
 class RoughLaw:
     """Perfectly rough spheres: V_n' = -e V_n, V_t' = -V_t (Bryan 1894; Pidduck 1922).
 
@@ -69,17 +72,17 @@ class RoughLaw:
     RoughLaw(restitution=1.0)
     """
 
-    restitution: float
+    restitution: float = 1.0
 
-    def __init__(self, *, restitution: float = 1.0) -> None:
-        object.__setattr__(self, "restitution", _ratio("restitution", restitution, 0.0))
+    def __post_init__(self) -> None:
+        _check_ratios(self, restitution=0.0)
 
     def rule(self, pair: Pair) -> Rule:
         """Return what a collision of this pair needs."""
         return constant_rule(self.restitution, 1.0, inf, 2.0)
 
 
-@dataclass(frozen=True, init=False)
+@dataclass(frozen=True, kw_only=True)
 class WaltonLaw:
     """Walton's three parameters: e, friction mu while it slides, beta_0 where it does not.
 
@@ -109,19 +112,12 @@ class WaltonLaw:
     """
 
     friction: float
-    restitution: float
+    restitution: float = 1.0
     tangential_restitution: float
 
-    def __init__(
-        self, *, friction: float, restitution: float = 1.0, tangential_restitution: float
-    ) -> None:
-        beta = _ratio("tangential_restitution", tangential_restitution, -1.0)
-        for name, value in (
-            ("friction", not_negative("friction", friction)),
-            ("restitution", _ratio("restitution", restitution, 0.0)),
-            ("tangential_restitution", beta),
-        ):
-            object.__setattr__(self, name, value)
+    def __post_init__(self) -> None:
+        _check_ratios(self, restitution=0.0, tangential_restitution=-1.0)
+        object.__setattr__(self, "friction", not_negative("friction", self.friction))
 
     def rule(self, pair: Pair) -> Rule:
         """Return what a collision of this pair needs."""
