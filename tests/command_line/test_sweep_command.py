@@ -2,7 +2,6 @@
 
 import errno
 import json
-import os
 from pathlib import Path
 
 import numpy as np
@@ -177,17 +176,18 @@ def test_case_without_a_sweep_is_refused(run):
 
 
 def test_full_disk_says_what_is_safe_and_resume_goes_on(run, monkeypatch):
-    replace, written = os.replace, []
+    write, written = Path.write_bytes, []
 
-    def onto_a_full_disk(partial, target):
-        written.append(Path(target).parent.parent.parent.name)
+    def onto_a_full_disk(file, content):
+        written.append(file.parent.parent.parent.name)
         if written.count("status") == 2:
+            write(file, content[: len(content) // 2])
             raise OSError(errno.ENOSPC, "No space left on device")
-        replace(partial, target)
+        return write(file, content)
 
     with monkeypatch.context() as full:
         full.setattr("carom.sweeps.blocks.FEWEST", 4)
-        full.setattr("carom.sweeps.chunks.os.replace", onto_a_full_disk)
+        full.setattr(Path, "write_bytes", onto_a_full_disk)
         code, out, err = run("case.toml", "--store", "sweep.zarr")
     assert (code, out, err.count("\n")) == (1, "", 1)
     assert "No space left on device; free space; 1 of 5 blocks are safe" in err
