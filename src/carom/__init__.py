@@ -23,6 +23,17 @@ if TYPE_CHECKING:
     from carom.dimensionless.rebounds import rebound
     from carom.dimensionless.solution import Solution, solve
     from carom.impacts import Impact, impact
+    from carom.laws.dem import (
+        EdemHertzMindlin,
+        HardSphere,
+        HertzLinearHistory,
+        LammpsMindlin,
+        LiggghtsHertz,
+        LinearSpring,
+        StrongeLaw,
+        ThorntonLaw,
+        WaltonBraunLaw,
+    )
     from carom.laws.exact import ReboundLaw
     from carom.laws.fitting import WaltonFit, fit_walton
     from carom.laws.mixture import MixtureLaw
@@ -47,6 +58,17 @@ _HOMES = {
     ),
     "carom.collisions": ("CollisionStatus", "Collisions", "collide"),
     "carom.curves": ("curve", "regime_map"),
+    "carom.laws.dem": (
+        "EdemHertzMindlin",
+        "HardSphere",
+        "HertzLinearHistory",
+        "LammpsMindlin",
+        "LiggghtsHertz",
+        "LinearSpring",
+        "StrongeLaw",
+        "ThorntonLaw",
+        "WaltonBraunLaw",
+    ),
     "carom.laws.exact": ("ReboundLaw",),
     "carom.laws.fitting": ("WaltonFit", "fit_walton"),
     "carom.laws.mixture": ("MixtureLaw",),
@@ -70,11 +92,17 @@ __all__ = [
     "CollisionStatus",
     "Collisions",
     "Cup",
+    "EdemHertzMindlin",
     "Grid",
     "HalfSpace",
+    "HardSphere",
+    "HertzLinearHistory",
     "Impact",
     "InputError",
+    "LammpsMindlin",
     "LatinHypercube",
+    "LiggghtsHertz",
+    "LinearSpring",
     "LoadPath",
     "Material",
     "MixtureLaw",
@@ -86,7 +114,10 @@ __all__ = [
     "Solution",
     "Sphere",
     "Status",
+    "StrongeLaw",
     "Table",
+    "ThorntonLaw",
+    "WaltonBraunLaw",
     "WaltonFit",
     "WaltonLaw",
     "classical",

@@ -1,0 +1,21 @@
+"""Contact laws as the codes of the discrete element method define them, each with its source."""
+
+from carom.laws.dem.base import ContactLaw, Law
+from carom.laws.dem.hard import HardSphere
+from carom.laws.dem.incremental import ThorntonLaw, WaltonBraunLaw
+from carom.laws.dem.mindlin import EdemHertzMindlin, LammpsMindlin, LiggghtsHertz
+from carom.laws.dem.springs import HertzLinearHistory, LinearSpring, StrongeLaw
+
+__all__ = [
+    "ContactLaw",
+    "EdemHertzMindlin",
+    "HardSphere",
+    "HertzLinearHistory",
+    "LammpsMindlin",
+    "Law",
+    "LiggghtsHertz",
+    "LinearSpring",
+    "StrongeLaw",
+    "ThorntonLaw",
+    "WaltonBraunLaw",
+]

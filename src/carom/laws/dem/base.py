@@ -1,0 +1,138 @@
+"""What all contact laws have in common: a name, a source, the rebound that follows from them."""
+
+from abc import ABC, abstractmethod
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from carom.dimensionless.rebounds import available_cores
+from carom.laws.dem.adaptive import rebounds
+from carom.laws.dem.coefficients import Coefficients
+from carom.laws.dem.stepping import HISTORY, longest, stepped, stepped_rebounds
+from carom.quantities import counted, refusal
+
+Array = NDArray[np.float64]
+
+SOLID = 4.0 / 7.0  # kappa/chi of solid spheres, and of one on a half-space
+FEWEST_STEPS = 4
+
+
+@dataclass(frozen=True)
+class Law(ABC):
+    """A law of impact in the place of the exact one."""
+
+    name: ClassVar[str]
+    source: ClassVar[str]
+
+    @abstractmethod
+    def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
+        """Return psi_2 of impacts with one chi."""
+
+    def rebound(
+        self,
+        psi: ArrayLike,
+        chi: ArrayLike,
+        *,
+        kappa: ArrayLike | None = None,
+        steps: int | None = None,
+    ) -> Any:
+        """Return the tangential velocity of the contact point after the impact, psi_2.
+
+        Parameters
+        ----------
+        psi : array_like
+            psi_1 = kappa V_x/(mu V_1) before.
+        chi : array_like
+            (kappa/2)(m_n/m_t), positive; broadcast against `psi`.
+        kappa : array_like, optional
+            G*/E*, by default that of solid spheres, 4 chi/7; of use to a law with a k_t/k_n or a
+            damping of its own.
+        steps : int, optional
+            How many equal time steps the elastic impact takes (the duration of Hertz's contact),
+            as the codes do it; by default as many, of adaptive size, as it takes for 1e-8.
+
+        Returns
+        -------
+        float or ndarray
+            psi_2; NaN where an argument is out of range or the bodies do not part.
+
+        Raises
+        ------
+        InputError
+            If `steps` is below 4.
+
+        Examples
+        --------
+        >>> import carom
+        >>> law = carom.LammpsMindlin("mindlin")
+        >>> round(law.rebound(0.75, 1.4412), 3), round(carom.rebound(0.75, 1.4412), 3)
+        (-0.506, 0.071)
+        """
+        if steps is not None:
+            counted("steps", steps, FEWEST_STEPS)
+        kappa = SOLID * np.asarray(chi, dtype=np.float64) if kappa is None else kappa
+        given = np.broadcast_arrays(*(np.asarray(x, dtype=np.float64) for x in (psi, chi, kappa)))
+        flat = [np.ravel(values) for values in given]
+        bodies, members = np.unique(np.stack(flat[1:]), axis=1, return_inverse=True)
+        order = np.argsort(members, kind="stable")
+        groups = np.split(order, np.cumsum(np.bincount(members, minlength=bodies.shape[1]))[:-1])
+        result = np.full(flat[0].size, np.nan)
+
+        def solve(group: int) -> None:
+            own_chi, own_kappa = bodies[:, group]
+            which = groups[group]
+            if own_chi > 0.0 and own_kappa > 0.0:
+                result[which] = self._rebound(
+                    flat[0][which], float(own_chi), float(own_kappa), steps
+                )
+
+        with ThreadPoolExecutor(available_cores()) as pool:
+            list(pool.map(solve, range(len(groups))))
+        return result.reshape(given[0].shape) if given[0].ndim else float(result[0])
+
+
+@dataclass(frozen=True)
+class ContactLaw(Law):
+    """A law of the forces in a contact, from touch to parting."""
+
+    @abstractmethod
+    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
+
+    def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
+        law = self.coefficients(chi, kappa)
+        out = np.empty(psi.size)
+        if steps is None:
+            rebounds(law, psi, out)
+        else:
+            stepped_rebounds(law, psi, steps, out)
+        return out
+
+    def history(
+        self, psi: float, chi: float, *, kappa: float | None = None, steps: int = 1000
+    ) -> dict[str, Array]:
+        """Return what happens in equal time steps, in the units of Hertz's impact.
+
+        Columns: time, penetration, normal_velocity, psi, normal_force, tangential_force.
+
+        Raises InputError if `steps` is below 4, or the bodies do not part.
+
+        Examples
+        --------
+        >>> import carom
+        >>> history = carom.LinearSpring().history(0.5, 1.44)
+        >>> round(history["normal_force"].max(), 3)
+        0.8
+        """
+        counted("steps", steps, FEWEST_STEPS)
+        law = self.coefficients(chi, SOLID * chi if kappa is None else kappa)
+        record = np.empty((longest(steps), len(HISTORY)))
+        count, _ = stepped(law, abs(psi), steps, record)
+        if count < 0:
+            raise refusal("steps", steps, "the bodies do not part; take more steps")
+        record[:, HISTORY.index("psi")] *= np.copysign(1.0, psi)
+        record[:, HISTORY.index("tangential_force")] *= np.copysign(1.0, psi)
+        return {name: record[:count, i].copy() for i, name in enumerate(HISTORY)}

@@ -1,0 +1,46 @@
+"""Damping for a wanted restitution, as the codes define it."""
+
+from math import log, pi, sqrt
+
+from carom.laws.dem.coefficients import SPRING
+from carom.quantities import number, refusal
+
+COEFF_RESTITUTION, TSUJI = "coeff_restitution", "tsuji"
+RULES = (COEFF_RESTITUTION, TSUJI)
+
+
+def check_restitution(law: object) -> None:
+    """Read the restitution of a frozen law; raise InputError unless it lies above 0 and up to 1."""
+    given = law.restitution  # type: ignore[attr-defined]
+    value = number("restitution", given, "1")
+    if not 0.0 < value <= 1.0:
+        raise refusal("restitution", given, "must be above 0 and at most 1")
+    object.__setattr__(law, "restitution", value)
+
+
+def damping_ratio(restitution: float) -> float:
+    """Return the part of critical damping that leaves a restitution e: -ln e/sqrt(pi^2 + ln^2 e).
+
+    Exact for a linear spring and, with a damping that grows as d^(1/4), for Hertz's contact as
+    well, if the contact ends where the penetration does (Antypov & Elliott 2011).
+    """
+    loss = -log(restitution)
+    return loss / sqrt(pi**2 + loss**2)
+
+
+def tsuji_damping(restitution: float) -> float:
+    """Return alpha of Tsuji, Tanaka & Ishida (1992), whose damping is alpha sqrt(m_n F_n/d) v.
+
+    A polynomial fit, given in the documentation of LAMMPS, pair_style granular.
+    """
+    coefficients = (1.2728, -4.2783, 11.087, -22.348, 27.467, -18.022, 4.8218)
+    return sum(value * restitution**power for power, value in enumerate(coefficients))
+
+
+def hertz_damping(restitution: float, rule: str = COEFF_RESTITUTION) -> float:
+    """Return c of the damping c d^(1/4) v of Hertz's contact, in its units; none for e = 1."""
+    if restitution == 1.0:
+        return 0.0
+    if rule == TSUJI:
+        return sqrt(SPRING) * tsuji_damping(restitution)
+    return 2.0 * damping_ratio(restitution)

@@ -1,0 +1,60 @@
+"""Impacts without a duration: rigid Coulomb friction and Walton's hard spheres."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.laws.dem.base import Law
+from carom.laws.dem.damping import check_restitution
+from carom.quantities import number, refusal
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class HardSphere(Law):
+    """Spheres that do not deform: they slide, or leave with a part of the tangential velocity.
+
+    psi_2 = psi_1 - min(2 chi (1 + e), (1 + beta_0) psi_1) for psi_1 >= 0: with beta_0 = 0 rigid
+    Coulomb friction (Routh 1891), else Walton's three parameters (Foerster et al. 1994, (11)-(13)).
+
+    Parameters
+    ----------
+    tangential_restitution : float
+        beta_0 = -psi_2/psi_1 where it does not slide, from -1 to 1.
+    restitution : float
+        e, above 0 and at most 1.
+
+    Raises
+    ------
+    InputError
+        If a parameter is out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.HardSphere(0.4).rebound([1.0, 10.0], 1.5)
+    array([-0.4,  4. ])
+    """
+
+    name: ClassVar[str] = "hard sphere"
+    source: ClassVar[str] = (
+        "Walton (1993); Foerster, Louge, Chang & Allia (1994), Phys. Fluids 6:1108"
+    )
+
+    tangential_restitution: float = 0.0
+    restitution: float = 1.0
+
+    def __post_init__(self) -> None:
+        check_restitution(self)
+        beta = number("tangential_restitution", self.tangential_restitution, "1")
+        if not -1.0 <= beta <= 1.0:
+            raise refusal("tangential_restitution", beta, "must lie between -1 and 1")
+        object.__setattr__(self, "tangential_restitution", beta)
+
+    def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
+        most = 2.0 * chi * (1.0 + self.restitution)
+        lost = np.minimum(most, (1.0 + self.tangential_restitution) * np.abs(psi))
+        return np.asarray(psi - np.copysign(lost, psi))

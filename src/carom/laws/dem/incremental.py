@@ -1,0 +1,80 @@
+"""Laws that soften as slip spreads from the edge: after Mindlin & Deresiewicz."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from carom.laws.dem.base import ContactLaw
+from carom.laws.dem.coefficients import SPRING, Coefficients, Normal, Shear
+from carom.laws.dem.damping import check_restitution
+from carom.laws.dem.springs import check_ratio
+
+
+@dataclass(frozen=True)
+class ThorntonLaw(ContactLaw):
+    """Mindlin & Deresiewicz's (1953) law in increments, with Hertz's normal force.
+
+    dT = theta k_t dU +- (1 - theta) mu dN, k_t = 2 G* a; theta^3 = 1 - T/(mu N) in first loading,
+    1 - (T* - T)/(2 mu N) in unloading, 1 - (T - T**)/(2 mu N) in reloading, and theta = 1 where
+    k_t |dU| < mu dN; turning points move with the load, dT* = mu dN, dT** = -mu dN.
+
+    Examples
+    --------
+    >>> import carom
+    >>> round(carom.ThorntonLaw().rebound(0.75, 1.4412), 3), carom.rebound(0.75, 1.4412).round(3)
+    (0.071, 0.071)
+    """
+
+    name: ClassVar[str] = "Thornton, incremental"
+    source: ClassVar[str] = "Thornton & Yin (1991), Powder Technol. 65:153"
+
+    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
+        return Coefficients(chi=chi, shear=Shear.MINDLIN_DERESIEWICZ.value)
+
+
+@dataclass(frozen=True)
+class WaltonBraunLaw(ContactLaw):
+    """Walton & Braun's law: a normal spring that unloads stiffer, a tangential one that softens.
+
+    F_n = K_1 d while loading, K_1/e^2 (d - d_p) while unloading; dT = K_0 (1 - (T - T*)/(mu N -
+    T*))^(1/3) dU, T* the last turning point, mirrored for dU < 0 and in proportion to N.
+
+    Parameters
+    ----------
+    stiffness_ratio : float, optional
+        K_0/K_1, positive; by default kappa = G*/E*.
+    restitution : float
+        e, above 0 and at most 1.
+
+    Raises
+    ------
+    InputError
+        If a parameter is out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.WaltonBraunLaw().rebound(0.75, 1.4412).round(3)
+    0.1
+    """
+
+    name: ClassVar[str] = "Walton & Braun"
+    source: ClassVar[str] = "Walton & Braun (1986), J. Rheol. 30:949"
+
+    stiffness_ratio: float | None = None
+    restitution: float = 1.0
+
+    def __post_init__(self) -> None:
+        check_ratio(self)
+        check_restitution(self)
+
+    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
+        return Coefficients(
+            chi=chi,
+            normal=Normal.LINEAR.value,
+            unloading=self.restitution**-2,
+            shear=Shear.WALTON_BRAUN.value,
+            stiffness=SPRING * (self.stiffness_ratio or kappa) / kappa,
+            stiffness_power=0.0,
+        )

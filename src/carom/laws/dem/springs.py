@@ -1,0 +1,171 @@
+"""Laws whose tangential spring has a constant stiffness."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from carom.laws.dem.base import ContactLaw
+from carom.laws.dem.coefficients import MINDLIN, SPRING, Coefficients, Normal
+from carom.laws.dem.damping import check_restitution, damping_ratio, hertz_damping
+from carom.quantities import not_negative, positive
+
+
+def check_ratio(law: object) -> None:
+    """Read k_t/k_n of a frozen law; None stays, for kappa."""
+    given = law.stiffness_ratio  # type: ignore[attr-defined]
+    if given is not None:
+        object.__setattr__(law, "stiffness_ratio", positive("stiffness_ratio", given))
+
+
+@dataclass(frozen=True)
+class LinearSpring(ContactLaw):
+    """Linear springs and dashpots in both directions, the tangential one with a slider.
+
+    F_n = k_n d + c_n d', F_t = k_t U + c_t U', |F_t| <= mu F_n (Cundall & Strack 1979). The model
+    of LAMMPS (hooke with linear_history), YADE (CundallStrack) and, with another cap, most codes.
+    psi_2 does not depend on k_n, only on k_t/k_n.
+
+    Parameters
+    ----------
+    stiffness_ratio : float, optional
+        k_t/k_n, positive; by default kappa = G*/E*, that of elastic bodies (Mindlin 1949).
+    restitution : float
+        e of the normal direction, above 0 and at most 1; the dashpot follows from it.
+    tangential_damping : float
+        c_t/c_n, zero or positive.
+
+    Raises
+    ------
+    InputError
+        If a parameter is out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.LinearSpring(2 / 7).rebound(3.0, 1.4412).round(3)  # the default of many codes
+    -0.883
+    """
+
+    name: ClassVar[str] = "linear spring"
+    source: ClassVar[str] = "Cundall & Strack (1979), Geotechnique 29:47"
+
+    stiffness_ratio: float | None = None
+    restitution: float = 1.0
+    tangential_damping: float = 0.0
+
+    def __post_init__(self) -> None:
+        check_ratio(self)
+        check_restitution(self)
+        object.__setattr__(
+            self, "tangential_damping", not_negative("tangential_damping", self.tangential_damping)
+        )
+
+    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
+        damping = 2.0 * SPRING * damping_ratio(self.restitution)
+        return Coefficients(
+            chi=chi,
+            normal=Normal.LINEAR.value,
+            normal_damping=damping,
+            stiffness=SPRING * (self.stiffness_ratio or kappa) / kappa,
+            stiffness_power=0.0,
+            shear_damping=self.tangential_damping * damping / kappa,
+        )
+
+
+@dataclass(frozen=True)
+class HertzLinearHistory(ContactLaw):
+    """Hertz's normal force beside a tangential spring of constant stiffness.
+
+    F_n = (4/3) E* sqrt(R*) d^(3/2), F_t = k_t U, |F_t| <= mu F_n: LAMMPS, pair_style granular with
+    hertz and linear_history.
+
+    Parameters
+    ----------
+    stiffness : float
+        k_t in units of the stiffness of the widest contact, 2 G* a_max (Mindlin 1949); positive.
+    restitution, tangential_damping : float
+        As of `LammpsMindlin`.
+
+    Raises
+    ------
+    InputError
+        If a parameter is out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.HertzLinearHistory(0.8).rebound(0.75, 1.4412).round(3)
+    -0.252
+    """
+
+    name: ClassVar[str] = "Hertz, linear history"
+    source: ClassVar[str] = "LAMMPS documentation, pair_style granular: linear_history"
+
+    stiffness: float = 1.0
+    restitution: float = 1.0
+    tangential_damping: float = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "stiffness", positive("stiffness", self.stiffness))
+        check_restitution(self)
+        object.__setattr__(
+            self, "tangential_damping", not_negative("tangential_damping", self.tangential_damping)
+        )
+
+    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
+        damping = hertz_damping(self.restitution)
+        return Coefficients(
+            chi=chi,
+            normal_damping=damping,
+            damping_power=0.5,
+            stiffness=MINDLIN * self.stiffness,
+            stiffness_power=0.0,
+            shear_damping=self.tangential_damping * damping / kappa,
+        )
+
+
+@dataclass(frozen=True)
+class StrongeLaw(ContactLaw):
+    """Bilinear compliance: a normal spring that unloads stiffer, a linear tangential one beside it.
+
+    F_n = k_n d while loading, k_n/e^2 (d - d_p) while unloading; F_t = k_t U, |F_t| <= mu F_n.
+
+    Parameters
+    ----------
+    stiffness_ratio : float, optional
+        k_t/k_n = 1/eta^2 of the loading contact; by default kappa = G*/E*.
+    restitution : float
+        e, energetic, above 0 and at most 1.
+
+    Raises
+    ------
+    InputError
+        If a parameter is out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.StrongeLaw().rebound(1.0, 1.44) == carom.LinearSpring().rebound(1.0, 1.44)
+    True
+    """
+
+    name: ClassVar[str] = "Stronge, bilinear"
+    source: ClassVar[str] = "Stronge (2000), Impact Mechanics, chapter 5"
+
+    stiffness_ratio: float | None = None
+    restitution: float = 1.0
+
+    def __post_init__(self) -> None:
+        check_ratio(self)
+        check_restitution(self)
+
+    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
+        return Coefficients(
+            chi=chi,
+            normal=Normal.LINEAR.value,
+            unloading=self.restitution**-2,
+            stiffness=SPRING * (self.stiffness_ratio or kappa) / kappa,
+            stiffness_power=0.0,
+        )

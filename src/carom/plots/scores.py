@@ -1,0 +1,162 @@
+"""Results against the exact answer: psi_2 and its errors, or a history of forces and its errors."""
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from carom.plots.impact import phase_handles, time_axis
+from carom.plots.regimes import REGIMES
+from carom.plots.style import (
+    BLACK,
+    BLUE,
+    DASHES,
+    DOUBLE,
+    LINES,
+    VERMILION,
+    Array,
+    draws,
+    label,
+    legend_above,
+    new_figure,
+    scaled,
+    shade,
+)
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+ALLOWED: Any = {"color": "0.35", "ls": DASHES[2], "lw": 0.8, "zorder": 1}
+GIVEN: Any = {"mfc": "white", "mec": BLACK, "mew": 0.8, "ls": ""}
+ZERO: Any = {"color": "0.5", "lw": 0.5, "zorder": 1}
+SPARSE = 100  # times; more of them make a line
+MARGIN, ROOM = 0.03, 0.12  # beyond what is shown, along psi_1 and the error
+
+
+@draws("a score, what carom.verify.score returns", "error", "psi_in", "psi_out", "tolerance")
+def plot_score(dataset: "xr.Dataset") -> Figure:
+    """Draw results beside the exact answer, and their errors with the tolerance below.
+
+    A rebound curve or velocities: psi_2 against psi_1, the regimes as bands. A history: forces and
+    their errors against time, the phases of the exact impact as bands.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.plots.scores import plot_score
+    >>> from carom.verify.scoring import score
+    >>> psi = [0.5, 1.0, 2.0, 4.0]
+    >>> result = score({"psi_1": psi, "psi_2": [0.05, -0.06, -0.84, -1.51]}, chi=1.44)
+    >>> len(plot_score(result.to_dataset()).axes)
+    2
+    """
+    return _forces(dataset) if "normal_force_exact" in dataset else _points(dataset)
+
+
+def _points(dataset: "xr.Dataset") -> Figure:
+    figure, axes = new_figure(2, 1, height=98.0, sharex=True, height_ratios=(1.6, 1.0))
+    upper, lower = axes[:, 0]
+    psi = dataset["psi_in"].values
+    _results(upper, dataset)
+    lower.plot(psi, dataset["error"].values, "o", **GIVEN)
+    _tolerance(lower, dataset["error"].values, float(dataset["tolerance"]))
+    low, high = min(0.0, psi.min()), max(0.0, psi.max())
+    room = MARGIN * (high - low) or 1.0
+    upper.set_xlim(low - room * (low < 0.0), high + room)
+    bands = _bands(upper, dataset)
+    _bands(lower, dataset)
+    upper.set_ylabel(label("psi_out", room=36))
+    lower.set_ylabel(r"error in $\psi_2$")
+    lower.set_xlabel(label("psi_in", room=44))
+    legend_above(upper, 2, handles=[*upper.get_legend_handles_labels()[0], *bands])
+    legend_above(lower, 2)
+    return figure
+
+
+def _results(axis: Axes, dataset: "xr.Dataset") -> None:
+    """Draw psi_2 as it was given, over the exact curves, or over exact points."""
+    axis.axhline(0.0, **ZERO)
+    psi = dataset["psi_in"].values
+    if "curve_psi_out" in dataset:
+        chis = dataset["curve_chi"].values
+        for row, chi in enumerate(np.unique(chis)):
+            line = [dataset[f"curve_psi_{side}"].values[chis == chi] for side in ("in", "out")]
+            style = {"color": LINES[row % len(LINES)], "ls": DASHES[row % len(DASHES)]}
+            axis.plot(*line, label=rf"exact, $\chi$ = {chi:.5g}", **style)
+    else:
+        exact = dataset["psi_out_exact"].values
+        axis.plot(psi, exact, "x", ms=4.5, color=BLUE, zorder=3, label="exact")
+    given = dataset["psi_out"].values
+    axis.plot(psi, given, "o", **GIVEN, label="results")
+
+
+def _bands(axis: Axes, dataset: "xr.Dataset") -> list[Patch]:
+    """Shade the regimes of a single chi, and return what a legend shows of them."""
+    if "border" not in dataset:
+        return []
+    limits = axis.get_xlim()
+    ends = [0.0, *dataset["border"].values, np.inf]
+    shown = {}
+    for (name, band), (low, high) in zip(REGIMES.items(), pairwise(ends), strict=True):
+        for side in (-1.0, 1.0):
+            start, end = np.clip(sorted((side * low, side * high)), *limits)
+            if end > start:
+                shade(axis, start, end, band)
+                shown[name] = Patch(fc=band.face, ec=band.edge, hatch=band.hatch, label=name)
+    axis.set_xlim(limits)
+    return list(shown.values())
+
+
+def _tolerance(axis: Axes, error: Array, tolerance: float) -> None:
+    """Draw zero and the tolerance, and let the axis take in both and all errors."""
+    axis.axhline(0.0, **ZERO)
+    axis.axhline(tolerance, label=f"tolerance, ±{tolerance:g}", **ALLOWED)
+    axis.axhline(-tolerance, **ALLOWED)
+    low, high = min(error.min(), -tolerance), max(error.max(), tolerance)
+    room = ROOM * (high - low)
+    axis.set_ylim(low - room, high + room)
+
+
+def _forces(dataset: "xr.Dataset") -> Figure:
+    figure, axes = new_figure(
+        2, 2, width=DOUBLE, height=104.0, sharex=True, height_ratios=(1.6, 1.0)
+    )
+    friction, peak = float(dataset["friction"]), float(dataset["max_force"])
+    for column, (name, unit, words) in enumerate(
+        (
+            ("tangential_force", friction * peak, r"$F_x$, in $\mu P_{max}$"),
+            ("normal_force", peak, "$F_z$, in $P_{max}$"),
+        )
+    ):
+        upper, lower = axes[:, column]
+        time = _force(upper, dataset, name)
+        difference = (dataset[name].values - dataset[f"{name}_exact"].values) / unit
+        time_axis(lower, dataset)
+        lower.plot(time, difference, color=VERMILION)
+        _tolerance(lower, difference, float(dataset["tolerance"]))
+        lower.set_ylabel(f"error in {words}")
+        legend_above(lower, 2)
+    figure.legend(handles=phase_handles(dataset), loc="outside upper center", ncols=5)
+    return figure
+
+
+def _force(axis: Axes, dataset: "xr.Dataset", name: str) -> Array:
+    """Draw a force as it was given over the exact one, and return the times in their unit."""
+    time = time_axis(axis, dataset)
+    axis.set_xlabel("")
+    axis.axhline(0.0, **ZERO)
+    exact = dataset[f"{name}_exact"].values
+    given, unit, scale = scaled(dataset, name, like=exact)
+    axis.plot(time, exact * scale, color=BLUE, label="exact")
+    how = {"marker": "o", "ms": 2.0, "ls": ""} if time.size <= SPARSE else {"ls": DASHES[1]}
+    axis.plot(time, given, color=VERMILION, label="results", **how)
+    if name == "tangential_force":
+        limit = float(dataset["friction"]) * dataset["normal_force_exact"].values * scale
+        axis.plot(time, limit, color=BLACK, ls=DASHES[1], lw=0.8, label=r"$\pm\mu F_z$, exact")
+        axis.plot(time, -limit, color=BLACK, ls=DASHES[1], lw=0.8)
+    axis.set_ylabel(label(name, unit))
+    legend_above(axis, 3)
+    return time

@@ -1,0 +1,1 @@
+"""The bench: contact laws of DEM codes, and the codes themselves, against the exact impact."""

@@ -1,0 +1,1 @@
+"""DEM programs, driven through impacts of which the exact answer is known."""

@@ -1,0 +1,162 @@
+"""Many impacts of one pair as a DEM program is asked to compute them, and how they come out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import isclose
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.bodies import HalfSpace, Sphere
+from carom.dimensionless import hertz
+from carom.laws.dem import ContactLaw
+from carom.pairs import Pair, Scales
+from carom.quantities import InputError, counted, finite, positive, refusal
+
+Array = NDArray[np.float64]
+
+SOLID = 0.4  # K^2/R^2
+
+
+class Outcomes(NamedTuple):
+    """How the first body leaves each impact, relative to the second: m/s, m/s, rad/s; (n,).
+
+    `normal_speed` is positive when the bodies recede.
+    """
+
+    normal_speed: Array
+    tangential_speed: Array
+    spin: Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class Experiment:
+    """Impacts of one pair at one normal speed, by one contact law, in fixed time steps.
+
+    psi_1 = kappa (v_t + R spin)/(mu V_1); the second body does not spin.
+
+    Parameters
+    ----------
+    pair : Pair
+        A solid sphere against a half-space or another solid sphere, with friction.
+    law : ContactLaw
+        A law of `carom.laws.dem`.
+    normal_speed : float
+        V_1 in m/s.
+    tangential_speed, spin : tuple of float, length n
+        v_t in m/s of the first body relative to the second, and spin of the first body in rad/s.
+    steps : int
+        Time steps per duration of Hertz's contact, whatever the law.
+
+    Raises
+    ------
+    InputError
+        If lengths differ, no impact is given, a value is out of range, or the pair is one that DEM
+        programs do not have: a cup, a hollow sphere, no friction.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.laws.dem import LammpsMindlin
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> experiment = Experiment(
+    ...     pair=pair, law=LammpsMindlin(), normal_speed=0.1,
+    ...     tangential_speed=(0.05, 0.0), spin=(0.0, 10.0), steps=1000,
+    ... )
+    >>> experiment.psi_in.round(3)
+    array([2.059, 2.059])
+    """
+
+    pair: Pair
+    law: ContactLaw
+    normal_speed: float
+    tangential_speed: tuple[float, ...]
+    spin: tuple[float, ...] = field(default=())
+    steps: int
+
+    def __post_init__(self) -> None:
+        _refuse_bodies(self.pair)
+        if not isinstance(self.law, ContactLaw):
+            raise refusal("law", self.law, "must be a contact law, e.g. carom.LammpsMindlin()")
+        speeds = _column("tangential_speed", self.tangential_speed)
+        spins = _column("spin", self.spin) or (0.0,) * len(speeds)
+        if not speeds:
+            raise refusal("tangential_speed", self.tangential_speed, "give one value an impact")
+        if len(spins) != len(speeds):
+            raise InputError(
+                f"spin: {len(spins)} values for {len(speeds)} of tangential_speed; "
+                "give one of each an impact"
+            )
+        object.__setattr__(self, "normal_speed", positive("normal_speed", self.normal_speed))
+        object.__setattr__(self, "tangential_speed", speeds)
+        object.__setattr__(self, "spin", spins)
+        object.__setattr__(self, "steps", counted("steps", self.steps, 10))
+
+    def __len__(self) -> int:
+        return len(self.tangential_speed)
+
+    @property
+    def contact_velocity(self) -> Array:
+        """Tangential velocity of the contact point before, V_x in m/s, (n,)."""
+        return np.array(self.tangential_speed) + self.pair.first.radius * np.array(self.spin)
+
+    @property
+    def psi_in(self) -> Array:
+        """Dimensionless incidence psi_1, (n,)."""
+        return self.contact_velocity / self.scales.tangential_speed
+
+    @cached_property
+    def scales(self) -> Scales:
+        """What the dimensionless impact is multiplied by."""
+        return self.pair.scales(self.normal_speed)
+
+    @property
+    def duration(self) -> float:
+        """Duration of Hertz's contact in s."""
+        return hertz.DURATION * self.scales.time
+
+    @property
+    def time_step(self) -> float:
+        """Time step in s."""
+        return self.duration / self.steps
+
+
+def psi_out(experiment: Experiment, outcomes: Outcomes) -> Array:
+    """Return the dimensionless tangential velocity of the contact point after, psi_2, (n,).
+
+    The spin of a second sphere follows from that of the first: both feel the same force at an arm
+    of their own radius, M_1 K_1^2 d omega_1/R_1 = M_2 K_2^2 d omega_2/R_2.
+    """
+    first, second = experiment.pair.first, experiment.pair.second
+    turned = first.radius * (outcomes.spin - np.array(experiment.spin))
+    if isinstance(second, Sphere):
+        turned = turned * (1.0 + first.mass / second.mass)
+    moved = outcomes.tangential_speed - np.array(experiment.tangential_speed)
+    velocity = experiment.contact_velocity + moved + turned
+    return np.asarray(velocity / experiment.scales.tangential_speed)
+
+
+def _refuse_bodies(pair: Pair) -> None:
+    """Refuse what DEM programs do not have."""
+    if not isinstance(pair, Pair):
+        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    if not isinstance(pair.second, Sphere | HalfSpace):
+        raise refusal(
+            "second body", pair.second, "must be a Sphere or HalfSpace: engines lack cups"
+        )
+    for body in pair.moving:
+        if not isclose(body.gyration_ratio, SOLID):
+            raise refusal("sphere", body, "must be solid: engines give a sphere K^2 = 2/5 R^2")
+    if pair.friction == 0.0:
+        raise refusal("friction", pair.friction, "must be positive: without it nothing is to test")
+
+
+def _column(name: str, values: Iterable[float]) -> tuple[float, ...]:
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise refusal(name, values, "must be a sequence, one value an impact")
+    return tuple(finite(name, value) for value in values)

@@ -1,0 +1,229 @@
+"""Impacts as a test of LAMMPS's own suite: a YAML file of unittest/force-styles, fix-timestep."""
+
+from __future__ import annotations
+
+from string import Template
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.bodies import Sphere
+from carom.dimensionless.rebounds import rebound
+from carom.quantities import positive, refusal
+from carom.verify.engines.experiments import Experiment, Outcomes
+from carom.verify.engines.lammps_input import (
+    SPACING,
+    Placed,
+    coefficients,
+    largest,
+    placed,
+    run_length,
+    tangential_damping,
+)
+
+Array = NDArray[np.float64]
+
+FLIGHT = 8  # steps that the driver runs after the commands
+FASTER = 4.0  # drift over the largest tangential speed
+
+PAGE = Template("""\
+---
+# $count oblique impacts, written by Carom. Reference: $reference.
+# epsilon: an error of $tolerance in psi_2 = $kappa V_x/(mu V_1) of the contact point.
+# The impacts run in pre_commands; the steps of the driver are free flight. Everything drifts along
+# x, a wall too, so that epsilon, which is relative, means the same for every sphere.
+lammps_version: 22 Jul 2025
+tags: no_respa
+date_generated:
+epsilon: $epsilon
+timestep: $time_step
+skip_tests:
+prerequisites: |
+  atom sphere
+  $style
+  fix nve/sphere
+pre_commands: |
+$pre_commands
+post_commands: |
+$post_commands
+input_file: in.empty
+input_coeffs: coeffs.brownian
+natoms: $natoms
+run_pos: |2
+$positions
+run_vel: |2
+$velocities
+run_torque: |2
+$torques
+...
+""")
+
+
+def unit_test_yaml(
+    experiment: Experiment, *, tolerance: float, outcomes: Outcomes | None = None
+) -> str:
+    """Return impacts as a file fix-timestep-*.yaml of LAMMPS's unittest/force-styles/tests.
+
+    The driver compares positions and velocities of the centres, each to a relative epsilon; spins
+    it does not know, they follow from the velocities. It takes such a file since its releases of
+    2026, in which a test names its file of coefficients.
+
+    Parameters
+    ----------
+    experiment : Experiment
+        The impacts; LAMMPS has their law.
+    tolerance : float
+        Largest error in psi_2 that passes.
+    outcomes : Outcomes, optional
+        The reference, by default the exact one, which the laws of LAMMPS miss by 0.1 to 1.4.
+
+    Raises
+    ------
+    InputError
+        If the law has damping and no outcomes are given: the exact theory has none.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> experiment = Experiment(
+    ...     pair=pair, law=carom.LammpsMindlin(), normal_speed=1e-4,
+    ...     tangential_speed=(5e-5,), steps=1000,
+    ... )
+    >>> print(unit_test_yaml(experiment, tolerance=0.6).splitlines()[2])
+    # epsilon: an error of 0.6 in psi_2 = 0.823529 V_x/(mu V_1) of the contact point.
+    """
+    allowed = positive("psi_out", tolerance)
+    reference = "as given"
+    if outcomes is None:
+        outcomes, reference = exact(experiment), "the exact elastic impact"
+    before, pair = placed(experiment), experiment.pair
+    x, drift = SPACING * largest(pair), FASTER * _fastest(before)
+    velocities = _speeds(experiment, outcomes) + np.array([drift, 0.0, 0.0])
+    places = np.array([[x, body.y, body.z] for body in before])
+    time = (run_length(experiment) - experiment.steps + FLIGHT) * experiment.time_step
+    moved = velocities * time + np.array([drift * experiment.duration, 0.0, 0.0])
+    return PAGE.substitute(
+        count=len(experiment),
+        reference=reference,
+        tolerance=f"{allowed:g}",
+        kappa=f"{pair.kappa:.6g}",
+        epsilon=f"{_epsilon(experiment, velocities[:, 0], allowed):.4g}",
+        time_step=repr(experiment.time_step),
+        style="pair granular" if isinstance(pair.second, Sphere) else "fix wall/gran",
+        pre_commands=_indented(_before(experiment, before, x, drift)),
+        post_commands=_indented(_contact(experiment, drift)),
+        natoms=len(before),
+        positions=_rows(places + moved),
+        velocities=_rows(velocities),
+        torques=_rows(np.zeros((len(before), 3))),
+    )
+
+
+def exact(experiment: Experiment) -> Outcomes:
+    """Return how the bodies leave by the exact theory of elastic spheres.
+
+    The tangential impulse is J = m_t (V_x - V_x'); dv_t = -J/m_n, d spin = -J R/(M K^2).
+    """
+    if getattr(experiment.law, "restitution", 1.0) != 1.0:
+        raise refusal(
+            "law", experiment.law, "has damping, the exact theory has none; give outcomes"
+        )
+    pair, first = experiment.pair, experiment.pair.first
+    outgoing = np.asarray(rebound(experiment.psi_in, pair.chi))
+    lost = (experiment.psi_in - outgoing) * experiment.scales.tangential_speed
+    impulse = pair.tangential_mass * lost
+    turned = impulse / (first.mass * first.gyration_ratio * first.radius)
+    return Outcomes(
+        np.full(len(experiment), experiment.normal_speed),
+        np.array(experiment.tangential_speed) - impulse / pair.normal_mass,
+        np.array(experiment.spin) - turned,
+    )
+
+
+def _fastest(bodies: list[Placed]) -> float:
+    return max(max(abs(body.vx), abs(body.vz)) for body in bodies)
+
+
+def _speeds(experiment: Experiment, outcomes: Outcomes) -> Array:
+    """Return velocities of all spheres after, (natoms, 3), the centre of mass at rest."""
+    pair = experiment.pair
+    relative = np.column_stack(
+        [outcomes.tangential_speed, np.zeros(len(experiment)), outcomes.normal_speed]
+    )
+    if not isinstance(pair.second, Sphere):
+        return relative
+    share = pair.second.mass / (pair.first.mass + pair.second.mass)
+    return np.concatenate([share * relative, (share - 1.0) * relative])
+
+
+def _epsilon(experiment: Experiment, along: Array, tolerance: float) -> float:
+    """Return the relative error of a velocity along x that is an error in psi_2, the largest."""
+    pair = experiment.pair
+    change = tolerance * experiment.scales.tangential_speed * pair.tangential_mass
+    lightest = min(body.mass for body in pair.moving)
+    return float(change / lightest / (np.min(np.abs(along)) - change / lightest))
+
+
+def _before(experiment: Experiment, bodies: list[Placed], x: float, drift: float) -> list[str]:
+    """Return the commands that make the spheres and run their impacts."""
+    edge = SPACING * largest(experiment.pair)
+    region = f"0 {2.0 * edge!r} {-edge!r} {edge * len(experiment)!r} {-edge!r} {edge!r}"
+    return [
+        "variable newton_pair delete",
+        "variable newton_pair index off",
+        "variable newton_bond delete",
+        "variable newton_bond index off",
+        "units si",
+        "atom_style sphere",
+        "atom_modify map array sort 0 0.0",
+        "boundary m m m",
+        "newton off off",
+        f"comm_modify vel yes cutoff {edge!r}",
+        f"region box block {region}",
+        "create_box 1 box",
+        *(line for i, body in enumerate(bodies, 1) for line in _sphere(i, body, x, drift)),
+        *_contact(experiment, drift),
+        f"timestep {experiment.time_step!r}",
+        f"run {run_length(experiment)}",
+        "unfix test",
+        *(() if isinstance(experiment.pair.second, Sphere) else ("unfix move",)),
+        "reset_timestep 0",
+    ]
+
+
+def _sphere(number: int, body: Placed, x: float, drift: float) -> list[str]:
+    size, density = 2.0 * body.sphere.radius, body.sphere.material.density
+    velocity = f"vx {drift + body.vx!r} vz {body.vz!r}"
+    return [
+        f"create_atoms 1 single {x!r} {body.y!r} {body.z!r} units box",
+        f"set atom {number} diameter {size!r} density {density!r}",
+        f"set atom {number} {velocity} omega 0.0 {0.0 - body.spin!r} 0.0",
+    ]
+
+
+def _contact(experiment: Experiment, drift: float) -> list[str]:
+    """Return the commands of motion and contact; the driver asks for a fix called test."""
+    law, pair = coefficients(experiment), experiment.pair
+    damping = tangential_damping(experiment.law)
+    # the driver's pair_style zero reaches farther than the box: no bins
+    start = [f"neighbor {0.1 * largest(pair)!r} nsq"]
+    words = law.words(*map(repr, (law.kn, law.kt, law.loss, damping, pair.friction)))
+    if isinstance(pair.second, Sphere):
+        granular = ["pair_style granular", f"pair_coeff * * {words}"]
+        return [*start, *granular, "fix test all nve/sphere"]
+    wall = f"zplane 0.0 NULL shear x {drift!r}"
+    contact = f"fix test all wall/gran granular {words} {wall}"
+    return [*start, "fix move all nve/sphere", contact]
+
+
+def _indented(lines: list[str]) -> str:
+    return "\n".join(f"  {line}" for line in lines)
+
+
+def _rows(values: Array) -> str:
+    return "\n".join(
+        f"{number:5d} " + " ".join(f"{value:23.16e}" for value in row)
+        for number, row in enumerate(values, 1)
+    )

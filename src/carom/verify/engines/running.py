@@ -1,0 +1,178 @@
+"""Running a DEM program on an experiment: in a folder of its own, within a time limit."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import warnings
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import perf_counter
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from carom.laws.dem import ContactLaw
+from carom.quantities import InputError, positive, refusal
+from carom.verify.engines.experiments import Experiment, Outcomes
+
+PRINTED = "printed.txt"  # what the program printed, in its folder
+LAST_LINES, LAST_CHARACTERS = 3, 300
+
+
+class EngineError(RuntimeError):
+    """A DEM program has failed; the message ends with its last words."""
+
+
+class Engine(Protocol):
+    """A DEM program that is driven by files and a command."""
+
+    @property
+    def name(self) -> str:
+        """What the program is called."""
+
+    @property
+    def versions(self) -> str:
+        """Versions that it was tested with."""
+
+    @property
+    def remedy(self) -> str:
+        """What to do where it is absent."""
+
+    def executable(self) -> Path | None:
+        """Return where the program is, or None."""
+
+    def supports(self, law: ContactLaw) -> bool:
+        """Tell whether the program has this law."""
+
+    def files(self, experiment: Experiment) -> dict[str, str]:
+        """Return complete inputs: text by file name."""
+
+    def command(self, folder: Path) -> list[str]:
+        """Return the command that runs the inputs in a folder."""
+
+    def outcomes(self, folder: Path, experiment: Experiment) -> Outcomes:
+        """Return what a run has left in its folder; ValueError or OSError if it is not there."""
+
+    def version(self, printed: str) -> str:
+        """Return the version that the program has printed."""
+
+
+class Run(NamedTuple):
+    """The outcomes of an experiment, the version of the program, and how long it took in s."""
+
+    outcomes: Outcomes
+    version: str
+    seconds: float
+
+
+def run(engine: Engine, experiment: Experiment, *, time_limit: float = 120.0) -> Run:
+    """Return how the impacts of an experiment come out of a DEM program.
+
+    Parameters
+    ----------
+    engine : Engine
+        The program.
+    experiment : Experiment
+        The impacts, one pair and law.
+    time_limit : float
+        Seconds after which the program, and all that it started, is killed.
+
+    Raises
+    ------
+    InputError
+        If the program is absent or does not have the law.
+    EngineError
+        If it crashes, takes too long, or leaves no results or such as are not finite.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.verify.engines.lammps import Lammps
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> experiment = Experiment(
+    ...     pair=pair, law=carom.LammpsMindlin(), normal_speed=0.01,
+    ...     tangential_speed=(0.005,), steps=1000,
+    ... )
+    >>> run(Lammps("/nowhere/lmp"), experiment)
+    Traceback (most recent call last):
+    carom.quantities.InputError: LAMMPS: '/nowhere/lmp' is not an executable; give another path
+    """
+    limit = positive("time", time_limit)
+    if not engine.supports(experiment.law):
+        raise refusal("law", experiment.law, f"{engine.name} does not have it")
+    if engine.executable() is None:
+        raise InputError(f"{engine.name}: {engine.remedy}")
+    with TemporaryDirectory(prefix="carom-") as name:
+        folder = Path(name)
+        for file, text in engine.files(experiment).items():
+            (folder / file).write_text(text, encoding="utf-8")
+        start = perf_counter()
+        _execute(engine, folder, limit)
+        seconds = perf_counter() - start
+        return Run(_results(engine, folder, experiment), engine.version(_printed(folder)), seconds)
+
+
+def _execute(engine: Engine, folder: Path, time_limit: float) -> None:
+    """Run the command of a program; whatever happens, no process of its group is left."""
+    with (folder / PRINTED).open("wb") as printed:
+        try:
+            process = subprocess.Popen(
+                engine.command(folder),
+                cwd=folder,
+                stdin=subprocess.DEVNULL,
+                stdout=printed,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+                env=os.environ | {"OMP_NUM_THREADS": "1"},
+            )
+        except OSError as error:
+            raise EngineError(f"{engine.name} does not start: {error.strerror}") from None
+        try:
+            code = process.wait(time_limit)
+        except subprocess.TimeoutExpired:
+            code = None
+        finally:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+    if code is None:
+        raise _failure(engine, folder, f"was killed at its time limit of {time_limit:g} s")
+    if code != 0:
+        raise _failure(engine, folder, f"has crashed ({_reason(code)})")
+
+
+def _results(engine: Engine, folder: Path, experiment: Experiment) -> Outcomes:
+    """Return the outcomes of a run, one finite number an impact."""
+    try:
+        with warnings.catch_warnings(action="ignore"):  # an empty file is counted below
+            outcomes = engine.outcomes(folder, experiment)
+    except FileNotFoundError:
+        raise _failure(engine, folder, "has left no results") from None
+    except (OSError, ValueError, IndexError, KeyError) as error:
+        reason = " ".join(str(error).split())
+        raise _failure(engine, folder, f"has left no results ({reason})") from None
+    for column in outcomes:
+        if column.shape != (len(experiment),):
+            raise _failure(engine, folder, f"has left {column.size} of {len(experiment)} results")
+        if not np.all(np.isfinite(column)):
+            raise _failure(engine, folder, "has left results that are not finite")
+    return outcomes
+
+
+def _failure(engine: Engine, folder: Path, what: str) -> EngineError:
+    """Return the error that tells what has happened and the last words of a program."""
+    lines = [" ".join(line.split()) for line in _printed(folder).splitlines() if line.strip()]
+    words = " | ".join(lines[-LAST_LINES:])[-LAST_CHARACTERS:] or "nothing"
+    return EngineError(f"{engine.name} {what}; its last words: {words}")
+
+
+def _printed(folder: Path) -> str:
+    return (folder / PRINTED).read_text(encoding="utf-8", errors="replace")
+
+
+def _reason(code: int) -> str:
+    return f"exit code {code}" if code > 0 else f"signal {signal.Signals(-code).name}"

@@ -1,0 +1,54 @@
+"""What a program has left, as results for the scorer: python -m carom.verify.pack.collect FOLDER
+
+FOLDER is one of the pack's, e.g. bench/wall/lammps, in which the program has run; its results.csv
+has the columns of the template in the folder above.
+"""
+
+import sys
+from pathlib import Path
+
+from carom.cases import read_case
+from carom.quantities import InputError, refusal
+from carom.storage import replace_whole
+from carom.verify.pack.frozen import CASE, INPUTS
+from carom.verify.pack.programs import AFTER, PROGRAMS, experiment_of
+from carom.verify.pack.tables import Table, read_table
+
+
+def collect(folder: str | Path) -> Path:
+    """Write results.csv of a folder in which a program has run, and return its path.
+
+    Raises
+    ------
+    InputError
+        If the folder is not one of the pack's, or the program has left no results.
+    """
+    place = Path(folder).resolve()
+    if place.name not in PROGRAMS:
+        raise refusal("folder", str(folder), f"must be one of {', '.join(PROGRAMS)} in a set")
+    program, _ = PROGRAMS[place.name]
+    template = place.parent / INPUTS
+    try:
+        inputs = read_table(template.read_text(encoding="utf-8"))
+        experiment = experiment_of(place.name, read_case(place.parent / CASE), inputs)
+    except (OSError, KeyError, ValueError) as error:
+        raise refusal("folder", str(folder), f"its set is not whole; {error}") from None
+    try:
+        outcomes = program.outcomes(place, experiment)
+    except (OSError, ValueError, IndexError) as error:
+        reason = f"{program.name} has left no results ({error}); run it first"
+        raise refusal("folder", str(folder), reason) from None
+    given = {name: cells for name, cells in inputs.columns.items() if name not in AFTER}
+    after = {
+        name: [repr(float(value)) for value in values]
+        for name, values in zip(AFTER, outcomes, strict=True)
+    }
+    text = Table((), given | after).as_csv()
+    return replace_whole(place / INPUTS, lambda file: file.write_text(text, encoding="utf-8"))
+
+
+if __name__ == "__main__":
+    try:
+        print(collect(sys.argv[1] if len(sys.argv) > 1 else "."))
+    except InputError as error:
+        sys.exit(f"carom: {error}")

@@ -1,0 +1,149 @@
+"""The reference numbers of the benchmark pack, computed; the pack holds them frozen.
+
+An error is a bound: 1e-10 max(1, |psi_1|) for psi_2, which is ten times what impacts solved to 30
+digits by another algorithm show, times what psi_2 is multiplied by on its way to SI units, plus the
+rounding of this way and of 12 printed digits. Inputs are exact: they are what is printed.
+"""
+
+import tomllib
+from typing import Any
+
+import numpy as np
+
+from carom.cases import motion_of, pair_of
+from carom.dimensionless.rebounds import rebound
+from carom.histories import inertia
+from carom.impacts import Impact, impact
+from carom.pairs import Pair
+from carom.verify.pack.frozen import (
+    CASE,
+    INPUTS,
+    REFERENCE,
+    folders_with,
+    frozen_files,
+)
+from carom.verify.pack.tables import Array, Columns, Table, exact, read_table, uncertain
+
+ACCURACY = 1e-10  # of psi_2, in max(1, |psi_1|); of forces and speeds in a history, in their scales
+ROUNDING = 2e-15  # of the few operations between psi and SI units, relative to their terms
+TIMES = 101  # of a history
+BEFORE = ("normal_speed", "tangential_speed", "spin", "spin2")
+SIGNS = (
+    "SI units. Speeds of the first body relative to the second: normal_speed towards it before,",
+    "normal_speed_out away from it after; tangential speeds along +x. Positive spin adds to the",
+    "tangential speed of the contact point, V_x = tangential_speed + radius x spin.",
+    "NAME_error bounds the error of NAME; columns without one are given, hence exact.",
+)
+
+
+def references() -> dict[str, Table]:
+    """Return every table of reference numbers by its path in the pack."""
+    found: dict[str, Table] = {}
+    for folder in folders_with(INPUTS):
+        made = _of_cases if f"{folder}/{CASE}" in frozen_files() else _of_numbers
+        found[f"{folder}/{REFERENCE}"] = made(folder)
+    for folder in folders_with(CASE):
+        if folder.startswith("histories/"):
+            found[f"{folder}/{REFERENCE}"] = _of_history(folder)
+    return found
+
+
+def inputs_of(folder: str) -> Table:
+    """Return the inputs of a set: its table of results, the outputs blank."""
+    return read_table(frozen_files()[f"{folder}/{INPUTS}"])
+
+
+def case_of(folder: str) -> dict[str, Any]:
+    """Return the case of a set."""
+    return tomllib.loads(frozen_files()[f"{folder}/{CASE}"])
+
+
+def title_of(folder: str) -> tuple[str, ...]:
+    """Return what a set is, in words: the first lines of its case."""
+    lines = frozen_files()[f"{folder}/{CASE}"].splitlines()
+    return tuple(line.removeprefix("# ") for line in lines if line.startswith("# "))
+
+
+def _of_numbers(folder: str) -> Table:
+    inputs = inputs_of(folder)
+    psi, chi = inputs.numbers("psi_1"), inputs.numbers("chi")
+    error = ACCURACY * np.maximum(1.0, np.abs(psi))
+    notes = (
+        "psi_2 of elastic spheres, e = 1: psi = kappa V_x/(mu V_1), chi = (kappa/2)(m_n/m_t).",
+        "psi_2 is odd in psi_1. psi_2_error bounds the error of psi_2; psi_1 and chi are exact.",
+    )
+    columns = exact("psi_1", psi) | exact("chi", chi)
+    return Table(notes, columns | uncertain("psi_2", rebound(psi, chi), error))
+
+
+def _of_cases(folder: str) -> Table:
+    inputs, pair = inputs_of(folder), pair_of(case_of(folder))
+    given = {name: inputs.numbers(name) for name in BEFORE if name in inputs.columns}
+    rows = zip(*given.values(), strict=True)
+    hits = [impact(pair, **dict(zip(given, row, strict=True))) for row in rows]
+    columns: Columns = {}
+    for name, values in given.items():
+        columns |= exact(name, values)
+    columns |= exact("normal_speed_out", given["normal_speed"])  # e = 1
+    for name, (values, errors) in _outcomes(pair, hits).items():
+        columns |= uncertain(name, values, errors)
+    return Table((*title_of(folder), *SIGNS), columns)
+
+
+def _column(hits: list[Impact], name: str) -> Array:
+    return np.array([getattr(hit, name) for hit in hits])
+
+
+def _outcomes(pair: Pair, hits: list[Impact]) -> dict[str, tuple[Array, Array]]:
+    """Return what each impact gives, and the bounds of its error."""
+    psi = _column(hits, "psi_in")
+    impulse_error = pair.tangential_mass * _velocity_error(hits)
+    found = {}
+    levers = {"tangential_speed_out": 1.0 / pair.normal_mass}
+    for name, body in zip(("spin_out", "spin2_out"), pair.moving, strict=False):
+        levers[name] = body.radius / inertia(body)
+    for name, lever in levers.items():
+        before = np.abs(_column(hits, name.removesuffix("_out")))
+        found[name] = (_column(hits, name), lever * impulse_error + ROUNDING * before)
+    accuracy = ACCURACY * np.maximum(1.0, np.abs(psi))
+    found["psi_in"] = (psi, ROUNDING * np.abs(psi))
+    found["psi_out"] = (_column(hits, "psi_out"), accuracy)
+    for name in ("duration", "max_force", "max_penetration"):
+        values = _column(hits, name)
+        found[name] = (values, 10.0 * ROUNDING * values)
+    return found
+
+
+def _velocity_error(hits: list[Impact]) -> Array:
+    """Return the bound of the error of the change of V_x, in m/s."""
+    psi, unit = _column(hits, "psi_in"), np.array([hit.scales.tangential_speed for hit in hits])
+    before, after = _column(hits, "contact_velocity"), _column(hits, "contact_velocity_out")
+    rounding = ROUNDING * (np.abs(before) + np.abs(after))
+    return np.asarray(ACCURACY * np.maximum(1.0, np.abs(psi)) * unit + rounding)
+
+
+def _of_history(folder: str) -> Table:
+    case = case_of(folder)
+    hit = impact(pair_of(case), **motion_of(case))
+    history, pair, scales = hit.history(TIMES), hit.pair, hit.scales
+    share = ACCURACY * max(1.0, abs(hit.psi_in))
+    velocity_error = share * scales.tangential_speed
+    impulse_error = pair.tangential_mass * velocity_error
+    errors = {
+        "time": ROUNDING * hit.duration,
+        "normal_force": ACCURACY * scales.force,
+        "tangential_force": share * scales.tangential_force,
+        "penetration": ACCURACY * scales.length,
+        "normal_velocity": ACCURACY * hit.normal_speed,
+        "contact_velocity": velocity_error,
+        "tangential_speed": impulse_error / pair.normal_mass,
+        "spin": impulse_error * pair.first.radius / inertia(pair.first),
+    }
+    columns: Columns = {}
+    for name, error in errors.items():
+        columns |= uncertain(name, history[name].values, error)
+    notes = (
+        "time since the first touch; normal_velocity is positive while the bodies approach;",
+        "tangential_force is positive against +x, on the first body.",
+    )
+    return Table((*title_of(folder), *notes, *SIGNS), columns)

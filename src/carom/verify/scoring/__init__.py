@@ -1,0 +1,191 @@
+"""The scorer: a user's own results against the exact answer."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from carom.bodies import describe
+from carom.cases import check_case, motion_of, pair_of, read_case
+from carom.impacts import Impact, impact
+from carom.pairs import Pair
+from carom.quantities import InputError, nearest, number, positive, refusal
+from carom.verify.scoring.audits import energy_audit, friction_audit, notes_on
+from carom.verify.scoring.histories import NAMES as HISTORY
+from carom.verify.scoring.histories import score_history
+from carom.verify.scoring.points import compared
+from carom.verify.scoring.reading import Array, Results, in_units, read_table
+from carom.verify.scoring.record import Score
+from carom.verify.scoring.velocities import AFTER, BEFORE, score_velocities
+
+__all__ = ["TOLERANCE", "Score", "score"]
+
+TOLERANCE = 0.01  # in psi_2: a hundredth of the largest psi_1 that sticks from the first touch
+FEWEST = 3  # points
+DIMENSIONLESS = ("psi_in", "psi_out", "chi")
+
+
+def score(
+    results: Any,
+    *,
+    case: str | Path | Mapping[str, Any] | Pair | Impact | None = None,
+    chi: float | str | None = None,
+    tolerance: float | str = TOLERANCE,
+) -> Score:
+    """Score a user's own results of oblique impacts against the exact answer.
+
+    The error is psi_2 - psi_2(psi_1, chi), psi = kappa V_x/(mu V_1), absolute; the exact psi_2 is
+    that of Maw, Barber & Fawcett (1976). The columns tell what the results are: a rebound curve
+    (psi_1, psi_2, chi); velocities (normal_speed and tangential_speed, or speed and angle; spin,
+    spin2; after: tangential_speed_out, spin_out, and normal_speed_out, spin2_out if known); or the
+    history of forces of one impact (time, normal_force, tangential_force, contact_velocity if
+    known), whose psi_2 is what its impulse makes of psi_1. Whatever its law, no result may gain
+    energy, |psi_2| <= |psi_1|, need more friction than there is, |psi_1 - psi_2| <= 2 (1 + e) chi,
+    |F_t| <= mu F_n, or change speeds and spins by different impulses: the audit names what does.
+
+    Parameters
+    ----------
+    results : str, Path, mapping or pandas.DataFrame
+        A CSV file with a header, comments after #; or columns by name, each of shape (n,). SI
+        units, or with a unit in the name of a column: "spin [rpm]", "angle (deg)". Speeds of two
+        spheres are relative; normal_speed is positive before and normal_speed_out after; positive
+        spin adds to the tangential speed of the contact point; tangential_force is positive
+        against V_x > 0. At least 3 points, or 20 rows with a force.
+    case : str, Path, mapping, Pair or Impact, optional
+        The bodies and their friction, as a case file for `carom impact` has them; needed but for
+        psi. A history needs the motion, too: a case with speeds, or an Impact.
+    chi : float, optional
+        For psi_1 and psi_2 if there is no column of that name.
+    tolerance : float
+        Largest |error in psi_2| that passes. It is also the limit of what the audit finds, in units
+        of psi; of the errors of forces, in units of mu P_max and P_max; of the duration, relative.
+
+    Raises
+    ------
+    InputError
+        If columns are missing, a number is missing or in a wrong unit, there are too few, or a
+        history is not that of one whole contact.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.verify.scoring import score
+    >>> psi = [0.5, 1.0, 2.0, 4.0]
+    >>> result = score({"psi_1": psi, "psi_2": [0.05, -0.06, -0.84, -1.51]}, chi=1.44)
+    >>> result.passed, round(result.max_error, 3)
+    (False, 0.019)
+    >>> result.groups[0].name
+    'stick, slip -, gross slip -'
+    """
+    limit = number("tolerance", tolerance, "1")
+    if not 0.0 < limit < float("inf"):
+        raise refusal("tolerance", tolerance, f"must be positive and finite, e.g. {TOLERANCE}")
+    table = read_table(results)
+    kind, columns = _kind(table.names)
+    given = in_units(table, columns)
+    if kind != "psi" and chi is not None:
+        raise refusal("chi", chi, "it follows from the case; leave it out")
+    scored = {"psi": _score_psi, "velocities": _score_velocities, "history": _score_history}
+    return scored[kind](given, case, chi, limit)
+
+
+def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
+    """Return what results with these columns are, and the columns that such results may have."""
+    if {"normal_force", "tangential_force"} & set(names):
+        return "history", HISTORY
+    if {"psi_in", "psi_out"} & set(names):
+        return "psi", DIMENSIONLESS
+    if set(BEFORE + AFTER) & set(names):
+        return "velocities", BEFORE + AFTER
+    known = ("psi_1", "psi_2", *BEFORE, *AFTER, *HISTORY)
+    hint = next(filter(None, (nearest(name, known) for name in names)), "")
+    raise InputError(
+        f"results: no column of {', '.join(names)} is known; {hint} Give psi_1, psi_2; or "
+        "normal_speed, tangential_speed, spin, tangential_speed_out, spin_out; or time, "
+        "normal_force, tangential_force"
+    )
+
+
+def _score_psi(results: Results, case: Any, chi: Any, limit: float) -> Score:
+    results.require("psi_in", "psi_out")
+    _require_points(results)
+    chis = _chis(results, case, chi)
+    before, after = results["psi_in"], results["psi_out"]
+    with np.errstate(over="ignore"):  # what is too large is refused next
+        change = (after - before) * (after + before)
+    points = compared(before, after, chis, change, results)
+    elastic = np.ones(len(results))
+    audit = energy_audit(points, elastic, "in psi^2", limit), friction_audit(points, elastic, limit)
+    return Score("psi", limit, points, audit, notes_on(points))
+
+
+def _chis(results: Results, case: Any, chi: Any) -> Array:
+    ways = [name for name, way in (("--chi", chi), ("--case", case)) if way is not None]
+    if "chi" in results.columns:
+        if ways:
+            raise InputError(f"chi: the results have a column chi; leave {ways[0]} out")
+        results.refuse("chi", results["chi"] <= 0.0, "must be positive")
+        return np.asarray(results["chi"])
+    if len(ways) != 1:
+        raise InputError(
+            f"chi: {'given twice' if ways else 'missing'}; give a column chi, --chi, e.g. 1.44, or "
+            "--case with the bodies"
+        )
+    value = positive("chi", chi) if chi is not None else _pair(case).chi
+    return np.full(len(results), value)
+
+
+def _score_velocities(results: Results, case: Any, _: Any, limit: float) -> Score:
+    _require_points(results)
+    pair = _pair(case)
+    points, audit, notes = score_velocities(results, pair, limit)
+    return Score("velocities", limit, points, audit, notes, inputs=_inputs(pair))
+
+
+def _score_history(results: Results, case: Any, _: Any, limit: float) -> Score:
+    hit = _impact(case)
+    points, audit, notes, forces = score_history(results, hit, limit)
+    return Score("history", limit, points, audit, notes, forces, hit.inputs())
+
+
+def _require_points(results: Results) -> None:
+    if len(results) < FEWEST:
+        raise InputError(f"results: too few points: {len(results)}, at least {FEWEST} are needed")
+
+
+def _pair(case: Any) -> Pair:
+    """Return the bodies of whatever is given as a case."""
+    if isinstance(case, Pair | Impact):
+        pair = case.pair if isinstance(case, Impact) else case
+    else:
+        pair = pair_of(_content(case))
+    if pair.friction == 0.0:
+        raise refusal("friction", 0.0, "psi is infinite without friction; nothing can be scored")
+    return pair
+
+
+def _impact(case: Any) -> Impact:
+    """Return the impact that a case describes."""
+    if isinstance(case, Impact):
+        return case
+    if isinstance(case, Pair):
+        raise InputError("case: a history needs the motion, too; give a case or an Impact")
+    content = _content(case)
+    return impact(_pair(content), **motion_of(content))
+
+
+def _content(case: Any) -> Mapping[str, Any]:
+    if case is None:
+        raise InputError("case: missing; give the bodies, --case with a file as for carom impact")
+    if isinstance(case, str | Path):
+        return read_case(Path(case))
+    check_case(case)
+    return dict(case)
+
+
+def _inputs(pair: Pair) -> dict[str, Any]:
+    bodies = {"first": describe(pair.first), "second": describe(pair.second)}
+    return {**bodies, "friction": pair.friction}

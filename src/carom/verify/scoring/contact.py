@@ -1,0 +1,130 @@
+"""The part of a record of forces in which the bodies touch, in time since the first touch."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.dimensionless import hertz
+from carom.pairs import Scales
+from carom.quantities import InputError
+from carom.verify.scoring.reading import Array, Mask, Results
+
+FEWEST = 20  # rows with a force
+SMALL = 0.1  # of the peak: what the first and last force may be
+FACTORS = {1e3: "m", 1e6: "u", 1e9: "n", 1e-3: "k", 1e-6: "M"}  # prefix by the factor of numbers
+LIKE = 1.5  # how near a factor is to one of them
+FAR = 30.0  # a ratio to Hertz's time that no law of contact explains
+
+
+class Samples(NamedTuple):
+    """Forces at times since the first touch, with the instants without force at either end.
+
+    `rows` are the places in the results, -1 for an instant that was added; `touch` is the first
+    touch in the time of the results, `end` the last since then.
+    """
+
+    time: Array
+    normal_force: Array
+    tangential_force: Array
+    rows: NDArray[np.int64]
+    touch: float
+    end: float
+
+
+def contact_samples(results: Results, scales: Scales) -> Samples:
+    """Return the forces while the bodies touch.
+
+    The first touch lies between the last row without force and the first with one, where Hertz's
+    law has that force; so does the last.
+
+    Raises InputError if the record has no such part, starts late, ends early, has too few rows in
+    it, or is in another unit.
+    """
+    time, force = results["time"], results["normal_force"]
+    _check_order(results)
+    first, last = _ends(results)
+    _check_units(time[first : last + 1], force, scales)
+    peak = float(force.max())
+    _check_ends(results, first, last, peak)
+    count = last - first + 1
+    if count < FEWEST:
+        raise InputError(
+            f"results: {count} rows with a normal force; a history needs at least {FEWEST}, "
+            "record more often"
+        )
+    delays = [_since_touch(float(force[i]), scales) for i in (first, last)]
+    touch, end = float(time[first]) - delays[0], float(time[last]) + delays[1]
+    if first > 0:
+        touch = max(touch, float(time[first - 1]))
+    if last + 1 < len(results):
+        end = min(end, float(time[last + 1]))
+    return _framed(results, first, last, touch, end)
+
+
+def _since_touch(force: float, scales: Scales) -> float:
+    """Return the time from the touch until Hertz's force has this value."""
+    penetration = min((force / scales.force) ** (2.0 / 3.0), 0.5**0.4)
+    return float(hertz.elapsed(penetration)) * scales.time
+
+
+def _framed(results: Results, first: int, last: int, touch: float, end: float) -> Samples:
+    """Return the rows from first to last between an instant of touch and one of separation."""
+    part = slice(first, last + 1)
+    normal, tangential = (
+        np.concatenate([[0.0], results[name][part], [0.0]])
+        for name in ("normal_force", "tangential_force")
+    )
+    rows = np.concatenate([[-1], np.arange(first, last + 1), [-1]])
+    time = np.concatenate([[touch], results["time"][part], [end]]) - touch
+    return Samples(time, normal, tangential, rows, touch, end - touch)
+
+
+def _check_order(results: Results) -> None:
+    falls = np.concatenate([[False], np.diff(results["time"]) <= 0.0])
+    results.refuse("time", falls, "it must rise from row to row; sort the rows, delete doubles")
+
+
+def _ends(results: Results) -> tuple[int, int]:
+    """Return the first and the last row of the contact."""
+    force = results["normal_force"]
+    touching = force > 0.0
+    if touching.sum() < 0.5 * np.count_nonzero(force) or not touching.any():
+        raise InputError(
+            "normal_force: must be positive where the bodies press on each other; turn its sign"
+        )
+    first, last = (int(i) for i in np.flatnonzero(touching)[[0, -1]])
+    inside = np.arange(force.size)
+    gaps: Mask = ~touching & (inside > first) & (inside < last)
+    apart = "the bodies part and meet again; give the history of one impact"
+    results.refuse("normal_force", gaps, apart)
+    return first, last
+
+
+def _check_ends(results: Results, first: int, last: int, peak: float) -> None:
+    """Raise InputError if the record does not start at the first touch and end at the last."""
+    for place, what in ((first, "start at the first touch"), (last, "go on to the last touch")):
+        share = float(results["normal_force"][place]) / peak
+        if share > SMALL:
+            raise InputError(
+                f"normal_force: the history does not {what}; in {results.one(place)} it is "
+                f"{100 * share:.0f} % of the peak; record from before the touch until they part"
+            )
+
+
+def _check_units(time: Array, force: Array, scales: Scales) -> None:
+    lasted = float(time[-1] - time[0]) / (hertz.DURATION * scales.time)
+    pressed = float(force.max()) / scales.force
+    for name, ratio, unit in (("time", lasted, "s"), ("normal_force", pressed, "N")):
+        what = "the contact lasts" if name == "time" else "the peak is"
+        for factor, prefix in FACTORS.items():
+            if 1.0 / LIKE < ratio / factor < LIKE:
+                raise InputError(
+                    f"{name}: {what} {ratio:.4g} times Hertz's; if it is in {prefix}{unit}, "
+                    f"head the column '{name} [{prefix}{unit}]'"
+                )
+    if len(time) > 1 and not 1.0 / FAR < lasted < FAR:
+        raise InputError(
+            f"time: the contact lasts {lasted:.4g} times Hertz's duration, "
+            f"{hertz.DURATION * scales.time:.4g} s; is time counted in steps?"
+        )

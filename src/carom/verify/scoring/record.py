@@ -1,0 +1,95 @@
+"""The score of a user's results: errors in psi_2, group by group, findings, pass or fail."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from carom.results import Finding
+from carom.verify.scoring.forces import Forces
+from carom.verify.scoring.points import Group, Points
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, eq=False)
+class Score:
+    """How far results are from the exact answer; made by `score`.
+
+    Results pass if no psi_2 is off by more than the tolerance, and every finding of the audit
+    holds; all are in units of psi, forces in those of the largest, mu P_max and P_max.
+    """
+
+    kind: str
+    tolerance: float
+    points: Points = field(repr=False)
+    audit: tuple[Finding, ...] = field(repr=False)
+    notes: tuple[str, ...] = ()
+    forces: Forces | None = field(default=None, repr=False)
+    inputs: Mapping[str, Any] = field(default_factory=dict, repr=False)
+
+    @cached_property
+    def overall(self) -> Group:
+        """The errors in psi_2 of all points."""
+        return self.points.group("all", self.points.psi_in == self.points.psi_in)
+
+    @property
+    def max_error(self) -> float:
+        """Largest |error in psi_2|."""
+        return self.overall.max_error
+
+    @property
+    def rms_error(self) -> float:
+        """Root mean square of the errors in psi_2."""
+        return self.overall.rms_error
+
+    @property
+    def mean_error(self) -> float:
+        """Mean error in psi_2."""
+        return self.overall.mean_error
+
+    @property
+    def groups(self) -> tuple[Group, ...]:
+        """Errors by the sequence of phases of the exact impact, as for psi_1 > 0."""
+        return self.points.groups
+
+    @property
+    def failures(self) -> tuple[str, ...]:
+        """What is beyond the tolerance, by name."""
+        off = ("psi_2",) if not self.max_error <= self.tolerance else ()
+        return (*off, *(finding.name for finding in self.audit if not finding.holds))
+
+    @property
+    def passed(self) -> bool:
+        """Whether nothing is beyond the tolerance."""
+        return not self.failures
+
+    def __str__(self) -> str:
+        from carom.verify.scoring.report import as_text
+
+        return as_text(self)
+
+    def as_record(self) -> dict[str, Any]:
+        """Return the score as what JSON can hold."""
+        from carom.verify.scoring.report import as_record
+
+        return as_record(self)
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return the score as one dataset: points along `point`, a history along `time`."""
+        from carom.verify.scoring.datasets import score_dataset
+
+        return score_dataset(self)
+
+    def plot(self, path: str | Path | None = None) -> "Figure":
+        """Draw the results, the exact answer and the errors; with a path, store the figure."""
+        from carom.plots.scores import plot_score
+        from carom.plots.style import save_figure
+
+        figure = plot_score(self.to_dataset())
+        if path is not None:
+            save_figure(figure, path)
+        return figure

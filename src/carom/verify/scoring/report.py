@@ -1,0 +1,92 @@
+"""The score in words and as a record for JSON."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from carom.results import MARKS
+
+if TYPE_CHECKING:
+    from carom.verify.scoring.record import Score
+
+LISTED = 40  # points; of more, as many of the worst are listed
+
+
+def as_text(score: "Score") -> str:
+    """Return the score as text to read, the verdict last."""
+    parts = [*_points(score), *_groups(score), *_audit(score)]
+    parts += [f"note: {note}" for note in score.notes]
+    return "\n".join([*parts, verdict(score)])
+
+
+def verdict(score: "Score") -> str:
+    """Return pass or fail in one line."""
+    points = score.points
+    worst = f"max |error in psi_2| = {score.max_error:.4g}"
+    if points.rows.size > 1:
+        worst += f" in {points.one(points.worst)}, rms {score.rms_error:.4g}"
+        worst += f", mean {score.mean_error:+.4g}"
+    if score.passed:
+        return f"PASS: {worst}; tolerance {score.tolerance:g}"
+    return f"FAIL: {worst}; beyond the tolerance {score.tolerance:g}: {', '.join(score.failures)}"
+
+
+def _points(score: "Score") -> list[str]:
+    points = score.points
+    shown = np.arange(points.rows.size)
+    title = "psi_2 against the exact answer"
+    if shown.size > LISTED:
+        shown = np.sort(np.argsort(-np.abs(points.error))[:LISTED])
+        title += f", the worst {LISTED} of {points.rows.size} points"
+    columns = f"{'psi_1':>12s} {'chi':>10s} {'psi_2':>14s} {'exact':>14s} {'error':>11s}"
+    rows = [
+        f"  {points.rows[i]:8d} {points.psi_in[i]:12.6g} {points.chi[i]:10.5g}"
+        f" {points.psi_out[i]:14.9f} {points.exact[i]:14.9f} {points.error[i]:11.3e}"
+        for i in shown
+    ]
+    return [title, f"  {points.word:>8s} {columns}", *rows]
+
+
+def _groups(score: "Score") -> list[str]:
+    head = f"{'points':>7s} {'max |error|':>12s} {'rms':>11s} {'mean':>11s}"
+    wide = max(44, *(len(group.name) for group in score.groups))
+    rows = [
+        f"  {group.name:{wide}s} {group.points:7d} {group.max_error:12.4e}"
+        f" {group.rms_error:11.4e} {group.mean_error:+11.3e}"
+        for group in (*score.groups, score.overall)
+    ]
+    return ["Phase by phase, for psi_1 > 0", f"  {'':{wide}s} {head}", *rows]
+
+
+def _audit(score: "Score") -> list[str]:
+    return ["Audit"] + [
+        f"  {MARKS[finding.holds]} {finding.name + f' = {finding.value:.3g}':32s} {finding.verdict}"
+        for finding in score.audit
+    ]
+
+
+def as_record(score: "Score") -> dict[str, Any]:
+    """Return the score as what JSON can hold."""
+    points = score.points
+    columns = {
+        points.word: points.rows,
+        "psi_in": points.psi_in,
+        "psi_out": points.psi_out,
+        "chi": points.chi,
+        "psi_out_exact": points.exact,
+        "error": points.error,
+        "energy_change": points.energy_change,
+    }
+    return {
+        "passed": score.passed,
+        "tolerance": score.tolerance,
+        "failures": list(score.failures),
+        "kind": score.kind,
+        "max_error": score.max_error,
+        "rms_error": score.rms_error,
+        "mean_error": score.mean_error,
+        "points": {name: values.tolist() for name, values in columns.items()},
+        "phases": [group._asdict() for group in score.groups],
+        "audit": [finding._asdict() for finding in score.audit],
+        "notes": list(score.notes),
+    }

