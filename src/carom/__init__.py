@@ -6,8 +6,10 @@ Names are loaded when they are first used, so that `import carom` costs nothing.
 from importlib import import_module
 from typing import TYPE_CHECKING
 
+from carom.lazy import loader
+
 if TYPE_CHECKING:
-    from carom import classical, plots
+    from carom import classical, plots, verify
     from carom.bodies import (
         Cup,
         HalfSpace,
@@ -33,6 +35,7 @@ if TYPE_CHECKING:
         StrongeLaw,
         ThorntonLaw,
         WaltonBraunLaw,
+        YadeMindlin,
     )
     from carom.laws.exact import ReboundLaw
     from carom.laws.fitting import WaltonFit, fit_walton
@@ -68,6 +71,7 @@ _HOMES = {
         "StrongeLaw",
         "ThorntonLaw",
         "WaltonBraunLaw",
+        "YadeMindlin",
     ),
     "carom.laws.exact": ("ReboundLaw",),
     "carom.laws.fitting": ("WaltonFit", "fit_walton"),
@@ -85,8 +89,8 @@ _HOMES = {
     "carom.dimensionless.rebounds": ("rebound",),
     "carom.dimensionless.solution": ("Solution", "solve"),
 }
-_MODULES = ("classical", "plots")
-_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+_MODULES = ("classical", "plots", "verify")
+_named = loader(__name__, _HOMES)
 
 __all__ = [
     "CollisionStatus",
@@ -120,6 +124,7 @@ __all__ = [
     "WaltonBraunLaw",
     "WaltonFit",
     "WaltonLaw",
+    "YadeMindlin",
     "classical",
     "collide",
     "curve",
@@ -136,6 +141,7 @@ __all__ = [
     "save",
     "solve",
     "sweep",
+    "verify",
 ]
 
 
@@ -146,11 +152,7 @@ def __getattr__(name: str) -> object:
         return carom_version()
     if name in _MODULES:
         return import_module(f"carom.{name}")
-    if name not in _HOME_OF:
-        raise AttributeError(f"module 'carom' has no attribute {name!r}")
-    value = getattr(import_module(_HOME_OF[name]), name)
-    globals()[name] = value
-    return value
+    return _named(name)
 
 
 def __dir__() -> list[str]:

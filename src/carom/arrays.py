@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from carom.quantities import refusal, without_units
+from carom.quantities import positive, refusal, without_units
 
 Array = NDArray[np.float64]
 
@@ -52,6 +52,25 @@ def line(name: str, given: ArrayLike) -> Array:
     if values.ndim != 1 or values.size == 0 or not np.all(np.isfinite(values)):
         raise refusal(name, given, allowed)
     return values
+
+
+def finite_line(name: str, given: ArrayLike) -> Array:
+    """Return a list of finite numbers as an array of shape (n,), or raise InputError."""
+    try:
+        values = np.atleast_1d(np.asarray(given, dtype=np.float64))
+    except (TypeError, ValueError):
+        raise refusal(name, given, "must be a list of finite numbers") from None
+    if values.size == 0 or values.ndim > 1 or not np.all(np.isfinite(values)):
+        raise refusal(name, given, "must be a list of finite numbers")
+    return values
+
+
+def positive_line(name: str, given: ArrayLike) -> Array:
+    """Return one positive number or more as an array of shape (n,), or raise InputError."""
+    values = [positive(name, value) for value in np.atleast_1d(np.asarray(given, dtype=object))]
+    if not values:
+        raise refusal(name, given, "must be one positive number or more")
+    return np.array(values)
 
 
 def places(

@@ -8,12 +8,12 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from carom.arrays import finite_line, positive_line
 from carom.dimensionless.phases import Status
 from carom.dimensionless.rebounds import rebound
 from carom.dimensionless.solution import solve
-from carom.quantities import positive, refusal
 from carom.results import labelled_dataset
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ def curve(chi: float | Sequence[float], psi: ArrayLike) -> xr.Dataset:
     >>> carom.curve(1.44, [0.0, 1.0, 6.0]).psi_out.values.round(4)
     array([[ 0.    , -0.0612,  0.24  ]])
     """
-    chis, incoming = _positives(chi), _line("psi", psi)
+    chis, incoming = positive_line("chi", chi), finite_line("psi", psi)
     rows = chis[:, np.newaxis]
     nonzero = np.where(incoming == 0.0, 1e-12, incoming)
     contact = rebound(nonzero, rows) / nonzero
@@ -113,7 +113,7 @@ def regime_map(
     >>> print(found.sequence_name.values[found.sequence.values[0, 1]])
     gross slip +, stick, slip -, gross slip -
     """
-    chis, incoming = _positives(chi), _line("psi", psi)
+    chis, incoming = positive_line("chi", chi), finite_line("psi", psi)
     rows = []
     for done, value in enumerate(chis, start=1):
         rows.append([_sequence(float(speed), float(value)) for speed in incoming])
@@ -143,20 +143,3 @@ def _sequence(psi: float, chi: float) -> str:
     if solution.status is not Status.SOLVED:
         return ""
     return ", ".join(f"{phase.kind}{SIGNS[phase.sign]}" for phase in solution.phases)
-
-
-def _line(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    try:
-        line = np.atleast_1d(np.asarray(values, dtype=np.float64))
-    except (TypeError, ValueError):
-        raise refusal(name, values, "must be a list of finite numbers") from None
-    if line.size == 0 or line.ndim > 1 or not np.all(np.isfinite(line)):
-        raise refusal(name, values, "must be a list of finite numbers")
-    return line
-
-
-def _positives(chi: ArrayLike) -> NDArray[np.float64]:
-    values = [positive("chi", value) for value in np.atleast_1d(np.asarray(chi, dtype=object))]
-    if not values:
-        raise refusal("chi", chi, "must be one positive number or more")
-    return np.array(values)

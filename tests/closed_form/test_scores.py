@@ -91,7 +91,7 @@ def test_what_is_left_out_is_made_up_for_and_said():
 @pytest.mark.parametrize("angle", ["5 deg", "35 deg", "-60 deg", "80 deg"])
 @pytest.mark.parametrize("shift", [0.0, 0.4])
 def test_exact_histories_score_zero(angle, shift):
-    """30 rows, in any time, from before the touch: forces, impulse and duration to rounding."""
+    """31 rows of any clock, with some before and after the contact: all is zero to rounding."""
     pair = carom.Pair(BALL, BODIES["plate"], friction=0.2)
     hit = carom.impact(pair, speed=2.0, angle=angle, spin=50.0)
     times = (np.arange(31) + shift) / 31.0 * hit.duration
@@ -101,8 +101,9 @@ def test_exact_histories_score_zero(angle, shift):
         "tangential_force": state.force * hit.scales.tangential_force,
     }
     before = times[0] - np.arange(4.0, 0.0, -1.0) * times[1]
-    columns = {name: np.concatenate([np.zeros(4), values]) for name, values in forces.items()}
-    columns["time"] = 1.0 + np.concatenate([before, times])
+    after = times[-1] + np.arange(1.0, 4.0) * times[1]
+    columns = {n: np.concatenate([np.zeros(4), f, np.zeros(3)]) for n, f in forces.items()}
+    columns["time"] = 1.0 + np.concatenate([before, times, after])
     result = score(columns, case=hit)
     assert result.passed
     assert result.points.psi_in[0] == hit.psi_in
@@ -167,8 +168,13 @@ def test_scaled_forces_scale_their_impulses():
     assert pressed.forces.restitution == pytest.approx(1.0 + 2.0 * c, rel=1e-5)
     assert pressed.forces.peak_error == pytest.approx(c, rel=1e-4)
     assert pressed.failures == ("normal force", "peak force", "restitution error")
-    longer = score(columns | {"time": 1.03 * columns["time"]}, case=hit)
-    assert longer.forces.duration_error == pytest.approx(0.03, abs=1e-3)
+    for c in (0.03, -0.03):  # of the duration
+        slowed = score(columns | {"time": (1.0 + c) * columns["time"]}, case=hit).forces
+        assert slowed.duration_error == pytest.approx(c, abs=1e-3)
+        assert slowed.restitution == pytest.approx(1.0 + 2.0 * c, abs=1e-4)
+        assert slowed.psi[-1] - hit.psi_out == pytest.approx(
+            c * (hit.psi_out - hit.psi_in), abs=1e-4
+        )
 
 
 def test_all_ways_of_giving_results_are_one(tmp_path):

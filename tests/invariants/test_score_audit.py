@@ -118,6 +118,21 @@ def test_row_with_another_spin_is_named(columns):
     assert "angular momentum" in result.failures
 
 
+def test_second_spin_belongs_to_the_balance():
+    """Of two spheres both spins change by the impulse that changes the speed."""
+    pair = carom.Pair(BALL, carom.Sphere(radius="8 mm", material="steel"), friction=0.2)
+    hits = [carom.impact(pair, speed=1.0, angle=angle, spin=40.0) for angle in (0.2, 0.7, 1.2)]
+    names = ("normal_speed", "tangential_speed", "spin")
+    columns = {name: [getattr(hit, name) for hit in hits] for name in names}
+    columns |= {f"{n}_out": [getattr(hit, f"{n}_out") for hit in hits] for n in names[1:]}
+    columns["spin2_out"] = np.array([hit.spin2_out for hit in hits])
+    assert finding(score(columns, case=pair), "angular momentum").value <= 1e-12
+    columns["spin2_out"][1] *= 1.1
+    broken = finding(score(columns, case=pair), "angular momentum")
+    assert not broken.holds
+    assert "in row 2" in broken.verdict
+
+
 def test_turned_spins_are_suspected(columns):
     for name in ("spin", "spin_out"):
         columns[name] = -columns[name]

@@ -8,6 +8,7 @@ from carom.cli.curve import curve_command
 from carom.cli.impact import impact_command
 from carom.cli.materials import materials_command
 from carom.cli.sweep import sweep_command
+from carom.cli.verify import app as verify_app
 from carom.quantities import InputError
 
 app = typer.Typer(
@@ -22,6 +23,7 @@ app.command("impact")(impact_command)
 app.command("curve")(curve_command)
 app.command("sweep")(sweep_command)
 app.command("materials")(materials_command)
+app.add_typer(verify_app)
 
 
 @app.callback(invoke_without_command=True)

@@ -16,6 +16,7 @@ from carom.plots.impact import plot_forces, plot_impact, plot_radii
 from carom.plots.patch import plot_patch
 from carom.plots.profiles import plot_profiles
 from carom.plots.regimes import plot_curve, plot_regime_map
+from carom.plots.scores import plot_score
 from carom.plots.stress import plot_stress
 from carom.plots.style import save_figure
 
@@ -30,6 +31,7 @@ __all__ = [
     "plot_profiles",
     "plot_radii",
     "plot_regime_map",
+    "plot_score",
     "plot_stress",
     "save_figure",
 ]

@@ -3,7 +3,7 @@
 from carom.laws.dem.base import ContactLaw, Law
 from carom.laws.dem.hard import HardSphere
 from carom.laws.dem.incremental import ThorntonLaw, WaltonBraunLaw
-from carom.laws.dem.mindlin import EdemHertzMindlin, LammpsMindlin, LiggghtsHertz
+from carom.laws.dem.mindlin import EdemHertzMindlin, LammpsMindlin, LiggghtsHertz, YadeMindlin
 from carom.laws.dem.springs import HertzLinearHistory, LinearSpring, StrongeLaw
 
 __all__ = [
@@ -18,4 +18,5 @@ __all__ = [
     "StrongeLaw",
     "ThorntonLaw",
     "WaltonBraunLaw",
+    "YadeMindlin",
 ]

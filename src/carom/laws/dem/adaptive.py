@@ -29,7 +29,7 @@ SIZE = 6
 TOUCH = 3e-5  # contact radius at which an impact begins and ends
 TOLERANCE = 1e-10
 MOST_STEPS = 200_000
-SHORTEST = 1e-10  # step
+SHORTEST, LONGEST = 1e-10, 0.5  # steps
 NEAR = 1e-6  # of the limit, from where Walton & Braun's law, stiff there, is taken to slide
 HALVINGS = 48
 NOTHING, TURNS, PARTS, SLIDES, STICKS, REVERSES, CONTINUES = range(7)
@@ -58,7 +58,7 @@ def limit_rate(law: Coefficients, loading: bool, b: float, v: float, f: float) -
     if law.normal_damping > 0.0:
         power = law.damping_power
         rate += law.normal_damping * b**power * (power * v * v / b + pull)
-    return rate
+    return float(rate)
 
 
 @kernel
@@ -66,7 +66,7 @@ def spring_rate(law: Coefficients, branch: int, loading: bool, y: Array, f: floa
     """Return dt/dtau of the elastic tangential force of a contact that sticks."""
     elastic = 2.0 * y[B] * shear_stiffness(law, y[B]) * y[PSI]
     if law.shear == Shear.SPRING.value:
-        return elastic + kept(law, loading) * y[T] * y[V] / y[B]
+        return float(elastic + kept(law, loading) * y[T] * y[V] / y[B])
     rate = limit_rate(law, loading, y[B], y[V], f)
     theta = softening(law.shear, branch, y[T], f, y[UPPER], y[LOWER])
     return force_change(law.shear, branch, theta, elastic, rate)
@@ -75,7 +75,7 @@ def spring_rate(law: Coefficients, branch: int, loading: bool, y: Array, f: floa
 @kernel
 def damping_force(law: Coefficients, y: Array) -> float:
     """Return the tangential damping of a contact that sticks."""
-    return law.shear_damping * y[B] ** law.damping_power * y[PSI]
+    return float(law.shear_damping * y[B] ** law.damping_power * y[PSI])
 
 
 @kernel
@@ -178,14 +178,44 @@ def leaves_limit(
     """Return whether the force of a sliding contact would fall below its limit if it stuck."""
     if law.shear == Shear.WALTON_BRAUN.value and (slip < 0) == (branch == BACK):
         elastic = 2.0 * y[B] * shear_stiffness(law, y[B]) * abs(y[PSI])
-        return limit_rate(law, loading, y[B], y[V], f) > 2.0 * np.cbrt(NEAR) * elastic
+        return bool(limit_rate(law, loading, y[B], y[V], f) > 2.0 * np.cbrt(NEAR) * elastic)
     rate = slip * spring_rate(law, branch, loading, y, f)
     if law.limits_damping and law.shear_damping > 0.0:
         b, v, power = y[B], y[V], law.damping_power
         slowing = -4.0 * b * ELASTIC_PULL * law.chi * slip * abs(f)
         rate += slip * law.shear_damping * b**power * (power * v * y[PSI] / b + slowing)
     change = limit_rate(law, loading, y[B], y[V], f) * (1.0 if f >= 0.0 else -1.0)
-    return rate < change - 1e-12
+    return bool(rate < change - 1e-12)
+
+
+@kernel
+def until_event(
+    law: Coefficients,
+    slip: int,
+    branch: int,
+    loading: bool,
+    peak: float,
+    h: float,
+    y: Array,
+    work: Array,
+) -> int:
+    """Return what happens first in a step of this length; the state just after it is in work[7]."""
+    what = event(law, slip, branch, loading, peak, work[7])
+    if what == NOTHING:
+        return what
+    before, after = 0.0, h
+    for _ in range(HALVINGS):
+        middle = 0.5 * (before + after)
+        if middle <= before or middle >= after or after - before < 1e-15:
+            break
+        step(law, slip, branch, loading, peak, middle, y, work)
+        found = event(law, slip, branch, loading, peak, work[7])
+        if found == NOTHING:
+            before = middle
+        else:
+            after, what = middle, found
+    step(law, slip, branch, loading, peak, after, y, work)
+    return what
 
 
 @kernel
@@ -201,31 +231,17 @@ def outgoing(law: Coefficients, psi: float, work: Array, y: Array) -> float:
         if error > 1.0 and h > SHORTEST:  # a cube root that vanishes is stepped over
             h = max(SHORTEST, h * max(0.2, 0.9 * error**-0.2))
             continue
-        what = event(law, slip, branch, loading, peak, work[7])
-        longer = max(SHORTEST, min(5.0, 0.9 * max(error, 1e-10) ** -0.2) * h)
-        if what == NOTHING:
-            y[:] = work[7]
-            h = min(longer, 0.5)
-            continue
-        before, after = 0.0, h
-        for _ in range(HALVINGS):
-            middle = 0.5 * (before + after)
-            if middle <= before or middle >= after or after - before < 1e-15:
-                break
-            step(law, slip, branch, loading, peak, middle, y, work)
-            found = event(law, slip, branch, loading, peak, work[7])
-            if found == NOTHING:
-                before = middle
-            else:
-                after, what = middle, found
-        step(law, slip, branch, loading, peak, after, y, work)
+        what = until_event(law, slip, branch, loading, peak, h, y, work)
         y[:] = work[7]
-        if what == PARTS:
-            return y[PSI]
-        if what == TURNS:
+        if what == NOTHING:
+            h = min(LONGEST, max(SHORTEST, h * min(5.0, 0.9 * max(error, 1e-10) ** -0.2)))
+        elif what == PARTS:
+            return float(y[PSI])
+        elif what == TURNS:
             loading, peak = False, y[B] * y[B]
         elif what == SLIDES:
-            slip = 1 if y[T] + (damping_force(law, y) if law.limits_damping else 0.0) > 0.0 else -1
+            ahead = y[T] + damping_force(law, y) if law.limits_damping else y[T]
+            slip = 1 if ahead > 0.0 else -1
             bring_to_limit(law, slip, peak, loading, y)
         elif what == STICKS:
             slip = 0

@@ -133,6 +133,7 @@ class ContactLaw(Law):
         count, _ = stepped(law, abs(psi), steps, record)
         if count < 0:
             raise refusal("steps", steps, "the bodies do not part; take more steps")
-        record[:, HISTORY.index("psi")] *= np.copysign(1.0, psi)
-        record[:, HISTORY.index("tangential_force")] *= np.copysign(1.0, psi)
-        return {name: record[:count, i].copy() for i, name in enumerate(HISTORY)}
+        columns = {name: record[:count, i].copy() for i, name in enumerate(HISTORY)}
+        for name in ("psi", "tangential_force"):
+            columns[name] *= np.copysign(1.0, psi)
+        return columns

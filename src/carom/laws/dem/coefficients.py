@@ -67,13 +67,13 @@ def normal_force(law: Coefficients, peak: float, loading: bool, b: float, v: flo
     else:
         f = SPRING * (b * b + (law.unloading - 1.0) * (b * b - peak))
     f += law.normal_damping * b**law.damping_power * v
-    return f if law.pulls else max(f, 0.0)
+    return float(f) if law.pulls else max(float(f), 0.0)
 
 
 @kernel
 def shear_stiffness(law: Coefficients, b: float) -> float:
     """Return dt/dU of a contact that sticks."""
-    return law.stiffness * b**law.stiffness_power
+    return float(law.stiffness * b**law.stiffness_power)
 
 
 @kernel

@@ -32,7 +32,7 @@ def softening(shear: int, branch: int, t: float, f: float, upper: float, lower: 
         part = t / f
     else:
         part = (t - lower) / (f - lower)
-    return np.cbrt(min(1.0, max(0.0, 1.0 - part)))
+    return float(np.cbrt(min(1.0, max(0.0, 1.0 - part))))
 
 
 @kernel

@@ -1,15 +1,22 @@
-"""Hertz's normal force with Mindlin's tangential stiffness, as LAMMPS, LIGGGHTS and EDEM have it.
+"""Hertz's normal force with Mindlin's tangential stiffness, as DEM codes have it.
 
 All of them are increments dF = k_t dU with k_t = 2 G* a of a contact of radius a; they differ in
 what becomes of the force F that is there when a changes to a', F (a'/a)^n, and in their damping.
 """
 
 from dataclasses import dataclass
+from math import sqrt
 from typing import ClassVar
 
 from carom.laws.dem.base import ContactLaw
-from carom.laws.dem.coefficients import MINDLIN, Coefficients
-from carom.laws.dem.damping import COEFF_RESTITUTION, RULES, check_restitution, hertz_damping
+from carom.laws.dem.coefficients import MINDLIN, SPRING, Coefficients
+from carom.laws.dem.damping import (
+    COEFF_RESTITUTION,
+    RULES,
+    check_restitution,
+    hertz_damping,
+    thornton_damping,
+)
 from carom.quantities import not_negative, positive, refusal
 
 KEPT = {  # powers n, while the contact grows and while it shrinks
@@ -155,3 +162,50 @@ class EdemHertzMindlin(LiggghtsHertz):
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
         return super().coefficients(chi, kappa)._replace(limits_damping=True)
+
+
+@dataclass(frozen=True)
+class YadeMindlin(ContactLaw):
+    """YADE, MindlinPhys with the law Mindlin: the force is accumulated, dF_t = k_t(a) dU.
+
+    k_t = 2 G* a; dampings 2 beta sqrt(m_n S) with S = 2 E* a or k_t, and beta after Thornton,
+    Cummins & Cleary (2013), (B6). The contact does not pull: F_n >= 0. The spring alone is limited
+    by mu F_n, and a contact that slides has no damping.
+
+    Parameters
+    ----------
+    restitution : float
+        e that the damping is made for, e_n and e_s of YADE; above 0 and at most 1.
+
+    Raises
+    ------
+    InputError
+        If the restitution is out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> elastic = carom.LammpsMindlin("mindlin/force").rebound(0.75, 1.4412)
+    >>> carom.YadeMindlin().rebound(0.75, 1.4412) == elastic
+    True
+    """
+
+    name: ClassVar[str] = "YADE Mindlin"
+    source: ClassVar[str] = "YADE documentation, Law2_ScGeom_MindlinPhys_Mindlin"
+
+    restitution: float = 1.0
+
+    def __post_init__(self) -> None:
+        check_restitution(self)
+
+    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
+        damping = 2.0 * sqrt(SPRING * MINDLIN) * thornton_damping(self.restitution)
+        return Coefficients(
+            chi=chi,
+            normal_damping=damping,
+            damping_power=0.5,
+            pulls=False,
+            shear_damping=damping * kappa**-0.5,
+            limits_damping=False,
+        )

@@ -74,15 +74,13 @@ def shear_force(
         follow(law, memory, limit, b, psi * dt)
     memory[RADIUS], memory[LIMIT] = b, limit
     damping = law.shear_damping * b**law.damping_power * psi
-    if not law.limits_damping:
-        if abs(memory[FORCE]) <= limit:
-            return memory[FORCE] + damping
-        memory[FORCE] = np.copysign(limit, memory[FORCE])
-        return memory[FORCE]
-    whole = memory[FORCE] + damping
-    if abs(whole) > limit:
-        whole = np.copysign(limit, whole)
+    whole = float(memory[FORCE] + damping)
+    if law.limits_damping and abs(whole) > limit:
+        whole = float(np.copysign(limit, whole))
         memory[FORCE] = whole - damping
+    elif not law.limits_damping and abs(memory[FORCE]) > limit:
+        whole = float(np.copysign(limit, memory[FORCE]))
+        memory[FORCE] = whole
     return whole
 
 

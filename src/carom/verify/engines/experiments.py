@@ -20,6 +20,8 @@ from carom.quantities import InputError, counted, finite, positive, refusal
 Array = NDArray[np.float64]
 
 SOLID = 0.4  # K^2/R^2
+BEFORE = ("normal_speed", "tangential_speed", "spin")
+COLUMNS = (*BEFORE, *(f"{name}_out" for name in BEFORE))
 
 
 class Outcomes(NamedTuple):
@@ -139,6 +141,27 @@ def psi_out(experiment: Experiment, outcomes: Outcomes) -> Array:
     moved = outcomes.tangential_speed - np.array(experiment.tangential_speed)
     velocity = experiment.contact_velocity + moved + turned
     return np.asarray(velocity / experiment.scales.tangential_speed)
+
+
+def results_csv(experiment: Experiment, outcomes: Outcomes) -> str:
+    """Return the impacts as `carom verify score` reads them: SI units, 17 digits.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> experiment = Experiment(
+    ...     pair=pair, law=carom.LammpsMindlin(), normal_speed=0.25, tangential_speed=(0.5,), steps=99
+    ... )
+    >>> print(results_csv(experiment, Outcomes(*np.array([[0.25], [0.375], [-16.0]]))), end="")
+    normal_speed,tangential_speed,spin,normal_speed_out,tangential_speed_out,spin_out
+    0.25,0.5,0,0.25,0.375,-16
+    """
+    normal = np.full(len(experiment), experiment.normal_speed)
+    before = (normal, experiment.tangential_speed, experiment.spin)
+    rows = [",".join(f"{value:.17g}" for value in row) for row in np.stack([*before, *outcomes]).T]
+    return "\n".join([",".join(COLUMNS), *rows]) + "\n"
 
 
 def _refuse_bodies(pair: Pair) -> None:

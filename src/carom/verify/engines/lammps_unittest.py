@@ -11,14 +11,14 @@ from carom.bodies import Sphere
 from carom.dimensionless.rebounds import rebound
 from carom.quantities import positive, refusal
 from carom.verify.engines.experiments import Experiment, Outcomes
-from carom.verify.engines.lammps_input import (
-    SPACING,
+from carom.verify.engines.lammps_input import SKIN, coefficients, tangential_damping
+from carom.verify.engines.setting import (
     Placed,
-    coefficients,
-    largest,
     placed,
+    restitution,
     run_length,
-    tangential_damping,
+    share_of_first,
+    spacing,
 )
 
 Array = NDArray[np.float64]
@@ -99,7 +99,7 @@ def unit_test_yaml(
     if outcomes is None:
         outcomes, reference = exact(experiment), "the exact elastic impact"
     before, pair = placed(experiment), experiment.pair
-    x, drift = SPACING * largest(pair), FASTER * _fastest(before)
+    x, drift = spacing(pair), FASTER * _fastest(before)
     velocities = _speeds(experiment, outcomes) + np.array([drift, 0.0, 0.0])
     places = np.array([[x, body.y, body.z] for body in before])
     time = (run_length(experiment) - experiment.steps + FLIGHT) * experiment.time_step
@@ -126,7 +126,7 @@ def exact(experiment: Experiment) -> Outcomes:
 
     The tangential impulse is J = m_t (V_x - V_x'); dv_t = -J/m_n, d spin = -J R/(M K^2).
     """
-    if getattr(experiment.law, "restitution", 1.0) != 1.0:
+    if restitution(experiment) != 1.0:
         raise refusal(
             "law", experiment.law, "has damping, the exact theory has none; give outcomes"
         )
@@ -154,7 +154,7 @@ def _speeds(experiment: Experiment, outcomes: Outcomes) -> Array:
     )
     if not isinstance(pair.second, Sphere):
         return relative
-    share = pair.second.mass / (pair.first.mass + pair.second.mass)
+    share = share_of_first(pair)
     return np.concatenate([share * relative, (share - 1.0) * relative])
 
 
@@ -168,7 +168,7 @@ def _epsilon(experiment: Experiment, along: Array, tolerance: float) -> float:
 
 def _before(experiment: Experiment, bodies: list[Placed], x: float, drift: float) -> list[str]:
     """Return the commands that make the spheres and run their impacts."""
-    edge = SPACING * largest(experiment.pair)
+    edge = spacing(experiment.pair)
     region = f"0 {2.0 * edge!r} {-edge!r} {edge * len(experiment)!r} {-edge!r} {edge!r}"
     return [
         "variable newton_pair delete",
@@ -208,7 +208,7 @@ def _contact(experiment: Experiment, drift: float) -> list[str]:
     law, pair = coefficients(experiment), experiment.pair
     damping = tangential_damping(experiment.law)
     # the driver's pair_style zero reaches farther than the box: no bins
-    start = [f"neighbor {0.1 * largest(pair)!r} nsq"]
+    start = [f"neighbor {SKIN * spacing(pair)!r} nsq"]
     words = law.words(*map(repr, (law.kn, law.kt, law.loss, damping, pair.friction)))
     if isinstance(pair.second, Sphere):
         granular = ["pair_style granular", f"pair_coeff * * {words}"]

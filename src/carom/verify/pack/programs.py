@@ -29,7 +29,7 @@ PROGRAMS: Mapping[str, tuple[Program, ContactLaw]] = {  # each with a law that i
 }
 RUN = """\
 #!/bin/sh
-# Runs the impacts of this folder, leaves results.csv and scores it: exit code 0 if they pass, else 1.
+# Runs these impacts, leaves results.csv and scores it: exit code 0 if they pass, else 1.
 # What follows the name of this script goes to the scorer, e.g. --tolerance 0.6 --plot score.png
 set -e
 cd "$(dirname "$0")"

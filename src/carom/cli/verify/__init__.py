@@ -1,0 +1,24 @@
+"""`carom verify`: contact laws and DEM codes against the exact impact."""
+
+import typer
+
+from carom.cli.verify.engines import lammps_command, liggghts_command, yade_command
+from carom.cli.verify.laws import laws_command
+from carom.cli.verify.pack import pack_command
+from carom.cli.verify.score import score_command
+from carom.cli.verify.tune import tune_command
+
+app = typer.Typer(
+    name="verify",
+    help="Put contact laws and DEM codes to the test against the exact impact.\n\n"
+    "Example: carom verify laws",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+app.command("laws")(laws_command)
+app.command("lammps")(lammps_command)
+app.command("liggghts")(liggghts_command)
+app.command("yade")(yade_command)
+app.command("pack")(pack_command)
+app.command("score")(score_command)
+app.command("tune")(tune_command)

@@ -1,0 +1,48 @@
+"""`carom verify laws`: the ranking of contact laws."""
+
+import json
+from typing import Annotated
+
+import typer
+
+
+def laws_command(
+    chi: Annotated[str, typer.Option(help="(kappa/2)(m_n/m_t), positive.")] = "1.4412",
+    kappa: Annotated[
+        str | None, typer.Option(help="G*/E*; by default that of solid spheres, 4 chi/7.")
+    ] = None,
+    psi: Annotated[
+        list[str] | None, typer.Option(help="Incidence psi_1; repeat for several.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    plot: Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")] = None,
+    output: Annotated[str | None, typer.Option(help="Store the ranking: .csv or .nc.")] = None,
+) -> None:
+    """Rank the contact laws of DEM codes by their largest error in psi_2.
+
+    Example: carom verify laws
+
+    For shells on a wall: carom verify laws --chi 1.0294 --kappa 0.8235 --plot laws.png
+    """
+    from carom.cli.compiling import announced
+    from carom.cli.progress import bar
+    from carom.quantities import finite, positive
+    from carom.storage import FIGURES, TABLES, checked_output, save
+    from carom.verify.errors import INCIDENCES
+    from carom.verify.ranking import rank
+
+    for path, endings in ((plot, FIGURES), (output, TABLES)):
+        if path is not None:
+            checked_output(path, endings)
+    incidences = INCIDENCES if not psi else tuple(finite("psi_in", value) for value in psi)
+    ratio = None if kappa is None else positive("kappa", kappa)
+    with announced(), bar("laws") as progress:
+        ranking = rank(chi=positive("chi", chi), kappa=ratio, psi=incidences, progress=progress)
+    if output is not None:
+        typer.echo(f"stored {save(ranking, output)}", err=True)
+    if plot is not None:
+        from carom.plots.laws import plot_laws
+        from carom.plots.style import save_figure
+
+        typer.echo(f"stored {save_figure(plot_laws(ranking.to_dataset()), plot)}", err=True)
+    typer.echo(json.dumps(ranking.as_record(), indent=2) if as_json else str(ranking))

@@ -1,0 +1,68 @@
+"""`carom verify tune`: parameters of contact laws for a pair of bodies."""
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from carom.verify.tuning import Tuning
+
+
+def tune_command(
+    case: Annotated[
+        Path | None,
+        typer.Argument(help="Case file as of `carom impact`: bodies, friction, speed."),
+    ] = None,
+    chi: Annotated[str | None, typer.Option(help="Instead of a case: chi, positive.")] = None,
+    kappa: Annotated[
+        str | None, typer.Option(help="With --chi: G*/E*; by default 4 chi/7, of solid spheres.")
+    ] = None,
+    start: Annotated[
+        str, typer.Option("--from", help="First incidence: an angle of a case, or psi_1.")
+    ] = "0",
+    stop: Annotated[
+        str | None,
+        typer.Option("--to", help="Last incidence: an angle, e.g. '60 deg', or psi_1 (4 chi)."),
+    ] = None,
+    restitution: Annotated[
+        str, typer.Option(help="Wanted normal restitution e, for the dampings.")
+    ] = "1",
+    measure: Annotated[str, typer.Option(help="Error to minimise: max or rms.")] = "max",
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+) -> None:
+    """Find the parameters of each contact law that come closest to the exact rebound.
+
+    With a case also what to write into the inputs of DEM codes: stiffnesses, dampings for a wanted
+    restitution, and time steps with the errors that they cause.
+
+    Example: carom verify tune examples/steel_ball.toml --from "5 deg" --to "60 deg"
+
+    Without bodies: carom verify tune --chi 1.4412
+    """
+    from carom.cli.compiling import announced
+    from carom.cli.progress import bar
+    from carom.verify.setting import setting_of
+    from carom.verify.tuning import tune
+
+    setting = setting_of(case, chi, kappa, start, stop, restitution)
+    with announced(), bar("laws") as progress:
+        tuning = tune(
+            chi=setting.chi,
+            kappa=setting.kappa,
+            psi=setting.psi,
+            measure=measure,
+            progress=progress,
+        )
+    record = tuning.as_record() | {"inputs": setting.recipes, "duration": setting.duration}
+    typer.echo(json.dumps(record, indent=2) if as_json else _text(tuning, record))
+
+
+def _text(tuning: "Tuning", record: dict[str, Any]) -> str:
+    lines = [str(tuning)]
+    duration = record["duration"]
+    if duration is not None:
+        lines.append(f"contact of {duration:.4g} s: time step = that / steps; inputs of codes:")
+        lines += [f"  {code:26s} {text}" for code, text in record["inputs"].items()]
+    return "\n".join(lines)

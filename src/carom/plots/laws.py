@@ -1,0 +1,212 @@
+"""Contact laws against the exact impact: their rebounds and errors side by side, and error maps."""
+
+import json
+import textwrap
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from carom.plots.regimes import _draw_borders as draw_borders
+from carom.plots.style import (
+    BLACK,
+    BLUE,
+    DASHES,
+    DOUBLE,
+    GREEN,
+    PURPLE,
+    VERMILION,
+    check_grid,
+    draws,
+    label,
+    new_figure,
+    span,
+)
+from carom.quantities import positive
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+SKY = "#56B4E9"
+COLORS = (BLUE, VERMILION, GREEN, PURPLE, SKY)
+STYLES: Any = [{"color": c, "ls": d} for c, d in zip(COLORS, (*DASHES[1:], "-"), strict=True)]
+EXACT: Any = {"color": BLACK, "lw": 1.6, "zorder": 2}
+POINT: Any = {"marker": "o", "ms": 1.4}
+SAME = 1e-6  # in psi_2; laws closer than this share a line
+SAMPLE = (-0.085, -0.015)  # where a bar shows its line, in widths of its axes
+WORDS = 26  # characters in a line of a law's label
+PITCH, EDGE = 5.6, 24.0  # height of a bar and of what is around them, in mm
+NOTED = 0.1  # an error that is outlined
+DIVERGING = "RdBu_r"
+LEAST = 1e-3  # a colour scale ends no nearer to zero
+
+
+@draws("a ranking, what rank(...).to_dataset() returns", "max_error", "rms_error", "psi_out")
+def plot_laws(dataset: "xr.Dataset") -> Figure:
+    """Draw psi_2 of contact laws beside that of the exact impact, and their errors, best first.
+
+    A row holds up to five different rebounds on the left and, in the same colours, their largest
+    errors as bars on the right; the dark part is the root mean square.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        What `carom.verify.rank(...).to_dataset()` returns.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.plots.laws import plot_laws
+    >>> ranking = carom.verify.rank(carom.verify.CATALOGUE[:2], psi=[0.5, 1.0, 3.0])
+    >>> axis = plot_laws(ranking.to_dataset()).axes[1]
+    >>> [text.get_text() for text in axis.get_yticklabels()][0]
+    'linear spring, k_t/k_n = 2/7'
+    """
+    kinds = _kinds(dataset["psi_out"].values)
+    groups = np.array_split(np.arange(kinds.max() + 1), -(-(kinds.max() + 1) // len(STYLES)))
+    members = [np.flatnonzero(np.isin(kinds, group)) for group in groups]
+    most = max(len(rows) for rows in members)
+    height = len(groups) * max(PITCH * most, 30.0) + EDGE
+    figure, axes = new_figure(len(groups), 2, width=DOUBLE, height=height, width_ratios=(1.0, 1.0))
+    for (left, right), rows in zip(axes, members, strict=True):
+        styles = [STYLES[kind] for kind in kinds[rows] - kinds[rows].min()]
+        _draw_rebounds(left, dataset, rows, styles)
+        _draw_bars(right, dataset, rows, styles, most)
+    _share_limits(axes)
+    axes[-1, 0].set_xlabel(label("psi_in", room=44))
+    axes[-1, 1].set_xlabel(r"|error in $\psi_2$|")
+    figure.legend(handles=list(_key(dataset)), loc="outside upper center", ncols=4)
+    return figure
+
+
+def _kinds(curves: Any) -> Any:
+    """Return which rebound each law has, counted from 0 in their order; equal ones are one."""
+    kinds: list[int] = []
+    for row, curve in enumerate(curves):
+        same = (k for k in range(row) if np.allclose(curves[k], curve, rtol=0.0, atol=SAME))
+        twin = next(same, None)
+        kinds.append(max(kinds, default=-1) + 1 if twin is None else kinds[twin])
+    return np.array(kinds)
+
+
+def _draw_rebounds(axis: Axes, dataset: "xr.Dataset", rows: Any, styles: list[Any]) -> None:
+    order = np.argsort(dataset["psi_in"].values)
+    psi = dataset["psi_in"].values[order]
+    axis.axhline(0.0, color="0.5", lw=0.5, zorder=1)
+    axis.plot(psi, dataset["psi_out_exact"].values[order], **EXACT, **POINT)
+    for row, style in zip(rows, styles, strict=True):
+        out = dataset["psi_out"].values[row][order]
+        axis.plot(psi, out, lw=0.9, zorder=3, **style, **POINT)
+    axis.set_ylabel(label("psi_out", room=28))
+
+
+def _draw_bars(
+    axis: Axes, dataset: "xr.Dataset", rows: Any, styles: list[Any], most: int
+) -> None:
+    largest, rms = (dataset[name].values[rows] for name in ("max_error", "rms_error"))
+    places = np.arange(len(rows))
+    colors = [style["color"] for style in styles]
+    axis.barh(places, largest, height=0.62, color=colors, alpha=0.4, lw=0)
+    axis.barh(places, rms, height=0.62, color=colors, lw=0)
+    for place, value, style in zip(places, largest, styles, strict=True):
+        text = f"{value:.3f}" if np.isfinite(value) else "no limit"
+        at = value if np.isfinite(value) else 0.0
+        axis.annotate(
+            text, (at, place), (2, 0), textcoords="offset points", va="center", fontsize=6.5
+        )
+        sample = Line2D(SAMPLE, (place, place), lw=1.2, clip_on=False, **style)
+        sample.set_transform(axis.get_yaxis_transform())
+        sample.set_in_layout(False)
+        axis.add_line(sample)
+    names = [_in_lines(str(name)) for name in dataset["law"].values[rows]]
+    axis.set_yticks(places, names)
+    axis.tick_params(axis="y", length=0.0, pad=15.0)
+    axis.set_ylim(most - 0.5, -0.5)
+    for side in ("top", "right"):
+        axis.spines[side].set_visible(False)
+
+
+def _in_lines(name: str) -> str:
+    return "\n".join(textwrap.wrap(name, WORDS, break_long_words=False))
+
+
+def _share_limits(axes: Any) -> None:
+    """Let all panels of a column have the same scale, with room for the numbers at the bars."""
+    low, high = (f(axis.get_ylim()[i] for axis in axes[:, 0]) for i, f in enumerate((min, max)))
+    widest = max(axis.get_xlim()[1] for axis in axes[:, 1])
+    for left, right in axes:
+        left.set_ylim(low, high)
+        right.set_xlim(0.0, 1.12 * widest)
+
+
+def _key(dataset: "xr.Dataset") -> Iterator[Any]:
+    yield Line2D([], [], label=rf"exact, $\chi$ = {float(dataset['chi']):.5g}", **EXACT)
+    yield Line2D([], [], color="0.4", ls=DASHES[1], lw=0.9, label="law, as beside its bar")
+    yield Patch(fc="0.75", label=r"max |error in $\psi_2$|")
+    yield Patch(fc="0.4", label="root mean square")
+
+
+@draws("an error map, what carom.verify.error_map returns", "error", "psi_in", "chi")
+def plot_error_map(dataset: "xr.Dataset", limit: float | None = None) -> Figure:
+    """Draw the error of a contact law in psi_2 over psi_1 and chi, white where there is none.
+
+    Thin lines are errors of 0.1, dashed where negative; black lines the borders 1, 2 chi, 4 chi - 1
+    of the regimes. Where the law has no answer the map is grey.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        What `carom.verify.error_map` returns.
+    limit : float, optional
+        End of the colour scale; by default the largest |error|.
+
+    Raises
+    ------
+    InputError
+        If the dataset is another one, has no grid of two by two values, or the limit is not
+        positive.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.plots.laws import plot_error_map
+    >>> found = carom.verify.error_map(carom.LinearSpring(), [0.5, 1.0, 3.0], [1.2, 1.4])
+    >>> plot_error_map(found).axes[1].get_ylabel()
+    'error in $\\\\psi_2$'
+    """
+    check_grid(dataset, "error", "chi", "psi_in")
+    psi, chi, error = (dataset[name].values for name in ("psi_in", "chi", "error"))
+    finite = np.abs(error[np.isfinite(error)])
+    most = max(LEAST, float(finite.max(initial=0.0))) if limit is None else positive("max", limit)
+    figure, axes = new_figure(height=66.0)
+    axis = axes[0, 0]
+    axis.set_facecolor("0.8")
+    colors: Any = {"cmap": DIVERGING, "vmin": -most, "vmax": most}
+    drawn = axis.pcolormesh(psi, chi, error, shading="gouraud", rasterized=True, **colors)
+    if finite.size and finite.max() > NOTED:
+        lines: Any = {"colors": "0.25", "linewidths": 0.6, "linestyles": ["--", "-"]}
+        axis.contour(psi, chi, error, levels=[-NOTED, NOTED], **lines)
+    span(axis, psi, chi)
+    axis.set(xlabel=label("psi_in", room=44), ylabel=label("chi", room=44))
+    draw_borders(axis)
+    over = limit is not None and bool(finite.size) and finite.max() > most
+    bar = figure.colorbar(drawn, ax=axis, extend="both" if over else "neither", aspect=30)
+    bar.set_label(r"error in $\psi_2$")
+    bar.ax.tick_params(labelsize=7.0, length=2.5, width=0.6)
+    figure.suptitle(_title(dataset))
+    return figure
+
+
+def _title(dataset: "xr.Dataset") -> str:
+    """Return the law with its parameters, as far as the dataset tells them."""
+    given = json.loads(dataset.attrs.get("law_parameters", "{}"))
+    values = [
+        f"{name.replace('_', ' ')} {value:.4g}" if isinstance(value, float) else str(value)
+        for name, value in given.items()
+        if value is not None
+    ]
+    return "\n".join(textwrap.wrap(", ".join([dataset.attrs.get("law", ""), *values]), 60))

@@ -1,0 +1,64 @@
+"""Which contact law the programs of the discrete element method have."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from carom.laws.dem import (
+    EdemHertzMindlin,
+    HardSphere,
+    HertzLinearHistory,
+    LammpsMindlin,
+    Law,
+    LiggghtsHertz,
+    LinearSpring,
+    StrongeLaw,
+    ThorntonLaw,
+    WaltonBraunLaw,
+    YadeMindlin,
+)
+from carom.quantities import nearest, refusal
+
+
+class Entry(NamedTuple):
+    """A law with its parameters, and who uses it so."""
+
+    label: str
+    law: Law
+    used_by: str
+
+
+CATALOGUE = (
+    Entry("linear spring, k_t/k_n = kappa", LinearSpring(), "any code, set so"),
+    Entry("linear spring, k_t/k_n = 2/7", LinearSpring(2.0 / 7.0), "LAMMPS gran/hooke by default"),
+    Entry("linear spring, k_t/k_n = 1", LinearSpring(1.0), "LIGGGHTS hooke"),
+    Entry("Hertz, linear history", HertzLinearHistory(), "LAMMPS hertz, linear_history"),
+    Entry("mindlin", LammpsMindlin("mindlin"), "LAMMPS; MFiX Hertz"),
+    Entry("mindlin/force", LammpsMindlin("mindlin/force"), "LAMMPS"),
+    Entry("mindlin_rescale", LammpsMindlin("mindlin_rescale"), "LAMMPS"),
+    Entry("mindlin_rescale/force", LammpsMindlin("mindlin_rescale/force"), "LAMMPS; Kratos Hertz"),
+    Entry("mindlin, 2/3 of the stiffness", LammpsMindlin(stiffness=2.0 / 3.0), "MercuryDPM"),
+    Entry("LIGGGHTS hertz, history", LiggghtsHertz(), "LIGGGHTS"),
+    Entry("EDEM Hertz-Mindlin (no slip)", EdemHertzMindlin(), "EDEM"),
+    Entry("YADE Mindlin", YadeMindlin(), "YADE"),
+    Entry("Thornton, incremental", ThorntonLaw(), "Mindlin & Deresiewicz in increments"),
+    Entry("Walton & Braun", WaltonBraunLaw(), "softening spring, K_0/K_1 = kappa"),
+    Entry("Stronge, bilinear", StrongeLaw(), "bilinear compliance, k_t/k_n = kappa"),
+    Entry("Walton's hard spheres, 0.4", HardSphere(0.4), "event-driven codes, beta_0 = 0.4"),
+    Entry("rigid Coulomb", HardSphere(), "impulse-based codes"),
+)
+
+
+def named(label: str | None) -> Sequence[Entry]:
+    """Return the entry of the catalogue with this label, or all without one.
+
+    Raises InputError if there is none; the message offers the nearest.
+    """
+    if label is None:
+        return CATALOGUE
+    found = [entry for entry in CATALOGUE if entry.label == label]
+    if not found:
+        labels = [entry.label for entry in CATALOGUE]
+        raise refusal(
+            "law", label, nearest(label, labels) or f"must be one of: {'; '.join(labels)}"
+        )
+    return found

@@ -1,0 +1,150 @@
+"""How impacts are set up in a DEM program: spheres side by side and about to touch, stiffnesses."""
+
+from __future__ import annotations
+
+import sys
+from math import sqrt
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.bodies import Sphere
+from carom.laws.dem import LinearSpring
+from carom.laws.dem.coefficients import SPRING
+from carom.laws.dem.damping import damping_ratio
+from carom.pairs import Pair
+from carom.quantities import refusal
+from carom.verify.engines.experiments import Experiment, Outcomes
+
+Array = NDArray[np.float64]
+
+SPACING = 4.0  # from centre to centre, in radii of the larger sphere
+HAIR = 1.0 + 4.0 * sys.float_info.epsilon  # programs damp spheres that exactly touch
+RIGID = 1e9  # Young's modulus of a body that does not deform, in units of the other one's
+BEYOND = 1.15  # durations of an elastic contact that are run
+
+
+class Spring(NamedTuple):
+    """A linear contact: stiffnesses in N/m, dashpot of the normal direction in N s/m."""
+
+    normal: float
+    tangential: float
+    dashpot: float
+
+
+def spring(experiment: Experiment) -> Spring:
+    """Return the linear contact of an experiment, pressed as far as Hertz's: k_n = (4/5) P/d."""
+    law, pair, scales = experiment.law, experiment.pair, experiment.scales
+    if not isinstance(law, LinearSpring):
+        raise refusal("law", law, "must be a LinearSpring")
+    normal = SPRING * scales.force / scales.length
+    dashpot = 2.0 * damping_ratio(law.restitution) * sqrt(pair.normal_mass * normal)
+    return Spring(normal, normal * (law.stiffness_ratio or pair.kappa), dashpot)
+
+
+def young_moduli(pair: Pair) -> tuple[float, float]:
+    """Return Young's moduli of both bodies in Pa for a program that knows no infinity."""
+    first, second = pair.first.material.young, pair.second.material.young
+    return min(first, RIGID * second), min(second, RIGID * first)
+
+
+def restitution(experiment: Experiment) -> float:
+    """Return the e that the damping of a law is made for, 1 without damping."""
+    return float(getattr(experiment.law, "restitution", 1.0))
+
+
+def run_length(experiment: Experiment) -> int:
+    """Return how many steps it takes until all have parted; damping prolongs the contact."""
+    ratio = damping_ratio(restitution(experiment))
+    return int(BEYOND * experiment.steps / (1.0 - ratio**2)) + 2
+
+
+def spacing(pair: Pair) -> float:
+    """Return the distance between the centres of neighbouring impacts in m."""
+    return SPACING * max(body.radius for body in pair.moving)
+
+
+def touching(pair: Pair) -> float:
+    """Return the distance in m at which the centre of the first body touches the second."""
+    return sum(body.radius for body in pair.moving)
+
+
+class Placed(NamedTuple):
+    """A sphere at its place and its motion, in a plane y = const; spin is -omega_y."""
+
+    sphere: Sphere
+    y: float
+    z: float
+    vx: float
+    vz: float
+    spin: float
+
+
+def placed(experiment: Experiment) -> list[Placed]:
+    """Return first bodies that touch z = 0 from above, then second spheres that do from below.
+
+    All but touch, by a hair. The centre of mass of two spheres rests; a half-space does.
+    """
+    pair, speed = experiment.pair, experiment.normal_speed
+    motions = list(zip(experiment.tangential_speed, experiment.spin, strict=True))
+    rows = [spacing(pair) * row for row in range(len(motions))]
+    share = share_of_first(pair)
+    result = [
+        Placed(pair.first, y, HAIR * pair.first.radius, share * drift, -share * speed, spin)
+        for y, (drift, spin) in zip(rows, motions, strict=True)
+    ]
+    if isinstance(pair.second, Sphere):
+        share, depth = 1.0 - share, -HAIR * pair.second.radius
+        result += [
+            Placed(pair.second, y, depth, -share * drift, share * speed, 0.0)
+            for y, (drift, _) in zip(rows, motions, strict=True)
+        ]
+    return result
+
+
+def share_of_first(pair: Pair) -> float:
+    """Return the part of a relative velocity that the first body has, the centre of mass resting.
+
+    A half-space is as good as infinitely heavy.
+    """
+    if not isinstance(pair.second, Sphere):
+        return 1.0
+    return pair.second.mass / (pair.first.mass + pair.second.mass)
+
+
+def outcomes_of(experiment: Experiment, states: Array) -> Outcomes:
+    """Return how bodies leave, from x, z, vx, vz, omega_y of the first ones, then the second ones.
+
+    Raises ValueError if one is missing, or some still touch.
+    """
+    count, pair = len(experiment), experiment.pair
+    if states.shape != (count * len(pair.moving), 5):
+        raise ValueError(f"{len(states)} of {count * len(pair.moving)} spheres")
+    first, second = states[:count], states[count:]
+    x, z, vx, vz, _ = (first - second if second.size else first).T
+    distance = np.hypot(x, z) if second.size else z
+    if np.any(distance <= touching(pair)):
+        raise ValueError("the bodies still touch at the end")
+    return Outcomes(vz, vx, 0.0 - first[:, 4])
+
+
+def remarks(experiment: Experiment) -> dict[str, str]:
+    """Return what the comments of any input say, by the names that its template has for it."""
+    pair, two = experiment.pair, isinstance(experiment.pair.second, Sphere)
+    point = "vx1 - R1 omegay1 - vx2 - R2 omegay2" if two else "vx - R omegay"
+    overlap = experiment.scales.length / pair.first.radius
+    return {
+        "bodies": "two spheres" if two else "a sphere on a flat wall",
+        "law": f"{experiment.law.name}, {experiment.law!r}",
+        "impact": (
+            f"# z is the normal of the contacts, x their tangential direction. Contact point:\n"
+            f"# V_x = {point}; psi = kappa V_x/(mu V_1), kappa = G*/E* = {pair.kappa:.6g},\n"
+            f"# mu = {pair.friction:.6g}, V_1 = {experiment.normal_speed:.6g} m/s; "
+            f"chi = {pair.chi:.6g}.\n"
+            f"# The largest overlap of an elastic impact is {overlap:.2g} radii."
+        ),
+        "count": str(len(experiment)),
+        "steps": str(experiment.steps),
+        "duration": f"{experiment.duration:.6g}",
+    }

@@ -1,0 +1,154 @@
+"""How far a contact law is from the exact impact: in psi_2, in its forces, in energy."""
+
+from dataclasses import fields
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from carom.arrays import finite_line, positive_line
+from carom.dimensionless.hertz import DURATION
+from carom.dimensionless.rebounds import rebound
+from carom.dimensionless.solution import solve
+from carom.laws.dem import ContactLaw, Law
+from carom.laws.dem.base import SOLID
+from carom.quantities import refusal
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+INCIDENCES = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0)
+INSTANTS = 400  # at which forces are compared
+
+
+class ForceError(NamedTuple):
+    """Error of the tangential force through an impact, in units of mu P_max."""
+
+    largest: float
+    rms: float
+
+
+def as_law(law: object) -> Law:
+    """Return a law as it is, or raise InputError."""
+    if not isinstance(law, Law):
+        raise refusal("law", law, "must be a contact law, e.g. carom.LinearSpring()")
+    return law
+
+
+def error_map(
+    law: Law,
+    psi: ArrayLike | None = None,
+    chi: ArrayLike | None = None,
+    *,
+    kappa: float | None = None,
+    steps: int | None = None,
+) -> "xr.Dataset":
+    """Return the error of a contact law in psi_2 over psi_1 and chi, as a labelled dataset.
+
+    error = psi_2 of the law - psi_2(psi_1, chi); the exact one of Maw, Barber & Fawcett (1976).
+
+    Parameters
+    ----------
+    law : Law
+        A contact law, e.g. `carom.LinearSpring()`.
+    psi, chi : array_like, optional
+        Values along either axis, chi positive; by default those of solid spheres: chi from 7/6
+        (nu = 1/2) to 7/4 (nu = 0), psi_1 to beyond where all impacts slide throughout.
+    kappa, steps : optional
+        As of `law.rebound`.
+
+    Returns
+    -------
+    xarray.Dataset
+        psi_out, psi_out_exact, error (chi, psi_in); max_error and rms_error (chi), NaN where a law
+        leaves a point unsolved.
+
+    Raises
+    ------
+    InputError
+        If the law is none, a chi is not positive or a psi not finite.
+
+    Examples
+    --------
+    >>> import carom
+    >>> found = carom.verify.error_map(carom.LinearSpring(), [1.0, 6.0], [1.4412])
+    >>> found.error.values.round(3)
+    array([[-0.176,  0.   ]])
+    """
+    from carom.results import labelled_dataset
+
+    rule = as_law(law)
+    chis = np.linspace(7.0 / 6.0, 7.0 / 4.0, 15) if chi is None else positive_line("chi", chi)
+    top = 4.0 * float(chis.max())
+    psis = np.linspace(0.0, top, 121) if psi is None else finite_line("psi", psi)
+    rows, wide = chis[:, np.newaxis], ("chi", "psi_in")
+    exact = rebound(psis, rows)
+    given = rule.rebound(psis, rows, kappa=kappa, steps=steps)
+    error = given - exact
+    names = {"law": rule.name, "law_source": rule.source, "law_parameters": parameters(rule)}
+    return labelled_dataset(
+        {
+            "psi_out": (wide, given),
+            "psi_out_exact": (wide, exact, _words("psi_2 of the exact impact")),
+            "error": (wide, error, _words("error in psi_2")),
+            "max_error": ("chi", np.abs(error).max(axis=1), _words("largest |error in psi_2|")),
+            "rms_error": (
+                "chi",
+                np.sqrt(np.mean(error**2, axis=1)),
+                _words("root mean square of the error in psi_2"),
+            ),
+        },
+        {"chi": chis, "psi_in": psis},
+        {"title": "error of a contact law", **names},
+    )
+
+
+def parameters(law: Law) -> dict[str, float | str | None]:
+    """Return the parameters of a law by name."""
+    return {item.name: getattr(law, item.name) for item in fields(law)}
+
+
+def force_error(law: Law, psi: float, chi: float, *, kappa: float | None = None) -> ForceError:
+    """Return the error of the tangential force through an impact, at equal parts of its duration.
+
+    (F_x - F_x,exact)/(mu P_max), both forces at the same part of their own contact's duration, as a
+    linear contact lasts longer than Hertz's. NaN for a law without a duration.
+
+    Raises
+    ------
+    InputError
+        If the law is none, or its bodies do not part.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.verify.force_error(carom.LammpsMindlin("mindlin"), 0.75, 1.4412).largest.round(2)
+    0.26
+    """
+    if not isinstance(as_law(law), ContactLaw):
+        return ForceError(np.nan, np.nan)
+    assert isinstance(law, ContactLaw)
+    history = law.history(psi, chi, kappa=kappa)
+    parts = np.linspace(0.0, 1.0, INSTANTS)
+    elapsed = history["time"] / history["time"][-1]
+    force = np.interp(parts, elapsed, history["tangential_force"])
+    exact = 1.5 * solve(psi, chi).at(parts * DURATION).force
+    return ForceError(
+        float(np.max(np.abs(force - exact))), float(np.sqrt(np.mean((force - exact) ** 2)))
+    )
+
+
+def energy_gain(psi: Array, psi_out: Array) -> float:
+    """Return the largest |psi_2| - |psi_1|, zero if no impact gains energy."""
+    return float(max(0.0, np.nanmax(np.abs(psi_out) - np.abs(psi))))
+
+
+def solid_kappa(chi: float) -> float:
+    """Return kappa of solid spheres with this chi."""
+    return SOLID * chi
+
+
+def _words(meaning: str) -> dict[str, str]:
+    return {"units": "1", "long_name": meaning}

@@ -1,0 +1,215 @@
+"""The ranking of contact laws: how far each is from the exact impact, and what step it needs."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from carom.arrays import finite_line
+from carom.dimensionless.rebounds import rebound
+from carom.laws.dem import ContactLaw
+from carom.quantities import positive, refusal
+from carom.verify.catalogue import CATALOGUE, Entry
+from carom.verify.errors import INCIDENCES, energy_gain, force_error, solid_kappa
+from carom.verify.steps import Step, advised_steps
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+CHI = 1.4412  # solid spheres with nu = 0.3
+FINE = 0.01  # error in psi_2 of a fine step
+
+
+class Standing(NamedTuple):
+    """How a law stands: its errors in psi_2 and force, its gain of energy, the step it needs.
+
+    `worst` is the psi_1 at which psi_2 is off most; `force_error` the rms over the impact at which
+    that is largest, in units of mu P_max; `energy_gain` the largest |psi_2| - |psi_1|; `step` the
+    fewest steps per contact whose own error is below that of the law, `fine_step` those below 0.01.
+    """
+
+    entry: Entry
+    max_error: float
+    worst: float
+    rms_error: float
+    force_error: float
+    energy_gain: float
+    step: Step | None
+    fine_step: Step | None
+
+
+@dataclass(frozen=True)
+class Ranking:
+    """Contact laws by their largest error in psi_2, the best first; made by `rank`."""
+
+    chi: float
+    kappa: float
+    psi: tuple[float, ...]
+    standings: tuple[Standing, ...]
+
+    def __str__(self) -> str:
+        return _table(self)
+
+    def as_record(self) -> dict[str, Any]:
+        """Return the ranking as what JSON can hold."""
+        laws = [_record(standing) for standing in self.standings]
+        return {"chi": self.chi, "kappa": self.kappa, "psi_in": list(self.psi), "laws": laws}
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return psi_2 of each law and of the exact impact, and all errors, as one dataset."""
+        from carom.results import labelled_dataset
+
+        laws = [standing.entry.law for standing in self.standings]
+        given = [law.rebound(self.psi, self.chi, kappa=self.kappa) for law in laws]
+        exact = rebound(self.psi, self.chi)
+        steps = [
+            [step.steps if step else -1 for step in (s.step, s.fine_step)] for s in self.standings
+        ]
+        meanings = {
+            "max_error": "largest |error in psi_2|",
+            "rms_error": "root mean square of the error in psi_2",
+            "force_error": "rms error of the tangential force, in mu P_max, of the worst impact",
+            "energy_gain": "largest |psi_2| - |psi_1|",
+        }
+        errors = {
+            name: ("law", [getattr(s, name) for s in self.standings], _words(meaning))
+            for name, meaning in meanings.items()
+        }
+        return labelled_dataset(
+            {
+                "psi_out": (("law", "psi_in"), np.array(given)),
+                "psi_out_exact": ("psi_in", exact, _words("psi_2 of the exact impact")),
+                **errors,
+                "steps": (("law", "step_kind"), steps, _words("steps per contact, -1: none")),
+                "chi": self.chi,
+                "kappa": self.kappa,
+            },
+            {
+                "law": ("law", [s.entry.label for s in self.standings], {}),
+                "psi_in": self.psi,
+                "step_kind": ("step_kind", ["below the error of the law", f"below {FINE:g}"], {}),
+            },
+            {"title": "contact laws against the exact impact"},
+        )
+
+
+def rank(
+    entries: Sequence[Entry] = CATALOGUE,
+    *,
+    chi: float = CHI,
+    kappa: float | None = None,
+    psi: ArrayLike = INCIDENCES,
+    progress: Callable[[int, int], object] | None = None,
+) -> Ranking:
+    """Return how far contact laws are from the exact impact, the best first.
+
+    max |psi_2 of the law - psi_2(psi_1, chi)| over the incidences, and what `Standing` holds.
+
+    Parameters
+    ----------
+    entries : sequence of Entry
+        Laws with a label and who uses them; by default all of the catalogue.
+    chi : float
+        (kappa/2)(m_n/m_t), positive.
+    kappa : float, optional
+        G*/E*; by default that of solid spheres, 4 chi/7.
+    psi : array_like
+        Incidences psi_1.
+    progress : callable, optional
+        Called with the laws done so far and their number.
+
+    Raises
+    ------
+    InputError
+        If there is no law, or a value is out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> best = carom.verify.rank(carom.verify.CATALOGUE[:2]).standings[0]
+    >>> best.entry.label, round(best.max_error, 3)
+    ('linear spring, k_t/k_n = kappa', 0.176)
+    """
+    ratio, psis = positive("chi", chi), finite_line("psi", psi)
+    if not entries:
+        raise refusal("entries", entries, "give one law at least")
+    own = solid_kappa(ratio) if kappa is None else positive("kappa", kappa)
+    standings = []
+    for done, entry in enumerate(entries, start=1):
+        standings.append(_standing(entry, psis, ratio, own))
+        if progress is not None:
+            progress(done, len(entries))
+    ordered = sorted(standings, key=lambda standing: (standing.max_error, standing.entry.label))
+    return Ranking(ratio, own, tuple(psis.tolist()), tuple(ordered))
+
+
+def _standing(entry: Entry, psi: Any, chi: float, kappa: float) -> Standing:
+    law = entry.law
+    given = law.rebound(psi, chi, kappa=kappa)
+    error = given - rebound(psi, chi)
+    largest = float(np.max(np.abs(error)))
+    forces = [force_error(law, value, chi, kappa=kappa).rms for value in psi if value != 0.0]
+    step = fine = None
+    if isinstance(law, ContactLaw) and largest > 0.0:
+        step = advised_steps(law, largest, psi, chi, kappa=kappa)
+        fine = advised_steps(law, FINE, psi, chi, kappa=kappa)
+    return Standing(
+        entry,
+        largest,
+        float(psi[int(np.argmax(np.abs(error)))]),
+        float(np.sqrt(np.mean(error**2))),
+        float(np.max(forces)) if forces else float("nan"),
+        energy_gain(psi, given),
+        step,
+        fine,
+    )
+
+
+def _record(standing: Standing) -> dict[str, Any]:
+    numbers = {name: getattr(standing, name) for name in ("max_error", "worst", "rms_error")}
+    more = {name: getattr(standing, name) for name in ("force_error", "energy_gain")}
+    return {
+        "law": standing.entry.label,
+        "used_by": standing.entry.used_by,
+        "source": standing.entry.law.source,
+        **{name: _finite(value) for name, value in (numbers | more).items()},
+        "steps": standing.step.steps if standing.step else None,
+        "step_error": standing.step.error if standing.step else None,
+        "fine_steps": standing.fine_step.steps if standing.fine_step else None,
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if np.isfinite(value) else None
+
+
+def _table(ranking: Ranking) -> str:
+    head = f"{'max':>7s} {'at':>5s} {'rms':>7s} {'force':>7s} {'steps':>6s} {'fine':>5s}"
+    rows = [
+        f"  {s.entry.label:32s} {s.max_error:7.3f} {s.worst:5.2f} {s.rms_error:7.3f}"
+        f" {_short(s.force_error)} {s.step.steps if s.step else '-':>6}"
+        f" {s.fine_step.steps if s.fine_step else '-':>5}  {s.entry.used_by}"
+        + (f"; gains energy, {s.energy_gain:.2g} in psi" if s.energy_gain > 1e-9 else "")
+        for s in ranking.standings
+    ]
+    return "\n".join(
+        [
+            f"|error in psi_2| of contact laws, chi = {ranking.chi:g}, kappa = {ranking.kappa:.4g},"
+            f" psi_1 from {min(ranking.psi):g} to {max(ranking.psi):g}",
+            f"  {'':32s} {head}  used by",
+            *rows,
+            "force: rms error of the tangential force through the worst impact, in mu P_max",
+            "steps: per contact, from which on the step costs less than the law is off;"
+            f" fine: less than {FINE:g}",
+        ]
+    )
+
+
+def _short(value: float) -> str:
+    return f"{value:7.3f}" if np.isfinite(value) else f"{'-':>7s}"
+
+
+def _words(meaning: str) -> dict[str, str]:
+    return {"units": "1", "long_name": meaning}

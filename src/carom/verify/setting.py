@@ -1,0 +1,72 @@
+"""What a tuning is for: bodies or chi, and a range of incidence."""
+
+from math import tan
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.approach import approach, slope
+from carom.cases import motion_of, pair_of, read_case
+from carom.dimensionless.hertz import DURATION
+from carom.quantities import InputError, finite, number, positive, refusal
+from carom.verify.conversions import recipes
+
+POINTS = 61
+SPEED = 1.0  # m/s, of a case without one: k_n of linear springs depends on it
+
+
+class Setting(NamedTuple):
+    """chi, kappa and incidences of a tuning; with bodies also what codes take, and t_c in s."""
+
+    chi: float
+    kappa: float | None
+    psi: NDArray[np.float64]
+    recipes: dict[str, Any]
+    duration: float | None
+
+
+def setting_of(
+    case: Path | None,
+    chi: str | None,
+    kappa: str | None,
+    start: str,
+    stop: str | None,
+    restitution: str,
+) -> Setting:
+    """Return what a tuning is for, from a case file and angles, or from chi and psi_1.
+
+    Raises InputError if neither or both are given, or a range is empty.
+    """
+    if (case is None) == (chi is None):
+        raise InputError("case: give a case file, or --chi; e.g. --chi 1.44")
+    wanted = number("restitution", restitution)
+    if case is None:
+        if wanted != 1.0:
+            raise refusal("restitution", restitution, "needs a case file: dampings are of bodies")
+        ratio = positive("chi", chi)
+        last = 4.0 * ratio if stop is None else finite("psi_in", stop)
+        own = None if kappa is None else positive("kappa", kappa)
+        return Setting(ratio, own, _range(finite("psi_in", start), last), {}, None)
+    if kappa is not None:
+        raise refusal("kappa", kappa, "follows from the case; leave it out")
+    content = read_case(case)
+    pair, motion = pair_of(content), motion_of(content)
+    if pair.friction == 0.0:
+        raise refusal("friction", 0.0, "must be positive: without it nothing is to tune")
+    given = {name: motion.get(name) for name in ("speed", "angle")}
+    more = {name: motion.get(name) for name in ("normal_speed", "tangential_speed")}
+    moves = any(value is not None for value in (*given.values(), *more.values()))
+    speed = approach(**given, **more)[0] if moves else SPEED
+    per_slope = pair.kappa / pair.friction  # psi_1 = kappa tan(angle)/mu
+    last = 4.0 * pair.chi if stop is None else per_slope * tan(slope(stop))
+    psi = _range(per_slope * tan(slope(start)), last)
+    inputs = recipes(pair, speed, wanted)
+    return Setting(pair.chi, pair.kappa, psi, inputs, DURATION * pair.scales(speed).time)
+
+
+def _range(first: float, last: float) -> NDArray[np.float64]:
+    if not 0.0 <= first < last:
+        raise refusal("to", last, f"must be above --from, {first:g}, and that not negative")
+    return np.linspace(first, last, POINTS)[0 if first > 0.0 else 1 :]

@@ -1,0 +1,94 @@
+"""What a time step costs: how far a law in fixed steps is from the law itself."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from carom.arrays import finite_line
+from carom.laws.dem import Law
+from carom.quantities import counted, positive
+from carom.verify.errors import INCIDENCES, as_law
+
+FEWEST, MOST = 10, 2_000_000
+GROWTH = 2.0**0.5
+
+
+class Step(NamedTuple):
+    """Steps per duration of the elastic contact, and the error in psi_2 that they cause."""
+
+    steps: int
+    error: float
+
+
+def step_error(
+    law: Law,
+    steps: int,
+    psi: ArrayLike = INCIDENCES,
+    chi: float = 1.4412,
+    *,
+    kappa: float | None = None,
+) -> float:
+    """Return the largest |error in psi_2| that a number of time steps causes.
+
+    max |psi_2(steps) - psi_2(converged)|; the time step is t_c/steps, t_c the duration of Hertz's
+    contact.
+
+    Raises
+    ------
+    InputError
+        If the law is none or a value out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.verify.step_error(carom.LammpsMindlin("mindlin"), 100) < 1e-3
+    True
+    """
+    counted("steps", steps, FEWEST)
+    psis = finite_line("psi", psi)
+    converged = as_law(law).rebound(psis, chi, kappa=kappa)
+    stepped = law.rebound(psis, chi, kappa=kappa, steps=steps)
+    return float(np.max(np.abs(stepped - converged)))
+
+
+def advised_steps(
+    law: Law,
+    allowed: float,
+    psi: ArrayLike = INCIDENCES,
+    chi: float = 1.4412,
+    *,
+    kappa: float | None = None,
+) -> Step | None:
+    """Return the fewest time steps whose error in psi_2 stays within what is allowed.
+
+    The error of twice as many steps must be within it, too; numbers are tried in steps of sqrt 2.
+    None if two million do not suffice, or the law has no limit.
+
+    Raises
+    ------
+    InputError
+        If the law is none or a value out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.verify.advised_steps(carom.LinearSpring(), 0.01).steps
+    20
+    """
+    positive("tolerance", allowed)
+    psis = finite_line("psi", psi)
+    converged = as_law(law).rebound(psis, chi, kappa=kappa)
+    if not np.all(np.isfinite(converged)):
+        return None
+    held: list[Step] = []
+    wanted = float(FEWEST)
+    while wanted <= MOST:
+        steps = round(wanted)
+        stepped = law.rebound(psis, chi, kappa=kappa, steps=steps)
+        error = float(np.max(np.abs(stepped - converged)))
+        held = [*held, Step(steps, error)] if error <= allowed else []
+        if len(held) == 3:
+            return held[0]
+        wanted *= GROWTH
+    return None

@@ -1,0 +1,229 @@
+"""The parameters with which a contact law comes closest to the exact rebound."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from carom.arrays import finite_line
+from carom.dimensionless.rebounds import rebound
+from carom.laws.dem import (
+    ContactLaw,
+    EdemHertzMindlin,
+    HardSphere,
+    HertzLinearHistory,
+    LammpsMindlin,
+    Law,
+    LiggghtsHertz,
+    LinearSpring,
+    ThorntonLaw,
+    WaltonBraunLaw,
+)
+from carom.quantities import positive, refusal
+from carom.verify.errors import as_law, solid_kappa
+from carom.verify.steps import Step, advised_steps
+
+Array = NDArray[np.float64]
+
+FREE = {  # the parameter that can be chosen, and its range
+    LinearSpring: ("stiffness_ratio", 0.02, 5.0),
+    HertzLinearHistory: ("stiffness", 0.02, 5.0),
+    LammpsMindlin: ("stiffness", 0.02, 5.0),
+    WaltonBraunLaw: ("stiffness_ratio", 0.02, 5.0),
+    HardSphere: ("tangential_restitution", -1.0, 1.0),
+}
+TUNED: tuple[Law, ...] = (
+    LinearSpring(),
+    HertzLinearHistory(),
+    LammpsMindlin("mindlin"),
+    LammpsMindlin("mindlin/force"),
+    LammpsMindlin("mindlin_rescale"),
+    LammpsMindlin("mindlin_rescale/force"),
+    LiggghtsHertz(),
+    EdemHertzMindlin(),
+    ThorntonLaw(),
+    WaltonBraunLaw(),
+    HardSphere(0.4),
+)
+TRIALS = 33  # of a parameter, before the best is refined
+MEASURES = ("max", "rms")
+
+
+class Advice(NamedTuple):
+    """A law with the parameter that comes closest, and the error in psi_2 that remains.
+
+    `before` is the largest error of the law as it was given; `step` the fewest steps per contact
+    that cost less than a tenth of what remains.
+    """
+
+    law: Law
+    parameter: str | None
+    value: float | None
+    max_error: float
+    rms_error: float
+    before: float
+    step: Step | None
+
+
+@dataclass(frozen=True)
+class Tuning:
+    """Laws as close to the exact rebound as they get, the best first; made by `tune`."""
+
+    chi: float
+    kappa: float
+    span: tuple[float, float]
+    advice: tuple[Advice, ...]
+
+    def as_record(self) -> dict[str, Any]:
+        """Return the advice as what JSON can hold."""
+        return {
+            "chi": self.chi,
+            "kappa": self.kappa,
+            "psi_in": list(self.span),
+            "laws": [_record(one) for one in self.advice],
+        }
+
+    def __str__(self) -> str:
+        head = f"{'parameter':>24s} {'value':>8s} {'max':>7s} {'rms':>7s} {'as given':>9s} "
+        rows = [
+            f"  {called(one.law):32s} {one.parameter or '-':>24s} {_short(one.value, 4)}"
+            f" {one.max_error:7.3f} {one.rms_error:7.3f} {one.before:9.3f}"
+            f" {one.step.steps if one.step else '-':>6}"
+            for one in self.advice
+        ]
+        return "\n".join(
+            [
+                f"closest to the exact psi_2 at chi = {self.chi:g}, kappa = {self.kappa:.4g},"
+                f" psi_1 from {self.span[0]:g} to {self.span[1]:g}",
+                f"  {'':32s} {head}{'steps':>6s}",
+                *rows,
+                "max, rms: error in psi_2 that remains; steps per contact whose error is a tenth",
+            ]
+        )
+
+
+def tune(
+    laws: Sequence[Law] = TUNED,
+    *,
+    chi: float,
+    kappa: float | None = None,
+    psi: ArrayLike | None = None,
+    measure: str = "max",
+    progress: Callable[[int, int], object] | None = None,
+) -> Tuning:
+    """Return the parameters with which contact laws come closest to the exact rebound.
+
+    Minimises max |psi_2 of the law - psi_2(psi_1, chi)|, or its root mean square, over the
+    incidences; stiffnesses from 1/50 to 5 in their units, beta_0 from -1 to 1. Laws without a free
+    parameter are measured as they are.
+
+    Parameters
+    ----------
+    laws : sequence of Law
+        Laws of impact; all but the tuned parameter is kept.
+    chi : float
+        (kappa/2)(m_n/m_t), positive.
+    kappa : float, optional
+        G*/E*; by default that of solid spheres, 4 chi/7.
+    psi : array_like, optional
+        Incidences psi_1, by default 60 of them up to 4 chi, beyond which all impacts slide.
+    measure : str
+        "max" or "rms".
+    progress : callable, optional
+        Called with the laws done so far and their number.
+
+    Raises
+    ------
+    InputError
+        If a law is none, or a value is out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> found = carom.verify.tune([carom.HertzLinearHistory()], chi=1.4412).advice[0]
+    >>> found.parameter, round(found.value, 2), round(found.before, 2), round(found.max_error, 2)
+    ('stiffness', 0.68, 0.61, 0.17)
+    """
+    ratio = positive("chi", chi)
+    own = solid_kappa(ratio) if kappa is None else positive("kappa", kappa)
+    psis = np.linspace(0.0, 4.0 * ratio, 61)[1:] if psi is None else finite_line("psi", psi)
+    if measure not in MEASURES:
+        raise refusal("measure", measure, f"must be {' or '.join(MEASURES)}")
+    exact = rebound(psis, ratio)
+    advice = []
+    for done, law in enumerate(laws, start=1):
+        advice.append(_advice(as_law(law), psis, exact, ratio, own, measure))
+        if progress is not None:
+            progress(done, len(laws))
+    ordered = sorted(advice, key=lambda one: getattr(one, f"{measure}_error"))
+    return Tuning(ratio, own, (float(psis.min()), float(psis.max())), tuple(ordered))
+
+
+def _advice(law: Law, psi: Array, exact: Array, chi: float, kappa: float, measure: str) -> Advice:
+    def error(candidate: Law) -> Array:
+        return np.asarray(candidate.rebound(psi, chi, kappa=kappa)) - exact
+
+    def cost(candidate: Law) -> float:
+        wrong = error(candidate)
+        value = np.max(np.abs(wrong)) if measure == "max" else np.sqrt(np.mean(wrong**2))
+        return float(value) if np.isfinite(value) else np.inf
+
+    name, best = None, law
+    if type(law) in FREE:
+        name, low, high = FREE[type(law)]
+        best = _closest(law, name, low, high, cost)
+    left, before = error(best), error(law)
+    largest = float(np.max(np.abs(left)))
+    step = None
+    if isinstance(best, ContactLaw) and largest > 0.0:
+        step = advised_steps(best, 0.1 * largest, psi, chi, kappa=kappa)
+    return Advice(
+        best,
+        name,
+        None if name is None else float(getattr(best, name)),
+        largest,
+        float(np.sqrt(np.mean(left**2))),
+        float(np.max(np.abs(before))),
+        step,
+    )
+
+
+def _closest(law: Law, name: str, low: float, high: float, cost: Callable[[Law], float]) -> Law:
+    """Return the law with the parameter of least cost: the best of a scan, refined."""
+    from scipy.optimize import minimize_scalar
+
+    def changed(value: float) -> Law:
+        return replace(law, **{name: float(value)})
+
+    scan = np.geomspace(low, high, TRIALS) if low > 0.0 else np.linspace(low, high, TRIALS)
+    costs = [cost(changed(value)) for value in scan]
+    place = int(np.argmin(costs))
+    around = (float(scan[max(0, place - 1)]), float(scan[min(TRIALS - 1, place + 1)]))
+    found = minimize_scalar(
+        lambda value: cost(changed(value)), bounds=around, method="bounded", options={"xatol": 1e-5}
+    )
+    return changed(found.x) if found.fun < costs[place] else changed(scan[place])
+
+
+def called(law: Law) -> str:
+    """Return what a law is called, its variant included."""
+    return str(getattr(law, "variant", law.name))
+
+
+def _record(one: Advice) -> dict[str, Any]:
+    return {
+        "law": called(one.law),
+        "parameter": one.parameter,
+        "value": one.value,
+        "max_error": one.max_error,
+        "rms_error": one.rms_error,
+        "max_error_before": one.before,
+        "steps": one.step.steps if one.step else None,
+        "step_error": one.step.error if one.step else None,
+    }
+
+
+def _short(value: float | None, digits: int) -> str:
+    return f"{'-':>8s}" if value is None else f"{value:8.{digits}f}"
