@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from carom.approach import slope
-from carom.bodies import VALUES, Cup, HalfSpace, Material, Sphere, as_material
+from carom.bodies import VALUES, Cup, HalfSpace, Material, Sphere, as_material, describe
 from carom.pairs import Counterbody, Pair
 from carom.quantities import InputError, finite, nearest, not_negative, positive, refusal
 
@@ -31,6 +31,7 @@ MATERIAL = (*VALUES, "name")
 OUTPUT = ("plot", "animation", "data")
 TABLES = {"first": BODY, "second": ("kind", *BODY), "output": OUTPUT}
 KINDS = ("half-space", "sphere", "cup")
+SHAPES = (HalfSpace, Sphere, Cup)
 SWEEP = "sweep"  # the table of a sweep, which `carom.sweeps` reads
 
 
@@ -90,6 +91,22 @@ def pair_of(case: Mapping[str, Any]) -> Pair:
         raise InputError("friction: missing; give --friction, e.g. 0.2 (0 for none)")
     first = _sphere("first", "", case.get("first", {}), {})
     return Pair(first, _second(case.get("second", {}), first), case["friction"])
+
+
+def case_of(pair: Pair) -> Case:
+    """Return the case of a pair, plain numbers and words: what `pair_of` makes it from."""
+    return {
+        "friction": pair.friction,
+        "first": _body_of(pair.first),
+        "second": {"kind": KINDS[SHAPES.index(type(pair.second))], **_body_of(pair.second)},
+    }
+
+
+def _body_of(body: Counterbody) -> Case:
+    table = {name: value for name, value in describe(body).items() if name != "kind"}
+    if body.material.is_rigid:
+        table["material"]["young"] = body.material.young
+    return table
 
 
 def motion_of(case: Mapping[str, Any]) -> dict[str, Any]:

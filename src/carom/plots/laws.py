@@ -25,8 +25,9 @@ from carom.plots.style import (
     label,
     new_figure,
     span,
+    symbol,
 )
-from carom.quantities import positive
+from carom.quantities import refusal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -38,11 +39,17 @@ EXACT: Any = {"color": BLACK, "lw": 1.6, "zorder": 2}
 POINT: Any = {"marker": "o", "ms": 1.4}
 SAME = 1e-6  # in psi_2; laws closer than this share a line
 SAMPLE = (-0.085, -0.015)  # where a bar shows its line, in widths of its axes
-WORDS = 26  # characters in a line of a law's label
-PITCH, EDGE = 5.6, 24.0  # height of a bar and of what is around them, in mm
+WORDS = 32  # characters in a line of a law's label
+PITCH, EDGE = 5.6, 22.0  # height of a bar and of what is around them, in mm
 NOTED = 0.1  # an error that is outlined
 DIVERGING = "RdBu_r"
 LEAST = 1e-3  # a colour scale ends no nearer to zero
+PLAIN = {  # parameters of elastic laws, not worth a mention
+    "stiffness": 1.0,
+    "restitution": 1.0,
+    "damping": "coeff_restitution",
+    "tangential_damping": 0.0,
+}
 
 
 @draws("a ranking, what rank(...).to_dataset() returns", "max_error", "rms_error", "psi_out")
@@ -71,12 +78,14 @@ def plot_laws(dataset: "xr.Dataset") -> Figure:
     members = [np.flatnonzero(np.isin(kinds, group)) for group in groups]
     most = max(len(rows) for rows in members)
     height = len(groups) * max(PITCH * most, 30.0) + EDGE
-    figure, axes = new_figure(len(groups), 2, width=DOUBLE, height=height, width_ratios=(1.0, 1.0))
+    figure, axes = new_figure(
+        len(groups), 2, width=DOUBLE, height=height, sharex="col", width_ratios=(1.0, 0.85)
+    )
     for (left, right), rows in zip(axes, members, strict=True):
         styles = [STYLES[kind] for kind in kinds[rows] - kinds[rows].min()]
         _draw_rebounds(left, dataset, rows, styles)
         _draw_bars(right, dataset, rows, styles, most)
-    _share_limits(axes)
+    axes[0, 1].set_xlim(0.0, 1.14 * axes[0, 1].get_xlim()[1])  # room for the numbers
     axes[-1, 0].set_xlabel(label("psi_in", room=44))
     axes[-1, 1].set_xlabel(r"|error in $\psi_2$|")
     figure.legend(handles=list(_key(dataset)), loc="outside upper center", ncols=4)
@@ -101,7 +110,7 @@ def _draw_rebounds(axis: Axes, dataset: "xr.Dataset", rows: Any, styles: list[An
     for row, style in zip(rows, styles, strict=True):
         out = dataset["psi_out"].values[row][order]
         axis.plot(psi, out, lw=0.9, zorder=3, **style, **POINT)
-    axis.set_ylabel(label("psi_out", room=28))
+    axis.set_ylabel(symbol("psi_out"))
 
 
 def _draw_bars(
@@ -132,15 +141,6 @@ def _draw_bars(
 
 def _in_lines(name: str) -> str:
     return "\n".join(textwrap.wrap(name, WORDS, break_long_words=False))
-
-
-def _share_limits(axes: Any) -> None:
-    """Let all panels of a column have the same scale, with room for the numbers at the bars."""
-    low, high = (f(axis.get_ylim()[i] for axis in axes[:, 0]) for i, f in enumerate((min, max)))
-    widest = max(axis.get_xlim()[1] for axis in axes[:, 1])
-    for left, right in axes:
-        left.set_ylim(low, high)
-        right.set_xlim(0.0, 1.12 * widest)
 
 
 def _key(dataset: "xr.Dataset") -> Iterator[Any]:
@@ -181,12 +181,15 @@ def plot_error_map(dataset: "xr.Dataset", limit: float | None = None) -> Figure:
     check_grid(dataset, "error", "chi", "psi_in")
     psi, chi, error = (dataset[name].values for name in ("psi_in", "chi", "error"))
     finite = np.abs(error[np.isfinite(error)])
-    most = max(LEAST, float(finite.max(initial=0.0))) if limit is None else positive("max", limit)
+    if limit is not None and not 0.0 < limit < np.inf:
+        raise refusal("limit", limit, "must be positive")
+    most = max(LEAST, float(finite.max(initial=0.0))) if limit is None else limit
     figure, axes = new_figure(height=66.0)
     axis = axes[0, 0]
     axis.set_facecolor("0.8")
     colors: Any = {"cmap": DIVERGING, "vmin": -most, "vmax": most}
-    drawn = axis.pcolormesh(psi, chi, error, shading="gouraud", rasterized=True, **colors)
+    shading = "gouraud" if finite.size == error.size else "nearest"
+    drawn = axis.pcolormesh(psi, chi, error, shading=shading, rasterized=True, **colors)
     if finite.size and finite.max() > NOTED:
         lines: Any = {"colors": "0.25", "linewidths": 0.6, "linestyles": ["--", "-"]}
         axis.contour(psi, chi, error, levels=[-NOTED, NOTED], **lines)
@@ -207,6 +210,6 @@ def _title(dataset: "xr.Dataset") -> str:
     values = [
         f"{name.replace('_', ' ')} {value:.4g}" if isinstance(value, float) else str(value)
         for name, value in given.items()
-        if value is not None
+        if value is not None and value != PLAIN.get(name)
     ]
     return "\n".join(textwrap.wrap(", ".join([dataset.attrs.get("law", ""), *values]), 60))

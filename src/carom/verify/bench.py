@@ -1,5 +1,6 @@
 """A DEM program on the bench: its impacts against the exact answer, law by law."""
 
+import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -9,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.arrays import finite_line
 from carom.bodies import HalfSpace, Sphere
+from carom.cases import case_of
 from carom.dimensionless.rebounds import rebound
 from carom.laws.dem import ContactLaw
 from carom.pairs import Pair
@@ -17,6 +19,7 @@ from carom.verify.catalogue import CATALOGUE, Entry
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
 from carom.verify.engines.running import Engine, EngineError, run
 from carom.verify.errors import INCIDENCES
+from carom.verify.scoring.reading import CASE
 
 Array = NDArray[np.float64]
 
@@ -58,8 +61,9 @@ class Bench:
         return any(one.failure for one in self.measured)
 
     def results(self) -> str:
-        """Return what the program made of the impacts with the best law, as the scorer reads it."""
-        return results_csv(*self.outcomes[self.measured[0].entry.label])
+        """Return the impacts with the best law as the scorer reads them, bodies in a comment."""
+        rows = results_csv(*self.outcomes[self.measured[0].entry.label])
+        return f"{CASE} {json.dumps(case_of(self.pair))}\n{rows}"
 
     def as_record(self) -> dict[str, Any]:
         """Return the measurements as what JSON can hold."""

@@ -56,7 +56,8 @@ def score(
         against V_x > 0. At least 3 points, or 20 rows with a force.
     case : str, Path, mapping, Pair or Impact, optional
         The bodies and their friction, as a case file for `carom impact` has them; needed but for
-        psi. A history needs the motion, too: a case with speeds, or an Impact.
+        psi, unless a comment of the file, "# case:", holds them as JSON. A history needs the
+        motion, too: a case with speeds, or an Impact.
     chi : float, optional
         For psi_1 and psi_2 if there is no column of that name.
     tolerance : float
@@ -89,7 +90,7 @@ def score(
     if kind != "psi" and chi is not None:
         raise refusal("chi", chi, "it follows from the case; leave it out")
     scored = {"psi": _score_psi, "velocities": _score_velocities, "history": _score_history}
-    return scored[kind](given, case, chi, limit)
+    return scored[kind](given, table.case if case is None and chi is None else case, chi, limit)
 
 
 def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:

@@ -1,6 +1,7 @@
 """Reading a user's results: a CSV file, a mapping of columns or a data frame, in SI units."""
 
 import csv
+import json
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -18,6 +19,7 @@ Mask = NDArray[np.bool_]
 
 ALIASES = {"psi_1": "psi_in", "psi_2": "psi_out", "angle_deg": "angle [deg]"}
 SPELLINGS = {name: alias for alias, name in ALIASES.items()}
+CASE = "# case:"  # begins a comment that holds the bodies as JSON
 HEAD = re.compile(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*")
 PLAIN = ("", "-", "1")  # units of what has none
 DELETE = "correct or delete what is there"
@@ -91,11 +93,12 @@ def named(word: str, rows: Iterable[int], total: int = 0) -> str:
 
 
 class Table(NamedTuple):
-    """Cells as they were given, by head of column, and what the rows are called."""
+    """Cells as given, by head of column, what the rows are called, and the case if it is there."""
 
     cells: Mapping[str, Any]
     rows: NDArray[np.int64]
     word: str
+    case: Mapping[str, Any] | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -142,9 +145,10 @@ def in_units(table: Table, known: Iterable[str]) -> Results:
 
 
 def _read_csv(path: Path) -> Table:
+    text = _text(path)
     lines = [
         (place, line)
-        for place, line in enumerate(_text(path).splitlines(), 1)
+        for place, line in enumerate(text.splitlines(), 1)
         if line.strip() and not line.lstrip().startswith("#")
     ]
     if not lines:
@@ -162,7 +166,19 @@ def _read_csv(path: Path) -> Table:
             message = f"line {place} has {len(row)} values, the header has {len(head)} names"
             raise refusal("results", str(path), f"it is not CSV; {message}")
     table = {name: [row[i] for row in body] for i, name in enumerate(head)}
-    return Table(table, np.array([place for place, _ in lines[1:]], dtype=np.int64), "line")
+    places = np.array([place for place, _ in lines[1:]], dtype=np.int64)
+    return Table(table, places, "line", _case_in(text, path))
+
+
+def _case_in(text: str, path: Path) -> Mapping[str, Any] | None:
+    """Return the case that a comment holds, if any."""
+    for line in text.splitlines():
+        if line.startswith(CASE):
+            try:
+                return dict(json.loads(line.removeprefix(CASE)))
+            except (ValueError, TypeError):
+                raise refusal("results", str(path), f"after '{CASE}' there is no JSON") from None
+    return None
 
 
 def _text(path: Path) -> str:
