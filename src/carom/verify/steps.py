@@ -74,7 +74,7 @@ def advised_steps(
     --------
     >>> import carom
     >>> carom.verify.advised_steps(carom.LinearSpring(), 0.01).steps
-    20
+    28
     """
     positive("tolerance", allowed)
     psis = finite_line("psi", psi)

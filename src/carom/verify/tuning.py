@@ -144,7 +144,7 @@ def tune(
     >>> import carom
     >>> found = carom.verify.tune([carom.HertzLinearHistory()], chi=1.4412).advice[0]
     >>> found.parameter, round(found.value, 2), round(found.before, 2), round(found.max_error, 2)
-    ('stiffness', 0.68, 0.61, 0.17)
+    ('stiffness', 0.7, 0.61, 0.17)
     """
     ratio = positive("chi", chi)
     own = solid_kappa(ratio) if kappa is None else positive("kappa", kappa)

@@ -58,7 +58,7 @@ class LammpsMindlin(ContactLaw):
     --------
     >>> import carom
     >>> round(carom.LammpsMindlin("mindlin_rescale").rebound(0.75, 1.4412), 3)
-    -0.356
+    0.441
     """
 
     name: ClassVar[str] = "LAMMPS"
@@ -152,8 +152,8 @@ class EdemHertzMindlin(LiggghtsHertz):
     --------
     >>> import carom
     >>> laws = carom.EdemHertzMindlin(restitution=0.9), carom.LiggghtsHertz(restitution=0.9)
-    >>> [round(law.rebound(1.0, 1.4412), 3) for law in laws]
-    [-0.391, -0.392]
+    >>> [round(law.rebound(2.0, 1.4412), 3) for law in laws]
+    [-0.451, -0.416]
     """
 
     name: ClassVar[str] = "EDEM Hertz-Mindlin"
