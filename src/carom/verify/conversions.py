@@ -117,7 +117,7 @@ def damping(restitution: float, convention: str = "critical") -> float:
     value = number("restitution", restitution)
     if not SMALLEST_RESTITUTION <= value <= 1.0:
         raise refusal("restitution", restitution, "must be above 0 and at most 1")
-    return _rule(convention)(value)
+    return _rule(convention)(value) + 0.0  # no -0 at e = 1
 
 
 def restitution(value: float, convention: str = "critical") -> float:

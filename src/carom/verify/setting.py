@@ -18,13 +18,14 @@ SPEED = 1.0  # m/s, of a case without one: k_n of linear springs depends on it
 
 
 class Setting(NamedTuple):
-    """chi, kappa and incidences of a tuning; with bodies also what codes take, and t_c in s."""
+    """chi, kappa and incidences of a tuning; with bodies also what codes take, V_1 and t_c in SI."""
 
     chi: float
     kappa: float | None
     psi: NDArray[np.float64]
     recipes: dict[str, Any]
-    duration: float | None
+    normal_speed: float | None = None
+    duration: float | None = None
 
 
 def setting_of(
@@ -39,8 +40,8 @@ def setting_of(
 
     Raises InputError if neither or both are given, or a range is empty.
     """
-    if (case is None) == (chi is None):
-        raise InputError("case: give a case file, or --chi; e.g. --chi 1.44")
+    if case is None and chi is None:
+        raise InputError("case: missing; give a case file, or --chi, e.g. --chi 1.44")
     wanted = number("restitution", restitution)
     if case is None:
         if wanted != 1.0:
@@ -48,9 +49,10 @@ def setting_of(
         ratio = positive("chi", chi)
         last = 4.0 * ratio if stop is None else finite("psi_in", stop)
         own = None if kappa is None else positive("kappa", kappa)
-        return Setting(ratio, own, _range(finite("psi_in", start), last), {}, None)
-    if kappa is not None:
-        raise refusal("kappa", kappa, "follows from the case; leave it out")
+        return Setting(ratio, own, _range(finite("psi_in", start), last, start, stop), {})
+    for name, value in (("chi", chi), ("kappa", kappa)):
+        if value is not None:
+            raise refusal(name, value, "it follows from the case; leave it out")
     content = read_case(case)
     pair, motion = pair_of(content), motion_of(content)
     if pair.friction == 0.0:
@@ -61,12 +63,17 @@ def setting_of(
     speed = approach(**given, **more)[0] if moves else SPEED
     per_slope = pair.kappa / pair.friction  # psi_1 = kappa tan(angle)/mu
     last = 4.0 * pair.chi if stop is None else per_slope * tan(slope(stop))
-    psi = _range(per_slope * tan(slope(start)), last)
-    inputs = recipes(pair, speed, wanted)
-    return Setting(pair.chi, pair.kappa, psi, inputs, DURATION * pair.scales(speed).time)
+    psi = _range(per_slope * tan(slope(start)), last, start, stop)
+    inputs, duration = recipes(pair, speed, wanted), DURATION * pair.scales(speed).time
+    return Setting(pair.chi, pair.kappa, psi, inputs, speed, duration)
 
 
-def _range(first: float, last: float) -> NDArray[np.float64]:
-    if not 0.0 <= first < last:
-        raise refusal("to", last, f"must be above --from, {first:g}, and that not negative")
+def _range(first: float, last: float, start: str, stop: str | None) -> NDArray[np.float64]:
+    """Return psi_1 from the first to the last; `start` and `stop` are how they were given."""
+    if first < 0.0:
+        raise refusal("from", start, "must not be negative")
+    if first >= last and stop is None:
+        raise refusal("from", start, f"psi_1 = {first:.4g} slides throughout; give a lower one")
+    if first >= last:
+        raise refusal("to", stop, f"must be above --from, {start}")
     return np.linspace(first, last, POINTS)[0 if first > 0.0 else 1 :]

@@ -55,14 +55,17 @@ def tune_command(
             measure=measure,
             progress=progress,
         )
-    record = tuning.as_record() | {"inputs": setting.recipes, "duration": setting.duration}
+    given = {"normal_speed": setting.normal_speed, "duration": setting.duration}
+    record = tuning.as_record() | {"inputs": setting.recipes} | given
     typer.echo(json.dumps(record, indent=2) if as_json else _text(tuning, record))
 
 
 def _text(tuning: "Tuning", record: dict[str, Any]) -> str:
     lines = [str(tuning)]
-    duration = record["duration"]
+    speed, duration = record["normal_speed"], record["duration"]
     if duration is not None:
-        lines.append(f"contact of {duration:.4g} s: time step = that / steps; inputs of codes:")
+        lines.append(
+            f"contact of {duration:.4g} s at {speed:.4g} m/s: time step = that / steps; inputs:"
+        )
         lines += [f"  {code:26s} {text}" for code, text in record["inputs"].items()]
     return "\n".join(lines)

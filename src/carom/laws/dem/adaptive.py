@@ -28,11 +28,12 @@ B, V, PSI, T, UPPER, LOWER = range(6)  # the state
 SIZE = 6
 TOUCH = 3e-5  # contact radius at which an impact begins and ends
 TOLERANCE = 1e-10
-MOST_STEPS = 200_000
+MOST_STEPS = 3_000_000
 SHORTEST, LONGEST = 1e-10, 0.5  # steps
+DWELL = 1e-5  # after a change, so that a law that chatters between slip and stick goes on
 NEAR = 1e-6  # of the limit, from where Walton & Braun's law, stiff there, is taken to slide
 HALVINGS = 48
-NOTHING, TURNS, PARTS, SLIDES, STICKS, REVERSES, CONTINUES = range(7)
+NOTHING, TURNS, PARTS, SLIDES, STICKS, REVERSES, CONTINUES, PULLS = range(8)
 
 NODES = np.array(
     [
@@ -147,7 +148,15 @@ def error_of(law: Coefficients, h: float, y: Array, work: Array) -> float:
 
 
 @kernel
-def event(law: Coefficients, slip: int, branch: int, loading: bool, peak: float, y: Array) -> int:
+def event(
+    law: Coefficients,
+    slip: int,
+    branch: int,
+    loading: bool,
+    peak: float,
+    pushing: bool,
+    y: Array,
+) -> int:
     """Return what has happened by this state, if anything."""
     b, v, psi = y[B], y[V], y[PSI]
     f = normal_force(law, peak, loading, b, v)
@@ -168,7 +177,7 @@ def event(law: Coefficients, slip: int, branch: int, loading: bool, peak: float,
             return CONTINUES
     elif leaves_limit(law, slip, branch, loading, y, f):
         return STICKS
-    return NOTHING
+    return PULLS if pushing and f < 0.0 else NOTHING
 
 
 @kernel
@@ -200,8 +209,9 @@ def until_event(
     work: Array,
 ) -> int:
     """Return what happens first in a step of this length; the state just after it is in work[7]."""
-    what = event(law, slip, branch, loading, peak, work[7])
-    if what == NOTHING:
+    pushing = normal_force(law, peak, loading, y[B], y[V]) > 0.0
+    what = event(law, slip, branch, loading, peak, pushing, work[7])
+    if what == NOTHING or h <= DWELL:
         return what
     before, after = 0.0, h
     for _ in range(HALVINGS):
@@ -209,7 +219,7 @@ def until_event(
         if middle <= before or middle >= after or after - before < 1e-15:
             break
         step(law, slip, branch, loading, peak, middle, y, work)
-        found = event(law, slip, branch, loading, peak, work[7])
+        found = event(law, slip, branch, loading, peak, pushing, work[7])
         if found == NOTHING:
             before = middle
         else:
@@ -233,11 +243,12 @@ def outgoing(law: Coefficients, psi: float, work: Array, y: Array) -> float:
             continue
         what = until_event(law, slip, branch, loading, peak, h, y, work)
         y[:] = work[7]
-        if what == NOTHING:
-            h = min(LONGEST, max(SHORTEST, h * min(5.0, 0.9 * max(error, 1e-10) ** -0.2)))
-        elif what == PARTS:
+        h = min(LONGEST, max(SHORTEST, h * min(5.0, 0.9 * max(error, 1e-10) ** -0.2)))
+        if what != NOTHING:
+            h = min(h, DWELL)
+        if what == PARTS:
             return float(y[PSI])
-        elif what == TURNS:
+        if what == TURNS:
             loading, peak = False, y[B] * y[B]
         elif what == SLIDES:
             ahead = y[T] + damping_force(law, y) if law.limits_damping else y[T]
@@ -247,9 +258,9 @@ def outgoing(law: Coefficients, psi: float, work: Array, y: Array) -> float:
             slip = 0
         elif what == CONTINUES:
             branch = FIRST
-        elif branch == BACK:
+        elif what == REVERSES and branch == BACK:
             y[LOWER], branch, slip = y[T], AGAIN, 0
-        else:
+        elif what == REVERSES:
             y[UPPER], branch, slip = y[T], BACK, 0
     return np.nan
 

@@ -152,7 +152,8 @@ def results_csv(experiment: Experiment, outcomes: Outcomes) -> str:
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> experiment = Experiment(
-    ...     pair=pair, law=carom.LammpsMindlin(), normal_speed=0.25, tangential_speed=(0.5,), steps=99
+    ...     pair=pair, law=carom.LammpsMindlin(), normal_speed=0.25,
+    ...     tangential_speed=(0.5,), steps=1000,
     ... )
     >>> print(results_csv(experiment, Outcomes(*np.array([[0.25], [0.375], [-16.0]]))), end="")
     normal_speed,tangential_speed,spin,normal_speed_out,tangential_speed_out,spin_out

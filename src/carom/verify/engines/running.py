@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import signal
 import subprocess
 import warnings
@@ -20,6 +21,7 @@ from carom.verify.engines.experiments import Experiment, Outcomes
 
 PRINTED = "printed.txt"  # what the program printed, in its folder
 LAST_LINES, LAST_CHARACTERS = 3, 300
+LACKING = r"(?:error while loading shared libraries|Library not loaded): ([^:\s]+)"
 
 
 class EngineError(RuntimeError):
@@ -40,6 +42,10 @@ class Engine(Protocol):
     @property
     def remedy(self) -> str:
         """What to do where it is absent."""
+
+    @property
+    def advice(self) -> str:
+        """How to install it."""
 
     def executable(self) -> Path | None:
         """Return where the program is, or None."""
@@ -142,7 +148,7 @@ def _execute(engine: Engine, folder: Path, time_limit: float) -> None:
     if code is None:
         raise _failure(engine, folder, f"was killed at its time limit of {time_limit:g} s")
     if code != 0:
-        raise _failure(engine, folder, f"has crashed ({_reason(code)})")
+        raise _crash(engine, folder, code)
 
 
 def _results(engine: Engine, folder: Path, experiment: Experiment) -> Outcomes:
@@ -161,6 +167,16 @@ def _results(engine: Engine, folder: Path, experiment: Experiment) -> Outcomes:
         if not np.all(np.isfinite(column)):
             raise _failure(engine, folder, "has left results that are not finite")
     return outcomes
+
+
+def _crash(engine: Engine, folder: Path, code: int) -> EngineError:
+    """Return the error of a program that has ended with this exit code."""
+    lacking = re.search(LACKING, _printed(folder))
+    if lacking:
+        return EngineError(
+            f"{engine.name} does not start: {lacking[1]} is missing; {engine.advice}"
+        )
+    return _failure(engine, folder, f"has crashed ({_reason(code)})")
 
 
 def _failure(engine: Engine, folder: Path, what: str) -> EngineError:

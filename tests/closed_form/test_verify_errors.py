@@ -1,0 +1,240 @@
+"""Errors of contact laws, and what their steps cost, against closed forms and own integrals."""
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import carom
+from carom.laws.dem import ContactLaw
+from carom.verify import CATALOGUE, advised_steps, error_map, force_error, step_error
+
+CHI = 1.4412
+KAPPA = 4 * CHI / 7
+CONTACTS = [entry.law for entry in CATALOGUE if isinstance(entry.law, ContactLaw)]
+SLIDING = [law for law in CONTACTS if not isinstance(law, carom.WaltonBraunLaw)]
+
+
+@pytest.fixture(scope="module")
+def spring_map():
+    return error_map(carom.LinearSpring(2 / 7), [0.0, 0.5, 1.0, 3.0, 5.0, 7.0], [1.2, 1.5])
+
+
+@pytest.mark.parametrize(("beta", "wrong"), [(0.0, 3), (0.1, 2), (0.4, 0)])
+def test_error_of_hard_spheres_by_hand(beta, wrong):
+    """psi_2 of the law is -beta psi_1 until it slides; the exact one is psi_1 - 4 chi from
+    psi_1 = 4 chi - 1 on, where the impact slides throughout. No other law is asked."""
+    chi = np.array([[1.2], [1.5]])
+    psi = np.array([3.8, 4.6, 5.1, 5.9, 6.5, 8.0])
+    found = error_map(carom.HardSphere(beta), psi, chi.ravel())
+    law = np.where((1.0 + beta) * psi > 4.0 * chi, psi - 4.0 * chi, -beta * psi)
+    slides = psi >= 4.0 * chi - 1.0
+    assert slides.sum() == 10
+    assert found.psi_out.values == pytest.approx(law, abs=1e-12)
+    by_hand = np.where(slides, law - (psi - 4.0 * chi), 0.0)
+    assert np.where(slides, found.error, 0.0) == pytest.approx(by_hand, abs=1e-12)
+    assert (np.abs(by_hand) > 0.05).sum() == wrong
+
+
+@pytest.mark.parametrize("law", SLIDING, ids=str)
+def test_elastic_laws_are_exact_in_gross_slip(law):
+    """Beyond 4 chi all of the impulse is friction, 2 mu m V_1, whatever the law. (Walton & Braun's
+    only nears the limit.)"""
+    found = error_map(law, np.array([4.2, 4.5, 6.0, 9.0]) * CHI, [CHI])
+    assert np.abs(found.error.values).max() < 1e-8
+    assert found.psi_out.values[0] == pytest.approx(np.array([0.2, 0.5, 2.0, 5.0]) * CHI, abs=1e-8)
+
+
+def test_walton_and_braun_only_near_the_limit():
+    """T follows mu N at a distance theta^3 = (N'/(k psi))^3 while N grows, here N = 0.8 sin t and
+    k psi = 0.8 psi: by quadrature along the motion of gross slip, psi = psi_1 - 2 chi (1 - cos t).
+    """
+    psi, time = np.array([15.0, 25.0]), np.linspace(0.0, np.pi / 2, 2001)[:, np.newaxis]
+    theta = np.cos(time) / (psi - 2.0 * CHI * (1.0 - np.cos(time)))
+    missed = 2.5 * CHI * np.trapezoid(0.8 * np.sin(time) * theta**3, time, axis=0)
+    found = error_map(carom.WaltonBraunLaw(), psi, [CHI]).error.values[0]
+    assert found == pytest.approx(missed, rel=0.03)
+
+
+@pytest.mark.parametrize("law", [entry.law for entry in CATALOGUE], ids=str)
+def test_maps_have_no_gaps(law):
+    """Every law of the catalogue is solved everywhere between nu = 1/2 and 0, and is odd."""
+    psi = np.linspace(-7.0, 7.0, 9)
+    found = error_map(law, psi, [7 / 6, 7 / 4])
+    assert np.isfinite(found.error).all()
+    assert found.error.values == pytest.approx(-found.error.values[:, ::-1], abs=1e-12)
+
+
+def test_summaries_of_a_map(spring_map):
+    """Largest and rms error of each chi, as their names say; error is law minus exact."""
+    error = spring_map.psi_out - spring_map.psi_out_exact
+    xr.testing.assert_allclose(spring_map.error.drop_attrs(), error.drop_attrs())
+    largest = [max(abs(e) for e in row) for row in error.values]
+    rms = [(sum(e * e for e in row) / 6) ** 0.5 for row in error.values]
+    assert spring_map.max_error.values == pytest.approx(largest)
+    assert spring_map.rms_error.values == pytest.approx(rms)
+    assert largest[1] > 1.0
+    exact = [[carom.rebound(p, c) for p in (0.0, 0.5, 1.0, 3.0, 5.0, 7.0)] for c in (1.2, 1.5)]
+    assert spring_map.psi_out_exact.values == pytest.approx(np.array(exact), abs=1e-13)
+
+
+def test_a_map_tells_what_it_holds(spring_map):
+    for name in (*spring_map.data_vars, *spring_map.coords):
+        assert spring_map[name].attrs["units"] == "1", name
+        assert spring_map[name].attrs["long_name"], name
+    assert spring_map.attrs["Conventions"].startswith("CF-")
+    assert spring_map.attrs["law"] == "linear spring"
+    assert "Cundall" in spring_map.attrs["law_source"]
+    assert json.loads(spring_map.attrs["law_parameters"]) == {
+        "stiffness_ratio": 2 / 7,
+        "restitution": 1.0,
+        "tangential_damping": 0.0,
+    }
+
+
+@pytest.mark.parametrize("ending", ["csv", "nc"])
+def test_a_map_is_stored_and_read_to_the_last_bit(spring_map, ending, tmp_path):
+    stored = carom.save(spring_map, tmp_path / f"map.{ending}")
+    xr.testing.assert_identical(carom.read(stored), spring_map)
+
+
+def test_map_by_default_spans_solid_spheres():
+    """chi from nu = 1/2 to nu = 0, 2 (1 - nu)/(2 - nu) 7/4, and psi_1 to where all slide."""
+    found = error_map(carom.HardSphere(0.4))
+    nu = np.array([0.5, 0.0])
+    ends = 7 / 4 * 2 * (1 - nu) / (2 - nu)
+    assert found.chi.values[[0, -1]] == pytest.approx(ends)
+    assert (found.psi_in.values[0], found.psi_in.values[-1]) == (0.0, pytest.approx(7.0))
+    assert (found.error.values[:, -1] == 0.0).all()
+
+
+def test_steps_and_kappa_reach_the_law():
+    """A coarse step moves psi_2; a spring of k_t/k_n = 1 is that of k_t/k_n = kappa for kappa = 1."""
+    law, psi = carom.LinearSpring(1.0), [0.75]
+    fine, coarse = (error_map(law, psi, [CHI], steps=n).error.item() for n in (None, 20))
+    assert 1e-3 < abs(fine - coarse) < 0.1
+    there = {k: error_map(law, psi, [CHI], kappa=k).psi_out.item() for k in (0.5, 1.0)}
+    assert there[1.0] == pytest.approx(carom.LinearSpring().rebound(0.75, CHI), abs=1e-12)
+    assert abs(there[1.0] - there[0.5]) > 0.2
+
+
+def spring_force(psi, chi, count=40_000):
+    """Return equal parts of the duration, T/(mu P_max) of two linear springs, by the midpoint rule.
+
+    With k_n d_max^2 = m V_1^2 the contact is d = sin t, N = 0.8 sin t, 0 < t < pi.
+    """
+    time = np.linspace(0.0, np.pi, count + 1)
+    step, force, forces = time[1], 0.0, [0.0]
+    for limit in 0.8 * np.sin(time[1:]):
+        middle = psi - 0.5 * step * 2.5 * chi * force
+        force = max(-limit, min(limit, force + 0.8 * step * middle))
+        psi -= step * 2.5 * chi * 0.5 * (forces[-1] + force)
+        forces.append(force)
+    return time / np.pi, np.array(forces)
+
+
+def exact_force(psi, chi_wanted):
+    """Return parts of the duration and T/(mu P_max) of a steel ball on steel, through SI units."""
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    assert pair.chi == pytest.approx(chi_wanted, abs=1e-4)
+    hit = carom.impact(pair, normal_speed=1.0, tangential_speed=psi * 0.2 / pair.kappa)
+    history = hit.history(2001)
+    force = history.tangential_force.values / (0.2 * history.normal_force.values.max())
+    return history.time.values / history.time.values[-1], np.abs(force) * np.sign(force)
+
+
+@pytest.mark.parametrize("psi", [0.5, 2.0, 4.0])
+def test_force_error_of_a_linear_spring(psi):
+    """Both forces by other means: an own integral, and the history of a steel ball in newtons."""
+    parts, force = spring_force(psi, CHI)
+    other, exact = exact_force(psi, CHI)
+    sign = np.sign(force[1]) * np.sign(exact[1])
+    wrong = force - sign * np.interp(parts, other, exact)
+    found = force_error(carom.LinearSpring(), psi, CHI)
+    assert found.largest == pytest.approx(np.abs(wrong).max(), abs=2e-3)
+    assert found.rms == pytest.approx(np.sqrt(np.mean(wrong**2)), abs=1e-3)
+    assert found.rms > 0.02
+
+
+def test_force_error_is_that_of_either_direction_and_nothing_for_a_rigid_law():
+    law = carom.LammpsMindlin("mindlin_rescale")
+    assert force_error(law, -0.75, CHI) == pytest.approx(force_error(law, 0.75, CHI), rel=1e-9)
+    assert np.isnan(force_error(carom.HardSphere(0.4), 1.0, CHI)).all()
+
+
+@pytest.mark.parametrize(
+    ("law", "order"),
+    [
+        (carom.LinearSpring(), 2.0),
+        (carom.LammpsMindlin("mindlin"), 2.0),
+        (carom.LammpsMindlin("mindlin/force"), 1.0),
+        (carom.LammpsMindlin("mindlin_rescale"), 1.0),
+        (carom.LammpsMindlin("mindlin_rescale/force"), 1.0),
+        (carom.ThorntonLaw(), 1.0),
+    ],
+    ids=str,
+)
+def test_order_of_the_steps(law, order):
+    """Verlet's error falls with the square of the step where the force is a function of place;
+    only with the step where the force is added up at the end of the step, or scaled after it."""
+    steps = np.array([100, 200, 400, 800, 1600, 3200])
+    errors = [step_error(law, int(n)) for n in steps]
+    slope = np.polyfit(np.log(steps), np.log(errors), 1)[0]
+    assert -slope == pytest.approx(order, abs=0.15)
+    assert errors[-1] < 2e-3
+
+
+def test_a_step_error_is_that_of_the_history():
+    """psi_2 in steps, as the record of the impact ends, against the converged law."""
+    law = carom.LammpsMindlin("mindlin/force")
+    ends = [law.history(psi, CHI, steps=50)["psi"][-1] for psi in (0.5, 1.0)]
+    away = np.abs(np.array(ends) - law.rebound([0.5, 1.0], CHI)).max()
+    assert step_error(law, 50, [0.5, 1.0], CHI) == pytest.approx(away, abs=5e-3)
+    assert away > 0.02
+
+
+@pytest.mark.parametrize("allowed", [0.1, 0.01, 0.001])
+@pytest.mark.parametrize(
+    "law", [carom.LinearSpring(), carom.LammpsMindlin("mindlin/force"), carom.ThorntonLaw()], ids=str
+)
+def test_advised_steps_suffice_and_fewer_do_not(law, allowed):
+    """The advised number and twice as many stay within what is allowed; a factor sqrt 2 fewer
+    does not, unless it is the fewest that is tried."""
+    advice = advised_steps(law, allowed)
+    assert advice.error == step_error(law, advice.steps)
+    assert step_error(law, advice.steps) <= allowed
+    assert step_error(law, 2 * advice.steps) <= allowed
+    if advice.steps == 10:
+        assert (law, allowed) == (carom.LinearSpring(), 0.1)
+    else:
+        assert step_error(law, round(advice.steps / 2**0.5)) > allowed
+
+
+def test_no_number_of_steps_where_there_is_none():
+    """Two million steps are too few for 1e-7 of a law of first order; a rigid law takes none."""
+    assert advised_steps(carom.ThorntonLaw(), 1e-7, [1.0]) is None
+    assert advised_steps(carom.HardSphere(), 1e-3).error == 0.0
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: error_map("mindlin"), "law: 'mindlin' .*must be a contact law"),
+        (lambda: error_map(carom.LinearSpring(), chi=[1.0, 0.0]), "chi: 0.0 .*positive"),
+        (lambda: error_map(carom.LinearSpring(), chi=-1.0), "chi: -1.0 .*positive"),
+        (lambda: error_map(carom.LinearSpring(), psi=[np.nan]), "psi: .*finite"),
+        (lambda: error_map(carom.LinearSpring(), psi=[]), "psi: .*finite"),
+        (lambda: error_map(carom.LinearSpring(), steps=2), "steps: 2 .*at least 4"),
+        (lambda: force_error(None, 1.0, CHI), "law: None"),
+        (lambda: step_error(carom.LinearSpring(), 9), "steps: 9 .*at least 10"),
+        (lambda: step_error(carom.LinearSpring(), 20.5), "steps: 20.5 .*whole"),
+        (lambda: step_error(carom.LinearSpring, 20), "law: .*must be a contact law"),
+        (lambda: advised_steps(carom.LinearSpring(), 0.0), "tolerance: 0.0 .*positive"),
+        (lambda: advised_steps(carom.LinearSpring(), 0.1, [np.inf]), "psi: .*finite"),
+    ],
+)
+def test_refused(call, message):
+    with pytest.raises(carom.InputError, match=message):
+        call()
