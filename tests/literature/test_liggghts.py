@@ -13,10 +13,10 @@ import pytest
 import carom
 from carom.laws.dem import ContactLaw, EdemHertzMindlin, LammpsMindlin, LiggghtsHertz, LinearSpring
 from carom.quantities import InputError
+from carom.verify.engines.arrangement import touching, young_moduli
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out
 from carom.verify.engines.liggghts import INPUT, RESULT, SPHERES, Liggghts
 from carom.verify.engines.running import run
-from carom.verify.engines.setting import touching, young_moduli
 
 INCIDENCES = np.array([0.1, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 6])
 SPEED = 1e-4

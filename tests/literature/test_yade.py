@@ -1,33 +1,56 @@
 """YADE itself as the truth: our records of its laws rebound as its impacts do.
 
-Impacts at 0.1 mm/s: the contact point of YADE lies below R by up to d, which costs a few d/R.
+Impacts at 0.1 mm/s: the contact point of YADE lies below R by up to d, which costs a few d/R. All
+are computed in one process, a folder an experiment.
 """
 
+import os
+import subprocess
 from dataclasses import dataclass
 
 import numpy as np
 import pytest
 
 import carom
-from carom.laws.dem import ContactLaw, LammpsMindlin, LinearSpring
+from carom.laws.dem import ContactLaw, LammpsMindlin, LinearSpring, YadeMindlin
+from carom.laws.dem.damping import thornton_damping
 from carom.quantities import InputError
-from carom.verify.engines.experiments import Experiment, psi_out
+from carom.verify.engines.experiments import Experiment, Outcomes, psi_out
 from carom.verify.engines.running import run
-from carom.verify.engines.yade import RESULTS, SCRIPT, Yade
+from carom.verify.engines.yade import MINDLIN, RESULT, SCRIPT, Yade
 
 INCIDENCES = np.array([0.1, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 6])
 SPEED = 1e-4
-FORCE = LammpsMindlin("mindlin/force")
 STEEL = carom.material("steel")
 GLASSY = carom.Material(young="70 GPa", poisson=0.1, density=2500)
 POLYMER = carom.Material(young="5 GPa", poisson=0.45, density=1200)
 BALL = carom.Sphere(radius="5 mm", material=STEEL)
-ON_WALL = carom.Pair(BALL, carom.HalfSpace(material=STEEL), friction=0.2)
-UNLIKE = carom.Pair(
-    carom.Sphere(radius="3 mm", material=GLASSY), carom.HalfSpace(material=POLYMER), friction=0.4
+PAIRS = {
+    "wall": carom.Pair(BALL, carom.HalfSpace(material=STEEL), friction=0.2),
+    "unlike": carom.Pair(
+        carom.Sphere(radius="3 mm", material=GLASSY),
+        carom.HalfSpace(material=POLYMER),
+        friction=0.4,
+    ),
+    "equal spheres": carom.Pair(BALL, BALL, friction=0.2),
+    "unequal spheres": carom.Pair(BALL, carom.Sphere(radius="9 mm", material=GLASSY), friction=0.2),
+}
+Case = tuple[str, ContactLaw, int, str]  # name of the pair, law, steps, functor of YADE
+
+FORCE = LammpsMindlin("mindlin/force")
+FINE: Case = ("wall", FORCE, 40_000, MINDLIN)
+ELASTIC: list[Case] = [(name, FORCE, 2000, MINDLIN) for name in ("unlike", "unequal spheres")]
+SPRINGS: Case = ("equal spheres", LinearSpring(2 / 7), 2000, "")
+DAMPED: list[Case] = [
+    (name, YadeMindlin(e), 2000, MINDLIN)
+    for name in ("wall", "unlike", "unequal spheres")
+    for e in (1.0, 0.9, 0.5)
+]
+LINEAR_SHEAR: Case = (
+    *("wall", FORCE, 1000),
+    "Law2_ScGeom_MindlinPhys_HertzWithLinearShear(nonLin=1)",
 )
-EQUAL = carom.Pair(BALL, BALL, friction=0.2)
-UNEQUAL = carom.Pair(BALL, carom.Sphere(radius="9 mm", material=GLASSY), friction=0.2)
+DERESIEWITZ: Case = ("wall", FORCE, 200, "Law2_ScGeom_MindlinPhys_MindlinDeresiewitz()")
 
 engine = pytest.mark.engine
 present = pytest.mark.skipif(Yade().executable() is None, reason="YADE is not installed")
@@ -42,12 +65,13 @@ class Otherwise(Yade):
     def files(self, impacts: Experiment) -> dict[str, str]:
         """Return the script with the law replaced."""
         text = super().files(impacts)[SCRIPT]
-        assert text.count("[Law2_ScGeom_MindlinPhys_Mindlin()]") == 1
-        return {SCRIPT: text.replace("Law2_ScGeom_MindlinPhys_Mindlin()", self.functor)}
+        assert text.count(f"[{MINDLIN}]") == (1 if self.functor else 0)
+        return {SCRIPT: text.replace(f"[{MINDLIN}]", f"[{self.functor}]")}
 
 
-def experiment(pair: carom.Pair, law: ContactLaw, steps: int) -> Experiment:
+def experiment(name: str, law: ContactLaw, steps: int) -> Experiment:
     """Return the impacts at all incidences: first without spin, then by spin alone."""
+    pair = PAIRS[name]
     velocity = INCIDENCES * pair.scales(SPEED).tangential_speed
     rest = np.zeros_like(velocity)
     return Experiment(
@@ -60,58 +84,108 @@ def experiment(pair: carom.Pair, law: ContactLaw, steps: int) -> Experiment:
     )
 
 
-def deviation(impacts: Experiment, *, steps: int | None, program: Yade = Yade()) -> float:  # noqa: B008
+Found = dict[Case, tuple[Experiment, Outcomes]]
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory: pytest.TempPathFactory) -> Found:
+    """Return all experiments with their outcomes."""
+    folder = tmp_path_factory.mktemp("yade")
+    cases = [FINE, *ELASTIC, SPRINGS, *DAMPED, LINEAR_SHEAR, DERESIEWITZ]
+    lines, wanted = ["import os"], []
+    for number, (name, law, steps, functor) in enumerate(cases):
+        place, impacts = folder / str(number), experiment(name, law, steps)
+        place.mkdir()
+        (place / SCRIPT).write_text(Otherwise(functor=functor).files(impacts)[SCRIPT])
+        lines += [f"os.chdir({str(place)!r})", "O.reset()", f"exec(open({SCRIPT!r}).read())"]
+        wanted.append(impacts)
+    (folder / SCRIPT).write_text("\n".join(lines) + "\n")
+    command = Yade().command(folder)
+    alone = os.environ | {"OMP_NUM_THREADS": "1"}
+    subprocess.run(command, cwd=folder, check=True, capture_output=True, timeout=120, env=alone)
+    outcomes = [Yade().outcomes(folder / str(i), impacts) for i, impacts in enumerate(wanted)]
+    return dict(zip(cases, zip(wanted, outcomes, strict=True), strict=True))
+
+
+def deviation(found: Found, case: Case, *, steps: int | None) -> float:
     """Return how far psi_2 of YADE is from that of the record."""
+    impacts, outcomes = found[case]
     pair = impacts.pair
-    found = psi_out(impacts, run(program, impacts).outcomes)
     expected = impacts.law.rebound(impacts.psi_in, pair.chi, kappa=pair.kappa, steps=steps)
-    return float(np.abs(found - expected).max())
+    return float(np.abs(psi_out(impacts, outcomes) - expected).max())
 
 
 @engine
 @present
-def test_mindlin_on_a_wall() -> None:
+def test_mindlin_on_a_wall(found: Found) -> None:
     """LammpsMindlin("mindlin/force") is YADE's Mindlin to 1e-4 at a step that is fine enough."""
-    assert ON_WALL.chi == pytest.approx(1.4412, abs=1e-4)
-    assert deviation(experiment(ON_WALL, FORCE, 40_000), steps=None) < 1e-4
+    assert PAIRS["wall"].chi == pytest.approx(1.4412, abs=1e-4)
+    assert deviation(found, FINE, steps=None) < 1e-4
 
 
 @engine
 @present
-@pytest.mark.parametrize("pair", [UNLIKE, UNEQUAL], ids=["unlike", "unequal spheres"])
-def test_mindlin_step_for_step(pair: carom.Pair) -> None:
+@pytest.mark.parametrize("case", ELASTIC, ids=str)
+def test_mindlin_step_for_step(found: Found, case: Case) -> None:
     """Step for step the record agrees for unlike materials and for unlike spheres."""
-    assert deviation(experiment(pair, FORCE, 2000), steps=2000) < 5e-5
+    assert deviation(found, case, steps=2000) < 5e-5
 
 
 @engine
 @present
-def test_linear_springs() -> None:
+@pytest.mark.parametrize("case", DAMPED, ids=str)
+def test_damped_mindlin_step_for_step(found: Found, case: Case) -> None:
+    """YadeMindlin is YADE's Mindlin with e_n = e_s = e, and e is what it leaves."""
+    name, law, _, _ = case
+    assert deviation(found, case, steps=2000) < (5e-5 if name == "unequal spheres" else 1e-5)
+    speed = found[case][1].normal_speed
+    assert speed == pytest.approx(law.restitution * SPEED, rel=2e-4)
+
+
+def test_damping_of_thornton() -> None:
+    """beta is what YADE 2023.02a prints as betan for e_n = 0.9 and 0.5; none for 1."""
+    assert thornton_damping(0.9) == pytest.approx(0.031306565990159, rel=1e-12)
+    assert thornton_damping(0.5) == pytest.approx(0.233024857683442, rel=1e-12)
+    assert thornton_damping(1.0) == 0.0
+
+
+@engine
+@present
+def test_linear_springs(found: Found) -> None:
     """LinearSpring is YADE's CundallStrack with k_n and k_s given, here of equal spheres."""
-    assert deviation(experiment(EQUAL, LinearSpring(2 / 7), 2000), steps=2000) < 5e-5
+    assert deviation(found, SPRINGS, steps=2000) < 5e-5
 
 
 @engine
 @present
-def test_hertz_with_linear_shear() -> None:
-    """HertzWithLinearShear is the same law as Mindlin if, and only if, nonLin is 1."""
-    right = Otherwise(functor="Law2_ScGeom_MindlinPhys_HertzWithLinearShear(nonLin=1)")
-    assert deviation(experiment(ON_WALL, FORCE, 1000), steps=1000, program=right) < 5e-5
+def test_hertz_with_linear_shear(found: Found) -> None:
+    """HertzWithLinearShear is the same law as Mindlin if nonLin is 1."""
+    assert deviation(found, LINEAR_SHEAR, steps=1000) < 5e-5
 
 
 @engine
 @present
-def test_known_defect_of_mindlin_deresiewitz() -> None:
+def test_known_defect_of_mindlin_deresiewitz(found: Found) -> None:
     """MindlinDeresiewitz of YADE sets no shear force: no impact changes psi."""
-    frictionless = Otherwise(functor="Law2_ScGeom_MindlinPhys_MindlinDeresiewitz()")
-    impacts = experiment(ON_WALL, FORCE, 200)
-    found = psi_out(impacts, run(frictionless, impacts).outcomes)
-    assert found == pytest.approx(impacts.psi_in, abs=1e-12)
+    impacts, outcomes = found[DERESIEWITZ]
+    assert psi_out(impacts, outcomes) == pytest.approx(impacts.psi_in, abs=1e-12)
+
+
+@engine
+@present
+def test_one_run_alone(found: Found) -> None:
+    """An experiment that is run alone comes out the same to the last digit."""
+    impacts, expected = found[DAMPED[1]]
+    alone = run(Yade(), impacts)
+    assert alone.version == "2023.02a"
+    for mine, theirs in zip(alone.outcomes, expected, strict=True):
+        assert np.array_equal(mine, theirs)
 
 
 def test_what_it_has() -> None:
     """Only laws that YADE has are taken; others are refused by name."""
     assert Yade().supports(LinearSpring())
+    assert Yade().supports(YadeMindlin(0.5))
     others = (
         LinearSpring(restitution=0.9),
         LammpsMindlin("mindlin"),
@@ -120,18 +194,18 @@ def test_what_it_has() -> None:
     )
     assert not any(Yade().supports(law) for law in others)
     with pytest.raises(InputError, match="YADE does not have it"):
-        run(Yade(), experiment(ON_WALL, others[0], 100))
+        run(Yade(), experiment("wall", others[0], 100))
 
 
 def test_absent_program() -> None:
     """A program that is not there is said to be missing, with its path."""
-    with pytest.raises(InputError, match="YADE: '/nowhere/yade' is not there"):
-        run(Yade("/nowhere/yade"), experiment(ON_WALL, FORCE, 100))
+    with pytest.raises(InputError, match="YADE: '/nowhere/yade' is not an executable"):
+        run(Yade("/nowhere/yade"), experiment("wall", FORCE, 100))
 
 
 def test_script_is_python_that_has_every_impact() -> None:
     """The script compiles, and its impacts are those asked for, to the last digit."""
-    impacts = experiment(UNEQUAL, FORCE, 100)
+    impacts = experiment("unequal spheres", FORCE, 100)
     text = Yade().files(impacts)[SCRIPT]
     compile(text, SCRIPT, "exec")
     _, _, table = text.partition("impacts = [\n")
@@ -143,7 +217,7 @@ def test_script_is_python_that_has_every_impact() -> None:
 
 def test_results_of_a_run_that_did_not_finish(tmp_path) -> None:
     """Bodies that still touch are no results."""
-    impacts = experiment(ON_WALL, FORCE, 100)
-    (tmp_path / RESULTS).write_text("0.004999 0.1 0.2 0.3\n" * 30)
-    with pytest.raises(ValueError, match="still in contact"):
+    impacts = experiment("wall", FORCE, 100)
+    (tmp_path / RESULT).write_text("0 0.004999 0.1 0.2 0.3\n" * 30)
+    with pytest.raises(ValueError, match="still touch"):
         Yade().outcomes(tmp_path, impacts)

@@ -113,9 +113,7 @@ def _draw_rebounds(axis: Axes, dataset: "xr.Dataset", rows: Any, styles: list[An
     axis.set_ylabel(symbol("psi_out"))
 
 
-def _draw_bars(
-    axis: Axes, dataset: "xr.Dataset", rows: Any, styles: list[Any], most: int
-) -> None:
+def _draw_bars(axis: Axes, dataset: "xr.Dataset", rows: Any, styles: list[Any], most: int) -> None:
     largest, rms = (dataset[name].values[rows] for name in ("max_error", "rms_error"))
     places = np.arange(len(rows))
     colors = [style["color"] for style in styles]

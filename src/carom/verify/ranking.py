@@ -88,7 +88,7 @@ class Ranking:
             },
             {
                 "law": ("law", [s.entry.label for s in self.standings], {}),
-                "psi_in": self.psi,
+                "psi_in": np.array(self.psi),
                 "step_kind": ("step_kind", ["below the error of the law", f"below {FINE:g}"], {}),
             },
             {"title": "contact laws against the exact impact"},

@@ -18,7 +18,7 @@ SPEED = 1.0  # m/s, of a case without one: k_n of linear springs depends on it
 
 
 class Setting(NamedTuple):
-    """chi, kappa and incidences of a tuning; with bodies also what codes take, V_1 and t_c in SI."""
+    """chi, kappa, incidences of a tuning; with bodies also what codes take, V_1 and t_c in SI."""
 
     chi: float
     kappa: float | None

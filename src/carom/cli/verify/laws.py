@@ -1,9 +1,13 @@
 """`carom verify laws`: the ranking of contact laws."""
 
 import json
-from typing import Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from carom.laws.dem import Law
 
 
 def laws_command(
@@ -14,30 +18,45 @@ def laws_command(
     psi: Annotated[
         list[str] | None, typer.Option(help="Incidence psi_1; repeat for several.")
     ] = None,
+    law: Annotated[str | None, typer.Option(help="Only this law, e.g. mindlin_rescale.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
     plot: Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")] = None,
     output: Annotated[str | None, typer.Option(help="Store the ranking: .csv or .nc.")] = None,
+    error_map: Annotated[
+        str | None,
+        typer.Option(
+            "--map",
+            help="Store the error of one --law over psi_1 and chi: .png, .pdf, .svg, .csv or .nc.",
+        ),
+    ] = None,
 ) -> None:
     """Rank the contact laws of DEM codes by their largest error in psi_2.
 
     Example: carom verify laws
 
     For shells on a wall: carom verify laws --chi 1.0294 --kappa 0.8235 --plot laws.png
+
+    One law for all solid spheres: carom verify laws --law mindlin --map mindlin.png
     """
     from carom.cli.compiling import announced
     from carom.cli.progress import bar
-    from carom.quantities import finite, positive
+    from carom.quantities import InputError, finite, positive
     from carom.storage import FIGURES, TABLES, checked_output, save
+    from carom.verify.catalogue import named
     from carom.verify.errors import INCIDENCES
     from carom.verify.ranking import rank
 
-    for path, endings in ((plot, FIGURES), (output, TABLES)):
+    if error_map is not None and law is None:
+        raise InputError("map: is of one law; give --law, e.g. --law mindlin")
+    for path, endings in ((plot, FIGURES), (output, TABLES), (error_map, (*FIGURES, *TABLES))):
         if path is not None:
             checked_output(path, endings)
     incidences = INCIDENCES if not psi else tuple(finite("psi_in", value) for value in psi)
     ratio = None if kappa is None else positive("kappa", kappa)
     with announced(), bar("laws") as progress:
-        ranking = rank(chi=positive("chi", chi), kappa=ratio, psi=incidences, progress=progress)
+        ranking = rank(
+            named(law), chi=positive("chi", chi), kappa=ratio, psi=incidences, progress=progress
+        )
     if output is not None:
         typer.echo(f"stored {save(ranking, output)}", err=True)
     if plot is not None:
@@ -45,4 +64,19 @@ def laws_command(
         from carom.plots.style import save_figure
 
         typer.echo(f"stored {save_figure(plot_laws(ranking.to_dataset()), plot)}", err=True)
+    if error_map is not None:
+        typer.echo(f"stored {_store_map(ranking.standings[0].entry.law, error_map)}", err=True)
     typer.echo(json.dumps(ranking.as_record(), indent=2) if as_json else str(ranking))
+
+
+def _store_map(law: "Law", path: str) -> Path:
+    """Store the error map of a law as a figure or a table."""
+    from carom.plots.laws import plot_error_map
+    from carom.plots.style import save_figure
+    from carom.storage import TABLES, save
+    from carom.verify.errors import error_map
+
+    dataset = error_map(law)
+    if path.lower().endswith(TABLES):
+        return save(dataset, path)
+    return save_figure(plot_error_map(dataset), path)

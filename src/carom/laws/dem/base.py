@@ -18,6 +18,7 @@ Array = NDArray[np.float64]
 
 SOLID = 4.0 / 7.0  # kappa/chi of solid spheres, and of one on a half-space
 FEWEST_STEPS = 4
+BLOCK = 16  # impacts that a thread takes at once
 
 
 @dataclass(frozen=True)
@@ -76,22 +77,24 @@ class Law(ABC):
         kappa = SOLID * np.asarray(chi, dtype=np.float64) if kappa is None else kappa
         given = np.broadcast_arrays(*(np.asarray(x, dtype=np.float64) for x in (psi, chi, kappa)))
         flat = [np.ravel(values) for values in given]
-        bodies, members = np.unique(np.stack(flat[1:]), axis=1, return_inverse=True)
-        order = np.argsort(members, kind="stable")
-        groups = np.split(order, np.cumsum(np.bincount(members, minlength=bodies.shape[1]))[:-1])
         result = np.full(flat[0].size, np.nan)
 
-        def solve(group: int) -> None:
-            own_chi, own_kappa = bodies[:, group]
-            which = groups[group]
+        def solve(part: NDArray[np.intp]) -> None:
+            own_chi, own_kappa = (float(values[part[0]]) for values in flat[1:])
             if own_chi > 0.0 and own_kappa > 0.0:
-                result[which] = self._rebound(
-                    flat[0][which], float(own_chi), float(own_kappa), steps
-                )
+                result[part] = self._rebound(flat[0][part], own_chi, own_kappa, steps)
 
         with ThreadPoolExecutor(available_cores()) as pool:
-            list(pool.map(solve, range(len(groups))))
+            list(pool.map(solve, _parts(flat[1], flat[2])))
         return result.reshape(given[0].shape) if given[0].ndim else float(result[0])
+
+
+def _parts(chi: Array, kappa: Array) -> list[NDArray[np.intp]]:
+    """Return the places of impacts of the same bodies, some for each thread."""
+    bodies, members = np.unique(np.stack([chi, kappa]), axis=1, return_inverse=True)
+    order = np.argsort(members, kind="stable")
+    groups = np.split(order, np.cumsum(np.bincount(members, minlength=bodies.shape[1]))[:-1])
+    return [group[i : i + BLOCK] for group in groups for i in range(0, group.size, BLOCK)]
 
 
 @dataclass(frozen=True)

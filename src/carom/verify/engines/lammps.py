@@ -13,10 +13,10 @@ from pathlib import Path
 from typing import ClassVar
 
 from carom.laws.dem import ContactLaw, HertzLinearHistory, LammpsMindlin, LinearSpring
+from carom.verify.engines.arrangement import outcomes_of
 from carom.verify.engines.experiments import Experiment, Outcomes
 from carom.verify.engines.lammps_input import INPUT, RESULT, SPHERES, script
 from carom.verify.engines.program import Program
-from carom.verify.engines.setting import outcomes_of
 from carom.verify.engines.spheres import data_file, read_dump
 
 MPI = "libmpi.so.12"

@@ -9,8 +9,8 @@ from carom.bodies import Sphere
 from carom.laws.dem import ContactLaw, HertzLinearHistory, LammpsMindlin, LinearSpring
 from carom.pairs import Pair
 from carom.quantities import refusal
+from carom.verify.engines.arrangement import remarks, run_length, spacing, spring
 from carom.verify.engines.experiments import Experiment
-from carom.verify.engines.setting import remarks, run_length, spacing, spring
 
 INPUT, SPHERES, RESULT = "in.impacts", "spheres.data", "outcomes.txt"
 SKIN = 0.025  # of the distance between neighbours

@@ -10,9 +10,7 @@ from numpy.typing import NDArray
 from carom.bodies import Sphere
 from carom.dimensionless.rebounds import rebound
 from carom.quantities import positive, refusal
-from carom.verify.engines.experiments import Experiment, Outcomes
-from carom.verify.engines.lammps_input import SKIN, coefficients, tangential_damping
-from carom.verify.engines.setting import (
+from carom.verify.engines.arrangement import (
     Placed,
     placed,
     restitution,
@@ -20,6 +18,8 @@ from carom.verify.engines.setting import (
     share_of_first,
     spacing,
 )
+from carom.verify.engines.experiments import Experiment, Outcomes
+from carom.verify.engines.lammps_input import SKIN, coefficients, tangential_damping
 
 Array = NDArray[np.float64]
 

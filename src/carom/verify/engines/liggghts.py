@@ -10,9 +10,7 @@ from typing import ClassVar
 
 from carom.bodies import Sphere
 from carom.laws.dem import ContactLaw, LiggghtsHertz, LinearSpring
-from carom.verify.engines.experiments import Experiment, Outcomes
-from carom.verify.engines.program import Program
-from carom.verify.engines.setting import (
+from carom.verify.engines.arrangement import (
     outcomes_of,
     remarks,
     restitution,
@@ -21,6 +19,8 @@ from carom.verify.engines.setting import (
     spring,
     young_moduli,
 )
+from carom.verify.engines.experiments import Experiment, Outcomes
+from carom.verify.engines.program import Program
 from carom.verify.engines.spheres import data_file, read_dump
 
 INPUT, SPHERES, RESULT = "in.liggghts", "spheres.data", "results.dump"

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.verify.engines.arrangement import Placed, placed, spacing
 from carom.verify.engines.experiments import Experiment
-from carom.verify.engines.setting import Placed, placed, spacing
 
 Array = NDArray[np.float64]
 

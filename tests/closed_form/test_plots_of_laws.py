@@ -1,0 +1,204 @@
+"""Figures of contact laws show what the ranking and the error map hold; the page tells the truth."""
+
+import itertools
+import sys
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_rgb
+from matplotlib.text import Text
+
+import carom
+from carom.plots.laws import plot_error_map, plot_laws
+from carom.verify import CATALOGUE, error_map, rank
+
+DOCS = Path(__file__).parents[2] / "docs"
+sys.path.insert(0, str(DOCS))
+MM = 1.0 / 25.4
+LAWS = tuple(
+    entry
+    for entry in CATALOGUE
+    if entry.label
+    in {
+        "linear spring, k_t/k_n = kappa",
+        "linear spring, k_t/k_n = 2/7",
+        "Stronge, bilinear",  # elastic: the linear spring
+        "mindlin",
+        "LIGGGHTS hertz, history",  # elastic: mindlin
+        "mindlin/force",
+        "mindlin_rescale",
+        "Hertz, linear history",
+        "rigid Coulomb",
+    }
+)
+
+
+@pytest.fixture(scope="module")
+def ranking():
+    return rank(LAWS, psi=[3.0, 0.5, 1.0, 1.5, 5.0]).to_dataset()
+
+
+@pytest.fixture(scope="module")
+def laws(ranking):
+    return plot_laws(ranking)
+
+
+@pytest.fixture(scope="module")
+def errors():
+    return error_map(carom.LammpsMindlin("mindlin"), np.linspace(0.0, 7.0, 36), [1.2, 1.4, 1.75])
+
+
+def rows(figure):
+    """Return the axes of rebounds and of bars, row by row."""
+    return list(zip(figure.axes[::2], figure.axes[1::2], strict=True))
+
+
+def bars(axis):
+    """Return labels, largest errors and root mean squares of the bars of a row."""
+    names = [text.get_text().replace("\n", " ") for text in axis.get_yticklabels()]
+    largest, rms = ([patch.get_width() for patch in group] for group in axis.containers)
+    return list(zip(names, largest, rms, strict=True))
+
+
+def test_bars_are_the_errors_best_first(laws, ranking):
+    drawn = [bar for _, axis in rows(laws) for bar in bars(axis)]
+    wanted = zip(
+        ranking.law.values, ranking.max_error.values, ranking.rms_error.values, strict=True
+    )
+    assert drawn == [(name, pytest.approx(m), pytest.approx(r)) for name, m, r in wanted]
+    assert drawn[0][0] in ("Stronge, bilinear", "linear spring, k_t/k_n = kappa")
+    assert drawn[-1][0] == "rigid Coulomb"
+
+
+def test_numbers_at_the_bars_are_the_errors(laws, ranking):
+    told = [text.get_text() for _, axis in rows(laws) for text in axis.texts]
+    assert told == [f"{value:.3f}" for value in ranking.max_error.values]
+
+
+def test_lines_are_the_rebounds_in_the_colours_of_the_bars(laws, ranking):
+    """Incidences in rising order; the first line with points is the exact one."""
+    order, row = np.argsort(ranking.psi_in.values), 0
+    for left, right in rows(laws):
+        _, exact, *lines = left.lines
+        np.testing.assert_array_equal(exact.get_xdata(), [0.5, 1.0, 1.5, 3.0, 5.0])
+        np.testing.assert_array_equal(exact.get_ydata(), ranking.psi_out_exact.values[order])
+        for line, bar, sample in zip(lines, right.containers[1], right.lines, strict=True):
+            np.testing.assert_array_equal(line.get_ydata(), ranking.psi_out.values[row][order])
+            assert to_rgb(line.get_color()) == bar.get_facecolor()[:3]
+            assert sample.get_linestyle() == line.get_linestyle()
+            row += 1
+    assert row == ranking.sizes["law"]
+
+
+def test_laws_share_a_line_if_and_only_if_they_are_the_same(laws, ranking):
+    """Within a row colour and dash tell rebounds apart; equal laws stand in one row."""
+    for left, right in rows(laws):
+        names = [name for name, _, _ in bars(right)]
+        out = [ranking.psi_out.sel(law=name).values for name in names]
+        looks = [(line.get_color(), line.get_linestyle()) for line in left.lines[2:]]
+        for i, j in itertools.combinations(range(len(names)), 2):
+            assert (looks[i] == looks[j]) == np.allclose(out[i], out[j], rtol=0.0, atol=1e-6)
+    places = {name: i for i, (_, a) in enumerate(rows(laws)) for name, _, _ in bars(a)}
+    assert places["mindlin"] == places["LIGGGHTS hertz, history"]
+
+
+def test_map_is_the_error_with_white_at_zero(errors):
+    figure = plot_error_map(errors)
+    mesh = figure.axes[0].collections[0]
+    np.testing.assert_array_equal(np.ravel(mesh.get_array()), errors.error.values.ravel())
+    most = float(np.abs(errors.error).max())
+    assert mesh.get_clim() == (-most, most)
+    assert min(mesh.cmap(mesh.norm(0.0))[:3]) > 0.95
+    assert figure._suptitle.get_text() == "LAMMPS, mindlin"
+
+
+def test_map_outlines_an_error_of_a_tenth(errors):
+    """Every vertex of the outline lies between neighbours on either side of +-0.1."""
+    contour = plot_error_map(errors).axes[0].collections[1]
+    np.testing.assert_array_equal(contour.levels, [-0.1, 0.1])
+    vertices = np.concatenate([path.vertices for path in contour.get_paths()])
+    assert len(vertices) > 5
+    found = errors.error.interp(chi=("p", vertices[:, 1]), psi_in=("p", vertices[:, 0]))
+    np.testing.assert_allclose(np.abs(found), 0.1, atol=0.02)
+
+
+def test_map_draws_the_borders_of_the_regimes(errors):
+    lines = plot_error_map(errors).axes[0].lines
+    for line, border in zip(
+        lines, (lambda c: 0 * c + 1, lambda c: 2 * c, lambda c: 4 * c - 1), strict=True
+    ):
+        np.testing.assert_allclose(line.get_xdata(), border(line.get_ydata()), rtol=1e-14)
+
+
+def test_map_where_a_law_has_no_answer_is_grey(errors):
+    holed = errors.copy(deep=True)
+    holed.error.values[1, 10:12] = np.nan
+    figure = plot_error_map(holed, limit=0.3)
+    mesh = figure.axes[0].collections[0]
+    assert np.ma.getmaskarray(np.ma.masked_invalid(mesh.get_array())).sum() == 2
+    assert mesh.get_clim() == (-0.3, 0.3)
+    assert to_rgb(figure.axes[0].get_facecolor()) == to_rgb("0.8")
+
+
+@pytest.mark.parametrize("kind", ["laws", "map"])
+def test_text_is_neither_cut_off_nor_overlapping(kind, laws, errors):
+    figure = laws if kind == "laws" else plot_error_map(errors)
+    assert figure.get_figwidth() == pytest.approx((178.0 if kind == "laws" else 86.0) * MM)
+    FigureCanvasAgg(figure).draw()
+    page = figure.bbox
+    boxes = [(text.get_text(), text.get_window_extent()) for text in _texts(figure)]
+    assert len(boxes) > 15
+    for text, box in boxes:
+        inside = box.x0 >= -0.5 and box.y0 >= -0.5 and box.x1 <= page.x1 and box.y1 <= page.y1
+        assert inside, text
+    for (first, box), (second, other) in itertools.combinations(boxes, 2):
+        wide = min(box.x1, other.x1) - max(box.x0, other.x0)
+        high = min(box.y1, other.y1) - max(box.y0, other.y0)
+        assert wide <= 0.5 or high <= 0.5, (first, second)
+
+
+def _texts(figure):
+    """Return all texts that are seen: not the labels of ticks outside the limits."""
+    hidden = set()
+    for axis in figure.axes:
+        for side, limits in ((axis.xaxis, axis.get_xlim()), (axis.yaxis, axis.get_ylim())):
+            for tick in side.get_major_ticks():
+                if not min(limits) <= tick.get_loc() <= max(limits):
+                    hidden |= {id(tick.label1), id(tick.label2)}
+    texts = [t for t in figure.findobj(Text) if t.get_visible() and t.get_text().strip()]
+    return [t for t in texts if id(t) not in hidden]
+
+
+def test_other_datasets_and_limits_are_refused(ranking, errors):
+    with pytest.raises(carom.InputError, match="plot_laws draws a ranking"):
+        plot_laws(errors)
+    with pytest.raises(carom.InputError, match="plot_error_map draws an error map"):
+        plot_error_map(ranking)
+    with pytest.raises(carom.InputError, match="rising psi_in and chi"):
+        plot_error_map(errors.isel(chi=[0]))
+    for limit in (0.0, -1.0, np.nan):
+        with pytest.raises(carom.InputError, match="limit.*must be positive"):
+            plot_error_map(errors, limit=limit)
+
+
+def test_figures_leave_settings_alone(ranking, errors):
+    before = dict(matplotlib.rcParams)
+    plot_laws(ranking)
+    plot_error_map(errors)
+    assert dict(matplotlib.rcParams) == before
+
+
+def test_page_says_what_the_laws_do(monkeypatch, tmp_path):
+    """The ranking and the best law as docs/laws.md has them; a changed number is noticed."""
+    import make_law_ranking as script
+
+    named = ("ranking", "softer", "tsuji")
+    assert script.stale(named) == []
+    page = (DOCS / "laws.md").read_text(encoding="utf-8")
+    assert page.count("0.427") == 1
+    (tmp_path / "laws.md").write_text(page.replace("0.427", "0.437"), encoding="utf-8")
+    monkeypatch.setattr(script, "PAGE", tmp_path / "laws.md")
+    assert script.stale(named) == ["ranking"]
