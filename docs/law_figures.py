@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.figure import Figure
 from PIL import Image
+from tqdm import tqdm
 
 import carom
 from carom.dimensionless.hertz import DURATION
@@ -104,7 +105,7 @@ def draw_figures(ranking: "xr.Dataset", folder: Path) -> None:
         found = error_map(law, chi=np.linspace(7.0 / 6.0, 7.0 / 4.0, 41))
         figures[f"map_{name}"] = plot_error_map(found, SCALE)
     figures |= {"stiffness": plot_stiffness(), "forces": plot_histories()}
-    for name, figure in figures.items():
+    for name, figure in tqdm(figures.items(), desc="figures"):
         path = save_figure(figure, folder / f"law_{name}.png")
         picture = Image.open(path).convert("RGB")
         size = (2 * picture.width // 3, 2 * picture.height // 3)

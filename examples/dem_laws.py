@@ -1,9 +1,9 @@
 """Which contact law, which k_t/k_n and which time step: choosing a law for a DEM simulation.
 
 All laws are Coulomb's when the ball slides throughout; what they differ in is how a contact that
-grips gives back what its tangential spring has stored. Linear springs with k_t/k_n = kappa, the
-ratio of elastic bodies (Mindlin 1949), beat Hertz-Mindlin as most codes have it; k_t/k_n = 2/7 makes
-the contact point bounce. For the bodies at hand, `tune` finds the best parameter, `advised_steps`
+grips gives back what its tangential spring has stored. Linear springs with k_t/k_n = kappa, that of
+elastic bodies (Mindlin 1949), beat Hertz-Mindlin as most codes have it; with k_t/k_n = 2/7 the
+contact point bounces. For the bodies at hand, `tune` finds the best parameter, `advised_steps`
 the step. More in docs/laws.md.
 Exact: Maw, Barber & Fawcett (1976), Wear 38:101; Barber (1979), ZAMP 30:468.
 """

@@ -68,7 +68,8 @@ def test_spring_that_lasts_as_long_as_hertz(contact):
 def test_coefficients_of_hertz_and_mindlin(contact):
     """F_n = k sqrt(R*) d^(3/2), its steepest slope at d_max; k_t a with 1/G_eff = sum (2-nu)/G."""
     found, (modulus, shear, radius, _, deepest) = contact
-    load = found.hertz * sqrt(radius) * np.array([deepest * (1 - 1e-5), deepest * (1 + 1e-5)]) ** 1.5
+    depth = deepest * np.array([1 - 1e-5, 1 + 1e-5])
+    load = found.hertz * sqrt(radius) * depth**1.5
     assert found.hertz == pytest.approx(4 / 3 * modulus, rel=1e-12)
     assert found.steepest == pytest.approx(np.diff(load)[0] / (2e-5 * deepest), rel=1e-8)
     effective = shear / 4
@@ -180,7 +181,8 @@ def test_recipes_hold_the_stiffnesses(name, e):
     assert found.keys() == expected.keys()
     for code, text in found.items():
         numbers = re.findall(r"(?<![\w/])-?\d[\d.]*(?:e[+-]\d+)?", text)
-        assert [float(n) for n in numbers] == pytest.approx(expected[code], rel=1e-4, abs=1e-5), code
+        printed = [float(n) for n in numbers]
+        assert printed == pytest.approx(expected[code], rel=1e-4, abs=1e-5), code
         assert not any(n.startswith("-") for n in numbers), code
     assert ("coeff_restitution" in found["LAMMPS Hertz"]) == (e != 1.0)
 
@@ -235,9 +237,7 @@ def test_lammps_takes_the_recipe(code, law, e):
     pair, psi, slow = PAIRS["steel on steel"], np.array([0.25, 0.75, 1.5, 3.0]), 1e-3
     law = replace(law, restitution=e)
     speeds = tuple(psi * pair.scales(slow).tangential_speed)
-    wanted = Experiment(
-        pair=pair, law=law, normal_speed=slow, tangential_speed=speeds, steps=2000
-    )
+    wanted = Experiment(pair=pair, law=law, normal_speed=slow, tangential_speed=speeds, steps=2000)
     found = run(ByRecipe(line=recipes(pair, slow, e)[code]), wanted).outcomes
     expected = law.rebound(psi, pair.chi, kappa=pair.kappa, steps=2000)
     assert psi_out(wanted, found) == pytest.approx(expected, abs=2e-4)

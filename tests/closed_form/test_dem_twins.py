@@ -132,8 +132,9 @@ def events(code, slip, loading):
 def rebound(code, psi, precision=1e-11):
     t, y, loading = 0.0, code.touch(psi), True
     slip = int(np.sign(code.limited(y))) if code.over(y) > 0 else 0
-    if slip and code.would_grow(y, slip) < 0:
-        y, slip = code.at_limit(y, slip), 0
+    if slip and code.would_grow(y, slip) < 0:  # what it stores at touch tears it off at once
+        y = code.at_limit(y, slip)
+        y[3], slip = y[3] - slip * 1e-9 * abs(y[3]), 0
     stored = hertz(DEEPEST) if code.force_stored else SLOWEST * DEEPEST / SPEED
     scale = precision * 1e-2 * np.array([DEEPEST, SPEED, SLOWEST, stored])
     for _ in range(40):
@@ -176,7 +177,7 @@ CASES = [
         (
             carom.LammpsMindlin(name, restitution=E),
             replace(code, normal_dashpot=normal_dashpot),
-            (0.3, 1.3, 4.6),
+            (0.3, 3.0),
         )
         for name, code in CODES.items()
     ),
@@ -189,7 +190,7 @@ CASES = [
                 normal_dashpot=normal_dashpot,
                 dashpot=lambda d: 0.5 * normal_dashpot(d),
             ),
-            ALL,
+            (0.8, 1.3, 4.6),
         )
         for name, code in CODES.items()
     ),
@@ -225,4 +226,4 @@ CASES = [
 @pytest.mark.parametrize(("law", "code", "psi"), CASES, ids=[str(case[0]) for case in CASES])
 def test_law_is_what_the_code_defines(law, code, psi):
     twin = [rebound(code, each) for each in psi]
-    assert np.allclose(law.rebound(psi, CHI, kappa=KAPPA), twin, rtol=0.0, atol=5e-8)
+    assert np.allclose(law.rebound(psi, CHI, kappa=KAPPA), twin, rtol=0.0, atol=1e-8)

@@ -7,12 +7,13 @@ import pytest
 import xarray as xr
 
 import carom
-from carom.laws.dem import ContactLaw
+from carom.laws.dem import ContactLaw, Law
 from carom.verify import CATALOGUE, advised_steps, error_map, force_error, step_error
 
 CHI = 1.4412
 KAPPA = 4 * CHI / 7
 CONTACTS = [entry.law for entry in CATALOGUE if isinstance(entry.law, ContactLaw)]
+STEPPED = carom.LinearSpring(), carom.LammpsMindlin("mindlin/force"), carom.ThorntonLaw()
 SLIDING = [law for law in CONTACTS if not isinstance(law, carom.WaltonBraunLaw)]
 
 
@@ -110,7 +111,7 @@ def test_map_by_default_spans_solid_spheres():
 
 
 def test_steps_and_kappa_reach_the_law():
-    """A coarse step moves psi_2; a spring of k_t/k_n = 1 is that of k_t/k_n = kappa for kappa = 1."""
+    """A coarse step moves psi_2; with kappa = 1 a spring of k_t/k_n = 1 is that of kappa."""
     law, psi = carom.LinearSpring(1.0), [0.75]
     fine, coarse = (error_map(law, psi, [CHI], steps=n).error.item() for n in (None, 20))
     assert 1e-3 < abs(fine - coarse) < 0.1
@@ -196,9 +197,7 @@ def test_a_step_error_is_that_of_the_history():
 
 
 @pytest.mark.parametrize("allowed", [0.1, 0.01, 0.001])
-@pytest.mark.parametrize(
-    "law", [carom.LinearSpring(), carom.LammpsMindlin("mindlin/force"), carom.ThorntonLaw()], ids=str
-)
+@pytest.mark.parametrize("law", STEPPED, ids=str)
 def test_advised_steps_suffice_and_fewer_do_not(law, allowed):
     """The advised number and twice as many stay within what is allowed; a factor sqrt 2 fewer
     does not, unless it is the fewest that is tried."""
@@ -212,11 +211,30 @@ def test_advised_steps_suffice_and_fewer_do_not(law, allowed):
         assert step_error(law, round(advice.steps / 2**0.5)) > allowed
 
 
+class Lucky(Law):
+    """A law that errs by 1 in fewer than 100 steps, but for 20 of them."""
+
+    def _rebound(self, psi, chi, kappa, steps):
+        return np.full(psi.size, 0.0 if steps in (None, 20) or steps >= 100 else 1.0)
+
+
+def test_a_lucky_number_of_steps_is_not_advised():
+    """10 sqrt(2)^7 = 113 is the first number from which on all are within what is allowed."""
+    assert advised_steps(Lucky(), 0.1) == (113, 0.0)
+
+
+class Sticky(Law):
+    """Bodies that never part."""
+
+    def _rebound(self, psi, chi, kappa, steps):
+        return np.full(psi.size, np.nan)
+
+
 def test_no_number_of_steps_where_there_is_none():
     """Two million steps are too few for 1e-7 of a law of first order; bodies that do not part have
     no psi_2; a rigid law has no steps to err by."""
     assert advised_steps(carom.ThorntonLaw(), 1e-7, [1.0]) is None
-    assert advised_steps(carom.LammpsMindlin(restitution=1e-12), 0.1) is None
+    assert advised_steps(Sticky(), 0.1) is None
     assert advised_steps(carom.HardSphere(), 1e-3).error == 0.0
 
 

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 import carom
-from carom.cli import main
+from carom.cli import app, main
 
 BALL = ["impact", "--radius", "5 mm", "--material", "steel", "--friction", "0.2"]
 SPEED = ["--speed", "2", "--angle", "30 deg"]
@@ -224,8 +224,23 @@ def test_start_up_loads_nothing_that_is_not_needed():
     assert not loaded_by(plain) & {"xarray", "pint", "matplotlib", "pandas"}
 
 
-@pytest.mark.parametrize("command", ["impact", "curve", "sweep", "materials"])
+def commands(of=app, path=""):
+    """Yield all commands, and those of groups, as they are typed."""
+    for command in of.registered_commands:
+        yield f"{path}{command.name}"
+    for group in of.registered_groups:
+        name = f"{path}{group.name or group.typer_instance.info.name}"
+        yield name
+        yield from commands(group.typer_instance, f"{name} ")
+
+
+def test_all_commands_are_found():
+    known = "impact curve sweep materials verify laws lammps liggghts yade pack score tune"
+    assert {command.split()[-1] for command in commands()} == set(known.split())
+
+
+@pytest.mark.parametrize("command", list(commands()))
 def test_help_shows_an_example(run, command):
-    code, out, _ = run(command, "--help")
+    code, out, _ = run(*command.split(), "--help")
     assert code == 0
     assert f"Example: carom {command}" in out

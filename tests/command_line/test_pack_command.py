@@ -183,9 +183,10 @@ def test_collecting_what_yade_leaves(copy):
     folder, answers = copy / "wall_mixed" / "yade", exact(copy / "wall_mixed")
     with pytest.raises(InputError, match=r"YADE has left no results .*; run it first"):
         collect(folder)
-    names = ("tangential_speed_out", "normal_speed_out", "spin_out")
-    rows = np.column_stack([np.full(49, 0.0051), *(answers[name] for name in names)])
-    np.savetxt(folder / "results.txt", rows, header="height, tangential, normal, spin")
+    columns = ("tangential_speed_out", "normal_speed_out", "spin_out")
+    drift, normal, spin = (answers[name] for name in columns)
+    rows = np.column_stack([np.zeros(49), np.full(49, 0.0051), drift, normal, -spin])
+    np.savetxt(folder / "results.txt", rows, header="x z vx vz omegay")
     result = score(collect(folder), case=copy / "wall_mixed" / "case.toml", tolerance=1e-8)
     assert result.passed
     assert len(result.points.psi_in) == 49

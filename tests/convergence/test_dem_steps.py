@@ -24,7 +24,12 @@ def order(law, psi=PSI):
 
 @pytest.mark.parametrize(
     "law",
-    [carom.LinearSpring(), carom.HertzLinearHistory(), carom.LammpsMindlin("mindlin")],
+    [
+        carom.LinearSpring(),
+        carom.HertzLinearHistory(),
+        carom.LammpsMindlin("mindlin"),
+        carom.StrongeLaw(restitution=0.7),
+    ],
     ids=str,
 )
 def test_stored_displacements_converge_in_second_order(law):
@@ -38,40 +43,52 @@ def test_stored_displacements_converge_in_second_order(law):
         carom.LammpsMindlin(RESCALED),
         carom.LammpsMindlin("mindlin_rescale"),
         carom.ThorntonLaw(),
-        carom.LammpsMindlin(FORCE, restitution=0.8, tangential_damping=0.5),
+        carom.WaltonBraunLaw(),
+        carom.WaltonBraunLaw(restitution=0.7),
     ],
     ids=str,
 )
 def test_what_is_accumulated_or_rescaled_converges_in_first_order(law):
-    assert order(law) == pytest.approx(1.0, abs=0.15)
+    assert order(law) == pytest.approx(1.0, abs=0.1)
 
 
 @pytest.mark.parametrize(
     "law",
     [
         carom.LammpsMindlin("mindlin", restitution=0.8),
-        carom.LiggghtsHertz(0.8),
+        carom.LammpsMindlin("mindlin", restitution=0.8, damping="tsuji"),
+        carom.LammpsMindlin("mindlin_rescale", restitution=0.8),
+        carom.LammpsMindlin(FORCE, restitution=0.8, tangential_damping=0.5),
+        carom.LammpsMindlin(RESCALED, restitution=0.8, tangential_damping=0.5),
+        carom.HertzLinearHistory(1.2, 0.8, 0.5),
         carom.LinearSpring(0.6, 0.8, 0.5),
-        carom.StrongeLaw(restitution=0.7),
-        carom.WaltonBraunLaw(),
-        carom.WaltonBraunLaw(restitution=0.7),
+        carom.LiggghtsHertz(0.8),
     ],
     ids=str,
 )
-def test_other_laws_converge(law):
-    found = errors(law)
-    assert found[2] < 0.35 * found[1] < 0.35 * 0.35 * found[0]
-    assert found[2] < 1e-4
+def test_velocities_of_the_half_step_make_damping_first_order(law):
+    """Sixteen times the steps, a sixteenth of the error; where dashpots jump, about that."""
+    coarse, _, fine = errors(law)
+    assert 1 / 80 < fine / coarse < 1 / 8
+    assert fine < 5e-5
 
 
-def test_stored_displacement_with_damping_has_no_limit_where_it_slides_at_touch():
-    """Its spring must balance a dashpot of d^(1/4) by k_t(a) U of d^(1/2): U = d^(-1/4) at touch.
+@pytest.mark.parametrize(
+    "law",
+    [
+        carom.EdemHertzMindlin(0.9),
+        carom.LammpsMindlin("mindlin", restitution=0.9, tangential_damping=1.0),
+        carom.LammpsMindlin("mindlin_rescale", restitution=0.9, tangential_damping=1.0),
+    ],
+    ids=str,
+)
+def test_stored_displacement_with_a_dashpot_hardly_converges_where_it_slides_at_touch(law):
+    """Against a dashpot of d^(1/4) it must store U = d^(-1/4) at touch, at a depth the step sets.
 
-    What is stored in the first step decides, hence the step itself.
+    No practical number of steps gives the law as it is meant; a million gets there.
     """
-    law = carom.EdemHertzMindlin(0.9)
-    few, many = (law.rebound(1.0, CHI, steps=n) for n in (1_000, 100_000))
-    assert abs(few - many) > 0.05
-    sticking = 0.6  # of psi_1 < sqrt(kappa) the damping stays below mu N
-    few, many = (law.rebound(sticking, CHI, steps=n) for n in (1_000, 100_000))
-    assert abs(few - many) < 1e-3
+    psi = 1.2  # above sqrt(kappa), or kappa/x_gamma: more damping than mu N at touch
+    meant = law.rebound(psi, CHI)
+    assert abs(law.rebound(psi, CHI, steps=10_000) - meant) > 0.1
+    assert law.rebound(psi, CHI, steps=2_000_000) == pytest.approx(meant, abs=1e-4)
+    assert law.rebound(0.6, CHI, steps=10_000) == pytest.approx(law.rebound(0.6, CHI), abs=1e-4)

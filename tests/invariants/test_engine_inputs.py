@@ -119,7 +119,7 @@ def test_outcomes_are_relative_and_whole(pair):
     assert found.normal_speed == pytest.approx(first[:, 3] - still[3], rel=1e-15)
     assert found.tangential_speed == pytest.approx(first[:, 2] - still[2], rel=1e-15)
     assert found.spin.tolist() == [7.0, 8.0]
-    with pytest.raises(ValueError, match=f"{len(states) - 1} of {len(states)} spheres"):
+    with pytest.raises(ValueError, match=f"{len(states) - 1} by 5, not {len(states)} by 5"):
         outcomes_of(wanted, states[:-1])
     states[1, 1] = 0.999 * touching(pair)
     with pytest.raises(ValueError, match="still touch"):

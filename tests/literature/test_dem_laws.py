@@ -1,7 +1,6 @@
 """How far the laws of the codes lie from the exact theory, as measured with the codes themselves.
 
-Largest |psi_2 - exact| over 15 incidences at chi = 1.4412 (solid steel spheres): the figures of
-LAMMPS, 22 Jul 2025, run in steps so fine and at speeds so low that they are those of its laws.
+Largest |psi_2 - exact| over 15 incidences at chi = 1.4412 (solid steel spheres).
 """
 
 import numpy as np
@@ -27,8 +26,8 @@ def test_distance_from_the_exact_theory(law, largest):
     assert np.max(np.abs(difference)) == pytest.approx(largest, abs=1e-4)
 
 
-def test_mindlin_deresiewicz_is_nearest_of_hertzs():
-    """Thornton, Cummins & Cleary (2011): of the laws on Hertz's force theirs errs least."""
+def test_the_law_that_knows_micro_slip_is_nearest():
+    """Of the laws beside Hertz's force Thornton's alone softens as slip spreads from the edge."""
     exact = carom.rebound(PSI, CHI)
     errors = [
         np.max(np.abs(law.rebound(PSI, CHI) - exact))

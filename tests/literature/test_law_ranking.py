@@ -73,8 +73,8 @@ def test_laws_that_are_one_when_elastic(standings, one, other):
 
 
 def test_rigid_coulomb_friction_is_worst_just_before_all_slide(standings):
-    """psi_2 = 0 up to psi_1 = 4 chi, where the exact one is -1 to -1.5 in partial slip: the error of
-    a rigid law is the largest |psi_2| of the elastic one."""
+    """psi_2 = 0 up to psi_1 = 4 chi, where the exact one falls below -1: the error of a rigid law
+    is the largest |psi_2| of the elastic one."""
     psi = np.array([p for p in PSI if p < 4 * CHI])
     exact = np.array([carom.rebound(p, CHI) for p in psi])
     rigid = standings["rigid Coulomb"]
@@ -123,8 +123,8 @@ def mindlin_out(psi, chi, count=20_000):
 
 
 def test_a_law_that_gains_energy_is_told():
-    """A spring that is stretched while its stiffness falls gives back less than it took, or more:
-    mindlin gains at nu = 0. beta_0 = 1, the most without gain, gains nothing."""
+    """A stiffness that changes under a stretched spring does work: mindlin gains at nu = 0, not at
+    0.3. Hard spheres of beta_0 = 1 return all they had."""
     chi, psi = 1.75, (0.3, 0.6, 1.2)
     gain = max(abs(mindlin_out(p, chi)) - p for p in psi)
     assert gain > 0.03

@@ -212,5 +212,5 @@ def test_results_of_a_run_that_did_not_finish(tmp_path) -> None:
     with pytest.raises(ValueError, match="still touch"):
         Liggghts().outcomes(tmp_path, impacts)
     (tmp_path / RESULT).write_text("ITEM: TIMESTEP\n0\n")
-    with pytest.raises(ValueError, match="0 of 30 spheres"):
+    with pytest.raises(ValueError, match="0 by 5, not 30 by 5"):
         Liggghts().outcomes(tmp_path, impacts)

@@ -13,6 +13,7 @@ Examples
 from carom.plots.animation import animate, checked_animation
 from carom.plots.cone import plot_cone
 from carom.plots.impact import plot_forces, plot_impact, plot_radii
+from carom.plots.laws import plot_error_map, plot_laws
 from carom.plots.patch import plot_patch
 from carom.plots.profiles import plot_profiles
 from carom.plots.regimes import plot_curve, plot_regime_map
@@ -25,8 +26,10 @@ __all__ = [
     "checked_animation",
     "plot_cone",
     "plot_curve",
+    "plot_error_map",
     "plot_forces",
     "plot_impact",
+    "plot_laws",
     "plot_patch",
     "plot_profiles",
     "plot_radii",

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from carom.plots.regimes import _draw_borders as draw_borders
+from carom.plots.regimes import draw_borders as draw_borders
 from carom.plots.style import (
     BLACK,
     BLUE,
@@ -52,7 +52,11 @@ PLAIN = {  # parameters of elastic laws, not worth a mention
 }
 
 
-@draws("a ranking, what rank(...).to_dataset() returns", "max_error", "rms_error", "psi_out")
+@draws(
+    "a ranking, what carom.verify.rank(...).to_dataset() returns",
+    *("max_error", "rms_error", "psi_out", "psi_out_exact", "chi"),
+    along="law",
+)
 def plot_laws(dataset: "xr.Dataset") -> Figure:
     """Draw psi_2 of contact laws beside that of the exact impact, and their errors, best first.
 
@@ -70,8 +74,8 @@ def plot_laws(dataset: "xr.Dataset") -> Figure:
     >>> from carom.plots.laws import plot_laws
     >>> ranking = carom.verify.rank(carom.verify.CATALOGUE[:2], psi=[0.5, 1.0, 3.0])
     >>> axis = plot_laws(ranking.to_dataset()).axes[1]
-    >>> [text.get_text() for text in axis.get_yticklabels()][0]
-    'linear spring, k_t/k_n = 2/7'
+    >>> [text.get_text() for text in axis.get_yticklabels()]
+    ['linear spring, k_t/k_n = kappa', 'linear spring, k_t/k_n = 2/7']
     """
     kinds = _kinds(dataset["psi_out"].values)
     groups = np.array_split(np.arange(kinds.max() + 1), -(-(kinds.max() + 1) // len(STYLES)))

@@ -154,7 +154,7 @@ def plot_regime_map(dataset: "xr.Dataset") -> Figure:
     span(axis, psi, chi)
     axis.set(xlabel=label("psi_in"), ylabel=label("chi", room=44))
     _letter_regions(axis, dataset)
-    _draw_borders(axis)
+    draw_borders(axis)
     patches = [
         Patch(fc=shades(int(count) - 1), ec="0.3", lw=0.4, label=f"{LETTERS[i]}  {_short(name)}")
         for i, (name, count) in enumerate(zip(names, counts, strict=True))
@@ -194,7 +194,7 @@ def _letter_regions(axis: Axes, dataset: "xr.Dataset") -> None:
             text.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
 
 
-def _draw_borders(axis: Axes) -> None:
+def draw_borders(axis: Axes) -> None:
     (left, right), (bottom, top) = axis.get_xlim(), axis.get_ylim()
     chi = np.linspace(max(bottom, 0.5), top, 201)
     lines = {r"$1$": 0.0 * chi + 1.0, r"$2\chi$": 2.0 * chi, r"$4\chi-1$": 4.0 * chi - 1.0}

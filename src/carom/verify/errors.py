@@ -141,8 +141,9 @@ def force_error(law: Law, psi: float, chi: float, *, kappa: float | None = None)
 
 
 def energy_gain(psi: Array, psi_out: Array) -> float:
-    """Return the largest |psi_2| - |psi_1|, zero if no impact gains energy."""
-    return float(max(0.0, np.nanmax(np.abs(psi_out) - np.abs(psi))))
+    """Return the largest |psi_2| - |psi_1|, zero if no impact gains energy; NaN counts as none."""
+    gain = np.abs(psi_out) - np.abs(psi)
+    return float(np.max(gain[np.isfinite(gain)], initial=0.0))
 
 
 def solid_kappa(chi: float) -> float:

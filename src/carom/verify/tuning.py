@@ -192,7 +192,7 @@ def _advice(law: Law, psi: Array, exact: Array, chi: float, kappa: float, measur
 
 
 def _closest(law: Law, name: str, low: float, high: float, cost: Callable[[Law], float]) -> Law:
-    """Return the law with the parameter of least cost: the best of a scan, refined."""
+    """Return the law with the parameter of least cost: the minima of a scan, refined."""
     from scipy.optimize import minimize_scalar
 
     def changed(value: float) -> Law:
@@ -200,12 +200,18 @@ def _closest(law: Law, name: str, low: float, high: float, cost: Callable[[Law],
 
     scan = np.geomspace(low, high, TRIALS) if low > 0.0 else np.linspace(low, high, TRIALS)
     costs = [cost(changed(value)) for value in scan]
-    place = int(np.argmin(costs))
-    around = (float(scan[max(0, place - 1)]), float(scan[min(TRIALS - 1, place + 1)]))
-    found = minimize_scalar(
-        lambda value: cost(changed(value)), bounds=around, method="bounded", options={"xatol": 1e-5}
-    )
-    return changed(found.x) if found.fun < costs[place] else changed(scan[place])
+    found = [(costs[0], scan[0]), (costs[-1], scan[-1])]
+    for i in range(1, TRIALS - 1):
+        if costs[i] <= min(costs[i - 1], costs[i + 1]):
+            around = (float(scan[i - 1]), float(scan[i + 1]))
+            minimum = minimize_scalar(
+                lambda value: cost(changed(value)),
+                bounds=around,
+                method="bounded",
+                options={"xatol": 1e-5},
+            )
+            found.append((minimum.fun, minimum.x))
+    return changed(min(found)[1])
 
 
 def called(law: Law) -> str:

@@ -30,7 +30,7 @@ TOUCH = 3e-5  # contact radius at which an impact begins and ends
 TOLERANCE = 1e-10
 MOST_STEPS = 3_000_000
 SHORTEST, LONGEST = 1e-10, 0.5  # steps
-DWELL = 1e-5  # after a change, so that a law that chatters between slip and stick goes on
+PATIENCE, DWELL = 100, 1e-4  # after so many changes a law chatters: steps go over them
 NEAR = 1e-6  # of the limit, from where Walton & Braun's law, stiff there, is taken to slide
 HALVINGS = 48
 NOTHING, TURNS, PARTS, SLIDES, STICKS, REVERSES, CONTINUES, PULLS = range(8)
@@ -204,14 +204,18 @@ def until_event(
     branch: int,
     loading: bool,
     peak: float,
+    chatters: bool,
     h: float,
     y: Array,
     work: Array,
 ) -> int:
-    """Return what happens first in a step of this length; the state just after it is in work[7]."""
+    """Return what happens first in a step of this length; the state just after it is in work[7].
+
+    Of a law that chatters it is what has happened by the end of the step.
+    """
     pushing = normal_force(law, peak, loading, y[B], y[V]) > 0.0
     what = event(law, slip, branch, loading, peak, pushing, work[7])
-    if what == NOTHING or h <= DWELL:
+    if what == NOTHING or chatters:
         return what
     before, after = 0.0, h
     for _ in range(HALVINGS):
@@ -234,18 +238,20 @@ def outgoing(law: Coefficients, psi: float, work: Array, y: Array) -> float:
     y[:] = 0.0
     y[B], y[V], y[PSI] = TOUCH, 1.0, psi
     slip, branch, loading, peak = 0, FIRST, True, 0.0
-    h = TOUCH
+    h, changes = TOUCH, 0
     for _ in range(MOST_STEPS):
         step(law, slip, branch, loading, peak, h, y, work)
         error = error_of(law, h, y, work)
         if error > 1.0 and h > SHORTEST:  # a cube root that vanishes is stepped over
             h = max(SHORTEST, h * max(0.2, 0.9 * error**-0.2))
             continue
-        what = until_event(law, slip, branch, loading, peak, h, y, work)
+        chatters = changes > PATIENCE and h <= DWELL
+        what = until_event(law, slip, branch, loading, peak, chatters, h, y, work)
         y[:] = work[7]
         h = min(LONGEST, max(SHORTEST, h * min(5.0, 0.9 * max(error, 1e-10) ** -0.2)))
         if what != NOTHING:
-            h = min(h, DWELL)
+            changes += 1
+            h = min(h, DWELL) if changes > PATIENCE else h
         if what == PARTS:
             return float(y[PSI])
         if what == TURNS:

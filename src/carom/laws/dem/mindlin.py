@@ -34,7 +34,9 @@ class LammpsMindlin(ContactLaw):
     mindlin: F_t = k_t(a) U; mindlin/force: the force is accumulated, dF_t = k_t(a) dU; with
     _rescale what is stored, U or F_t, shrinks with a while the contact unloads (Thornton, Cummins &
     Cleary 2013). Here k_t = 2 G* a, which is 8 G_eff a of LAMMPS, and F_t, with its damping, is
-    limited by mu F_n.
+    limited by mu F_n. mindlin and mindlin/force may gain energy, up to 13 % for some chi of 1.5 to
+    1.9. With tangential damping the displacement is singular at the first touch: near psi_1 = 1 a
+    code needs more than a million steps to come to the rebound of this law.
 
     Parameters
     ----------

