@@ -160,11 +160,29 @@ def softer() -> str:
     return f"{left[0]}, {left[1]} and {left[2]}"
 
 
+def gains() -> str:
+    """Return the table of the energy that elastic laws make, of solid spheres of any nu."""
+    psi, chi = np.geomspace(1e-3, 7.0, 80), np.linspace(CHIS[0], CHIS[2], 15)[:, np.newaxis]
+
+    def rows() -> Iterator[str]:
+        for label, law, _ in CATALOGUE:
+            if law.name in ("LIGGGHTS hertz", "EDEM Hertz-Mindlin", "YADE Mindlin"):
+                continue  # those of LAMMPS again where e = 1
+            ratio = (law.rebound(psi, chi) / psi) ** 2
+            row, column = np.unravel_index(np.argmax(ratio), ratio.shape)
+            if ratio[row, column] > 1.0 + 1e-6:
+                gain = f"{100.0 * (ratio[row, column] - 1.0):.1f} %"
+                yield f"{label} | {gain} | {psi[column]:.3f} | {chi[row, 0]:.3f}"
+
+    return table("law | energy gained | at psi_1 | chi", rows())
+
+
 LAWS: dict[str, Callable[[], str]] = {
     "ranking": ranked,
     "sources": sources,
     "steps": steps,
     "tuning": tuned,
+    "gains": gains,
     "limits": limits,
     "tsuji": tsuji,
     "softer": softer,
