@@ -18,7 +18,7 @@ from tqdm import tqdm
 
 import carom
 from carom.verify import CATALOGUE, Ranking, Tuning, rank, step_error, tune
-from carom.verify.bench import Bench, bench, steel_on_steel
+from carom.verify.measuring import Bench, bench, steel_on_steel
 from carom.verify.engines.experiments import Experiment, psi_out
 from carom.verify.engines.lammps import Lammps
 from carom.verify.engines.liggghts import Liggghts

@@ -126,6 +126,8 @@ def _parsed(name: str, text: str, unit: str) -> float:
         return float(text)
     except ValueError:
         pass
+    if "%" in text:
+        raise refusal(name, text, "write a percentage as a number, 0.2 for 20 percent")
     import pint
 
     try:

@@ -24,3 +24,10 @@ def test_every_public_name_has_an_example():
     modules = {"classical", "plots"}
     for name in set(carom.__all__) - results - plain - modules:
         assert ">>>" in getattr(carom, name).__doc__, name
+
+
+def test_every_name_of_the_bench_has_an_example():
+    """Of `carom.verify`, too."""
+    results = {"Bench", "EngineError", "Entry", "Ranking", "Score", "Tuning"}
+    for name in set(carom.verify.__all__) - results - {"CATALOGUE"}:
+        assert ">>>" in getattr(carom.verify, name).__doc__, name

@@ -42,7 +42,7 @@ def main(arguments: list[str] | None = None) -> int:
     except InputError as error:
         return _refuse(str(error))
     except typer.TyperException as error:
-        if not arguments and len(sys.argv) < 2:  # no command: the message is the help
+        if type(error).__name__ == "NoArgsIsHelpError":  # no command: the message is the help
             typer.echo(error.format_message())
             return error.exit_code
         return _refuse(f"{str(error).rstrip('.')}; see carom --help or carom COMMAND --help")

@@ -5,14 +5,15 @@ A linear contact cannot be as stiff as Hertz's at all loads: k_n is chosen for o
 
 from collections.abc import Callable
 from math import exp, pi, sqrt
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from carom.dimensionless.hertz import DURATION
-from carom.laws.dem.damping import damping_ratio, thornton_damping, tsuji_damping
+from carom.laws.dem import LammpsMindlin, LinearSpring
+from carom.laws.dem.damping import SMALLEST, damping_ratio, thornton_damping, tsuji_damping
 from carom.pairs import Pair
 from carom.quantities import not_negative, number, positive, refusal
 
-SMALLEST_RESTITUTION = 1e-6
+SPRING, MINDLIN = LinearSpring(), LammpsMindlin("mindlin_rescale/force")
 
 
 class Stiffnesses(NamedTuple):
@@ -115,8 +116,8 @@ def damping(restitution: float, convention: str = "critical") -> float:
     (0.2155, 0.5)
     """
     value = number("restitution", restitution)
-    if not SMALLEST_RESTITUTION <= value <= 1.0:
-        raise refusal("restitution", restitution, "must be above 0 and at most 1")
+    if not SMALLEST <= value <= 1.0:
+        raise refusal("restitution", restitution, f"must be from {SMALLEST:g} to 1")
     return _rule(convention)(value) + 0.0  # no -0 at e = 1
 
 
@@ -140,12 +141,12 @@ def restitution(value: float, convention: str = "critical") -> float:
     rule, wanted = _rule(convention), not_negative("tangential_damping", value)
     if convention == "critical" and wanted < 1.0:
         return exp(-pi * wanted / sqrt(1.0 - wanted**2))
-    least, most = rule(1.0), rule(SMALLEST_RESTITUTION)
+    least, most = rule(1.0), rule(SMALLEST)
     if wanted <= least:
         return 1.0
     if wanted > most:
         raise refusal("damping", value, f"must be at most {most:.4g}: no restitution has more")
-    return float(brentq(lambda e: rule(e) - wanted, SMALLEST_RESTITUTION, 1.0, xtol=1e-14))
+    return float(brentq(lambda e: rule(e) - wanted, SMALLEST, 1.0, xtol=1e-14))
 
 
 def _rule(convention: str) -> Callable[[float], float]:
@@ -155,8 +156,26 @@ def _rule(convention: str) -> Callable[[float], float]:
     return CONVENTIONS[convention][1]
 
 
-def recipes(pair: Pair, normal_speed: float, wanted: float = 1.0) -> dict[str, Any]:
+def recipes(
+    pair: Pair,
+    normal_speed: float,
+    wanted: float = 1.0,
+    *,
+    spring: LinearSpring = SPRING,
+    mindlin: LammpsMindlin = MINDLIN,
+) -> dict[str, str]:
     """Return what to write into the inputs of codes for this contact, by code; SI units.
+
+    Parameters
+    ----------
+    pair : Pair
+        The bodies and their friction.
+    normal_speed : float
+        Of the impact for which linear springs are made, in m/s.
+    wanted : float
+        Normal restitution.
+    spring, mindlin : LinearSpring, LammpsMindlin
+        Tangential stiffnesses, e.g. those that `tune` has found; by default those of the bodies.
 
     Raises InputError as `stiffnesses` and `damping`.
 
@@ -166,24 +185,24 @@ def recipes(pair: Pair, normal_speed: float, wanted: float = 1.0) -> dict[str, A
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> print(carom.verify.recipes(pair, 1.0)["LAMMPS Hertz"])
-    hertz 1.5385e+11 0 tangential mindlin_rescale 1.9005e+11 0 0.2 damping velocity
+    hertz 1.5385e+11 0 tangential mindlin_rescale/force 1.9005e+11 0 0.2 damping velocity
     """
     k, mu, zeta = stiffnesses(pair, normal_speed), pair.friction, damping(wanted)
-    m = pair.normal_mass
-    dashpot = 2.0 * zeta * sqrt(k.normal * m)
-    damped = "velocity" if wanted == 1.0 else "coeff_restitution"
-    loss = 0.0 if wanted == 1.0 else wanted
-    thornton = damping(wanted, "thornton")
+    ratio = k.ratio if spring.stiffness_ratio is None else spring.stiffness_ratio
+    k_n, k_t, dashpot = k.normal, ratio * k.normal, 2.0 * zeta * sqrt(k.normal * pair.normal_mass)
+    loss, rule = (0.0, "velocity") if wanted == 1.0 else (wanted, "coeff_restitution")
+    beta = damping(wanted, "thornton")
     return {
-        "LAMMPS Hertz": f"hertz {k.hertz:.4e} {loss:g} tangential mindlin_rescale"
-        f" {k.mindlin:.4e} 0 {mu:g} damping {damped}",
-        "LAMMPS Hooke": f"hooke {k.normal:.4e} {dashpot:.4e} tangential linear_history"
-        f" {k.tangential:.4e} 0 {mu:g} damping velocity",
-        "LIGGGHTS hooke/stiffness": f"kn {k.normal:.4e} kt {k.tangential:.4e}"
-        f" gamman {dashpot / m:.4e} gammat 0",
-        "YADE CundallStrack": f"kn {k.normal:.4e} ks {k.tangential:.4e}",
-        "YADE Mindlin": f"betan {thornton:.5f} betas 0",
-        "Kratos": f"DAMPING_GAMMA {thornton:.5f}",
-        "MercuryDPM linear": f"stiffness {k.normal:.4e} dissipation {dashpot:.4e}"
-        f" slidingStiffness {k.tangential:.4e}",
+        "LAMMPS Hertz": f"hertz {k.hertz:.4e} {loss:g} tangential {mindlin.variant}"
+        f" {mindlin.stiffness * k.mindlin:.4e} 0 {mu:g} damping {rule}",
+        "LAMMPS Hooke": f"hooke {k_n:.4e} {dashpot:.4e} tangential linear_history"
+        f" {k_t:.4e} 0 {mu:g} damping velocity",
+        "LIGGGHTS hooke/stiffness": f"kn {k_n:.4e} kt {k_t:.4e}"
+        f" gamman {dashpot / pair.normal_mass:.4e} gammat 0",
+        "YADE CundallStrack": f"kn {k_n:.4e} ks {k_t:.4e}",
+        "YADE Mindlin": f"betan {beta:.5f} betas 0",
+        "Kratos": f"DAMPING_GAMMA {beta:.5f}",
+        "MercuryDPM linear": f"stiffness {k_n:.4e} dissipation {dashpot:.4e}"
+        f" slidingStiffness {k_t:.4e}",
+        "MFiX linear": f"KN {k_n:.4e} KT_FAC {ratio:.4f} DES_EN_INPUT {wanted:g}",
     }

@@ -141,7 +141,7 @@ def rank(
         standings.append(_standing(entry, psis, ratio, own))
         if progress is not None:
             progress(done, len(entries))
-    ordered = sorted(standings, key=lambda standing: (standing.max_error, standing.entry.label))
+    ordered = sorted(standings, key=lambda s: (np.isnan(s.max_error), s.max_error, s.entry.label))
     return Ranking(ratio, own, tuple(psis.tolist()), tuple(ordered))
 
 

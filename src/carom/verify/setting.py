@@ -2,7 +2,7 @@
 
 from math import tan
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,20 +10,21 @@ from numpy.typing import NDArray
 from carom.approach import approach, slope
 from carom.cases import motion_of, pair_of, read_case
 from carom.dimensionless.hertz import DURATION
+from carom.pairs import Pair
 from carom.quantities import InputError, finite, number, positive, refusal
-from carom.verify.conversions import recipes
 
 POINTS = 61
 SPEED = 1.0  # m/s, of a case without one: k_n of linear springs depends on it
 
 
 class Setting(NamedTuple):
-    """chi, kappa, incidences of a tuning; with bodies also what codes take, V_1 and t_c in SI."""
+    """chi, kappa, incidences and wanted e of a tuning; with bodies also them, V_1 and t_c in SI."""
 
     chi: float
     kappa: float | None
     psi: NDArray[np.float64]
-    recipes: dict[str, Any]
+    restitution: float = 1.0
+    pair: Pair | None = None
     normal_speed: float | None = None
     duration: float | None = None
 
@@ -49,7 +50,7 @@ def setting_of(
         ratio = positive("chi", chi)
         last = 4.0 * ratio if stop is None else finite("psi_in", stop)
         own = None if kappa is None else positive("kappa", kappa)
-        return Setting(ratio, own, _range(finite("psi_in", start), last, start, stop), {})
+        return Setting(ratio, own, _range(finite("psi_in", start), last, start, stop))
     for name, value in (("chi", chi), ("kappa", kappa)):
         if value is not None:
             raise refusal(name, value, "it follows from the case; leave it out")
@@ -64,8 +65,8 @@ def setting_of(
     per_slope = pair.kappa / pair.friction  # psi_1 = kappa tan(angle)/mu
     last = 4.0 * pair.chi if stop is None else per_slope * tan(slope(stop))
     psi = _range(per_slope * tan(slope(start)), last, start, stop)
-    inputs, duration = recipes(pair, speed, wanted), DURATION * pair.scales(speed).time
-    return Setting(pair.chi, pair.kappa, psi, inputs, speed, duration)
+    duration = DURATION * pair.scales(speed).time
+    return Setting(pair.chi, pair.kappa, psi, wanted, pair, speed, duration)
 
 
 def _range(first: float, last: float, start: str, stop: str | None) -> NDArray[np.float64]:

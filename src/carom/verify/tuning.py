@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -26,6 +26,7 @@ from carom.verify.errors import as_law, solid_kappa
 from carom.verify.steps import Step, advised_steps
 
 Array = NDArray[np.float64]
+AnyLaw = TypeVar("AnyLaw", bound=Law)
 
 FREE = {  # the parameter that can be chosen, and its range
     LinearSpring: ("stiffness_ratio", 0.05, 2.5),
@@ -75,6 +76,10 @@ class Tuning:
     kappa: float
     span: tuple[float, float]
     advice: tuple[Advice, ...]
+
+    def best(self, kind: type[AnyLaw]) -> AnyLaw | None:
+        """Return the law of a kind that comes closest, if there is one."""
+        return next((one.law for one in self.advice if isinstance(one.law, kind)), None)
 
     def as_record(self) -> dict[str, Any]:
         """Return the advice as what JSON can hold."""
@@ -158,7 +163,8 @@ def tune(
         advice.append(_advice(as_law(law), psis, exact, ratio, own, measure))
         if progress is not None:
             progress(done, len(laws))
-    ordered = sorted(advice, key=lambda one: getattr(one, f"{measure}_error"))
+    errors = [getattr(one, f"{measure}_error") for one in advice]
+    ordered = [advice[i] for i in np.argsort(errors, kind="stable")]  # NaN last
     return Tuning(ratio, own, (float(psis.min()), float(psis.max())), tuple(ordered))
 
 
@@ -210,7 +216,7 @@ def _closest(law: Law, name: str, low: float, high: float, cost: Callable[[Law],
                 method="bounded",
                 options={"xatol": 1e-5},
             )
-            found.append((minimum.fun, minimum.x))
+            found += [(minimum.fun, minimum.x), (costs[i], scan[i])]
     return changed(min(found)[1])
 
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from carom.verify.bench import Bench
     from carom.verify.engines.running import Engine
+    from carom.verify.measuring import Bench
 
 CaseFile = Annotated[
     Path | None, typer.Option(help="Case file as for `carom impact`: the bodies (steel, 1.4412).")
@@ -93,8 +93,8 @@ def _run(
     from carom.cli.progress import bar
     from carom.quantities import InputError, positive
     from carom.storage import checked_output
-    from carom.verify.bench import bench
     from carom.verify.catalogue import named
+    from carom.verify.measuring import bench
 
     if output is not None:
         checked_output(output, (".csv",))

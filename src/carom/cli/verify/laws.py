@@ -26,7 +26,7 @@ def laws_command(
         str | None,
         typer.Option(
             "--map",
-            help="Store the error of one --law over psi_1 and chi: .png, .pdf, .svg, .csv or .nc.",
+            help="Store the error of one --law for solid spheres of any nu: a figure or table.",
         ),
     ] = None,
 ) -> None:

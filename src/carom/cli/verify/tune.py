@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
+    from carom.verify.setting import Setting
     from carom.verify.tuning import Tuning
 
 
@@ -56,8 +57,24 @@ def tune_command(
             progress=progress,
         )
     given = {"normal_speed": setting.normal_speed, "duration": setting.duration}
-    record = tuning.as_record() | {"inputs": setting.recipes} | given
+    record = tuning.as_record() | {"inputs": _inputs(setting, tuning)} | given
     typer.echo(json.dumps(record, indent=2) if as_json else _text(tuning, record))
+
+
+def _inputs(setting: "Setting", tuning: "Tuning") -> dict[str, str]:
+    """Return what to write into the inputs of codes: the stiffnesses that come closest."""
+    from carom.laws.dem import LammpsMindlin, LinearSpring
+    from carom.verify.conversions import MINDLIN, SPRING, recipes
+
+    if setting.pair is None or setting.normal_speed is None:
+        return {}
+    return recipes(
+        setting.pair,
+        setting.normal_speed,
+        setting.restitution,
+        spring=tuning.best(LinearSpring) or SPRING,
+        mindlin=tuning.best(LammpsMindlin) or MINDLIN,
+    )
 
 
 def _text(tuning: "Tuning", record: dict[str, Any]) -> str:
@@ -65,7 +82,8 @@ def _text(tuning: "Tuning", record: dict[str, Any]) -> str:
     speed, duration = record["normal_speed"], record["duration"]
     if duration is not None:
         lines.append(
-            f"contact of {duration:.4g} s at {speed:.4g} m/s: time step = that / steps; inputs:"
+            f"contact of {duration:.4g} s at {speed:.4g} m/s: time step = that / steps;"
+            " inputs, with the stiffnesses above:"
         )
         lines += [f"  {code:26s} {text}" for code, text in record["inputs"].items()]
     return "\n".join(lines)

@@ -7,14 +7,15 @@ from carom.quantities import number, refusal
 
 COEFF_RESTITUTION, TSUJI = "coeff_restitution", "tsuji"
 RULES = (COEFF_RESTITUTION, TSUJI)
+SMALLEST = 1e-6  # restitution
 
 
 def check_restitution(law: object) -> None:
-    """Read the restitution of a frozen law; raise InputError unless it lies above 0 and up to 1."""
+    """Read the restitution of a frozen law; raise InputError unless it lies from 1e-6 to 1."""
     given = law.restitution  # type: ignore[attr-defined]
     value = number("restitution", given, "1")
-    if not 0.0 < value <= 1.0:
-        raise refusal("restitution", given, "must be above 0 and at most 1")
+    if not SMALLEST <= value <= 1.0:
+        raise refusal("restitution", given, f"must be from {SMALLEST:g} to 1")
     object.__setattr__(law, "restitution", value)
 
 

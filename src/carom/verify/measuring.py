@@ -127,6 +127,13 @@ def bench(
     ------
     InputError
         If the program is absent, has none of the laws, or a value is out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.verify.bench(carom.verify.Lammps("/nowhere/lmp"))
+    Traceback (most recent call last):
+    carom.quantities.InputError: LAMMPS: '/nowhere/lmp' is not an executable; give another path
     """
     bodies, psis = steel_on_steel() if pair is None else pair, finite_line("psi", psi)
     if engine.executable() is None:
