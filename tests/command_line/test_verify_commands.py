@@ -262,7 +262,13 @@ BAD = {
     ("lammps", "--program", "/bin/false", "--steps", "9"): "steps: 9 .*at least 10",
     ("lammps", "--program", "/bin/false", "--case", "smooth.toml"): "friction: 0.0 .*positive",
     ("lammps", "--program", "/bin/false", "--case", "cup.toml"): "second body: .*engines lack cups",
-    ("lammps", "--program", "/bin/false", "--law", "rigid Coulomb"): "LAMMPS has none of these",
+    (
+        "lammps",
+        "--program",
+        "/bin/false",
+        "--law",
+        "rigid Coulomb",
+    ): "LAMMPS does not have it, but linear spring, .*; mindlin",
     ("lamps",): "No such command 'lamps'. Did you mean 'lammps'",
     ("laws", "--colour", "red"): "No such option: --colour",
 }

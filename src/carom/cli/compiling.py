@@ -6,7 +6,7 @@ from typing import Any
 
 import typer
 
-MESSAGE = "compiling, once after installation; this takes up to a minute ..."
+MESSAGE = "compiling what this command needs, once; this takes up to a minute or two ..."
 
 
 @contextmanager

@@ -33,6 +33,7 @@ ALLOWED: Any = {"color": "0.35", "ls": DASHES[2], "lw": 0.8, "zorder": 1}
 GIVEN: Any = {"mfc": "white", "mec": BLACK, "mew": 0.8, "ls": ""}
 ZERO: Any = {"color": "0.5", "lw": 0.5, "zorder": 1}
 SPARSE = 100  # times; more of them make a line
+FAR = 2.0  # times the psi_1 from which all slides: beyond it a figure has little to show
 MARGIN, ROOM = 0.03, 0.12  # beyond what is shown, along psi_1 and the error
 
 
@@ -59,7 +60,11 @@ def plot_score(dataset: "xr.Dataset") -> Figure:
 def _points(dataset: "xr.Dataset") -> Figure:
     figure, axes = new_figure(2, 1, height=98.0, sharex=True, height_ratios=(1.6, 1.0))
     upper, lower = axes[:, 0]
+    whole, dataset = dataset, _near(dataset)
     psi = dataset["psi_in"].values
+    if left_out := whole["psi_in"].size - psi.size:
+        note = f"{left_out} results beyond, in gross slip throughout"
+        upper.annotate(note, (1.0, 0.02), xycoords="axes fraction", ha="right", va="bottom")
     _results(upper, dataset)
     lower.plot(psi, dataset["error"].values, "o", **GIVEN)
     _tolerance(lower, dataset["error"].values, float(dataset["tolerance"]))
@@ -74,6 +79,13 @@ def _points(dataset: "xr.Dataset") -> Figure:
     legend_above(upper, 2, handles=[*upper.get_legend_handles_labels()[0], *bands])
     legend_above(lower, 2)
     return figure
+
+
+def _near(dataset: "xr.Dataset") -> "xr.Dataset":
+    """Return the results that do not lie far in gross slip, if there are others."""
+    border = np.maximum(1.0, 4.0 * dataset["chi"].values - 1.0)
+    inside = np.abs(dataset["psi_in"].values) <= FAR * border
+    return dataset.isel(point=np.flatnonzero(inside)) if inside.any() else dataset
 
 
 def _results(axis: Axes, dataset: "xr.Dataset") -> None:

@@ -167,20 +167,19 @@ def bench(
     )
 
 
+def _has(engine: Engine, entry: Entry) -> bool:
+    return isinstance(entry.law, ContactLaw) and engine.supports(entry.law)
+
+
 def _supported(engine: Engine, entries: Sequence[Entry]) -> list[Entry]:
     known: list[Entry] = []
     for entry in entries:
-        law = entry.law
-        if (
-            isinstance(law, ContactLaw)
-            and engine.supports(law)
-            and law not in (e.law for e in known)
-        ):
+        if _has(engine, entry) and entry.law not in (other.law for other in known):
             known.append(entry)
     if not known:
-        raise refusal(
-            "entries", [e.label for e in entries], f"{engine.name} has none of these laws"
-        )
+        has = [entry.label for entry in CATALOGUE if _has(engine, entry)]
+        labels = ", ".join(entry.label for entry in entries)
+        raise refusal("law", labels, f"{engine.name} does not have it, but {'; '.join(has)}")
     return known
 
 

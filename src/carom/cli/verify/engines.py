@@ -19,7 +19,7 @@ Program = Annotated[str | None, typer.Option(help="Where the program is (searche
 Output = Annotated[
     str | None, typer.Option(help="Store the results of one --law: .csv, for carom verify score.")
 ]
-OneLaw = Annotated[str | None, typer.Option(help="Only this law, e.g. mindlin_rescale.")]
+OneLaw = Annotated[str | None, typer.Option(help="Only this law, named as by `carom verify laws`.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
 
 

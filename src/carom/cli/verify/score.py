@@ -18,7 +18,9 @@ def score_command(
     ] = None,
     tolerance: Annotated[
         str,
-        typer.Option(help="Largest |error in psi_2| that passes, absolute; also of the audit."),
+        typer.Option(
+            help="Largest |error in psi_2| that passes, and of the audit; the best laws reach 0.05."
+        ),
     ] = "0.01",
     plot: Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")] = None,
     output: Annotated[str | None, typer.Option(help="Store the score: .csv or .nc.")] = None,
@@ -28,7 +30,8 @@ def score_command(
 
     The columns tell what they are: psi_1, psi_2 (chi); or normal_speed, tangential_speed, spin,
     tangential_speed_out, spin_out (normal_speed_out); or time, normal_force, tangential_force of
-    one impact. SI units, or named in the head: "spin [rpm]".
+    one impact, the tangential force positive where it slows V_x > 0: minus the x force on the
+    first body. SI units, or named in the head: "spin [rpm]".
 
     They pass if no psi_2 is off by more than the tolerance, and no energy, momentum or friction is;
     errors of forces count in units of mu P_max and P_max.

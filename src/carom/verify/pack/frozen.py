@@ -9,6 +9,7 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 
 VERSION = "1"
+COMPILED = "__pycache__"  # what an installer makes of scripts
 CASE, INPUTS, REFERENCE = "case.toml", "results.csv", "reference.csv"  # in the folder of a set
 
 
@@ -36,7 +37,7 @@ def _texts(folder: Traversable, prefix: str) -> dict[str, str]:
     for entry in folder.iterdir():
         path = f"{prefix}{entry.name}"
         if entry.is_dir():
-            found |= _texts(entry, f"{path}/")
+            found |= {} if entry.name == COMPILED else _texts(entry, f"{path}/")
         else:
             found[path] = entry.read_bytes().decode("utf-8")
     return found

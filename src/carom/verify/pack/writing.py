@@ -8,7 +8,7 @@ import tempfile
 from pathlib import Path
 
 from carom.quantities import InputError, refusal
-from carom.verify.pack.frozen import CASE, REFERENCE, VERSION, folders_with, frozen_files
+from carom.verify.pack.frozen import CASE, INPUTS, REFERENCE, VERSION, folders_with, frozen_files
 from carom.verify.pack.programs import program_files
 from carom.verify.pack.references import ACCURACY, title_of
 from carom.verify.pack.tables import read_table
@@ -84,7 +84,8 @@ def pack_files() -> dict[str, str]:
     files |= program_files()
     files["pack.json"] = _contents(files)
     files = dict(sorted(files.items()))
-    return files | {CHECKSUMS: "".join(f"{_digest(t)}  {name}\n" for name, t in files.items())}
+    sums = (f"{_digest(t)}  {name}\n" for name, t in files.items() if not name.endswith(INPUTS))
+    return files | {CHECKSUMS: "".join(sums)}  # but for what users fill in
 
 
 def _contents(files: dict[str, str]) -> str:
