@@ -50,6 +50,7 @@ GLOSSARY = {
     "tangential_restitution": Quantity(
         "$e_t$", "1", "tangential velocity of the centres, after to before"
     ),
+    "time_limit": Quantity("$t_{max}$", "s", "time after which a program is killed"),
     "tolerance": Quantity(r"$\epsilon$", "1", "largest error that is allowed"),
     "restitution": Quantity("$e$", "1", "normal restitution that a law is made for"),
     "stiffness_ratio": Quantity("$k_t/k_n$", "1", "ratio of tangential to normal spring stiffness"),

@@ -172,6 +172,7 @@ def test_recipes_hold_the_stiffnesses(name, e):
         "LAMMPS Hertz": [*hertz, 2 * shear, 0.0, mu],
         "LAMMPS Hooke": [kn, dashpot, kt, 0.0, mu],
         "LIGGGHTS hooke/stiffness": [kn, kt, dashpot / mass, 0.0],
+        "LIGGGHTS hertz, EDEM": [e],
         "YADE CundallStrack": [kn, kt],
         "YADE Mindlin": [beta, 0.0],
         "Kratos": [beta],

@@ -219,3 +219,16 @@ def test_refused(options, message):
     given = {"laws": [carom.HardSphere()], "chi": CHI} | options
     with pytest.raises(carom.InputError, match=message):
         tune(**given)
+
+
+@pytest.mark.parametrize("chi", [0.4, 6.0])
+def test_tuning_never_makes_a_law_worse(chi):
+    """At any chi: k_t/k_n is sought around that of the bodies, 4 chi/7."""
+    laws = [
+        carom.LinearSpring(),
+        carom.StrongeLaw(),
+        carom.HertzLinearHistory(),
+        carom.HardSphere(),
+    ]
+    for one in tune(laws, chi=chi).advice:
+        assert one.max_error <= one.before

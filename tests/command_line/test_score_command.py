@@ -2,11 +2,13 @@
 
 import json
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import carom
+from carom.cases import case_of
 from carom.cli import main
 
 CHI = 1.4412
@@ -210,6 +212,7 @@ def test_records_that_are_no_whole_contact_are_refused(capsys, hit, change, mess
         (("good.csv", "--chi", "1.4", "--case", "ball.toml"), "chi: given twice"),
         (("good.csv", "--case", "none.toml"), "case file: 'none.toml' cannot be read"),
         (("good.csv", "--ki", "1.4"), "--ki"),
+        (("good.csv", "--chi", "1.4", "--output", "good.csv"), "it is the file of results"),
     ],
 )
 def test_bad_options_are_refused(capsys, options, message):
@@ -217,3 +220,23 @@ def test_bad_options_are_refused(capsys, options, message):
     code, _, err = run(capsys, *options)
     assert (code, err.count("\n")) == (2, 1)
     assert message in err
+
+
+def test_bodies_in_a_comment(capsys, hit):
+    """Results that bring their bodies along need no case; another one is refused."""
+    pair = hit.pair
+    rows = {"normal_speed": [1.0] * 3, "tangential_speed": [0.1, 0.2, 0.3], "spin": [0.0] * 3}
+    hits = [carom.impact(pair, normal_speed=1.0, tangential_speed=t) for t in (0.1, 0.2, 0.3)]
+    rows |= {
+        name: [getattr(h, name) for h in hits] for name in ("tangential_speed_out", "spin_out")
+    }
+    text = Path(table(rows)).read_text()
+    Path("results.csv").write_text(f"# case: {json.dumps(case_of(pair))}\n{text}")
+    assert run(capsys, "results.csv")[0] == 0
+    other = case_of(pair) | {"friction": 0.9 * pair.friction}
+    with pytest.raises(carom.InputError, match="bodies are not those of the results"):
+        carom.verify.score("results.csv", case=other)
+    Path("results.csv").write_text(f"# case: nothing\n{text}")
+    code, _, err = run(capsys, "results.csv")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "there is no JSON" in err

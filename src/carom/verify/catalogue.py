@@ -48,6 +48,15 @@ CATALOGUE = (
 )
 
 
+def as_entry(given: object) -> Entry:
+    """Return an entry as it is, or one for a law; raise InputError for anything else."""
+    if isinstance(given, Law):
+        return Entry(str(getattr(given, "variant", given.name)), given, "")
+    if not isinstance(given, Entry):
+        raise refusal("law", given, "must be a contact law, e.g. carom.LinearSpring()")
+    return given
+
+
 def named(label: str | None) -> Sequence[Entry]:
     """Return the entry of the catalogue with this label, or all without one.
 
@@ -58,7 +67,7 @@ def named(label: str | None) -> Sequence[Entry]:
     found = [entry for entry in CATALOGUE if entry.label == label]
     if not found:
         labels = [entry.label for entry in CATALOGUE]
-        raise refusal(
-            "law", label, nearest(label, labels) or f"must be one of: {'; '.join(labels)}"
-        )
+        alike = [text for text in labels if label.lower() in text.lower()] or labels
+        hint = nearest(label, labels) if len(alike) == len(labels) else ""
+        raise refusal("law", label, hint or f"must be one of: {'; '.join(alike)}")
     return found

@@ -199,7 +199,9 @@ def recipes(
         f" {k_t:.4e} 0 {mu:g} damping velocity",
         "LIGGGHTS hooke/stiffness": f"kn {k_n:.4e} kt {k_t:.4e}"
         f" gamman {dashpot / pair.normal_mass:.4e} gammat 0",
-        "YADE CundallStrack": f"kn {k_n:.4e} ks {k_t:.4e}",
+        "LIGGGHTS hertz, EDEM": f"E, nu of the bodies, coefficientRestitution {wanted:g}",
+        "YADE CundallStrack": f"kn {k_n:.4e} ks {k_t:.4e}"
+        + ("" if wanted == 1.0 else " (has no damping)"),
         "YADE Mindlin": f"betan {beta:.5f} betas 0",
         "Kratos": f"DAMPING_GAMMA {beta:.5f}",
         "MercuryDPM linear": f"stiffness {k_n:.4e} dissipation {dashpot:.4e}"

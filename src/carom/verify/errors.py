@@ -8,11 +8,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.arrays import finite_line, positive_line
 from carom.dimensionless.hertz import DURATION
+from carom.dimensionless.phases import Status
 from carom.dimensionless.rebounds import rebound
 from carom.dimensionless.solution import solve
 from carom.laws.dem import ContactLaw, Law
 from carom.laws.dem.base import SOLID
-from carom.quantities import refusal
+from carom.quantities import positive, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 INCIDENCES = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0)
+LARGEST = 1e9  # psi_1
 INSTANTS = 400  # at which forces are compared
 
 
@@ -35,6 +37,24 @@ def as_law(law: object) -> Law:
     if not isinstance(law, Law):
         raise refusal("law", law, "must be a contact law, e.g. carom.LinearSpring()")
     return law
+
+
+def incidences(psi: ArrayLike) -> Array:
+    """Return psi_1 as an array, or raise InputError if there is nothing to compare at them."""
+    values = finite_line("psi", psi)
+    if not np.any(values) or np.max(np.abs(values)) > LARGEST:
+        allowed = f"must not all be zero, nor beyond {LARGEST:g}"
+        raise refusal("psi", values.tolist(), allowed)
+    return values
+
+
+def exact_rebound(psi: Array, chi: float) -> Array:
+    """Return the exact psi_2, or raise InputError where there is none."""
+    exact, status = rebound(psi, chi, return_status=True)
+    if np.any(status):
+        message = Status(int(np.max(status))).message
+        raise refusal("chi", chi, f"the exact impact is {message}")
+    return np.asarray(exact)
 
 
 def error_map(
@@ -85,7 +105,8 @@ def error_map(
     psis = np.linspace(0.0, top, 121) if psi is None else finite_line("psi", psi)
     rows, wide = chis[:, np.newaxis], ("chi", "psi_in")
     exact = rebound(psis, rows)
-    given = rule.rebound(psis, rows, kappa=kappa, steps=steps)
+    own = None if kappa is None else positive("kappa", kappa)
+    given = rule.rebound(psis, rows, kappa=own, steps=steps)
     error = given - exact
     names = {"law": rule.name, "law_source": rule.source, "law_parameters": parameters(rule)}
     return labelled_dataset(

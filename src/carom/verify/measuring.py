@@ -12,19 +12,19 @@ from carom.arrays import finite_line
 from carom.bodies import HalfSpace, Sphere
 from carom.cases import case_of
 from carom.dimensionless.rebounds import rebound
-from carom.laws.dem import ContactLaw
+from carom.laws.dem import ContactLaw, Law
 from carom.pairs import Pair
 from carom.quantities import InputError, refusal
-from carom.verify.catalogue import CATALOGUE, Entry
+from carom.verify.catalogue import CATALOGUE, Entry, as_entry
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
-from carom.verify.engines.running import Engine, EngineError, run
+from carom.verify.engines.running import Engine, EngineError, EngineKilled, run
 from carom.verify.errors import INCIDENCES
 from carom.verify.scoring.reading import CASE
 
 Array = NDArray[np.float64]
 
 STEPS = 2000  # per duration of Hertz's contact
-SPEED = 1e-3  # m/s: overlaps so small that a rotating normal costs nothing
+OVERLAP = 1e-6  # d_max/R*: so small that the turning of a normal costs some 2e-5 in psi_2
 
 
 class Measured(NamedTuple):
@@ -69,7 +69,7 @@ class Bench:
         """Return the measurements as what JSON can hold."""
         return {
             "engine": self.engine,
-            "version": self.version,
+            "version": self.version or None,
             "chi": self.pair.chi,
             "psi_in": list(self.psi),
             "steps": self.steps,
@@ -78,9 +78,10 @@ class Bench:
 
     def __str__(self) -> str:
         head = f"{'max':>7s} {'at':>5s} {'rms':>7s} {'law':>8s} {'seconds':>8s}"
+        what = f"{self.engine} {self.version}".strip()
         return "\n".join(
             [
-                f"|error in psi_2| of {self.engine} {self.version}, chi = {self.pair.chi:.5g},"
+                f"|error in psi_2| of {what}, chi = {self.pair.chi:.5g},"
                 f" psi_1 from {min(self.psi):g} to {max(self.psi):g}, {self.steps} steps a contact",
                 f"  {'':32s} {head}",
                 *(_row(one) for one in self.measured),
@@ -96,7 +97,7 @@ def steel_on_steel() -> Pair:
 
 def bench(
     engine: Engine,
-    entries: Sequence[Entry] = CATALOGUE,
+    entries: Sequence[Entry | Law] = CATALOGUE,
     *,
     pair: Pair | None = None,
     psi: ArrayLike = INCIDENCES,
@@ -110,7 +111,7 @@ def bench(
     ----------
     engine : Engine
         `carom.verify.Lammps()`, `carom.verify.Liggghts()` or `carom.verify.Yade()`.
-    entries : sequence of Entry
+    entries : sequence of Entry or Law
         Laws; those that the program lacks, and the same law twice, are left out.
     pair : Pair, optional
         By default a steel ball on a steel half-space, chi = 1.4412.
@@ -138,23 +139,26 @@ def bench(
     bodies, psis = steel_on_steel() if pair is None else pair, finite_line("psi", psi)
     if engine.executable() is None:
         raise InputError(f"{engine.name}: {engine.remedy}")
-    known = _supported(engine, entries)
-    speed = psis * bodies.scales(SPEED).tangential_speed
+    known = _supported(engine, [as_entry(given) for given in entries])
+    slow = (OVERLAP * bodies.effective_radius / bodies.scales(1.0).length) ** 1.25
+    speed = psis * bodies.scales(slow).tangential_speed
     version, measured, outcomes = "", [], {}
     for done, entry in enumerate(known, start=1):
         assert isinstance(entry.law, ContactLaw)
         experiment = Experiment(
             pair=bodies,
             law=entry.law,
-            normal_speed=SPEED,
+            normal_speed=slow,
             tangential_speed=tuple(speed.tolist()),
             steps=steps,
         )
         try:
             found = run(engine, experiment, time_limit=time_limit)
         except EngineError as error:
-            nothing = (np.nan,) * 5
-            measured.append(Measured(entry, *nothing, str(error)))
+            measured.append(Measured(entry, *(np.nan,) * 5, str(error)))
+            if isinstance(error, EngineKilled):
+                measured += [Measured(e, *(np.nan,) * 5, "not run") for e in known[done:]]
+                break
         else:
             version = found.version
             outcomes[entry.label] = (experiment, found.outcomes)

@@ -7,12 +7,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.arrays import finite_line
-from carom.dimensionless.rebounds import rebound
-from carom.laws.dem import ContactLaw
+from carom.laws.dem import ContactLaw, Law
 from carom.quantities import positive, refusal
-from carom.verify.catalogue import CATALOGUE, Entry
-from carom.verify.errors import INCIDENCES, energy_gain, force_error, solid_kappa
+from carom.verify.catalogue import CATALOGUE, Entry, as_entry
+from carom.verify.errors import (
+    INCIDENCES,
+    energy_gain,
+    exact_rebound,
+    force_error,
+    incidences,
+    solid_kappa,
+)
 from carom.verify.steps import Step, advised_steps
 
 if TYPE_CHECKING:
@@ -63,7 +68,7 @@ class Ranking:
 
         laws = [standing.entry.law for standing in self.standings]
         given = [law.rebound(self.psi, self.chi, kappa=self.kappa) for law in laws]
-        exact = rebound(self.psi, self.chi)
+        exact = exact_rebound(np.array(self.psi), self.chi)
         steps = [
             [step.steps if step else -1 for step in (s.step, s.fine_step)] for s in self.standings
         ]
@@ -96,7 +101,7 @@ class Ranking:
 
 
 def rank(
-    entries: Sequence[Entry] = CATALOGUE,
+    entries: Sequence[Entry | Law] = CATALOGUE,
     *,
     chi: float = CHI,
     kappa: float | None = None,
@@ -109,8 +114,8 @@ def rank(
 
     Parameters
     ----------
-    entries : sequence of Entry
-        Laws with a label and who uses them; by default all of the catalogue.
+    entries : sequence of Entry or Law
+        Laws, or entries that have a label and who uses them; by default all of the catalogue.
     chi : float
         (kappa/2)(m_n/m_t), positive.
     kappa : float, optional
@@ -132,12 +137,12 @@ def rank(
     >>> best.entry.label, round(best.max_error, 3)
     ('linear spring, k_t/k_n = kappa', 0.176)
     """
-    ratio, psis = positive("chi", chi), finite_line("psi", psi)
+    ratio, psis = positive("chi", chi), incidences(psi)
     if not entries:
         raise refusal("entries", entries, "give one law at least")
     own = solid_kappa(ratio) if kappa is None else positive("kappa", kappa)
     standings = []
-    for done, entry in enumerate(entries, start=1):
+    for done, entry in enumerate(map(as_entry, entries), start=1):
         standings.append(_standing(entry, psis, ratio, own))
         if progress is not None:
             progress(done, len(entries))
@@ -148,7 +153,7 @@ def rank(
 def _standing(entry: Entry, psi: Any, chi: float, kappa: float) -> Standing:
     law = entry.law
     given = law.rebound(psi, chi, kappa=kappa)
-    error = given - rebound(psi, chi)
+    error = given - exact_rebound(psi, chi)
     largest = float(np.max(np.abs(error)))
     forces = [force_error(law, value, chi, kappa=kappa).rms for value in psi if value != 0.0]
     step = fine = None

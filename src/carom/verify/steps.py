@@ -46,7 +46,7 @@ def step_error(
     True
     """
     counted("steps", steps, FEWEST)
-    psis = finite_line("psi", psi)
+    psis, chi = finite_line("psi", psi), positive("chi", chi)
     converged = as_law(law).rebound(psis, chi, kappa=kappa)
     stepped = law.rebound(psis, chi, kappa=kappa, steps=steps)
     return float(np.max(np.abs(stepped - converged)))
@@ -77,7 +77,7 @@ def advised_steps(
     28
     """
     positive("tolerance", allowed)
-    psis = finite_line("psi", psi)
+    psis, chi = finite_line("psi", psi), positive("chi", chi)
     converged = as_law(law).rebound(psis, chi, kappa=kappa)
     if not np.all(np.isfinite(converged)):
         return None

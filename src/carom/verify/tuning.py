@@ -7,8 +7,6 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from carom.arrays import finite_line
-from carom.dimensionless.rebounds import rebound
 from carom.laws.dem import (
     ContactLaw,
     EdemHertzMindlin,
@@ -18,18 +16,21 @@ from carom.laws.dem import (
     Law,
     LiggghtsHertz,
     LinearSpring,
+    StrongeLaw,
     ThorntonLaw,
     WaltonBraunLaw,
+    YadeMindlin,
 )
 from carom.quantities import positive, refusal
-from carom.verify.errors import as_law, solid_kappa
+from carom.verify.errors import as_law, exact_rebound, incidences, solid_kappa
 from carom.verify.steps import Step, advised_steps
 
 Array = NDArray[np.float64]
 AnyLaw = TypeVar("AnyLaw", bound=Law)
 
-FREE = {  # the parameter that can be chosen, and its range
+FREE = {  # the parameter that can be chosen, and its range; of a stiffness_ratio in units of kappa
     LinearSpring: ("stiffness_ratio", 0.05, 2.5),
+    StrongeLaw: ("stiffness_ratio", 0.05, 2.5),
     HertzLinearHistory: ("stiffness", 0.05, 2.5),
     LammpsMindlin: ("stiffness", 0.05, 2.5),
     WaltonBraunLaw: ("stiffness_ratio", 0.05, 2.5),
@@ -44,8 +45,10 @@ TUNED: tuple[Law, ...] = (
     LammpsMindlin("mindlin_rescale/force"),
     LiggghtsHertz(),
     EdemHertzMindlin(),
+    YadeMindlin(),
     ThorntonLaw(),
     WaltonBraunLaw(),
+    StrongeLaw(),
     HardSphere(0.4),
 )
 TRIALS = 17  # of a parameter, before the best is refined
@@ -105,7 +108,7 @@ class Tuning:
                 f"  {'':32s} {head}{'steps':>6s} {'cost':>7s}",
                 *rows,
                 "max, rms: error in psi_2 that remains; steps: per contact, for a tenth of it;"
-                " cost: error in psi_2 of such a time step",
+                " cost: error in psi_2 of such a time step; all for e = 1",
             ]
         )
 
@@ -122,8 +125,8 @@ def tune(
     """Return the parameters with which contact laws come closest to the exact rebound.
 
     Minimises max |psi_2 of the law - psi_2(psi_1, chi)|, or its root mean square, over the
-    incidences; stiffnesses from 0.05 to 2.5 in their units, beta_0 from -1 to 1. Laws without a
-    free parameter are measured as they are.
+    incidences, both for e = 1; stiffnesses from 0.05 to 2.5 of those of the bodies, beta_0 from -1
+    to 1. Laws without a free parameter are measured as they are.
 
     Parameters
     ----------
@@ -154,10 +157,10 @@ def tune(
     """
     ratio = positive("chi", chi)
     own = solid_kappa(ratio) if kappa is None else positive("kappa", kappa)
-    psis = np.linspace(0.0, 4.0 * ratio, 61)[1:] if psi is None else finite_line("psi", psi)
+    psis = np.linspace(0.0, 4.0 * ratio, 61)[1:] if psi is None else incidences(psi)
     if measure not in MEASURES:
         raise refusal("measure", measure, f"must be {' or '.join(MEASURES)}")
-    exact = rebound(psis, ratio)
+    exact = exact_rebound(psis, ratio)
     advice = []
     for done, law in enumerate(laws, start=1):
         advice.append(_advice(as_law(law), psis, exact, ratio, own, measure))
@@ -180,6 +183,8 @@ def _advice(law: Law, psi: Array, exact: Array, chi: float, kappa: float, measur
     name, best = None, law
     if type(law) in FREE:
         name, low, high = FREE[type(law)]
+        if name == "stiffness_ratio":
+            low, high = kappa * low, kappa * high
         best = _closest(law, name, low, high, cost)
     left, before = error(best), error(law)
     largest = float(np.max(np.abs(left)))
@@ -189,7 +194,7 @@ def _advice(law: Law, psi: Array, exact: Array, chi: float, kappa: float, measur
     return Advice(
         best,
         name,
-        None if name is None else float(getattr(best, name)),
+        None if name is None else float(getattr(best, name) or kappa),
         largest,
         float(np.sqrt(np.mean(left**2))),
         float(np.max(np.abs(before))),
@@ -217,7 +222,8 @@ def _closest(law: Law, name: str, low: float, high: float, cost: Callable[[Law],
                 options={"xatol": 1e-5},
             )
             found += [(minimum.fun, minimum.x), (costs[i], scan[i])]
-    return changed(min(found)[1])
+    least, value = min(found)
+    return changed(value) if least < cost(law) else law
 
 
 def called(law: Law) -> str:

@@ -106,7 +106,7 @@ def _run(
             named(law),
             pair=None if case is None else pair_of(read_case(case)),
             steps=steps,
-            time_limit=positive("time", time_limit),
+            time_limit=positive("time_limit", time_limit),
             progress=progress,
         )
     if output is not None and not found.failed:

@@ -39,6 +39,7 @@ def laws_command(
     One law for all solid spheres: carom verify laws --law mindlin --map mindlin.png
     """
     from carom.cli.compiling import announced
+    from carom.cli.files import refuse_same
     from carom.cli.progress import bar
     from carom.quantities import InputError, finite, positive
     from carom.storage import FIGURES, TABLES, checked_output, save
@@ -48,6 +49,9 @@ def laws_command(
 
     if error_map is not None and law is None:
         raise InputError("map: is of one law; give --law, e.g. --law mindlin")
+    if error_map is not None and (kappa is not None or psi):
+        raise InputError("map: is of solid spheres, all psi_1; leave --kappa and --psi out")
+    refuse_same({"plot": plot, "output": output, "map": error_map})
     for path, endings in ((plot, FIGURES), (output, TABLES), (error_map, (*FIGURES, *TABLES))):
         if path is not None:
             checked_output(path, endings)

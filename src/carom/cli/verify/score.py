@@ -41,9 +41,11 @@ def score_command(
     Velocities or forces: carom verify score results.csv --case examples/steel_ball.toml
     """
     from carom.cli.compiling import announced
+    from carom.cli.files import refuse_same
     from carom.storage import FIGURES, TABLES, checked_output, save
     from carom.verify.scoring import score
 
+    refuse_same({"results": results, "case": case, "plot": plot, "output": output})
     for path, endings in ((plot, FIGURES), (output, TABLES)):
         if path is not None:
             checked_output(path, endings)

@@ -12,7 +12,7 @@ from carom.dimensionless.rebounds import available_cores
 from carom.laws.dem.adaptive import rebounds
 from carom.laws.dem.coefficients import Coefficients
 from carom.laws.dem.stepping import HISTORY, longest, stepped, stepped_rebounds
-from carom.quantities import counted, refusal
+from carom.quantities import counted, finite, positive, refusal
 
 Array = NDArray[np.float64]
 
@@ -121,7 +121,7 @@ class ContactLaw(Law):
 
         Columns: time, penetration, normal_velocity, psi, normal_force, tangential_force.
 
-        Raises InputError if `steps` is below 4, or the bodies do not part.
+        Raises InputError if a value is out of range, or the bodies do not part.
 
         Examples
         --------
@@ -131,7 +131,8 @@ class ContactLaw(Law):
         0.8
         """
         counted("steps", steps, FEWEST_STEPS)
-        law = self.coefficients(chi, SOLID * chi if kappa is None else kappa)
+        chi, psi = positive("chi", chi), finite("psi_in", psi)
+        law = self.coefficients(chi, SOLID * chi if kappa is None else positive("kappa", kappa))
         record = np.empty((longest(steps), len(HISTORY)))
         count, _ = stepped(law, abs(psi), steps, record)
         if count < 0:

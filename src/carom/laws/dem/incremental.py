@@ -16,7 +16,8 @@ class ThorntonLaw(ContactLaw):
     dT = theta k_t dU +- (1 - theta) mu dN, k_t = 2 G* a; theta^3 = 1 - T/(mu N) in first loading,
     1 - (T* - T)/(2 mu N) in unloading, 1 - (T - T**)/(2 mu N) in reloading, and theta = 1 where
     k_t |dU| < mu dN; turning points move with the load, dT* = mu dN, dT** = -mu dN. As the latter
-    goes on in contacts that stick, impacts of small psi_1 may gain energy.
+    goes on in contacts that stick, impacts of small psi_1 may gain energy. theta = 1 is decided
+    step by step; kept until sum k_t |dU| > sum mu dN, psi_2 would be some 0.01 further off.
 
     Examples
     --------

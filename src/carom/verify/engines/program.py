@@ -1,4 +1,4 @@
-"""What DEM programs on this machine have in common: where they are, how they are called."""
+"""What DEM programs have in common: where they are, how they are called."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Program:
 
     def executable(self) -> Path | None:
         """Return where the program is, or None."""
-        found = shutil.which(self.path or self.called)
+        found = shutil.which(self.called if self.path is None else self.path)
         return Path(found).absolute() if found else None
 
     def command(self, folder: Path) -> list[str]:

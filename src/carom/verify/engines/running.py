@@ -11,7 +11,7 @@ import warnings
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
-from typing import NamedTuple, Protocol
+from typing import IO, NamedTuple, Protocol
 
 import numpy as np
 
@@ -21,11 +21,17 @@ from carom.verify.engines.experiments import Experiment, Outcomes
 
 PRINTED = "printed.txt"  # what the program printed, in its folder
 LAST_LINES, LAST_CHARACTERS = 3, 300
+READ, MOST_PRINTED = 1 << 16, 1 << 26  # bytes of it
+GLANCE = 0.1  # s
 LACKING = r"(?:error while loading shared libraries|Library not loaded): ([^:\s]+)"
 
 
 class EngineError(RuntimeError):
     """A DEM program has failed; the message ends with its last words."""
+
+
+class EngineKilled(EngineError):
+    """It had to be killed; what comes next would most likely have to be, too."""
 
 
 class Engine(Protocol):
@@ -107,7 +113,7 @@ def run(engine: Engine, experiment: Experiment, *, time_limit: float = 120.0) ->
     Traceback (most recent call last):
     carom.quantities.InputError: LAMMPS: '/nowhere/lmp' is not an executable; give another path
     """
-    limit = positive("time", time_limit)
+    limit = positive("time_limit", time_limit)
     if not engine.supports(experiment.law):
         raise refusal("law", experiment.law, f"{engine.name} does not have it")
     if engine.executable() is None:
@@ -138,17 +144,29 @@ def _execute(engine: Engine, folder: Path, time_limit: float) -> None:
         except OSError as error:
             raise EngineError(f"{engine.name} does not start: {error.strerror}") from None
         try:
-            code = process.wait(time_limit)
-        except subprocess.TimeoutExpired:
-            code = None
+            reason = _awaited(process, printed, time_limit)
         finally:
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGKILL)
             process.wait()
-    if code is None:
-        raise _failure(engine, folder, f"was killed at its time limit of {time_limit:g} s")
-    if code != 0:
-        raise _crash(engine, folder, code)
+    if reason is not None:
+        raise _failure(engine, folder, reason, EngineKilled)
+    if process.returncode != 0:
+        raise _crash(engine, folder, process.returncode)
+
+
+def _awaited(process: subprocess.Popen[bytes], printed: IO[bytes], limit: float) -> str | None:
+    """Return nothing when a process has ended, or why it has to be killed."""
+    deadline = perf_counter() + limit
+    while True:
+        try:
+            process.wait(max(0.0, min(GLANCE, deadline - perf_counter())))
+            return None
+        except subprocess.TimeoutExpired:
+            if perf_counter() >= deadline:
+                return f"was killed at its time limit of {limit:g} s"
+            if os.fstat(printed.fileno()).st_size > MOST_PRINTED:
+                return f"was killed as it printed more than {MOST_PRINTED >> 20} MB"
 
 
 def _results(engine: Engine, folder: Path, experiment: Experiment) -> Outcomes:
@@ -179,15 +197,24 @@ def _crash(engine: Engine, folder: Path, code: int) -> EngineError:
     return _failure(engine, folder, f"has crashed ({_reason(code)})")
 
 
-def _failure(engine: Engine, folder: Path, what: str) -> EngineError:
+def _failure(
+    engine: Engine, folder: Path, what: str, kind: type[EngineError] = EngineError
+) -> EngineError:
     """Return the error that tells what has happened and the last words of a program."""
     lines = [" ".join(line.split()) for line in _printed(folder).splitlines() if line.strip()]
     words = " | ".join(lines[-LAST_LINES:])[-LAST_CHARACTERS:] or "nothing"
-    return EngineError(f"{engine.name} {what}; its last words: {words}")
+    return kind(f"{engine.name} {what}; its last words: {words}")
 
 
 def _printed(folder: Path) -> str:
-    return (folder / PRINTED).read_text(encoding="utf-8", errors="replace")
+    """Return the beginning and the end of what a program has printed, as text that can be shown."""
+    with (folder / PRINTED).open("rb") as printed:
+        size = os.fstat(printed.fileno()).st_size
+        content = printed.read(READ)
+        printed.seek(max(READ, size - READ))
+        content += printed.read(READ)
+    text = content.decode("utf-8", errors="replace")
+    return "".join(c if c.isprintable() or c in "\n\t" else "?" for c in text)
 
 
 def _reason(code: int) -> str:

@@ -25,6 +25,7 @@ __all__ = ["TOLERANCE", "Score", "score"]
 
 TOLERANCE = 0.01  # in psi_2: a hundredth of the largest psi_1 that sticks from the first touch
 FEWEST = 3  # points
+BODIES, SAME = ("friction", "chi", "kappa", "effective_radius", "normal_mass"), 1e-6
 DIMENSIONLESS = ("psi_in", "psi_out", "chi")
 
 
@@ -90,7 +91,18 @@ def score(
     if kind != "psi" and chi is not None:
         raise refusal("chi", chi, "it follows from the case; leave it out")
     scored = {"psi": _score_psi, "velocities": _score_velocities, "history": _score_history}
-    return scored[kind](given, table.case if case is None and chi is None else case, chi, limit)
+    return scored[kind](given, _case(case, chi, table.case), chi, limit)
+
+
+def _case(case: Any, chi: Any, own: Any) -> Any:
+    """Return what was given as a case, or what the file holds; both must have the same bodies."""
+    if own is None or chi is not None:
+        return case
+    if case is not None and any(
+        abs(getattr(_pair(case), name) / getattr(_pair(own), name) - 1.0) > SAME for name in BODIES
+    ):
+        raise InputError("case: its bodies are not those of the results; leave it out")
+    return own if case is None else case
 
 
 def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
@@ -115,7 +127,7 @@ def _score_psi(results: Results, case: Any, chi: Any, limit: float) -> Score:
     _require_points(results)
     chis = _chis(results, case, chi)
     before, after = results["psi_in"], results["psi_out"]
-    with np.errstate(over="ignore"):  # what is too large is refused next
+    with np.errstate(over="ignore", invalid="ignore"):  # what is too large is refused next
         change = (after - before) * (after + before)
     points = compared(before, after, chis, change, results)
     elastic = np.ones(len(results))
