@@ -19,7 +19,7 @@ from carom.verify.catalogue import CATALOGUE, Entry, as_entry
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
 from carom.verify.engines.running import Engine, EngineError, EngineKilled, run
 from carom.verify.errors import INCIDENCES
-from carom.verify.scoring.reading import CASE
+from carom.readings import CASE
 
 Array = NDArray[np.float64]
 

@@ -17,7 +17,7 @@ from carom.verify.scoring.audits import energy_audit, friction_audit, notes_on
 from carom.verify.scoring.histories import NAMES as HISTORY
 from carom.verify.scoring.histories import score_history
 from carom.verify.scoring.points import compared
-from carom.verify.scoring.reading import Array, Results, in_units, read_table
+from carom.readings import Array, Results, in_units, read_table
 from carom.verify.scoring.record import Score
 from carom.verify.scoring.velocities import AFTER, BEFORE, score_velocities
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from carom.dimensionless import hertz
 from carom.pairs import Scales
 from carom.quantities import InputError
-from carom.verify.scoring.reading import Array, Mask, Results
+from carom.readings import Array, Mask, Results
 
 FEWEST = 20  # rows with a force
 SMALL = 0.1  # of the peak: what the first and last force may be

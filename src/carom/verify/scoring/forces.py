@@ -9,7 +9,7 @@ from carom.dimensionless import hertz
 from carom.dimensionless.solution import History
 from carom.impacts import Impact
 from carom.verify.scoring.contact import Samples
-from carom.verify.scoring.reading import Array
+from carom.readings import Array
 
 TAIL = 64  # instants added where the exact contact outlasts the one that was given
 

@@ -11,7 +11,7 @@ from carom.verify.scoring.audits import PRINTED, energy_audit, restitution_audit
 from carom.verify.scoring.contact import contact_samples
 from carom.verify.scoring.forces import Forces
 from carom.verify.scoring.points import Points, compared
-from carom.verify.scoring.reading import Array, Results
+from carom.readings import Array, Results
 
 NAMES = ("time", "normal_force", "tangential_force", "contact_velocity")
 

@@ -14,7 +14,7 @@ from carom.histories import Tangential, inertia
 from carom.pairs import Pair
 from carom.quantities import InputError
 from carom.results import Finding
-from carom.verify.scoring.reading import Results
+from carom.readings import Results
 
 UNITS = {  # by the ratio of the impulse in the spins to that in the speeds
     30.0 / pi: "in rpm; head the columns 'spin [rpm]' and 'spin_out [rpm]'",

@@ -11,7 +11,7 @@ from carom.curves import regime_map
 from carom.dimensionless.phases import Status
 from carom.dimensionless.rebounds import solved
 from carom.quantities import InputError
-from carom.verify.scoring.reading import Array, Results, named
+from carom.readings import Array, Results, named
 
 LARGEST = 1e9  # of |psi|: there rounding is as large as errors that matter
 

@@ -14,7 +14,7 @@ from carom.results import Finding
 from carom.verify.scoring.audits import energy_audit, friction_audit, restitution_audit
 from carom.verify.scoring.momentum import momentum_audit
 from carom.verify.scoring.points import Points, compared
-from carom.verify.scoring.reading import Results
+from carom.readings import Results
 
 BEFORE = ("normal_speed", "tangential_speed", "speed", "angle", "spin", "spin2")
 AFTER = ("normal_speed_out", "tangential_speed_out", "spin_out", "spin2_out")
