@@ -61,6 +61,21 @@ GLOSSARY = {
         "$c_t/c_n$", "1", "tangential damping in units of the normal one"
     ),
     "normal_restitution": Quantity("$e$", "1", "normal velocity, after to before"),
+    "contact_beta": Quantity(
+        r"$\beta$", "1", "tangential restitution of the contact point, $-V_x'/V_x$"
+    ),
+    "contact_angle": Quantity(
+        r"$\theta_c$", "rad", "angle of incidence of the contact point, from the normal"
+    ),
+    "contact_rebound_angle": Quantity(
+        r"$\theta_c'$", "rad", "angle of rebound of the contact point, from the normal"
+    ),
+    "impulse_ratio": Quantity("$J_t/J_n$", "1", "tangential impulse to normal impulse"),
+    "normal_speed_out": Quantity("$V_1'$", "m/s", "normal speed of the centres after"),
+    "tangential_impulse": Quantity("$J_t$", "N s", "impulse of the tangential force, against $x$"),
+    "contact_velocity_out": Quantity(
+        "$V_x'$", "m/s", "tangential velocity of the contact point after"
+    ),
     # a history
     "time": Quantity("$t$", "s", "time since the first touch"),
     "penetration": Quantity("$d$", "m", "normal approach of the bodies"),

@@ -1,29 +1,56 @@
-"""Reading a user's results: a CSV file, a mapping of columns or a data frame, in SI units."""
+"""Reading a user's results in SI units: from a CSV file, a mapping of columns or a data frame."""
 
-import csv
-import json
-import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, NamedTuple
+from difflib import get_close_matches
+from math import nan, pi
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carom.glossary import GLOSSARY
 from carom.quantities import InputError, nearest, number, refusal
+from carom.sheets import CASE, GAP, SHOWN, Table, name_and_unit, named, read_table, spelled
+
+__all__ = [
+    "CASE",
+    "ERROR",
+    "SHOWN",
+    "Array",
+    "Mask",
+    "Results",
+    "Table",
+    "in_units",
+    "named",
+    "others",
+    "read_table",
+    "spelled",
+    "with_errors",
+]
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-ALIASES = {"psi_1": "psi_in", "psi_2": "psi_out", "angle_deg": "angle [deg]"}
-SPELLINGS = {name: alias for alias, name in ALIASES.items()}
-CASE = "# case:"  # begins a comment that holds the bodies as JSON
-HEAD = re.compile(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*")
-PLAIN = ("", "-", "1")  # units of what has none
+ERROR = "_error"  # ends the name of a column of standard deviations
 DELETE = "correct or delete what is there"
-SHOWN = 5  # rows that a message names
+NEAR = 0.8  # similarity of names from which a column is taken for a misspelt one
+SYMBOLS = {  # what people call a column that has a name of its own here
+    "theta": "angle",
+    "incident_angle": "angle",
+    "impact_angle": "angle",
+    "omega": "spin_out",
+    "e": "normal_restitution",
+    "e_n": "normal_restitution",
+    "e_t": "tangential_restitution",
+    "beta": "contact_beta",
+    "e_c": "contact_restitution",
+    "psi1": "psi_in",
+    "psi2": "psi_out",
+}
+
+
+UNITS = {"_deg": "deg", "_rad_s": "rad/s", "_rad": "rad", "_rpm": "rpm", "_m_s": "m/s"}  # in names
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +88,11 @@ class Results:
                 needed = ", ".join(spelled(key) for key in names)
                 raise InputError(f"{spelled(name)}: column missing; {hint} needed are {needed}")
 
+    def require_rows(self, fewest: int) -> None:
+        """Raise InputError if there are too few rows."""
+        if len(self) < fewest:
+            raise InputError(f"results: too few points: {len(self)}, at least {fewest} are needed")
+
     def refuse(self, name: str, bad: Mask, allowed: str) -> None:
         """Raise InputError for a column that is bad in some rows, naming them."""
         if bad.any():
@@ -69,178 +101,72 @@ class Results:
             raise InputError(f"{spelled(name)}: {value} in {where} cannot be used; {allowed}")
 
 
-def spelled(name: str) -> str:
-    """Return how a user may call a column."""
-    return SPELLINGS.get(name, name)
+def in_units(table: Table, known: Iterable[str], gaps: Collection[str] = ()) -> Results:
+    """Return the columns whose names are known, in SI units; the others are there, but NaN.
 
+    Columns without a unit are SI. In columns of `gaps`, and of their errors, a cell "-" stands for
+    what was not measured: NaN.
 
-def named(word: str, rows: Iterable[int], total: int = 0) -> str:
-    """Return rows in words, of so many in total.
+    Raises InputError for a cell of them that is not a number, a unit that does not fit, an error
+    that has no unit where its column has one, or angles that cannot be in rad.
 
     Examples
     --------
-    >>> named("line", [3]), named("row", [1, 2, 5]), named("row", [1, 2], 2)
-    ('line 3', 'rows 1, 2 and 5', 'every row')
-    """
-    texts = [str(row) for row in rows]
-    if len(texts) == total > 1:
-        return f"every {word}"
-    if len(texts) > SHOWN + 1:
-        texts = [*texts[:SHOWN], f"{len(texts) - SHOWN} more"]
-    if len(texts) < 2:
-        return " ".join([word, *texts])
-    return f"{word}s {', '.join(texts[:-1])} and {texts[-1]}"
-
-
-class Table(NamedTuple):
-    """Cells as given, by head of column, what the rows are called, and the case if it is there."""
-
-    cells: Mapping[str, Any]
-    rows: NDArray[np.int64]
-    word: str
-    case: Mapping[str, Any] | None = None
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The names of the columns, without units."""
-        return tuple(name_and_unit(head)[0] for head in self.cells)
-
-
-def read_table(source: Any) -> Table:
-    """Return the cells of a CSV file, a mapping of columns or a data frame.
-
-    Raises InputError if it cannot be read, has no rows, columns of one name or unequal length.
-    """
-    if isinstance(source, str | Path):
-        table = _read_csv(Path(source))
-    elif hasattr(source, "items"):  # a data frame, too
-        cells = _columns(source)
-        rows = np.arange(1, 1 + len(next(iter(cells.values()), [])))
-        table = Table(cells, rows, "row")
-    else:
-        raise refusal("results", source, "must be the name of a CSV file, or columns by name")
-    if not len(table.rows):
-        raise InputError("results: no rows; there must be names of columns, and numbers below them")
-    _check_once(table.names)
-    return table
-
-
-def in_units(table: Table, known: Iterable[str]) -> Results:
-    """Return the columns whose names are known, in SI units; the others are there, but NaN.
-
-    Raises InputError for a cell of them that is not a number, or a unit that does not fit.
+    >>> table = read_table({"angle [deg]": [0.0, 60.0], "spin_out [rpm]": ["-", -600]})
+    >>> given = in_units(table, ("angle", "spin_out"), gaps=("spin_out",))
+    >>> given["angle"].round(4), given["spin_out"].round(2)
+    (array([0.    , 1.0472]), array([   nan, -62.83]))
     """
     columns: dict[str, Array] = {}
-    for head, cells in table.cells.items():
-        name, unit = name_and_unit(head)
+    units = dict(name_and_unit(head) for head in table.cells)
+    known = set(known)
+    for name, cells in zip(units, table.cells.values(), strict=True):
         if name not in known:
-            columns[name] = np.full(len(table.rows), np.nan)
+            columns[name] = np.full(len(table.rows), nan)
             continue
-        columns[name], reason = _numbers(name, unit, cells)
-        missing = ~np.isfinite(columns[name])
-        if missing.any():
-            where = named(table.word, table.rows[missing])
-            raise InputError(f"{spelled(name)}: not a number in {where}; {reason or DELETE}")
-    return Results(columns, table.rows, table.word)
+        _check_error_unit(name, units)
+        open_ended = name.removesuffix(ERROR) in gaps
+        columns[name] = _column(name, units[name], cells, table, open_ended)
+    results = Results(columns, table.rows, table.word)
+    for name in known & {name for name in units if _is_angle(name)}:
+        _check_angle(results, name, units[name])
+    return results
 
 
-def _read_csv(path: Path) -> Table:
-    text = _text(path)
-    lines = [
-        (place, line)
-        for place, line in enumerate(text.splitlines(), 1)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
-    if not lines:
-        raise refusal("results", str(path), "it is empty; there must be a header and numbers")
-    try:
-        cells = list(csv.reader((line for _, line in lines), skipinitialspace=True, strict=True))
-    except csv.Error as error:
-        raise refusal("results", str(path), f"it is not CSV; {error}") from None
-    head, body = [text.strip() for text in cells[0]], cells[1:]
-    if len(cells) != len(lines) or len(head) < 2:
-        raise refusal("results", str(path), "it is not CSV; give columns separated by commas")
-    _check_head(head)
-    for (place, _), row in zip(lines[1:], body, strict=True):
-        if len(row) != len(head):
-            message = f"line {place} has {len(row)} values, the header has {len(head)} names"
-            raise refusal("results", str(path), f"it is not CSV; {message}")
-    table = {name: [row[i] for row in body] for i, name in enumerate(head)}
-    places = np.array([place for place, _ in lines[1:]], dtype=np.int64)
-    return Table(table, places, "line", _case_in(text, path))
+def with_errors(names: Iterable[str]) -> tuple[str, ...]:
+    """Return names of columns, and of the columns of their standard deviations.
+
+    Examples
+    --------
+    >>> with_errors(["angle", "spin_out"])
+    ('angle', 'angle_error', 'spin_out', 'spin_out_error')
+    """
+    return tuple(each for name in names for each in (name, name + ERROR))
 
 
-def _case_in(text: str, path: Path) -> Mapping[str, Any] | None:
-    """Return the case that a comment holds, if any."""
-    for line in text.splitlines():
-        if line.startswith(CASE):
-            try:
-                return dict(json.loads(line.removeprefix(CASE)))
-            except (ValueError, TypeError):
-                raise refusal("results", str(path), f"after '{CASE}' there is no JSON") from None
-    return None
+def others(table: Table, known: Iterable[str]) -> tuple[str, ...]:
+    """Return the columns that are not known and mean nothing here, for a user to be told.
 
+    Raises InputError for one that is likely to be a known one misspelt, with the nearest.
 
-def _text(path: Path) -> str:
-    try:
-        text = path.read_bytes().decode("utf-8-sig")
-    except OSError as error:
-        reason = error.strerror or error
-        raise refusal("results", str(path), f"it cannot be read; {reason}") from None
-    except UnicodeDecodeError:
-        raise refusal("results", str(path), "it is not text; give a CSV file") from None
-    if "\0" in text:
-        raise refusal("results", str(path), "it is not text; give a CSV file")
-    return text
-
-
-def _check_head(head: list[str]) -> None:
-    """Raise InputError if a header is none: numbers, or a name twice."""
-    if all(_is_number(text) for text in head):
-        raise InputError(
-            "results: the first line holds numbers; before it a line, without #, must name the "
-            "columns, e.g. psi_1,psi_2,chi"
-        )
-    _check_once(head)
-
-
-def _check_once(names: Sequence[str]) -> None:
-    twice = [name for i, name in enumerate(names) if name in names[:i]]
-    if twice:
-        raise InputError(f"{spelled(twice[0])!r}: two columns of this name; leave one of them out")
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
-
-
-def _columns(source: Any) -> dict[str, Any]:
-    table = {str(name): _line(str(name), values) for name, values in source.items()}
-    lengths = {name: len(values) for name, values in table.items()}
-    if len(set(lengths.values())) > 1:
-        listed = ", ".join(f"{name} {length}" for name, length in lengths.items())
-        raise InputError(f"results: columns must be equally long; rows are {listed}")
-    return table
-
-
-def _line(name: str, values: Any) -> Any:
-    if isinstance(values, np.ma.MaskedArray):
-        values = np.ma.filled(values.astype(np.float64), np.nan)
-    if np.ndim(values) != 1:
-        raise refusal(name, values, "a column must be a list of numbers")
-    return list(values)
-
-
-def name_and_unit(head: str) -> tuple[str, str]:
-    """Return name and unit of a column from its head, "spin [rpm]" or "spin (rpm)"."""
-    head = ALIASES.get(head.strip(), head)
-    match = HEAD.fullmatch(head)
-    name, unit = (match[1], match[2] or match[3] or "") if match else (head, "")
-    return ALIASES.get(name, name), "" if unit in PLAIN else unit
+    Examples
+    --------
+    >>> others(read_table({"angle": [0.1], "run": [1]}), ["angle", "spin_out"])
+    ('run',)
+    """
+    known = list(known)
+    unknown = tuple(name for name in table.names if name not in known)
+    for name in unknown:
+        hint = _likely(name, known)
+        if hint:
+            raise InputError(f"{name}: unknown column; did you mean {hint!r}?")
+    measured = [name for name in table.names if name.endswith(ERROR)]
+    for name in measured:
+        if name.removesuffix(ERROR) not in table.names:
+            raise InputError(
+                f"{name}: the column {name.removesuffix(ERROR)!r} it goes with is missing"
+            )
+    return unknown
 
 
 def entry(name: str) -> str:
@@ -248,10 +174,60 @@ def entry(name: str) -> str:
 
     Examples
     --------
-    >>> entry("normal_speed_out"), entry("spin_out")
-    ('normal_speed', 'spin_out')
+    >>> entry("spin_out"), entry("spin_out_error")
+    ('spin_out', 'spin_out')
     """
-    return name if name in GLOSSARY else name.removesuffix("_out")
+    return name.removesuffix(ERROR)
+
+
+def _likely(name: str, known: list[str]) -> str:
+    """Return the head of a known column that another one stands for, or nothing."""
+    plain = name.lower().replace(" ", "_").replace("-", "_")
+    unit = next((end for end in UNITS if plain.endswith(end)), "")
+    plain = plain.removesuffix(unit)
+    end = ERROR if plain.endswith(ERROR) else ""
+    plain = plain.removesuffix(ERROR)
+    found = get_close_matches(SYMBOLS.get(plain, plain) + end, known, n=1, cutoff=NEAR)
+    return spelled(found[0]) + (f" [{UNITS[unit]}]" if unit else "") if found else ""
+
+
+def _check_error_unit(name: str, units: Mapping[str, str]) -> None:
+    """Raise InputError for an error whose unit can only be guessed."""
+    whole = name.removesuffix(ERROR)
+    if name != whole and units.get(whole) and not units[name]:
+        raise InputError(
+            f"{name}: no unit, but {whole} is in {units[whole]}; write '{name} [{units[whole]}]'"
+        )
+
+
+def _is_angle(name: str) -> bool:
+    return (
+        not name.endswith(ERROR) and entry(name) in GLOSSARY and GLOSSARY[entry(name)].unit == "rad"
+    )
+
+
+def _check_angle(results: Results, name: str, unit: str) -> None:
+    """Raise InputError for angles from the normal that no impact has: degrees taken for radians."""
+    allowed = "must be below pi/2, 90 deg, from the normal"
+    if not unit:
+        allowed += f"; the head of a column in degrees is '{name} [deg]'"
+    elif unit in ("rad", "radian", "radians"):
+        allowed += f"; the column is headed {unit}: if it is in degrees write '{name} [deg]'"
+    results.refuse(name, np.abs(results[name]) >= 0.5 * pi, allowed)
+
+
+def _column(name: str, unit: str, cells: list[Any], table: Table, open_ended: bool) -> Array:
+    """Return a column in SI units, or raise InputError for what is not a number in it."""
+    gap = np.array([open_ended and isinstance(c, str) and c.strip() == GAP for c in cells])
+    values, reason = _numbers(
+        name, unit, [nan if g else c for c, g in zip(cells, gap, strict=True)]
+    )
+    missing = ~np.isfinite(values) & ~gap
+    if missing.any():
+        todo = f"write '{GAP}' where nothing was measured" if open_ended else DELETE
+        message = f"not a number in {table.named(missing)}; {reason or todo}"
+        raise InputError(f"{spelled(name)}: {message}")
+    return values
 
 
 def _numbers(name: str, unit: str, cells: list[Any]) -> tuple[Array, str]:
@@ -261,7 +237,7 @@ def _numbers(name: str, unit: str, cells: list[Any]) -> tuple[Array, str]:
         return np.array(cells, dtype=np.float64) * scale, ""
     except (TypeError, ValueError):
         pass
-    values, reason = np.full(len(cells), np.nan), ""
+    values, reason = np.full(len(cells), nan), ""
     for i, cell in enumerate(cells):
         try:
             values[i] = _cell(name, cell, scale)
@@ -273,8 +249,11 @@ def _numbers(name: str, unit: str, cells: list[Any]) -> tuple[Array, str]:
 def _cell(name: str, cell: Any, scale: float) -> float:
     """Return one number, NaN for an empty cell; a text with a unit of its own has that unit."""
     if cell is None or (isinstance(cell, str) and not cell.strip()):
-        return float("nan")
+        return nan
     try:
         return float(cell) * scale
     except (TypeError, ValueError):
-        return number(spelled(name), cell, GLOSSARY[entry(name)].unit)
+        pass
+    if isinstance(cell, str) and cell.count(",") == 1 and "." not in cell:
+        raise refusal(spelled(name), cell, "numbers need a decimal point, not a comma")
+    return number(spelled(name), cell, GLOSSARY[entry(name)].unit)

@@ -1,16 +1,15 @@
-"""The oblique impact of elastic bodies by marching in time over springs.
+"""The oblique impact by marching in time over springs: elastic bodies, and bodies that lose energy.
 
 The method of Maw, Barber & Fawcett (1976), Wear 38:101-114, a check on the exact solution that
 shares nothing with it: the contact is cut into annuli, time into steps, and in every step each
-annulus sticks or slips by its own Coulomb limit. Of the Abel-transformed traction each annulus is
-one tangential spring of deflection q(x), so that the annuli do not act on one another:
+annulus sticks or slips by its own Coulomb limit (see marching_springs). The normal motion
+(see marching_motion) is Hertz's, or with normal losses that of Kelvin-Voigt springs:
 
-    d'' = -(5/4) d^(3/2),  U' = psi,  psi' = -(15/4) chi Q,  Q = integral of q dx from 0 to sqrt(d),
-    q' = psi, but |q| <= d - x^2.
+    d'' = -(5/4) d^(3/2) for alpha = 0, else with the limit D = d + alpha v
+    d'' = -(5/4) (d^(3/2) + (3/2) alpha v sqrt(d)) while loading, -(5/4) D^(3/2) then.
 
-Units: d and x^2 in d_max, time in d_max/V_1, U and q in mu d_max/kappa, psi in mu V_1/kappa. Steps
-and springs are uniform in the angle theta of the contact radius b = sin(theta), 0 <= theta <= pi:
-every spring is met and released at the end of a step, and U is smooth up to the turning point.
+Units: d, D and x^2 in the elastic d_max, time and alpha in d_max/V_1, U and q in mu d_max/kappa,
+psi in mu V_1/kappa.
 """
 
 from collections.abc import Iterable
@@ -19,121 +18,22 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless import hertz
+from carom.dimensionless import hertz, marching_motion, marching_springs
 from carom.dimensionless._jit import kernel
+from carom.dimensionless.marching_springs import OUTSIDE
 
 Array = NDArray[np.float64]
-Labels = NDArray[np.int8]
+Slips = NDArray[np.int8]
 Phase = tuple[str, int, float, float]
 
-AT_LIMIT = 1e-12  # a spring nearer than this to Coulomb's limit slips; above rounding of q
 KINDS = ("stick", "slip", "gross slip")
 RESOLUTION = 10.0  # of time, in units of 1/springs: about five springs met or released
+MAX_ALPHA = 100.0  # restitution 0.0004; more is refused
+
+NO_SLIPS, NO_LEDGER = np.empty((0, 0), np.int8), np.empty((0, 0))
 
 
-@kernel
-def _share(near: float, far: float) -> float:
-    """Return the weight at `near` of the integral to `far` of a q linear in x^2."""
-    return abs(far - near) * (2.0 * far + near) / (3.0 * (far + near))
-
-
-@kernel
-def _springs(springs: int) -> tuple[Array, Array, Array]:
-    """Return places x and weights of the springs, and what a last spring's weight loses.
-
-    The weights integrate a q that is linear in x^2 between the springs, as in slip.
-    """
-    x = np.sin(np.arange(springs + 1) * (0.5 * np.pi / springs))
-    outer = np.empty(springs)
-    weights = np.zeros(springs)
-    for j in range(springs):
-        outer[j] = _share(x[j], x[j + 1])
-        weights[j] = outer[j] + (_share(x[j], x[j - 1]) if j > 0 else 0.0)
-    return x[:springs].copy(), weights, outer
-
-
-@kernel
-def _normal_motion(steps: int) -> Array:
-    """Return time, d, v and dt/dtheta at the ends of the steps, shape (steps + 1, 4).
-
-    v^2 = 1 - b^5 is divided by 1 - b^2, so that the turning point is regular.
-    """
-    rows = np.empty((steps + 1, 4))
-    for i in range(steps + 1):
-        b = np.sin(min(i, steps - i) * (np.pi / steps))
-        quotient = (1.0 + b * (1.0 + b * (1.0 + b * (1.0 + b)))) / (1.0 + b)
-        v = np.cos(i * (np.pi / steps)) * np.sqrt(quotient)
-        rows[i] = hertz.time(b * b, v), b * b, v, 2.0 * b / np.sqrt(quotient)
-    return rows
-
-
-@kernel
-def _lowest(start: float, slope: float, end: float) -> float:
-    """Return the least value, its start apart, of a parabola on [0, 1].
-
-    Slip that stops within a step leaves the springs at the limit of that moment; without it the
-    error would depend on where in the step slip stops.
-    """
-    curvature = end - start - slope
-    if slope < 0.0 and -slope < 2.0 * curvature:
-        return start - slope * slope / (4.0 * curvature)
-    return end
-
-
-@kernel
-def _stretch(q: Array, s: Array, weights: Array, step: float, upper: float, lower: float) -> float:
-    """Move the springs by `step` within Coulomb's limits and return their force."""
-    force = 0.0
-    for j in range(q.size):
-        q[j] = max(min(q[j] + step, upper - s[j]), s[j] - lower)
-        force += weights[j] * q[j]
-    return force
-
-
-@kernel
-def _label(q: Array, s: Array, d: float) -> int:
-    """Return 0 in stick, else the sign of slip: times 1 if some springs slip, 2 if all do."""
-    last = q.size - 1
-    sign = 1 if q[last] > 0.0 else -1
-    for slipping in range(q.size):
-        j = last - slipping
-        if d - s[j] - sign * q[j] > AT_LIMIT:
-            return sign if slipping > 0 else 0
-    return 2 * sign
-
-
-@kernel
-def _integrate(psi: float, chi: float, springs: int, steps: int, labels: Labels) -> float:
-    """Return psi after contact, kick-drift-kick; fill `labels` unless it is empty."""
-    x, weights, outer = _springs(springs)
-    s = x * x
-    normal = _normal_motion(steps)
-    per_spring = steps // (2 * springs)
-    q = np.zeros(springs)
-    u, force = 0.0, 0.0
-    for i in range(steps):
-        t, d, v, clock = normal[i]
-        t_end, d_end, _, clock_end = normal[i + 1]
-        kick = np.pi / (2 * steps) * 3.75 * chi
-        dt, old = t_end - t, psi
-        psi -= kick * clock * force
-        step = psi * dt
-        to_upper = _lowest(d - u, (v - old) * dt, d_end - u - step)
-        to_lower = _lowest(d + u, (v + old) * dt, d_end + u + step)
-        u += step
-        touching = -(-min(i + 1, steps - i - 1) // per_spring)
-        inner = q[:touching]
-        force = _stretch(inner, s, weights, step, u + to_upper, to_lower - u)
-        if touching > 0:
-            last = touching - 1
-            force += (_share(x[last], np.sqrt(d_end)) - outer[last]) * q[last]
-            if labels.size > 0:
-                labels[i + 1] = _label(inner, s, d_end)
-        psi -= kick * clock_end * force
-    return psi
-
-
-def _check(psi: float, chi: float, springs: int, steps: int) -> None:
+def _check(psi: float, chi: float, springs: int, steps: int, alpha: float) -> None:
     if not np.isfinite(psi):
         raise ValueError(f"psi: {psi:g} is not finite")
     if not 0.0 < chi < np.inf:
@@ -142,25 +42,58 @@ def _check(psi: float, chi: float, springs: int, steps: int) -> None:
         raise ValueError(f"springs: {springs} is not positive")
     if steps < 1 or steps % (2 * springs):
         raise ValueError(f"steps: {steps} is not a multiple of 2 springs, {2 * springs}")
+    if not 0.0 <= alpha <= MAX_ALPHA:
+        raise ValueError(f"alpha: {alpha:g} is not between 0 and {MAX_ALPHA:g}")
 
 
-def march(psi: float, chi: float, springs: int = 500, steps: int = 2000) -> float:
+def _motion(alpha: float, steps: int) -> Array:
+    if alpha == 0.0:
+        return marching_motion.elastic(steps)
+    return marching_motion.kelvin_voigt(float(alpha), steps)
+
+
+def march_on(psi: float, chi: float, motion: Array, stride: int = 2) -> float:
+    """Return psi_2 after any normal motion, given on small steps as by marching_motion.
+
+    psi_2 = psi_1 - (15/4) chi integral of Q dt
+
+    Dimensionless; `motion` has shape (steps + 1, 6), and its edge must grow to its peak and fall
+    to zero; every `stride`-th step of the loading a spring is met. Maw, Barber & Fawcett (1976).
+
+    >>> from carom.dimensionless.marching_motion import elastic
+    >>> round(march_on(4.0, 0.5, elastic(2000)), 9)
+    2.0
+    """
+    return float(
+        marching_springs.integrate(float(psi), float(chi), motion, stride, NO_SLIPS, NO_LEDGER)
+    )
+
+
+def march(
+    psi: float, chi: float, springs: int = 500, steps: int = 2000, alpha: float = 0.0
+) -> float:
     """Return psi_2, the tangential velocity after the impact, to second order in both steps.
 
     psi_2 = psi_1 - (15/4) chi integral of Q dt
 
-    Dimensionless scalars. With four steps a spring the error is about 0.3/springs^2 for chi in
-    [1.1, 1.8]; it grows with chi. Raises ValueError if psi is not finite, chi not positive, or
-    `steps` not a multiple of 2 `springs`. Maw, Barber & Fawcett (1976), Wear 38:101-114.
+    Dimensionless scalars; alpha, the loss time in d_max/V_1, is zero for elastic bodies. With four
+    steps a spring the error is about 0.3/springs^2 for chi in [1.1, 1.8]; it grows with chi, and
+    with alpha, most where alpha springs is about 2. Raises ValueError if psi is not finite, chi not
+    positive, alpha not in [0, 100], or `steps` not a multiple of 2 `springs`. Maw, Barber &
+    Fawcett (1976), Wear 38:101-114.
 
     >>> round(march(4.0, 0.5), 9)
     2.0
+    >>> round(march(4.0, 0.5, alpha=0.1), 3)
+    2.166
     """
-    _check(psi, chi, springs, steps)
-    return float(_integrate(float(psi), float(chi), springs, steps, np.empty(0, np.int8)))
+    _check(psi, chi, springs, steps, alpha)
+    return march_on(psi, chi, _motion(alpha, steps), steps // (2 * springs))
 
 
-def extrapolated(psi: float, chi: float, springs: int = 4000, steps: int = 16000) -> float:
+def extrapolated(
+    psi: float, chi: float, springs: int = 4000, steps: int = 16000, alpha: float = 0.0
+) -> float:
     """Return psi_2 by Richardson extrapolation over halved, hence even, `springs` and `steps`.
 
     psi_2 = (4 march(springs, steps) - march(springs/2, steps/2))/3
@@ -174,8 +107,53 @@ def extrapolated(psi: float, chi: float, springs: int = 4000, steps: int = 16000
     """
     if springs % 2:
         raise ValueError(f"springs: {springs} is odd")
-    fine = march(psi, chi, springs, steps)
-    return (4.0 * fine - march(psi, chi, springs // 2, steps // 2)) / 3.0
+    fine = march(psi, chi, springs, steps, alpha)
+    return (4.0 * fine - march(psi, chi, springs // 2, steps // 2, alpha)) / 3.0
+
+
+def march_history(
+    psi: float, chi: float, springs: int = 500, steps: int = 2000, alpha: float = 0.0
+) -> Array:
+    """Return time, psi, U, Q, integral of q^2 dx, and W at the ends of the steps, in columns.
+
+    psi^2/2 + (15/8) chi integral of q^2 dx + (15/4) chi W is constant; W never decreases.
+
+    Dimensionless, shape (steps + 1, 6). Raises ValueError as `march` does. Maw, Barber & Fawcett
+    (1976), Wear 38:101-114.
+
+    >>> time, psi, u, force, stored, lost = march_history(1.0, 1.44, alpha=0.1).T
+    >>> kept = psi**2 / 2.0 + 3.75 * 1.44 * (stored / 2.0 + lost)
+    >>> bool(abs(kept - 0.5).max() < 1e-5)
+    True
+    """
+    _check(psi, chi, springs, steps, alpha)
+    ledger = np.zeros((steps + 1, 6))
+    ledger[0, 1] = psi
+    stride, motion = steps // (2 * springs), _motion(alpha, steps)
+    marching_springs.integrate(float(psi), float(chi), motion, stride, NO_SLIPS, ledger)
+    return ledger
+
+
+def march_slips(
+    psi: float, chi: float, springs: int = 500, steps: int = 2000, alpha: float = 0.0
+) -> tuple[Array, Array, Slips]:
+    """Return the times of the steps, the places of the springs, and the sign of slip of each.
+
+    slip is 1 where q = D - x^2, -1 where q = x^2 - D, 0 in stick, 2 where there is no contact.
+
+    Dimensionless; shapes (steps + 1,), (springs,), (steps + 1, springs). With losses slip may begin
+    at the centre, and both signs may slip at once. Raises ValueError as `march` does. Maw, Barber &
+    Fawcett (1976), Wear 38:101-114.
+
+    >>> times, x, slips = march_slips(3.0, 1.44, alpha=0.2)
+    >>> slips[400, :250:35]  # while loading, a belt at the edge sticks
+    array([1, 1, 1, 1, 1, 0, 2, 2], dtype=int8)
+    """
+    _check(psi, chi, springs, steps, alpha)
+    slips = np.full((steps + 1, springs), OUTSIDE, np.int8)
+    stride, motion = steps // (2 * springs), _motion(alpha, steps)
+    marching_springs.integrate(float(psi), float(chi), motion, stride, slips, NO_LEDGER)
+    return motion[:, 1], marching_springs.places(motion, stride)[:-1], slips
 
 
 def resolution(springs: int) -> float:
@@ -203,8 +181,22 @@ def resolved(phases: Iterable[Phase], shortest: float) -> list[Phase]:
     return kept
 
 
+@kernel
+def _label(slips: Slips) -> int:
+    """Return 0 if the edge sticks, else its sign of slip: once if some slip, twice if all do."""
+    sign = 0
+    for j in range(slips.size - 1, -1, -1):
+        if slips[j] != OUTSIDE:
+            if sign != 0 and slips[j] != sign:
+                return sign
+            if slips[j] == 0:
+                return 0
+            sign = slips[j]
+    return 2 * sign
+
+
 def march_phases(psi: float, chi: float, springs: int = 500, steps: int = 2000) -> list[Phase]:
-    """Return the phases in order of time as (kind, sign of slip, start, end).
+    """Return the phases of elastic bodies in order of time as (kind, sign of slip, start, end).
 
     kind is "stick" (sign 0), "slip" (in a ring) or "gross slip"; times in d_max/V_1. A ring is
     seen once a spring slips in it, and phases shorter than `resolution(springs)` are left out.
@@ -215,10 +207,8 @@ def march_phases(psi: float, chi: float, springs: int = 500, steps: int = 2000) 
     >>> [(kind, sign) for kind, sign, start, end in march_phases(0.5, 1.44)]
     [('stick', 0), ('slip', -1), ('gross slip', -1)]
     """
-    _check(psi, chi, springs, steps)
-    labels = np.zeros(steps + 1, np.int8)
-    _integrate(float(psi), float(chi), springs, steps, labels)
-    times = _normal_motion(steps)[:, 0]
+    times, _, slips = march_slips(psi, chi, springs, steps)
+    labels = np.array([_label(row) for row in slips])
     changes = np.flatnonzero(np.diff(labels[1:steps])) + 1
     bounds = [0.0, *(0.5 * (times[changes] + times[changes + 1])).tolist(), hertz.DURATION]
     firsts = [1, *(changes + 1).tolist()]

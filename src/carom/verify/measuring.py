@@ -15,11 +15,11 @@ from carom.dimensionless.rebounds import rebound
 from carom.laws.dem import ContactLaw, Law
 from carom.pairs import Pair
 from carom.quantities import InputError, refusal
+from carom.readings import CASE
 from carom.verify.catalogue import CATALOGUE, Entry, as_entry
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
 from carom.verify.engines.running import Engine, EngineError, EngineKilled, run
 from carom.verify.errors import INCIDENCES
-from carom.readings import CASE
 
 Array = NDArray[np.float64]
 

@@ -13,11 +13,11 @@ from carom.cases import check_case, motion_of, pair_of, read_case
 from carom.impacts import Impact, impact
 from carom.pairs import Pair
 from carom.quantities import InputError, nearest, number, positive, refusal
+from carom.readings import Array, Results, in_units, read_table
 from carom.verify.scoring.audits import energy_audit, friction_audit, notes_on
 from carom.verify.scoring.histories import NAMES as HISTORY
 from carom.verify.scoring.histories import score_history
 from carom.verify.scoring.points import compared
-from carom.readings import Array, Results, in_units, read_table
 from carom.verify.scoring.record import Score
 from carom.verify.scoring.velocities import AFTER, BEFORE, score_velocities
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from carom.readings import SHOWN, Array
 from carom.results import Finding
 from carom.verify.scoring.points import Points
-from carom.readings import SHOWN, Array
 
 ROUNDING = 1e-12  # of psi; what is smaller is no gain of energy
 SAME = 1e-3  # of ratios that should be one

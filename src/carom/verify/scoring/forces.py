@@ -8,8 +8,8 @@ import numpy as np
 from carom.dimensionless import hertz
 from carom.dimensionless.solution import History
 from carom.impacts import Impact
-from carom.verify.scoring.contact import Samples
 from carom.readings import Array
+from carom.verify.scoring.contact import Samples
 
 TAIL = 64  # instants added where the exact contact outlasts the one that was given
 

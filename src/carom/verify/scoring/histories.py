@@ -6,12 +6,12 @@ import numpy as np
 
 from carom.impacts import Impact
 from carom.quantities import InputError
+from carom.readings import Array, Results
 from carom.results import Finding
 from carom.verify.scoring.audits import PRINTED, energy_audit, restitution_audit
 from carom.verify.scoring.contact import contact_samples
 from carom.verify.scoring.forces import Forces
 from carom.verify.scoring.points import Points, compared
-from carom.readings import Array, Results
 
 NAMES = ("time", "normal_force", "tangential_force", "contact_velocity")
 

@@ -13,8 +13,8 @@ import numpy as np
 from carom.histories import Tangential, inertia
 from carom.pairs import Pair
 from carom.quantities import InputError
-from carom.results import Finding
 from carom.readings import Results
+from carom.results import Finding
 
 UNITS = {  # by the ratio of the impulse in the spins to that in the speeds
     30.0 / pi: "in rpm; head the columns 'spin [rpm]' and 'spin_out [rpm]'",

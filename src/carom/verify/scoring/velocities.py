@@ -10,11 +10,11 @@ from carom.bodies import Sphere
 from carom.histories import Tangential, inertia
 from carom.pairs import Pair
 from carom.quantities import InputError
+from carom.readings import Results
 from carom.results import Finding
 from carom.verify.scoring.audits import energy_audit, friction_audit, restitution_audit
 from carom.verify.scoring.momentum import momentum_audit
 from carom.verify.scoring.points import Points, compared
-from carom.readings import Results
 
 BEFORE = ("normal_speed", "tangential_speed", "speed", "angle", "spin", "spin2")
 AFTER = ("normal_speed_out", "tangential_speed_out", "spin_out", "spin2_out")

@@ -1,0 +1,161 @@
+"""`carom fit`: friction, stiffness and restitution from measured rebounds."""
+
+import json
+from math import ceil
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from carom.fitting import Fit
+    from carom.pairs import Pair
+
+
+def fit_command(
+    data: Annotated[
+        Path | None,
+        typer.Argument(help="CSV file: a row an impact; units in the head, 'angle [deg]'."),
+    ] = None,
+    dataset: Annotated[
+        str | None, typer.Option(help="Instead of a file, measured data that come with Carom.")
+    ] = None,
+    case: Annotated[
+        Path | None,
+        typer.Option(
+            help="Case file as for `carom impact`: the bodies, unless the data tell them."
+        ),
+    ] = None,
+    vary: Annotated[
+        str | None, typer.Option(help="Of friction, kappa (or chi), restitution, spin_offset.")
+    ] = None,
+    fix: Annotated[
+        list[str] | None, typer.Option(help="A parameter that is known, e.g. restitution=0.98.")
+    ] = None,
+    confidence: Annotated[str, typer.Option(help="Confidence of the intervals.")] = "0.95",
+    squares: Annotated[
+        bool, typer.Option("--squares", help="Least squares: outliers count like all others.")
+    ] = False,
+    advice: Annotated[
+        int | None, typer.Option(help="Tell that many incidences to measure next.")
+    ] = None,
+    about: Annotated[
+        str | None, typer.Option("--for", help="Parameter of the advice; else the least certain.")
+    ] = None,
+    posterior: Annotated[
+        str | None,
+        typer.Option(
+            help="Sample by emcee; store samples (.nc, .csv) or a corner plot (.png ...)."
+        ),
+    ] = None,
+    steps: Annotated[int, typer.Option(help="Steps of the sampling.")] = 2000,
+    seed: Annotated[int, typer.Option(help="Seed of the sampling.")] = 0,
+    plot: Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")] = None,
+    output: Annotated[str | None, typer.Option(help="Store the fit: .csv or .nc.")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+) -> None:
+    """Find friction, stiffness ratio and normal restitution from measured rebounds.
+
+    Columns before: angle and speed; normal_speed and tangential_speed; or angle, contact_angle,
+    psi_in alone where no speed is needed; spin, spin2. After, any of: normal_restitution,
+    normal_speed_out, tangential_restitution, tangential_speed_out, rebound_angle, spin_out,
+    contact_restitution, contact_beta, contact_rebound_angle, impulse_ratio, psi_out; '-' where
+    nothing was measured. Standard deviations: spin_out_error, angle_error and so on.
+
+    Example: carom fit --dataset kharaz2001 --plot kharaz.png
+
+    Own data: carom fit rebounds.csv --case ball.toml --fix restitution=0.98 --advice 5
+    """
+    from carom.cli.compiling import announced
+    from carom.cli.files import refuse_same
+    from carom.fitting import fit
+    from carom.storage import FIGURES, TABLES, checked_output, save
+
+    source = _source(data, dataset)
+    files = {"data": source, "case": case, "plot": plot, "output": output, "posterior": posterior}
+    refuse_same(files)
+    allowed = ((plot, FIGURES), (output, TABLES), (posterior, (*TABLES, *FIGURES)))
+    for path, endings in allowed:
+        if path is not None:
+            checked_output(path, endings)
+    with announced():
+        found = fit(
+            source,
+            pair=_pair(case),
+            vary=None if vary is None else [name.strip() for name in vary.split(",")],
+            fixed=_fixed(fix or []),
+            robust=not squares,
+            confidence=_number(confidence),
+        )
+        if output is not None:
+            typer.echo(f"stored {save(found, output)}", err=True)
+        if plot is not None:
+            found.plot(plot)
+            typer.echo(f"stored {plot}", err=True)
+        if posterior is not None:
+            typer.echo(f"stored {_sampled(found, posterior, steps, seed)}", err=True)
+    advised = None if advice is None else found.advice(advice, about)
+    if as_json:
+        extra = {} if advised is None else {"advice": advised.to_dict()}
+        typer.echo(json.dumps(found.to_dict() | extra, indent=2))
+    else:
+        typer.echo("\n".join(str(part) for part in (found, advised) if part is not None))
+
+
+def _source(data: Path | None, dataset: str | None) -> Path:
+    """Return the file of the data, or raise InputError."""
+    from carom import datasets
+    from carom.quantities import InputError
+
+    if (data is None) == (dataset is None):
+        raise InputError(
+            "data: give a CSV file, or --dataset with one of " + ", ".join(datasets.names())
+        )
+    return data if data is not None else datasets.path(str(dataset))
+
+
+def _pair(case: Path | None) -> "Pair | None":
+    """Return the bodies of a case file, whose friction may be left out."""
+    from carom.cases import pair_of, read_case
+    from carom.fitting.problem import START
+
+    return None if case is None else pair_of({"friction": START, **read_case(case)})
+
+
+def _fixed(given: list[str]) -> dict[str, Any]:
+    """Return the values of texts like "restitution=0.98", or raise InputError."""
+    from carom.quantities import refusal
+
+    for text in given:
+        if "=" not in text:
+            raise refusal("fix", text, "write a name and a value, e.g. restitution=0.98")
+    pairs = (text.partition("=") for text in given)
+    return {name.strip(): value.strip() for name, _, value in pairs}
+
+
+def _number(text: str) -> float:
+    from carom.quantities import number
+
+    return number("confidence", text, "1")
+
+
+def _sampled(found: "Fit", target: str, steps: int, seed: int) -> Path:
+    """Store samples of the posterior, or a corner plot of them, and return the file."""
+    from carom.cli.progress import bar
+    from carom.storage import FIGURES, save
+
+    with bar("posterior") as progress:
+        samples = found.posterior(steps, seed, progress=progress)
+    if not samples.attrs["converged"]:
+        time = samples.attrs["autocorrelation_time"]
+        typer.echo(
+            f"the chain is short, {steps} steps for an autocorrelation time of {time:.0f}:"
+            f" --steps {50 * ceil(time):d} is better",
+            err=True,
+        )
+    if Path(target).suffix.lower() not in FIGURES:
+        return save(samples, target)
+    from carom.plots.fits import plot_corner
+    from carom.plots.style import save_figure
+
+    return save_figure(plot_corner(samples), target)

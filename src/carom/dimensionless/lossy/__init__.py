@@ -1,0 +1,1 @@
+"""The oblique impact with losses in the normal motion, panel by panel."""

@@ -1,0 +1,113 @@
+"""Panels of time: functions as Chebyshev series on them, and their integrals.
+
+On a panel of length h the clock is tau = h theta(x), -1 <= x <= 1. Fronts that start or end where
+the memory is at an extreme, or at the centre, go like the square root of time; a clock that is flat
+there makes them smooth in x.
+"""
+
+import numpy as np
+
+from carom.dimensionless._jit import kernel
+from carom.dimensionless.chebyshev import extrema, from_extrema
+
+DEGREE = 11
+NODES = DEGREE + 1
+PLACES = extrema(DEGREE)  # x of the nodes, both ends included
+TO_SERIES = from_extrema(DEGREE)
+
+EVEN, FLAT_START, FLAT_END, FLAT_ENDS = range(4)  # clocks
+
+
+@kernel
+def clock(kind: int, x: float) -> float:
+    """Return theta = tau/h at a place of a panel."""
+    y = 0.5 * (1.0 + x)
+    if kind == EVEN:
+        return y
+    if kind == FLAT_START:
+        return y * y
+    if kind == FLAT_END:
+        return y * (2.0 - y)
+    return y * y * (3.0 - 2.0 * y)
+
+
+def _clocks() -> np.ndarray:
+    """Return theta at the nodes, by clock."""
+    return np.array([[clock(kind, x) for x in PLACES] for kind in range(4)])
+
+
+def _integrals() -> np.ndarray:
+    """Return, by clock, the matrix that makes integrals over theta up to the nodes of values."""
+    chebyshev = np.polynomial.chebyshev
+    paces = (chebyshev.chebder(TO_SERIES @ theta) for theta in _clocks())
+    return np.array([[_up_to_nodes(series, pace) for series in TO_SERIES.T] for pace in paces])
+
+
+def _up_to_nodes(series: np.ndarray, pace: np.ndarray) -> np.ndarray:
+    chebyshev = np.polynomial.chebyshev
+    rise = chebyshev.chebint(chebyshev.chebmul(series, pace), lbnd=-1.0)
+    return chebyshev.chebval(PLACES, rise)
+
+
+CLOCKS = _clocks()
+INTEGRALS = np.ascontiguousarray(np.swapaxes(_integrals(), 1, 2))
+
+
+@kernel
+def expand(values: np.ndarray, series: np.ndarray) -> None:
+    """Write the Chebyshev series of values at the nodes."""
+    for k in range(NODES):
+        total = 0.0
+        for j in range(NODES):
+            total += TO_SERIES[k, j] * values[j]
+        series[k] = total
+
+
+@kernel
+def integrate(kind: int, start: float, h: float, rates: np.ndarray, values: np.ndarray) -> None:
+    """Write start + integral of the rates over a panel of length h, up to each node."""
+    for j in range(NODES):
+        total = 0.0
+        for k in range(NODES):
+            total += INTEGRALS[kind, j, k] * rates[k]
+        values[j] = start + h * total
+
+
+@kernel
+def evaluate(series: np.ndarray, x: float) -> float:
+    """Return the value of a series at x (Clenshaw 1955)."""
+    last, one = 0.0, 0.0
+    for k in range(DEGREE, 0, -1):
+        last, one = one, series[k] + 2.0 * x * one - last
+    return float(series[0] + x * one - last)
+
+
+@kernel
+def tail(series: np.ndarray) -> float:
+    """Return how large the last coefficients of a series are."""
+    return float(abs(series[DEGREE]) + abs(series[DEGREE - 1]))
+
+
+@kernel
+def place(series: np.ndarray, level: float, low: float, high: float) -> float:
+    """Return where a monotone series between two places passes a level (Illinois method)."""
+    f_low, f_high = evaluate(series, low) - level, evaluate(series, high) - level
+    if (f_low > 0.0) == (f_high > 0.0):
+        return low if abs(f_low) < abs(f_high) else high
+    x, side = high, 0
+    for _ in range(80):
+        x = high - f_high * (high - low) / (f_high - f_low)
+        f = evaluate(series, x) - level
+        if abs(f) <= 1e-16 or abs(high - low) <= 1e-15:
+            break
+        if (f > 0.0) == (f_high > 0.0):
+            high, f_high = x, f
+            if side == 1:
+                f_low *= 0.5
+            side = 1
+        else:
+            low, f_low = x, f
+            if side == -1:
+                f_high *= 0.5
+            side = -1
+    return float(x)

@@ -1,0 +1,106 @@
+"""Where the structure of an impact changes inside a panel: what slips where, and which way."""
+
+import numpy as np
+
+from carom.dimensionless._jit import kernel
+from carom.dimensionless.lossy import normal
+from carom.dimensionless.lossy.collocation import FLAT_ENDS, FLAT_START, NODES, PLACES, evaluate
+from carom.dimensionless.lossy.memory import MOVED, RADIUS
+from carom.dimensionless.lossy.normal import Loss, Motion, Stage
+from carom.dimensionless.lossy.panels import PSI, SPEED, Panel, Work, cut_memory
+
+EARLY = 5e-4  # part of a panel in which zones that begin with it are too thin to be told
+TO = 0.9999  # place up to which the structure is looked at
+BISECTIONS = 45
+LEVEL = 1e-9  # a limit that falls more slowly does not fall
+
+
+@kernel
+def signs(motion: Motion, zones: int, b: float, v: float, psi: float) -> int:
+    """Return a number for the zones, and for which way limits and laid contact go.
+
+    It holds whether either limit is falling, and while loading whether A and B, laid at the edge,
+    rise outwards: pieces are to be monotone.
+    """
+    pace = normal.limit_rate(motion, b, v)
+    code = (zones * 2 + (psi > pace + LEVEL)) * 2 + (-psi > pace + LEVEL)
+    if motion.stage == Stage.UNLOADING.value:
+        return code
+    laid = normal.edge_rate(motion, b, v)
+    return (code * 2 + (psi > laid + LEVEL)) * 2 + (-psi > laid + LEVEL)
+
+
+@kernel
+def structure(work: Work, motion: Motion, panel: Panel, x: float) -> int:
+    """Return a number for what happens at a place of a solved panel."""
+    series = work.series[panel.number]
+    b, v, psi = evaluate(series[RADIUS], x), evaluate(series[SPEED], x), evaluate(series[PSI], x)
+    cut = cut_memory(work, motion, panel, x, b, v, evaluate(series[MOVED], x))
+    return signs(motion, cut.zones, b, v, psi)
+
+
+@kernel
+def structure_at_node(work: Work, motion: Motion, j: int) -> int:
+    """Return the same at a node."""
+    values = work.values
+    return signs(motion, work.zones[j], values[RADIUS, j], values[SPEED, j], values[PSI, j])
+
+
+@kernel
+def first_change(work: Work, motion: Motion, panel: Panel) -> float:
+    """Return where in a solved panel the structure first changes, 2 if nowhere inside."""
+    flat = panel.clock == FLAT_START or panel.clock == FLAT_ENDS
+    low = 2.0 * (np.sqrt(EARLY) if flat else EARLY) - 1.0
+    own = structure(work, motion, panel, low)
+    for j in range(1, NODES):
+        high = PLACES[j] if j < NODES - 1 else TO
+        if high <= low:
+            continue
+        inside = j < NODES - 1
+        now = structure_at_node(work, motion, j) if inside else structure(work, motion, panel, TO)
+        if now != own:
+            return change_between(work, motion, panel, low, high, own)
+        low = high
+    return 2.0
+
+
+@kernel
+def change_between(
+    work: Work, motion: Motion, panel: Panel, low: float, high: float, own: int
+) -> float:
+    """Return where between two places the structure ceases to be this, by bisection."""
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        if structure(work, motion, panel, middle) == own:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+@kernel
+def beyond_stage(motion: Motion, b: float, v: float) -> float:
+    """Return how far the normal motion is beyond the end of its stage; negative before it."""
+    if motion.stage == Stage.UNLOADING.value:
+        return -b
+    if motion.loss == Loss.PLASTIC.value and motion.stage == Stage.LOADING.value:
+        return max(b - motion.parameter, -v)
+    return -v
+
+
+@kernel
+def stage_end(work: Work, motion: Motion) -> float:
+    """Return the part of a panel with an even clock after which its stage ends, 1 if not in it."""
+    last = NODES - 1
+    b, v = work.values[RADIUS], work.values[SPEED]
+    beyond = beyond_stage(motion, b[last], v[last])
+    if beyond <= 0.0:
+        return 1.0
+    before = beyond_stage(motion, b[last - 1], v[last - 1])
+    for j in range(last - 1, 0, -1):
+        before = beyond_stage(motion, b[j], v[j])
+        if before <= 0.0:
+            near, far = 0.5 * (1.0 + PLACES[j]), 0.5 * (1.0 + PLACES[j + 1])
+            return float(near + (far - near) * before / (before - beyond))
+        beyond = before
+    return float(0.5 * (1.0 + PLACES[1]))

@@ -1,0 +1,103 @@
+"""Normal motion with losses, in units of the elastic impact: d_max, V_1, d_max/V_1, P_max.
+
+The clock d(tau) = dt/(2 b), with b^2 = s at the edge of the contact, makes all of it analytic:
+
+- Kelvin & Voigt: springs D - s, D = d + alpha v, no tension. While loading the edge is where the
+  surfaces meet, b^2 = d; b' = v, v' = -(5/2) b^2 (b^2 + (3/2) alpha v). While unloading it is where
+  the springs let go, b^2 = D; b' = v - (5/4) alpha b^3, v' = -(5/2) b^4.
+- Elastic-plastic (Thornton 1997): P rises linearly from yield on, and falls as the load on a sphere
+  of a larger radius. The contact is taken for the elastic one that bears the same load, b^3 = P.
+"""
+
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.dimensionless._jit import kernel
+
+
+class Loss(IntEnum):
+    """What the normal motion loses energy to; the parameter that goes with it."""
+
+    NONE = 0
+    VISCOUS = 1  # alpha, the loss time in units of d_max/V_1
+    PLASTIC = 2  # b at yield, (V_y/V_1)^(2/5)
+
+
+class Stage(IntEnum):
+    """Part of the normal motion that one set of equations rules."""
+
+    LOADING = 0
+    YIELDING = 1
+    UNLOADING = 2
+
+
+class Motion(NamedTuple):
+    """What rules the motion at a time: the loss, its stage and its numbers; and chi.
+
+    `growth` is (R_p/R*)^(1/3), by which the edge of a yielded contact recedes faster than v.
+    """
+
+    loss: int
+    stage: int
+    parameter: float
+    growth: float
+    chi: float
+
+
+@kernel
+def is_shifted(motion: Motion) -> bool:
+    """Tell whether the limit is ahead of the edge: viscous springs while loading."""
+    return motion.loss == Loss.VISCOUS.value and motion.stage != Stage.UNLOADING.value
+
+
+@kernel
+def edge_rate(motion: Motion, b: float, v: float) -> float:
+    """Return b', which is the speed of the edge, d(b^2)/dt."""
+    if motion.loss == Loss.PLASTIC.value:
+        return motion.parameter * v / b if motion.stage == Stage.YIELDING.value else motion.growth * v
+    if motion.loss == Loss.VISCOUS.value and motion.stage == Stage.UNLOADING.value:
+        return v - 1.25 * motion.parameter * b * b * b
+    return v
+
+
+@kernel
+def speed_rate(motion: Motion, b: float, v: float) -> float:
+    """Return v' = -(5/2) b P/P_max."""
+    return -2.5 * b * normal_force(motion, b, v)
+
+
+@kernel
+def normal_force(motion: Motion, b: float, v: float) -> float:
+    """Return P/P_max, the integral of (3/2) (D - s) over the contact."""
+    if is_shifted(motion):
+        return b * (b * b + 1.5 * motion.parameter * v)
+    return b * b * b
+
+
+@kernel
+def limit(motion: Motion, b: float, v: float) -> float:
+    """Return D: springs at s bear D - s."""
+    return b * b + motion.parameter * v if is_shifted(motion) else b * b
+
+
+@kernel
+def limit_rate(motion: Motion, b: float, v: float) -> float:
+    """Return dD/dt."""
+    if is_shifted(motion):
+        return v - 1.25 * motion.parameter * b * (b * b + 1.5 * motion.parameter * v)
+    return edge_rate(motion, b, v)
+
+
+@kernel
+def released_growth(motion: Motion, b: float) -> float:
+    """Return (R_p/R*)^(1/3) at the turning point, where the load is b^3.
+
+    R_p/R* = d^(3/2)/P, d and P those of the yielding sphere (Thornton 1997).
+    """
+    if motion.loss != Loss.PLASTIC.value or b <= motion.parameter:
+        return 1.0
+    y, load = motion.parameter, b * b * b
+    d = y * y + (load - y * y * y) / (1.5 * y)
+    return float(np.sqrt(d) / b)

@@ -1,0 +1,82 @@
+"""Parameters from measured rebounds: friction, stiffness ratio, restitution, with intervals."""
+
+from collections.abc import Collection, Mapping
+from typing import Any
+
+from carom.fitting.assembly import assembled
+from carom.fitting.errors import SoftL1, Squares
+from carom.fitting.identifiability import settle
+from carom.fitting.laws import EXACT
+from carom.fitting.model import Model
+from carom.fitting.options import check_count, checked_confidence, read_options
+from carom.fitting.problem import read_problem
+from carom.fitting.record import Estimate, Fit
+from carom.pairs import Pair
+
+__all__ = ["Estimate", "Fit", "fit"]
+
+
+def fit(
+    data: Any,
+    *,
+    pair: Pair | None = None,
+    vary: Collection[str] | str | None = None,
+    fixed: Mapping[str, Any] | None = None,
+    robust: bool = True,
+    confidence: float = 0.95,
+) -> Fit:
+    """Return friction, stiffness ratio and restitution from measured rebounds, with intervals.
+
+    V_n' = e V_n, V_x' = mu V_n psi_2(psi_1; chi, e)/kappa with psi_1 = kappa V_x/(mu V_n) and
+    chi = (kappa/2)(m_n/m_t), J_t = m_t (V_x - V_x'): the sum of losses of the residuals in standard
+    deviations is least, and an interval ends where it has risen by a quantile of chi squared (or F,
+    where errors come from the scatter), all other parameters following (profile likelihood).
+
+    Parameters
+    ----------
+    data : str, mapping or data frame
+        A CSV file, or columns by name, SI or with a unit in the head, "angle [deg]". The motion
+        before: angle and speed, normal_speed and tangential_speed, or angle, contact_angle or
+        psi_in alone where no speed is needed; spin, spin2. Measured after, any of:
+        normal_restitution, normal_speed_out, tangential_restitution, tangential_speed_out,
+        rebound_angle, spin_out, contact_restitution, contact_beta, contact_rebound_angle,
+        impulse_ratio, psi_out. Standard deviations in columns `<name>_error`; errors of the motion
+        before count, too; where there are none they come from the scatter. "-": not measured.
+    pair : Pair, optional
+        The bodies, by default those of the comment "# case:" of the file.
+    vary : names, optional
+        Of friction, kappa (or chi), restitution, spin_offset; by default the first three.
+    fixed : mapping, optional
+        Values of parameters that are not varied, e.g. {"restitution": 0.98}.
+    robust : bool
+        Whether outliers count less: loss 2 c^2 (sqrt(1 + (r/c)^2) - 1), c = 2, instead of r^2.
+    confidence : float
+        Of the intervals.
+
+    Raises
+    ------
+    InputError
+        If columns are missing, misnamed or contradict each other, there are too few values, or a
+        parameter is unknown or out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.fitting import fit
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> angles = [f"{angle} deg" for angle in range(5, 80, 5)]
+    >>> hits = [carom.impact(pair, speed=2.0, angle=angle) for angle in angles]
+    >>> measured = {"angle": angles, "contact_beta": [-hit.contact_restitution for hit in hits]}
+    >>> found = fit(measured, pair=pair, fixed={"restitution": 1.0})
+    >>> round(found.friction.value, 3), round(found.chi.value, 2)
+    (0.2, 1.44)
+    """
+    problem = read_problem(data, pair)
+    options = read_options(problem, vary, fixed)
+    level = checked_confidence(confidence)
+    check_count(problem, options.free)
+    held = {name: value for name, value in options.start.items() if name not in options.free}
+    loss = SoftL1() if robust else Squares()
+    settled = settle(Model(EXACT, problem, options.free, held), loss, options.start)
+    return assembled(settled, level)

@@ -1,0 +1,209 @@
+"""Where to measure next: incidences that shorten an interval most, by expected information."""
+
+from collections import Counter
+from dataclasses import dataclass
+from math import ceil, inf, log10
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.curves import REGIMES
+from carom.fitting.descent import jacobian
+from carom.fitting.errors import weights_at
+from carom.fitting.estimation import Best
+from carom.fitting.identifiability import row_regimes
+from carom.fitting.model import Model
+from carom.fitting.problem import Problem
+from carom.quantities import InputError, counted, nearest
+
+if TYPE_CHECKING:
+    from carom.fitting.record import Fit
+
+Array = NDArray[np.float64]
+
+DEGREES = np.arange(1.0, 86.0)  # incidences that are considered
+MOST = 10_000  # further measurements that are worth a thought
+PRIOR = 1e-2  # information on what nothing is known of, per unit of its coordinate
+HALF = 4.0  # the variance that is to be divided by
+
+
+@dataclass(frozen=True)
+class Place:
+    """An incidence to measure at, and how often there would halve the interval by itself."""
+
+    angle: float
+    regime: str
+    needed: int | None
+
+
+@dataclass(frozen=True)
+class Advice:
+    """Which incidences to measure next for a parameter, and what is to be expected of that.
+
+    `places` in the order in which they help most, each given the ones before; `best` is the single
+    incidence that halves the interval with the fewest measurements; `shorter` is the width of the
+    interval after all of `places`, in units of the present one.
+    """
+
+    parameter: str
+    places: tuple[Place, ...]
+    best: Place
+    shorter: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the advice as plain numbers and texts; angles in rad."""
+        places = [vars(place) for place in self.places]
+        numbers = {"parameter": self.parameter, "shorter": self.shorter}
+        return {**numbers, "best": vars(self.best), "places": places}
+
+    def __str__(self) -> str:
+        best = f"{np.degrees(self.best.angle):.0f} deg"
+        alone = f"{self.best.needed} more" if self.best.needed else f"more than {MOST}"
+        lines = [
+            f"to halve the interval of {self.parameter}: {alone} at {best} ({self.best.regime})",
+            f"the best {len(self.places)} to measure next:",
+        ]
+        for place, times in Counter(self.places).items():
+            lines.append(f"  {times} x {np.degrees(place.angle):.0f} deg ({place.regime})")
+        return "\n".join([*lines, f"interval then: {self.shorter:.2f} of what it is now"])
+
+
+def advise(fit: "Fit", n: int, parameter: str | None) -> Advice:
+    """Return the n incidences that shorten the interval of a parameter most (c-optimal design).
+
+    Expected Fisher information (Atkinson, Donev & Tobias 2007, chapter 10): one more impact at an
+    angle, at the usual speed, with the responses and errors measured so far, adds J^T J.
+
+    Raises InputError for a parameter that was not to be fitted, or an n below 1.
+    """
+    count = counted("n", n, 1)
+    best = _with_all(fit)
+    name = _wanted(fit, best, parameter)
+    place = best.model.free.index(name)
+    gains, regimes = _candidates(best)
+    matrix = best.information.matrix + PRIOR * np.eye(len(best.model.free))
+    now = np.linalg.inv(matrix)[place, place]
+    needed = [_needed(matrix, gain, place, now) for gain in gains]
+    places = [
+        Place(float(np.radians(degrees)), regime, None if need > MOST else ceil(need))
+        for degrees, regime, need in zip(DEGREES, regimes, needed, strict=True)
+    ]
+    chosen = []
+    for _ in range(count):
+        after = [np.linalg.inv(matrix + gain)[place, place] for gain in gains]
+        index = int(np.argmin(after))
+        chosen.append(places[index])
+        matrix = matrix + gains[index]
+    shorter = float(np.sqrt(np.linalg.inv(matrix)[place, place] / now))
+    wanted = "chi" if parameter == "chi" else name
+    return Advice(wanted, tuple(chosen), places[int(np.argmin(needed))], shorter)
+
+
+def _with_all(fit: "Fit") -> Best:
+    """Return the fit with what could not be determined free again."""
+    best = fit.best
+    missing = tuple(
+        name
+        for name, each in fit.estimates.items()
+        if each.reason and name not in best.model.free and name != "chi"
+    )
+    if not missing:
+        return best
+    held = {name: value for name, value in best.model.held.items() if name not in missing}
+    model = Model(best.model.law, best.model.problem, (*best.model.free, *missing), held)
+    values = {name: float(v[0, 0]) for name, v in best.model.values(best.at[np.newaxis]).items()}
+    at = np.clip(model.coordinates(values), *model.bounds)
+    return Best(
+        model,
+        at,
+        best.sum,
+        best.weights,
+        best.loss,
+        best.sigma,
+        best.scale,
+        best.estimated,
+        best.rivals,
+    )
+
+
+def _wanted(fit: "Fit", best: Best, parameter: str | None) -> str:
+    """Return the parameter that is advised on, by default the least certain in its coordinate."""
+    free = best.model.free
+    if parameter is None:
+        return free[int(np.argmax(np.diag(best.information.covariance)))]
+    name = "kappa" if parameter == "chi" else parameter
+    if name not in free:
+        hint = nearest(str(parameter), free) or f"there are {', '.join(free)}"
+        raise InputError(f"parameter: {str(parameter)!r} was not fitted; {hint}")
+    return name
+
+
+def _candidates(best: Best) -> tuple[Array, list[str]]:
+    """Return the information of one impact at each incidence, and its regime."""
+    old = best.model.problem
+    problem = _impacts(old)
+    model = Model(best.model.law, problem, best.model.free, best.model.held)
+    sigma = np.array([np.median(s[p]) for s, p in zip(best.sigma.T, old.present.T, strict=True)])
+    shape = problem.measured.shape
+    at = best.at[np.newaxis]
+    weights = weights_at(
+        model.law, problem, model.values(at), np.broadcast_to(sigma, shape), best.scale
+    )
+
+    def whitened(point: Array) -> Array:
+        return weights.whitened(problem, model.expected(point)).reshape(len(point), -1)
+
+    slopes = jacobian(whitened, at, whitened(at), model.bounds)[0].reshape(*shape, -1)
+    gains = np.einsum("rjp,rjq->rpq", slopes, slopes) / best.spread
+    here = Best(
+        model,
+        best.at,
+        0.0,
+        weights,
+        best.loss,
+        sigma,
+        best.scale,
+        best.estimated,
+        best.rivals,
+    )
+    return gains, [REGIMES[index] for index in row_regimes(here)]
+
+
+def _impacts(problem: Problem) -> Problem:
+    """Return impacts at all incidences that are considered, as usual otherwise."""
+    from dataclasses import replace
+
+    motion, count = problem.motion, len(DEGREES)
+    speed = float(np.median(np.hypot(motion.normal_speed, motion.tangential_speed)))
+    before = {"angle": np.radians(DEGREES), "speed": np.full(count, speed)}
+    for name in ("spin", "spin2"):
+        if name in problem.before:
+            before[name] = np.full(count, float(np.median(problem.before[name])))
+    errors = {
+        name: np.full(count, float(np.median(values)))
+        for name, values in problem.before_errors.items()
+        if name in before
+    }
+    return replace(
+        problem,
+        before=before,
+        before_errors=errors,
+        measured=np.zeros((count, len(problem.responses))),
+        errors=np.full((count, len(problem.responses)), np.nan),
+    )
+
+
+def _needed(matrix: Array, gain: Array, place: int, now: float) -> float:
+    """Return how many measurements at one incidence divide a variance by four."""
+
+    def variance(times: float) -> float:
+        return float(np.linalg.inv(matrix + times * gain)[place, place])
+
+    if variance(float(MOST)) > now / HALF:
+        return inf
+    low, high = -3.0, log10(MOST)
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if variance(10.0**middle) > now / HALF else (low, middle)
+    return 10.0**high

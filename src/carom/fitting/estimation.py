@@ -1,0 +1,226 @@
+"""The best fit: where to start, the errors from the scatter, lmfit at the end."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.fitting.curves import on_grid
+from carom.fitting.descent import Minimum, descend
+from carom.fitting.errors import NORMAL, Loss, Weights, gaussian_mean, weights_at
+from carom.fitting.information import Information, information
+from carom.fitting.laws import EXACT, half_ratio
+from carom.fitting.model import Model
+from carom.fitting.needs import needed
+from carom.fitting.problem import Problem
+
+Array = NDArray[np.float64]
+
+STARTS = 6  # starting points that are followed to the end
+TURNS = 8  # times that errors are estimated and the fit is made anew
+SURE = 3.09  # standard deviations beyond which errors that were given are called too small
+RESOLVED = 1e-4  # of the largest measured value: errors below are those of the curves
+FINE = {"friction": 25, "kappa": 12, "tangential_restitution": 9, "restitution": 4}
+
+
+@dataclass(frozen=True, eq=False)
+class Best:
+    """A model fitted: coordinates, loss there, and the errors that were used.
+
+    `estimated` tells of which responses the errors come from the scatter, `scale` by how much
+    errors that were given had to be made larger.
+    """
+
+    model: Model
+    at: Array
+    sum: float
+    weights: Weights
+    loss: Loss
+    sigma: Array
+    scale: Array
+    estimated: NDArray[np.bool_]
+    rivals: Minimum
+    result: Any = None
+
+    @property
+    def residuals(self) -> Array:
+        """Residuals in standard deviations, of shape (rows, responses), 0 where not measured."""
+        return self.weights.whitened(self.model.problem, self.model.expected(self.at[None]))[0]
+
+    @cached_property
+    def information(self) -> Information:
+        """What the values tell of the free parameters."""
+        return information(self.model, self.at, self.weights, self.loss)
+
+    @property
+    def freedom(self) -> Array:
+        """Degrees of freedom of the error of each parameter (Welch & Satterthwaite 1946-47)."""
+        own = np.maximum(self.model.problem.present.sum(axis=0) - self.information.used, 1.0)
+        shares = self.information.shares
+        guessed = self.estimated | (self.scale > 1.0)
+        doubt = (shares**2 * (guessed / own)).sum(axis=1)
+        with np.errstate(divide="ignore"):
+            return np.asarray(shares.sum(axis=1) ** 2 / doubt)
+
+    @property
+    def spread(self) -> float:
+        """What the loss rises by, in units of chi squared, where a parameter is one sigma off.
+
+        E[influence^2]/E[slope] (Huber 1981, section 7.6): 1 for squares.
+        """
+        influence = gaussian_mean(self.loss.influence(NORMAL) ** 2, NORMAL)
+        expected = gaussian_mean(self.loss.slope(NORMAL), NORMAL)
+        found = self.loss.slope(self.residuals[self.model.problem.present])
+        return influence / min(expected, float(found.mean()))
+
+
+def estimate(model: Model, loss: Loss, start: Array | None = None) -> Best:
+    """Return the best fit of a model, from starting points or, without them, those of a scan.
+
+    Descents from there, and between them errors estimated from the scatter of the responses that
+    have none.
+    """
+    problem = model.problem
+    unknown = problem.present & ~np.isfinite(problem.errors)
+    estimated = unknown.any(axis=0)
+    sigma = np.where(unknown, _first_errors(problem), problem.errors)
+    scale = np.ones(len(problem.responses))
+    at = scan(model, loss, sigma) if start is None else start
+    rivals = Minimum(at, np.zeros(len(at)))
+    for turn in range(TURNS):
+        weights = weights_at(model.law, problem, model.values(at[:1]), sigma, scale)
+        residuals = model.residuals(weights, loss)
+        found = descend(residuals, at, model.bounds)
+        order = np.argsort(found.sums)
+        at, sums = found.at[order], found.sums[order]
+        if turn == 0:
+            rivals = Minimum(at, sums)
+            at, sums = at[:2], sums[:2]
+        factors = _scatter(model, at[:1], weights, loss)
+        sigma = np.where(unknown, np.maximum(sigma * factors, _least(problem)), sigma)
+        given = np.where(estimated, 1.0, np.maximum(scale * factors, 1.0))
+        scale = np.where(_significant(problem, given, estimated), given, 1.0)
+        if np.all(np.abs(factors[estimated] - 1.0) < 1e-3) and turn:
+            break
+    weights = weights_at(model.law, problem, model.values(at[:1]), sigma, scale)
+    at, result = polished(model, weights, loss, at[0])
+    total = float(np.square(model.residuals(weights, loss)(at[None])).sum())
+    return Best(model, at, total, weights, loss, sigma, scale, estimated, rivals, result)
+
+
+def scan(model: Model, loss: Loss, sigma: Array) -> Array:
+    """Return a few starting points: the best of a grid over the ranges, unlike each other."""
+    grid = np.array(list(product(*(_levels(model, name) for name in model.free))))
+    weights = Weights(_diagonal(model.problem, sigma))
+    sums = np.square(model.residuals(weights, loss)(grid)).sum(axis=1)
+    chosen: list[int] = []
+    apart = np.array([max(np.ptp(column), 1e-9) for column in grid.T]) / 8.0
+    for place in np.argsort(sums):
+        if all(np.any(np.abs(grid[place] - grid[other]) > apart) for other in chosen):
+            chosen.append(int(place))
+        if len(chosen) == STARTS:
+            break
+    return grid[chosen]
+
+
+def polished(model: Model, weights: Weights, loss: Loss, at: Array) -> tuple[Array, Any]:
+    """Return the minimum that lmfit finds from here, and its result."""
+    lmfit = needed("lmfit", "fit")
+    parameters = lmfit.Parameters()
+    for name, value, low, high in zip(model.free, at, *model.bounds, strict=True):
+        parameters.add(name, value=float(value), min=float(low), max=float(high))
+    residuals = model.residuals(weights, loss)
+    present = model.problem.present.ravel()
+
+    def of(given: Any) -> Array:
+        return residuals(np.array([list(given.valuesdict().values())]))[0][present]
+
+    result = lmfit.minimize(of, parameters, method="leastsq", xtol=1e-9, ftol=1e-10)
+    found = np.array(list(result.params.valuesdict().values()))
+    before, after = np.square(of(parameters)).sum(), np.square(residuals(found[None])).sum()
+    return (found if after <= before else at), result
+
+
+def _levels(model: Model, name: str) -> Array:
+    """Return the coordinates of a parameter in the scan."""
+    place = model.free.index(name)
+    parameter, low, high = (
+        model.parameters[place],
+        model.bounds.low[place],
+        model.bounds.high[place],
+    )
+    if name not in FINE:
+        return np.zeros(1)
+    if name == "friction":
+        low, high = np.log(5e-3), np.log(3.0)
+    if name == "restitution":
+        return _likely_restitutions(model.problem)
+    levels = np.linspace(low, high, FINE[name] + 2)[1:-1]
+    if name == "kappa" and model.law is EXACT:
+        half = half_ratio(model.problem.pair)
+        kappas = on_grid(half * parameter.value(levels)) / half
+        return np.clip(np.log(kappas), low, high)
+    return np.asarray(levels)
+
+
+def _likely_restitutions(problem: Problem) -> Array:
+    """Return normal restitutions to start from: what was measured, or a few."""
+    measured = dict(zip(problem.responses, problem.measured.T, strict=True))
+    if "normal_restitution" in measured:
+        found = measured["normal_restitution"]
+    elif "normal_speed_out" in measured:
+        found = measured["normal_speed_out"] / problem.motion.normal_speed
+    else:
+        return np.array([0.6, 0.8, 0.95])
+    return np.clip([float(np.nanmedian(found))], 0.05, 0.999)
+
+
+def _first_errors(problem: Problem) -> Array:
+    """Return errors to begin with where none are known: a part of the spread of each response."""
+    spread = np.nanstd(problem.measured, axis=0)
+    return np.asarray(0.1 * spread + _least(problem))
+
+
+def _least(problem: Problem) -> Array:
+    return np.asarray(RESOLVED * np.nanmax(np.abs(problem.measured), axis=0) + 1e-12)
+
+
+def _diagonal(problem: Problem, sigma: Array) -> Array:
+    inverse = 1.0 / np.where(problem.present, sigma, 1.0)
+    return np.einsum("rj,jk->rjk", inverse, np.eye(sigma.shape[1]))
+
+
+def _scatter(model: Model, at: Array, weights: Weights, loss: Loss) -> Array:
+    """Return by how much the scatter of each response exceeds its errors (Huber's proposal 2)."""
+    problem = model.problem
+    residuals = weights.whitened(problem, model.expected(at))[0]
+    wanted = gaussian_mean(loss.influence(NORMAL) ** 2, NORMAL)
+    used = information(model, at[0], weights, loss).used
+    factors = np.ones(residuals.shape[1])
+    for place, (column, there) in enumerate(zip(residuals.T, problem.present.T, strict=True)):
+        if np.any(column[there]):
+            kept = max(1.0 - used[place] / there.sum(), 0.05)
+            factors[place] = _factor(column[there], loss, wanted * kept)
+    return factors
+
+
+def _factor(residuals: Array, loss: Loss, wanted: float) -> float:
+    """Return what residuals are to be divided by for their mean square influence to be this."""
+    factor = 1.0
+    for _ in range(50):
+        mean = float(np.mean(loss.influence(residuals / factor) ** 2))
+        step = np.sqrt(mean / wanted)
+        factor *= float(step)
+        if abs(step - 1.0) < 1e-5:
+            break
+    return factor
+
+
+def _significant(problem: Problem, factors: Array, estimated: NDArray[np.bool_]) -> Any:
+    """Tell which scatter is larger than errors that were given allow (Wilson & Hilferty 1931)."""
+    counts = np.maximum(problem.present.sum(axis=0), 1)
+    bound = (1.0 - 2.0 / (9.0 * counts) + SURE * np.sqrt(2.0 / (9.0 * counts))) ** 1.5
+    return ~estimated & (factors > bound)

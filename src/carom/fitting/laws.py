@@ -1,0 +1,117 @@
+"""What is fitted: the exact rebound, and the rival laws of rigid spheres, as functions of numbers."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.fitting.curves import psi_out
+from carom.pairs import Pair
+
+Array = NDArray[np.float64]
+Values = Mapping[str, Array]  # of parameters by name, each of shape (batch, 1)
+
+
+class Parameter(NamedTuple):
+    """A parameter with its range; what is varied is its logarithm, or it in units of a scale."""
+
+    name: str
+    low: float
+    high: float
+    scale: float | None = 1.0  # None: logarithmic
+
+    def coordinate(self, value: float) -> float:
+        """Return what is varied in place of a value."""
+        return float(np.log(value)) if self.scale is None else value / self.scale
+
+    def value(self, coordinate: Array) -> Array:
+        """Return the values of coordinates."""
+        return np.exp(coordinate) if self.scale is None else coordinate * self.scale
+
+
+FRICTION = Parameter("friction", 1e-3, 10.0, None)
+KAPPA = Parameter("kappa", 0.1, 4.0, None)
+RESTITUTION = Parameter("restitution", 0.01, 1.0)
+BETA = Parameter("tangential_restitution", -1.0, 1.0)
+
+
+class Law(Protocol):
+    """A law of rebound whose parameters can be fitted."""
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """What can be varied, besides an offset of the spin."""
+
+    def contact_velocity_out(
+        self, pair: Pair, normal_speed: Array, contact_velocity: Array, values: Values
+    ) -> Array:
+        """Return V_x' of shape (batch, rows)."""
+
+
+@dataclass(frozen=True)
+class Exact:
+    """V_x' = mu V_n psi_2/kappa, psi_1 = kappa V_x/(mu V_n), chi = (kappa/2)(m_n/m_t)."""
+
+    name: str = "exact"
+    parameters: tuple[Parameter, ...] = (FRICTION, KAPPA, RESTITUTION)
+
+    def contact_velocity_out(
+        self, pair: Pair, normal_speed: Array, contact_velocity: Array, values: Values
+    ) -> Array:
+        """Return V_x' of shape (batch, rows)."""
+        unit = values["friction"] * normal_speed / values["kappa"]
+        chi = half_ratio(pair) * values["kappa"][:, 0]
+        return unit * psi_out(contact_velocity / unit, chi, values["restitution"][:, 0])
+
+
+@dataclass(frozen=True)
+class RigidCoulomb:
+    """|J_t| = min(m_t |V_x|, mu J_n): a rigid sphere slides, or its contact point comes to rest."""
+
+    name: str = "rigid Coulomb"
+    parameters: tuple[Parameter, ...] = (FRICTION, RESTITUTION)
+
+    def contact_velocity_out(
+        self, pair: Pair, normal_speed: Array, contact_velocity: Array, values: Values
+    ) -> Array:
+        """Return V_x' of shape (batch, rows)."""
+        return _limited(pair, normal_speed, contact_velocity, values, 1.0)
+
+
+@dataclass(frozen=True)
+class Walton:
+    """|J_t| = min(m_t (1 + beta_0) |V_x|, mu J_n) (Walton 1993; Foerster et al. 1994)."""
+
+    name: str = "Walton"
+    parameters: tuple[Parameter, ...] = (FRICTION, RESTITUTION, BETA)
+
+    def contact_velocity_out(
+        self, pair: Pair, normal_speed: Array, contact_velocity: Array, values: Values
+    ) -> Array:
+        """Return V_x' of shape (batch, rows)."""
+        reversed_part = 1.0 + values["tangential_restitution"]
+        return _limited(pair, normal_speed, contact_velocity, values, reversed_part)
+
+
+EXACT = Exact()
+RIVALS: tuple[Law, ...] = (RigidCoulomb(), Walton())
+
+
+def half_ratio(pair: Pair) -> float:
+    """Return chi/kappa, (1/2) m_n/m_t."""
+    return 0.5 * pair.normal_mass / pair.tangential_mass
+
+
+def _limited(
+    pair: Pair, normal_speed: Array, velocity: Array, values: Values, stuck: Array | float
+) -> Array:
+    """Return V_x less what the smaller of the impulses of sticking and sliding takes."""
+    whole = values["friction"] * (1.0 + values["restitution"]) * normal_speed
+    bound = 2.0 * half_ratio(pair) * whole
+    return velocity - np.copysign(np.minimum(stuck * np.abs(velocity), bound), velocity)

@@ -1,0 +1,97 @@
+"""Which parameters are varied and which are fixed, read from what a user gives."""
+
+from collections.abc import Collection, Mapping
+from typing import Any, NamedTuple
+
+from carom.fitting.laws import EXACT, half_ratio
+from carom.fitting.model import OFFSET, offset_parameter
+from carom.fitting.problem import Problem
+from carom.quantities import InputError, nearest, number, refusal
+
+NAMES = ("friction", "kappa", "chi", "restitution", OFFSET)
+FIRST = ("friction", "kappa", "restitution")  # varied unless something else is said
+
+
+class Options(NamedTuple):
+    """Names of free parameters, and the values of all to begin with, or to hold."""
+
+    free: tuple[str, ...]
+    start: Mapping[str, float]
+
+
+def read_options(
+    problem: Problem, vary: Collection[str] | str | None, fixed: Mapping[str, Any] | None
+) -> Options:
+    """Return what is varied and what it starts from, or raise InputError."""
+    held = _fixed(problem, {} if fixed is None else fixed)
+    wanted = [name for name in FIRST if name not in held] if vary is None else _varied(vary)
+    for name in wanted:
+        if name in held:
+            raise InputError(f"{name}: both varied and fixed; leave it out of one of them")
+    if OFFSET in (*wanted, *held) and not problem.has_speeds:
+        raise InputError(f"{OFFSET}: needs speeds in the data, a column speed or normal_speed")
+    if set(wanted) & {"friction", "kappa"} and OFFSET not in wanted and problem.is_normal:
+        raise InputError(
+            "data: nothing moves sideways in any row, and friction and stiffness do not matter; "
+            "measure at other angles, or give vary='restitution'"
+        )
+    if not wanted:
+        raise InputError("vary: nothing is left to fit; fix fewer parameters")
+    pair = problem.pair
+    start = {"friction": pair.friction, "kappa": pair.kappa, "restitution": 1.0, OFFSET: 0.0}
+    return Options(tuple(wanted), {**start, **held})
+
+
+def checked_confidence(value: Any) -> float:
+    """Return a confidence, or raise InputError if it is out of range."""
+    try:
+        confidence = float(value)
+    except (TypeError, ValueError):
+        confidence = 0.0
+    if not 0.5 <= confidence < 1.0:
+        raise refusal("confidence", value, "must lie between 0.5 and 1, e.g. 0.95")
+    return confidence
+
+
+def check_count(problem: Problem, free: Collection[str]) -> None:
+    """Raise InputError if there are too few values for so many parameters."""
+    least = len(free) + (not problem.all_errors_known)
+    if problem.count < least:
+        raise InputError(
+            f"data: {problem.count} measured values cannot tell {len(free)} parameters "
+            f"({', '.join(free)}), at least {least} are needed; measure more, or fix some, e.g. "
+            "fixed={'restitution': 0.98}"
+        )
+
+
+def _varied(vary: Collection[str] | str) -> list[str]:
+    names = [vary] if isinstance(vary, str) else list(vary)
+    for name in names:
+        _check_name("vary", name)
+    plain = ["kappa" if name == "chi" else name for name in names]
+    return list(dict.fromkeys(plain))
+
+
+def _fixed(problem: Problem, fixed: Mapping[str, Any]) -> dict[str, float]:
+    """Return the parameters that are held, in SI units; chi becomes kappa."""
+    if not isinstance(fixed, Mapping):
+        raise refusal("fixed", fixed, "must be values by name, e.g. {'restitution': 0.98}")
+    ranges = {parameter.name: parameter for parameter in EXACT.parameters}
+    held: dict[str, float] = {}
+    for name, value in fixed.items():
+        _check_name("fixed", name)
+        found = number(name, value, "rad/s" if name == OFFSET else "1")
+        if name == "chi":
+            name, found = "kappa", found / half_ratio(problem.pair)
+        parameter = ranges.get(name) or offset_parameter(problem)
+        if not parameter.low <= found <= parameter.high:
+            allowed = f"{name} must lie between {parameter.low:g} and {parameter.high:g}"
+            raise refusal(f"fixed {name}", value, allowed)
+        held[name] = found
+    return held
+
+
+def _check_name(where: str, name: Any) -> None:
+    if name not in NAMES:
+        hint = nearest(str(name), NAMES) or f"parameters are {', '.join(NAMES)}"
+        raise InputError(f"{where}: {str(name)!r} is no parameter; {hint}")

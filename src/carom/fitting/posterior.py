@@ -1,0 +1,98 @@
+"""Samples of the posterior by an affine-invariant ensemble (Goodman & Weare 2010), emcee's."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.fitting.laws import half_ratio
+from carom.fitting.needs import needed
+from carom.quantities import counted
+from carom.results import labelled_dataset
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from carom.fitting.record import Fit
+
+Array = NDArray[np.float64]
+
+WALKERS = 8  # per parameter
+BURN = 0.25  # part of the steps that is left out
+CHUNK = 50  # steps between two words of progress
+LONG = 50.0  # autocorrelation times that a chain should have (emcee's documentation)
+
+
+def sample(
+    fit: "Fit",
+    steps: int = 2000,
+    seed: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> "xr.Dataset":
+    """Return samples of the parameters that the data determine, as a dataset along `sample`.
+
+    The likelihood is exp(-loss/(2 lambda)) with the loss and its spread lambda of the fit, the
+    prior even in log friction, log kappa, restitution and spin offset within their ranges.
+
+    Raises InputError for fewer than 100 steps, or if emcee is not there.
+    """
+    emcee = needed("emcee", "posterior")
+    count = counted("steps", steps, 100)
+    best = fit.best
+    low, high = best.model.bounds
+    residuals = best.model.residuals(best.weights, best.loss)
+
+    def log_probability(at: Array) -> Array:
+        inside = np.all((at >= low) & (at <= high), axis=1)
+        values = residuals(np.clip(at, low, high))
+        loss = np.einsum("bm,bm->b", values, values)
+        return np.where(inside, -0.5 * loss / best.spread, -np.inf)
+
+    free = len(best.model.free)
+    generator = np.random.default_rng(seed)
+    deviations = np.sqrt(np.diag(best.information.covariance))
+    offsets = generator.normal(size=(WALKERS * free, free)) * np.minimum(deviations, 0.3)
+    start = _within(best.at + offsets, low, high)
+    sampler = emcee.EnsembleSampler(len(start), free, log_probability, vectorize=True)
+    sampler.random_state = np.random.RandomState(generator.integers(2**31)).get_state()
+    state = start
+    for done in range(0, count, CHUNK):
+        state = sampler.run_mcmc(state, min(CHUNK, count - done))
+        if progress is not None:
+            progress(min(done + CHUNK, count), count)
+    chain = sampler.get_chain(discard=int(BURN * count), flat=True)
+    times = sampler.get_autocorr_time(tol=0)
+    return _dataset(fit, chain, times, count, seed)
+
+
+def _within(at: Array, low: Array, high: Array) -> Array:
+    """Return points reflected into their ranges, so that walkers stay apart at a bound."""
+    inside = np.where(at > high, 2.0 * high - at, at)
+    inside = np.where(inside < low, 2.0 * low - inside, inside)
+    return np.asarray(np.clip(inside, low, high))
+
+
+def _dataset(fit: "Fit", chain: Array, times: Array, steps: int, seed: int | None) -> "xr.Dataset":
+    model = fit.best.model
+    values = model.values(chain)
+    variables: dict[str, Any] = {name: ("sample", values[name][:, 0]) for name in model.free}
+    if "kappa" in model.free:
+        chi = half_ratio(model.problem.pair) * values["kappa"][:, 0]
+        variables["chi"] = ("sample", chi)
+    longest = float(np.nanmax(times)) if np.isfinite(times).any() else float("nan")
+    told = {
+        "title": "posterior of parameters from measured rebounds",
+        "steps": steps,
+        "seed": -1 if seed is None else seed,
+        "autocorrelation_time": longest,
+        "converged": int(steps > LONG * longest),
+        "inputs": {name: each.value for name, each in fit.estimates.items()},
+    }
+    coords = {"sample": ("sample", np.arange(len(chain)), {"long_name": "sample"})}
+    return labelled_dataset(variables, coords, told)
+
+
+def corner_names(samples: "xr.Dataset") -> list[str]:
+    """Return the variables of samples that a corner plot shows: not chi beside kappa."""
+    return [str(name) for name in samples.data_vars if name != "chi"]

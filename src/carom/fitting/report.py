@@ -1,0 +1,93 @@
+"""The result of a fit in words."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from carom.fitting.estimation import Best
+from carom.fitting.identifiability import row_regimes
+from carom.fitting.intervals import Profile
+
+if TYPE_CHECKING:
+    from carom.fitting.record import Fit
+
+FAR = 4.0  # standard deviations of an outlier
+COLUMN = 14
+
+
+def as_text(fit: "Fit") -> str:
+    """Return a small table of the parameters, and what else is to be known."""
+    problem = fit.best.model.problem
+    head = (
+        f"{problem.count} values of {', '.join(problem.responses)} in {len(problem.rows)} rows; "
+        f"intervals of {100.0 * fit.confidence:g} % by profile likelihood"
+    )
+    lines = [head, *(f"  {name:{COLUMN}s} {each}" for name, each in fit.estimates.items())]
+    counted = ", ".join(f"{name}: {count}" for name, count in fit.regimes.items() if count)
+    lines.append(f"rows by regime: {counted}")
+    lines += [f"note: {note}" for note in fit.notes]
+    return "\n".join([*lines, str(fit.comparison)])
+
+
+def notes(best: Best, ends: Profile) -> tuple[str, ...]:
+    """Return what is to be known besides the numbers."""
+    problem = best.model.problem
+    found = [
+        *_about_errors(best),
+        *_about_outliers(best),
+        *_about_regimes(best, ends),
+        *_about_others(best),
+    ]
+    if problem.ignored:
+        found.append(f"columns that were not used: {', '.join(problem.ignored)}")
+    gaps = ~problem.present.any(axis=1)
+    if gaps.any():
+        found.append(f"nothing was measured in {problem.rows.named(gaps)}")
+    return tuple(found)
+
+
+def _about_errors(best: Best) -> list[str]:
+    problem, lines = best.model.problem, []
+    for place, name in enumerate(problem.responses):
+        if best.estimated[place]:
+            unknown = problem.present[:, place] & ~np.isfinite(problem.errors[:, place])
+            size = float(np.median(best.sigma[unknown, place]))
+            lines.append(f"{name}: standard deviation {size:.2g} from the scatter")
+        elif best.scale[place] > 1.0:
+            lines.append(
+                f"{name}: the scatter is {best.scale[place]:.1f} times what the errors allow; "
+                "they were enlarged"
+            )
+    return lines
+
+
+def _about_outliers(best: Best) -> list[str]:
+    far = np.abs(best.residuals) > FAR
+    rows = best.model.problem.rows
+    return [f"outliers: {rows.named(far.any(axis=1))}"] if far.any() else []
+
+
+def _about_regimes(best: Best, ends: Profile) -> list[str]:
+    """Return which rows may lie in more than one regime, as far as the data can tell."""
+    problem = best.model.problem
+    at_fit = row_regimes(best)
+    unsure = np.zeros(len(at_fit), dtype=bool)
+    for at in ends.ends.reshape(-1, ends.ends.shape[-1]):
+        unsure |= row_regimes(best, at) != at_fit
+    unsure &= problem.present.any(axis=1)
+    if not unsure.any():
+        return []
+    return [f"regime within the intervals not certain: {problem.rows.named(unsure)}"]
+
+
+def _about_others(best: Best) -> list[str]:
+    """Return another minimum that the data do not exclude."""
+    rivals = best.rivals
+    near = rivals.sums - rivals.sums[0] < 4.0 * best.spread
+    apart = np.any(np.abs(rivals.at - rivals.at[0]) > 0.1, axis=1)
+    lines = []
+    for at in rivals.at[near & apart][:1]:
+        values = best.model.values(at[np.newaxis])
+        shown = ", ".join(f"{name} {float(values[name][0, 0]):.3g}" for name in best.model.free)
+        lines.append(f"fits nearly as well: {shown}")
+    return lines

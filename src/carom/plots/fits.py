@@ -1,0 +1,187 @@
+"""A fit to measured rebounds: data, curves, residuals; and samples of its parameters."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from carom.glossary import GLOSSARY
+from carom.plots.style import (
+    BLACK,
+    BLUE,
+    DOUBLE,
+    MM,
+    SINGLE,
+    STICK,
+    VERMILION,
+    Band,
+    draws,
+    new_figure,
+    prefixed,
+    shade,
+    styled,
+)
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+ACROSS = 2  # responses side by side
+UPPER, LOWER = 48.0, 20.0  # heights of curves and residuals, in mm
+TINTS = (
+    STICK,
+    Band("#FBEBCB", "#FBEBCB", ""),
+    Band("#F6DDE8", "#F6DDE8", ""),
+    Band("#E4E4E4", "#E4E4E4", ""),
+)
+LAW_STYLES: dict[str, Any] = {
+    "exact": {"color": BLACK, "lw": 1.3, "zorder": 4},
+    "rigid Coulomb": {"color": VERMILION, "lw": 0.9, "ls": (0, (5, 1.5)), "zorder": 3},
+    "Walton": {"color": BLUE, "lw": 0.9, "ls": (0, (1.5, 1)), "zorder": 3},
+}
+POINTS: Any = {"fmt": "o", "ms": 2.6, "color": BLACK, "mfc": "white", "lw": 0.0, "elinewidth": 0.7}
+
+
+@draws(
+    "a fit, what carom.fit(...).to_dataset() returns",
+    *("measured", "residual", "curve_expected", "incidence"),
+)
+def plot_fit(dataset: "xr.Dataset") -> Figure:
+    """Draw what was measured against incidence, the fitted curve with its band, and residuals.
+
+    Error bars are standard deviations, with the part that comes from the motion before; the band is
+    that of the parameters, to first order. Regimes of the exact law are shaded.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        What `carom.fit(...).to_dataset()` returns.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.fitting import fit
+    >>> from carom.plots.fits import plot_fit
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> angles = [10.0, 25.0, 40.0, 55.0, 70.0]
+    >>> data = {"angle [deg]": angles, "impulse_ratio": [0.1, 0.2, 0.19, 0.21, 0.2]}
+    >>> len(plot_fit(fit(data, pair=pair, fixed={"restitution": 1.0}).to_dataset()).axes)
+    2
+    """
+    names = [str(name) for name in dataset["response"].values]
+    across = min(ACROSS, len(names))
+    down = -(-len(names) // across)
+    figure, axes = new_figure(
+        2 * down,
+        across,
+        width=SINGLE if across == 1 else DOUBLE,
+        height=down * (UPPER + LOWER) + 18.0,
+        sharex="col",
+        height_ratios=[UPPER, LOWER] * down,
+    )
+    for place, name in enumerate(names):
+        row, column = divmod(place, across)
+        _draw_response(axes[2 * row : 2 * row + 2, column], dataset, name)
+    for spare in axes[2 * down - 2 :, len(names) - across * (down - 1) :].flat:
+        spare.set_axis_off()
+    for column in range(across):
+        last = axes[2 * ((len(names) - 1 - column) // across) + 1, column]
+        last.set_xlabel(_incidence(dataset))
+        last.tick_params(labelbottom=True)
+    figure.legend(handles=_key(dataset), loc="outside upper center", ncols=across + 1)
+    return figure
+
+
+@styled
+def plot_corner(samples: "xr.Dataset") -> Figure:
+    """Draw samples of the posterior, parameter by parameter and pair by pair.
+
+    Parameters
+    ----------
+    samples : xarray.Dataset
+        What `carom.fit(...).posterior()` returns.
+    """
+    from carom.fitting.needs import needed
+    from carom.fitting.posterior import corner_names
+
+    corner = needed("corner", "a corner plot")
+    names = corner_names(samples)
+    side = max(SINGLE, 45.0 * len(names)) * MM
+    figure = Figure(figsize=(side, side))
+    values = np.stack([samples[name].values for name in names], axis=1)
+    corner.corner(
+        values,
+        labels=[GLOSSARY[name].symbol if name in GLOSSARY else name for name in names],
+        fig=figure,
+        color=BLUE,
+        quantiles=(0.025, 0.5, 0.975),
+        max_n_ticks=4,
+        quiet=True,
+    )
+    return figure
+
+
+def _draw_response(axes: Any, dataset: "xr.Dataset", name: str) -> None:
+    upper, lower = axes
+    data = dataset.sel(response=name)
+    scale, unit = _scale(name, data["measured"].values)
+    incidence = np.degrees(data["incidence"].values)
+    line = np.degrees(data["curve_incidence"].values)
+    for axis in axes:
+        _shade(axis, dataset, line)
+    for law, style in LAW_STYLES.items():
+        upper.plot(line, scale * data["curve_expected"].sel(law=law).values, **style)
+    band = (scale * data[f"curve_{end}"].values for end in ("low", "high"))
+    upper.fill_between(line, *band, color="0.4", alpha=0.35, lw=0.0, zorder=2)
+    error = scale * data["error"].values
+    upper.errorbar(incidence, scale * data["measured"].values, error, zorder=5, **POINTS)
+    lower.errorbar(incidence, scale * data["residual"].values, error, zorder=5, **POINTS)
+    lower.axhline(0.0, color=BLACK, lw=0.6, zorder=1)
+    upper.set_ylabel(_label(name, unit))
+    lower.set_ylabel("residual")
+    upper.margins(y=0.08)
+    upper.set_xlim(float(line[0]), float(line[-1]))
+
+
+def _shade(axis: Axes, dataset: "xr.Dataset", line: Any) -> None:
+    """Shade the regimes, mirrored where the incidence is negative."""
+    ends = np.degrees([0.0, *dataset["border"].values, 0.5 * np.pi])
+    for tint, start, end in zip(TINTS, ends[:-1], ends[1:], strict=True):
+        for low, high in ((start, end), (-end, -start)):
+            low, high = max(low, line[0]), min(high, line[-1])
+            if high > low:
+                shade(axis, low, high, tint)
+
+
+def _scale(name: str, values: Any) -> tuple[float, str]:
+    """Return by what to multiply a response, and its unit then; angles are in degrees."""
+    unit = GLOSSARY[name].unit if name in GLOSSARY else "1"
+    if unit == "rad":
+        return float(np.degrees(1.0)), "deg"
+    return prefixed(values, unit)
+
+
+def _label(name: str, unit: str) -> str:
+    if name not in GLOSSARY:
+        return name.replace("_", " ")
+    words, symbol = GLOSSARY[name].meaning.split(",")[0], GLOSSARY[name].symbol
+    short = words if len(words) < 24 else ""
+    text = f"{short}, {symbol}" if short else symbol
+    return text if unit == "1" else f"{text}\u00a0({unit})"
+
+
+def _incidence(dataset: "xr.Dataset") -> str:
+    spinning = bool(dataset.attrs.get("spinning", 1))
+    return "incidence of the contact point (deg)" if spinning else "angle of incidence (deg)"
+
+
+def _key(dataset: "xr.Dataset") -> list[Any]:
+    laws: list[Any] = [Line2D([], [], label=law, **style) for law, style in LAW_STYLES.items()]
+    names = ["stick from the first touch", *map(str, dataset["regime_border"].values)]
+    patches = [
+        Patch(facecolor=tint.face, label=name) for tint, name in zip(TINTS, names, strict=True)
+    ]
+    return [*laws, *patches]

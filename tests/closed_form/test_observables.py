@@ -1,0 +1,240 @@
+"""Conversions between published quantities, against rigid bodies followed one by one."""
+
+import math
+
+import numpy as np
+import pytest
+
+import carom
+from carom import HalfSpace, Material, Pair, Sphere
+from carom.histories import Tangential
+from carom.kinematics import Rebound
+from carom.observables import BEFORE, IMPULSE, NAMES, OBSERVABLES, convert
+
+STEEL = Material(young="210 GPa", poisson=0.3, density=7850)
+RUBBER = Material(young="10 MPa", poisson=0.49, density=1100)
+PAIRS = {
+    "sphere on wall": Pair(Sphere(radius=0.004, material=STEEL), HalfSpace(material=STEEL), 0.2),
+    "hollow sphere on wall": Pair(
+        Sphere(radius=0.03, inner_radius=0.027, material=RUBBER), HalfSpace(material=STEEL), 0.6
+    ),
+    "two unequal spheres": Pair(
+        Sphere(radius=0.01, material=STEEL), Sphere(radius=0.004, material=RUBBER), 0.35
+    ),
+}
+OF_SECOND = {"spin2", "spin2_out"}
+
+
+def hole(body):
+    return body.inner_radius / body.radius
+
+
+def mass(body):
+    return 4 / 3 * math.pi * body.radius**3 * (1 - hole(body) ** 3) * body.material.density
+
+
+def inertia(body):
+    whole = 8 / 15 * math.pi * body.radius**5 * body.material.density
+    return whole * (1 - hole(body) ** 5)
+
+
+def followed(pair, motion, impulse, restitution):
+    """Return all quantities from the motion of each body in the laboratory, second body included.
+
+    The first body lies above the plane z = 0 of the contact and falls; the impulse on it is
+    (-J, J_n). Angular velocities are counted about +y with x to the right and z up, so that a
+    contact point below the centre moves by -R omega_y, and Carom's spin is -omega_y there; the
+    contact point of the second body, above its centre, moves by +R omega_y.
+    """
+    normal, tangential, spin, spin2 = motion
+    one, two = pair.first, pair.second if isinstance(pair.second, Sphere) else None
+    wall = two is None
+    m_1, m_2 = mass(one), math.inf if wall else mass(two)
+    push = (1 + restitution) * normal / (1 / m_1 + 1 / m_2)
+    v_1, v_2 = np.array([0.3 + tangential, 0.1 - normal]), np.array([0.3, 0.1])
+    omega_1, omega_2 = -spin, -spin2
+    after_1 = v_1 + np.array([-impulse, push]) / m_1
+    after_2 = v_2 - np.array([-impulse, push]) / m_2
+    # torque r x F about +y: z F_x - x F_z, with r = (0, -R) and (0, R_2)
+    after_omega_1 = omega_1 + (-one.radius) * (-impulse) / inertia(one)
+    after_omega_2 = omega_2 if wall else omega_2 + two.radius * impulse / inertia(two)
+
+    def contact(v_1, v_2, omega_1, omega_2):
+        """Relative tangential velocity of the two points that touch."""
+        return v_1[0] - one.radius * omega_1 - v_2[0] - (0 if wall else two.radius * omega_2)
+
+    before, after = v_1 - v_2, after_1 - after_2
+    slip = contact(v_1, v_2, omega_1, omega_2)
+    slip_out = contact(after_1, after_2, after_omega_1, after_omega_2)
+    unit = pair.friction * normal / pair.kappa
+    return {
+        "speed": math.hypot(*before),
+        "angle": math.atan(before[0] / -before[1]),
+        "normal_speed": -before[1],
+        "tangential_speed": before[0],
+        "spin": spin,
+        "spin2": spin2,
+        "contact_angle": math.atan(slip / -before[1]),
+        "psi_in": slip / unit,
+        "normal_restitution": -after[1] / before[1],
+        "normal_speed_out": after[1],
+        "tangential_speed_out": after[0],
+        "spin_out": -after_omega_1,
+        "spin2_out": -after_omega_2,
+        "rebound_angle": math.atan(after[0] / after[1]),
+        "contact_rebound_angle": math.atan(slip_out / after[1]),
+        "tangential_restitution": after[0] / before[0],
+        "contact_restitution": slip_out / slip,
+        "contact_beta": -slip_out / slip,
+        "impulse_ratio": impulse / push,
+        "psi_out": slip_out / unit,
+    }
+
+
+def impacts(name, n=7):
+    """Return seeded impacts of a pair by quantity, arrays of shape (n,)."""
+    pair, rng = PAIRS[name], np.random.default_rng(20)
+    rows = []
+    for _ in range(n):
+        normal, tangential = rng.uniform(0.5, 4.0), rng.uniform(-5.0, 5.0)
+        spins = rng.uniform(-200.0, 200.0, 2) * [1, isinstance(pair.second, Sphere)]
+        impulse = rng.uniform(-0.3, 0.3) * pair.normal_mass * 2 * normal
+        motion = (normal, tangential, *spins)
+        rows.append(followed(pair, motion, impulse, rng.uniform(0.4, 1.0)))
+    return pair, {key: np.array([row[key] for row in rows]) for key in rows[0]}
+
+
+def names_of(pair, names):
+    return [n for n in names if isinstance(pair.second, Sphere) or n not in OF_SECOND]
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_every_quantity_is_that_of_bodies_followed_one_by_one(name):
+    pair, truth = impacts(name)
+    assert set(truth) == set(NAMES)
+    before = Tangential(truth["tangential_speed"], truth["spin"], truth["spin2"])
+    push = pair.normal_mass * (1 + truth["normal_restitution"]) * truth["normal_speed"]
+    impulse = truth["impulse_ratio"] * push
+    rebound = Rebound(pair, truth["normal_speed"], before, truth["normal_restitution"], impulse)
+    for key, values in truth.items():
+        np.testing.assert_allclose(getattr(rebound, key), values, rtol=1e-11, atol=1e-13)
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_every_quantity_from_every_other(name):
+    """Any tangential observable with the normal restitution gives all others."""
+    pair, truth = impacts(name)
+    start = {key: truth[key] for key in names_of(pair, ("normal_speed", "spin", "spin2"))}
+    start |= {key: truth[key] for key in ("tangential_speed", "normal_restitution")}
+    for way in names_of(pair, IMPULSE):
+        for wanted in names_of(pair, NAMES):
+            found = convert(pair, known=start | {way: truth[way]}, wanted=wanted)
+            scale = np.abs(truth[wanted]).max()
+            np.testing.assert_allclose(
+                found, truth[wanted], rtol=1e-9, atol=1e-11 * scale, err_msg=f"{way} to {wanted}"
+            )
+
+
+@pytest.mark.parametrize("name", PAIRS)
+@pytest.mark.parametrize(
+    "way",
+    [
+        ("speed", "angle"),
+        ("normal_speed", "angle"),
+        ("normal_speed", "contact_angle"),
+        ("normal_speed", "psi_in"),
+    ],
+)
+def test_every_way_of_giving_the_motion_before(name, way):
+    pair, truth = impacts(name)
+    known = {key: truth[key] for key in (*way, *names_of(pair, ("spin", "spin2")), "spin_out")}
+    for wanted in names_of(pair, BEFORE):
+        np.testing.assert_allclose(
+            convert(pair, known=known, wanted=wanted), truth[wanted], rtol=1e-10, atol=1e-12
+        )
+    known["normal_speed_out"] = truth["normal_speed_out"]
+    found = convert(pair, known=known, wanted="contact_rebound_angle")
+    np.testing.assert_allclose(found, truth["contact_rebound_angle"], rtol=1e-9)
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_agrees_with_the_exact_impact(name):
+    """What `impact` calls by the same name is the same."""
+    pair = PAIRS[name]
+    hit = carom.impact(pair, speed=2.0, angle="50 deg", spin=-30.0)
+    known = {"normal_speed": hit.normal_speed, "tangential_speed": hit.tangential_speed}
+    known |= {"spin": hit.spin, "normal_restitution": 1.0, "psi_out": hit.psi_out}
+    for wanted in OBSERVABLES:
+        if hasattr(hit, wanted) and wanted in names_of(pair, OBSERVABLES):
+            found = convert(pair, known=known, wanted=wanted)
+            assert found == pytest.approx(getattr(hit, wanted), rel=1e-11), wanted
+            assert isinstance(found, float)
+
+
+def test_ratios_and_angles_need_no_speed():
+    """Solid sphere, no spin: 1 + beta = (7/2)(1 - e_t); rigid sliding: e_t = 1 - f (1+e)/tan."""
+    pair = PAIRS["sphere on wall"]
+    known = {"angle": ["20 deg", "60 deg"], "tangential_restitution": [0.6, 0.9]}
+    beta = convert(pair, known=known, wanted="contact_beta")
+    np.testing.assert_allclose(beta, 3.5 * (1 - np.array([0.6, 0.9])) - 1, rtol=1e-12)
+    known["normal_restitution"] = 0.9
+    ratio = convert(pair, known=known, wanted="impulse_ratio")
+    expected = np.array([0.4, 0.1]) * np.tan(np.radians([20, 60])) / 1.9
+    np.testing.assert_allclose(ratio, expected, rtol=1e-12)
+
+
+def test_what_is_not_known_stays_unknown():
+    known = {"speed": 2.0, "angle": 0.5, "spin_out": [1.0, np.nan]}
+    found = convert(PAIRS["sphere on wall"], known=known, wanted="tangential_restitution")
+    assert np.isnan(found).tolist() == [False, True]
+
+
+START = {"speed": 2.0, "angle": 0.5}
+
+
+@pytest.mark.parametrize(
+    ("known", "wanted", "message"),
+    [
+        (START, "spin_out", "not determined for the rebound; give one of tangential_speed_out"),
+        ({"speed": 2.0, "spin_out": 1.0}, "psi_out", "not determined for the tangential motion"),
+        (START | {"spin_out": 1, "psi_out": 1}, "contact_beta", "spin_out and psi_out are too m"),
+        (START | {"tangential_speed": 1.0}, "psi_in", "tangential_speed and angle are too much"),
+        (START | {"normal_speed": 1.0}, "psi_in", "speed: give it with angle alone"),
+        (START | {"rebound_angle": 0.1}, "spin_out", "normal_restitution: missing; rebound_angle"),
+        (START | {"spin_out": 0.1}, "impulse_ratio", "normal_restitution: missing; impulse_ratio"),
+        ({"angle": 0.5, "spin_out": -1.0}, "contact_beta", "speed: missing; spin_out needs"),
+        ({"angle": 0.5, "contact_beta": 0.1}, "spin_out", "speed: missing; spin_out needs"),
+        (START | {"angle": 30}, "psi_in", "angle: 30.0 cannot be used; must be below pi/2"),
+        (START | {"rebound_angle": 40}, "psi_in", "rebound_angle: 40.0 cannot be used"),
+        (START | {"normal_restitution": 0}, "psi_in", "normal_restitution: 0.0 cannot be used"),
+        (START | {"speed": [1, -1]}, "psi_in", "speed: -1.0 cannot be used; must be positive"),
+        (START | {"spin_out": math.inf}, "psi_out", "spin_out: inf cannot be used; must be finite"),
+        (START | {"spin2_out": 1.0}, "psi_out", "spin2_out: only a second sphere can spin"),
+        (START | {"spinout": 1.0}, "psi_out", "spinout: unknown quantity; did you mean 'spin_out'"),
+        (START, "restitution", "restitution: unknown quantity; did you mean"),
+        (START | {"spin_out": [1.0, 2.0], "spin": [1, 2, 3]}, "psi_out", "do not fit each other"),
+        ({"speed": 2.0, "angle": 0.0, "contact_beta": 0.3}, "spin_out", "contact_beta: says noth"),
+        (
+            {"speed": 2.0, "angle": [0.1, 0.0], "tangential_restitution": 0.3},
+            "spin_out",
+            "tangential_restitution: says nothing where tangential_speed is zero",
+        ),
+        (
+            START | {"normal_restitution": 0.9, "normal_speed_out": 1.0},
+            "normal_speed_out",
+            "are too much; give one of them",
+        ),
+    ],
+)
+def test_what_is_open_or_said_twice_is_refused(known, wanted, message):
+    with pytest.raises(carom.InputError) as refused:
+        convert(PAIRS["sphere on wall"], known=known, wanted=wanted)
+    assert message in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+def test_psi_needs_friction():
+    pair = Pair(Sphere(radius=0.004, material=STEEL), HalfSpace(material=STEEL), friction=0.0)
+    with pytest.raises(carom.InputError, match="psi_in: infinite without friction"):
+        convert(pair, known=START, wanted="psi_in")
+    assert convert(pair, known=START, wanted="contact_angle") == pytest.approx(0.5)

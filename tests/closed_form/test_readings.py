@@ -1,0 +1,178 @@
+"""Columns of users: separators, line ends, units, gaps; and one clear line for what is wrong."""
+
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from carom.quantities import InputError
+from carom.readings import in_units, others, read_table, with_errors
+
+KNOWN = with_errors(("angle", "speed", "spin_out", "tangential_restitution", "rebound_angle"))
+GAPS = ("spin_out", "tangential_restitution", "rebound_angle")
+TEXT = "angle [deg],spin_out [rpm]\n30,-60\n45,-120\n"
+RADIANS = [math.pi / 6, math.pi / 4]
+SPINS = [-2 * math.pi, -4 * math.pi]
+
+
+@pytest.fixture
+def stored(tmp_path):
+    def store(content):
+        path = tmp_path / "table.csv"
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    return store
+
+
+def read(source):
+    return in_units(read_table(source), KNOWN, gaps=GAPS)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        TEXT,
+        TEXT.replace(",", ";"),
+        TEXT.replace(",", "\t"),
+        TEXT.replace("\n", "\r\n"),
+        TEXT.encode("utf-8-sig"),
+        TEXT.replace("\n", "\r\n").replace(",", ";").encode("utf-8-sig"),
+        TEXT.replace(",", " , ").replace("[", "(").replace("]", ")"),
+        TEXT.rstrip("\n"),
+        '"angle [deg]","spin_out [rpm]"\n"30","-60"\n\n# remark, of no account; none\n45,-120\n',
+        "angle,spin_out\n30 deg,-60 rpm\n45 deg,-120 rpm\n",
+    ],
+)
+def test_one_table_written_in_many_ways(stored, content):
+    """Comma, semicolon, tab; line ends of Windows; a byte order mark; units in head or cell."""
+    given = read(stored(content))
+    np.testing.assert_allclose(given["angle"], RADIANS, rtol=1e-14)
+    np.testing.assert_allclose(given["spin_out"], SPINS, rtol=1e-14)
+
+
+def test_a_column_without_a_unit_is_si():
+    given = read({"angle": RADIANS, "spin_out": SPINS, "speed [cm/s]": [390, 391]})
+    np.testing.assert_array_equal(given["angle"], RADIANS)
+    np.testing.assert_array_equal(given["spin_out"], SPINS)
+    np.testing.assert_allclose(given["speed"], [3.9, 3.91], rtol=1e-14)
+
+
+def test_errors_have_the_unit_of_their_head():
+    given = read({"angle [deg]": [10.0], "angle_error [deg]": [1.0], "spin_out": [-1.0]})
+    np.testing.assert_allclose(given["angle_error"], math.pi / 180, rtol=1e-14)
+
+
+def test_gaps_are_told_by_a_dash_alone(stored):
+    text = "angle [deg],spin_out,tangential_restitution\n10,-,0.7\n20,-500,-\n"
+    given = read(stored(text))
+    np.testing.assert_array_equal(given["spin_out"], [np.nan, -500.0])
+    np.testing.assert_array_equal(given["tangential_restitution"], [0.7, np.nan])
+    with pytest.raises(InputError, match="angle: not a number in line 3"):
+        read(stored(text.replace("20", "-")))
+
+
+def test_comments_are_read_by_key(stored):
+    text = '# Title: drop test: one\n# a remark\n# case: {"friction": 0.3}\n# title: no\n' + TEXT
+    table = read_table(stored(text))
+    assert table.comments["title"] == "drop test: one"
+    assert table.case == {"friction": 0.3}
+    assert read_table(stored(TEXT)).case is None
+    assert table.rows.tolist() == [6, 7]
+
+
+def test_a_labelled_dataset_is_a_table():
+    """Units from the attributes; what is missing there was not measured; the bodies come along."""
+    data = xr.Dataset(
+        {
+            "angle": ("point", [10.0, 20.0], {"units": "deg"}),
+            "spin_out": ("point", [np.nan, -5.0], {"units": "rad/s"}),
+            "friction": 0.3,
+        },
+        attrs={"case": '{"friction": 0.3}'},
+    )
+    given = read(data)
+    np.testing.assert_allclose(given["angle"], np.radians([10.0, 20.0]), rtol=1e-14)
+    np.testing.assert_array_equal(given["spin_out"], [np.nan, -5.0])
+    assert read_table(data).case == {"friction": 0.3}
+    with pytest.raises(InputError, match="angle: not a number in row 1"):
+        read(data.assign(angle=("point", [np.nan, 20.0], {"units": "deg"})))
+
+
+ROWS = "\n1,1\n1,1\n1,1\n"
+BAD = {
+    "angle,spin_out\n0.1,1\n30,1\n45,1\n": "angle: 30 in lines 3 and 4 .* is 'angle [deg]'",
+    "angle [rad],spin_out\n30,1\n": "angle: 30 in line 2 .* headed rad: if .* 'angle [deg]'",
+    "angle [deg],spin_out\n90,1\n": "angle: 1.5708 in line 2 .* below pi/2, 90 deg",
+    "angle [deg],rebound_angle\n9,-7\n": "rebound_angle: -7 in line 2 .* 'rebound_angle [deg]'",
+    "angle [m],spin_out" + ROWS: "angle: '1 m' cannot be used",
+    "angle [dog],spin_out" + ROWS: "unit 'dog' is not known",
+    "angle,spin_out [Hz]" + ROWS: "a spin is not in Hz",
+    "angle,tangential_restitution [kg]" + ROWS: "tangential_restitution: '1 kg' cannot be used",
+    "angle,tangential_restitution [%]" + ROWS: "write a percentage as a number",
+    "angle [deg],angle_error" + ROWS: "angle_error: no unit, but angle is in deg; write 'angle_e",
+    "angle,spin_out\n1,1\n1,\n1,nan\n1,1\n": "spin_out: not a number in lines 3 and 4; write '-'",
+    "angle,spin_out\n,1\n1,1\n": "angle: not a number in line 2; correct or delete",
+    "angle,spin_out\n1,1\n1,inf\n": "spin_out: not a number in line 3",
+    "angle,spin_out\n1,fast\n": "spin_out: not a number in line 2; spin_out: 'fast' cannot",
+    "angle;spin_out\n0,5;1\n": "angle: '0,5' cannot be used; numbers need a decimal point",
+    "angle;spin_out\n0.5,1\n": "line 2 has 1 values, the header has 2 names",
+    "angle|spin_out\n0.5|1\n": "separated by commas, semicolons or tabs",
+    "angle,angle [deg]" + ROWS: "'angle': two columns of this name",
+    "angle [deg],spin_out\n": "no rows",
+    "# case: {\nangle,spin_out" + ROWS: "there is no JSON",
+}
+
+
+@pytest.mark.parametrize("text", BAD)
+def test_bad_columns_are_refused_in_one_line(stored, text):
+    with pytest.raises(InputError, match=BAD[text].replace("[", r"\[")) as refused:
+        assert read(stored(text)) is None or read_table(stored(text)).case is None
+    assert "\n" not in str(refused.value)
+
+
+def test_bytes_that_are_no_text_are_refused(stored):
+    for content in (TEXT.encode("utf-16"), b"a,b\n1,\xff\n"):
+        with pytest.raises(InputError, match="is not text"):
+            read_table(stored(content))
+
+
+def test_rows_of_a_mapping_are_counted_from_one():
+    with pytest.raises(InputError, match="angle: not a number in rows 1 and 3"):
+        read({"angle": [None, 0.1, math.nan, 0.2], "spin_out": [1, 2, 3, 4]})
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("spinout", "spin_out"),
+        ("Spin Out", "spin_out"),
+        ("omega", "spin_out"),
+        ("theta", "angle"),
+        ("e_t", "tangential_restitution"),
+        ("e_t_error", "tangential_restitution_error"),
+        ("incident_angle_deg", "angle [deg]"),
+        ("omega_rad_s", "spin_out [rad/s]"),
+        ("rebound angel", "rebound_angle"),
+    ],
+)
+def test_a_misspelt_column_is_refused_and_not_ignored(name, meant):
+    table = read_table({"speed": [1.0], name: [0.1]})
+    with pytest.raises(InputError) as refused:
+        others(table, KNOWN)
+    assert f"{name}: unknown column; did you mean {meant!r}?" == str(refused.value)
+
+
+def test_columns_that_mean_nothing_here_are_named():
+    table = read_table({"angle": [0.1], "run": [1], "temperature": [20.0], "spin_out": [1.0]})
+    assert others(table, KNOWN) == ("run", "temperature")
+    with pytest.raises(InputError, match="spin_out_error: the column 'spin_out' it goes with"):
+        others(read_table({"angle": [0.1], "spin_out_error": [1.0]}), KNOWN)
+
+
+def test_too_few_rows_are_refused():
+    given = read({"angle": [0.1, 0.2], "spin_out": [1.0, 2.0]})
+    given.require_rows(2)
+    with pytest.raises(InputError, match="too few points: 2, at least 3 are needed"):
+        given.require_rows(3)
