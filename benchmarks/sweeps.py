@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 import carom
-from carom.dimensionless.rebounds import available_cores
+from carom.dimensionless.blocks import available_cores
 from carom.sweeps import sweep
 from carom.sweeps.designs import LatinHypercube
 from carom.sweeps.evaluation import Problem

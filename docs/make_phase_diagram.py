@@ -3,7 +3,8 @@
 from pathlib import Path
 
 from carom.dimensionless.phases import OPPOSITE, SAME, TRANSITIONS, Cause, Kind
-from carom.dimensionless.solution import CAUSE_NAMES, KIND_NAMES
+from carom.dimensionless.solution import CAUSE_NAMES
+from carom.dimensionless.states import KIND_NAMES
 
 PAGE = Path(__file__).with_name("phases.md")
 HALVES = {False: "loading", True: "unloading"}

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from carom.lazy import loader
 
 if TYPE_CHECKING:
-    from carom import classical, plots, verify
+    from carom import classical, datasets, plots, verify
     from carom.bodies import (
         Cup,
         HalfSpace,
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from carom.dimensionless.phases import Status
     from carom.dimensionless.rebounds import rebound
     from carom.dimensionless.solution import Solution, solve
+    from carom.fitting import Fit, fit
     from carom.impacts import Impact, impact
     from carom.laws.dem import (
         EdemHertzMindlin,
@@ -42,6 +43,8 @@ if TYPE_CHECKING:
     from carom.laws.mixture import MixtureLaw
     from carom.laws.rigid import RoughLaw, SmoothLaw, WaltonLaw
     from carom.loading import LoadPath, load_path
+    from carom.normals import ElasticPlastic, KelvinVoigt
+    from carom.observables import convert
     from carom.pairs import Pair
     from carom.quantities import InputError
     from carom.storage import read, save
@@ -81,6 +84,9 @@ _HOMES = {
     "carom.quantities": ("InputError",),
     "carom.impacts": ("Impact", "impact"),
     "carom.loading": ("LoadPath", "load_path"),
+    "carom.normals": ("ElasticPlastic", "KelvinVoigt"),
+    "carom.observables": ("convert",),
+    "carom.fitting": ("Fit", "fit"),
     "carom.storage": ("read", "save"),
     "carom.sweeps": ("sweep",),
     "carom.sweeps.designs": ("Grid", "LatinHypercube", "Table"),
@@ -89,7 +95,7 @@ _HOMES = {
     "carom.dimensionless.rebounds": ("rebound",),
     "carom.dimensionless.solution": ("Solution", "solve"),
 }
-_MODULES = ("classical", "plots", "verify")
+_MODULES = ("classical", "datasets", "plots", "verify")
 _named = loader(__name__, _HOMES)
 
 __all__ = [
@@ -97,12 +103,15 @@ __all__ = [
     "Collisions",
     "Cup",
     "EdemHertzMindlin",
+    "ElasticPlastic",
+    "Fit",
     "Grid",
     "HalfSpace",
     "HardSphere",
     "HertzLinearHistory",
     "Impact",
     "InputError",
+    "KelvinVoigt",
     "LammpsMindlin",
     "LatinHypercube",
     "LiggghtsHertz",
@@ -127,7 +136,10 @@ __all__ = [
     "YadeMindlin",
     "classical",
     "collide",
+    "convert",
     "curve",
+    "datasets",
+    "fit",
     "fit_walton",
     "impact",
     "load_path",

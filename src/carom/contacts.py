@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from carom.dimensionless import hertz
 from carom.dimensionless.profile import Profile
-from carom.dimensionless.solution import Solution, now_at
+from carom.dimensionless.solution import Solution
+from carom.dimensionless.states import now_at
 from carom.pairs import ContactScales, Pair
 
 Array = NDArray[np.float64]

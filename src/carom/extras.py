@@ -6,11 +6,11 @@ from types import ModuleType
 from carom.quantities import InputError
 
 
-def extra(name: str, purpose: str) -> ModuleType:
-    """Return a package of the extra `cluster`, or raise InputError that says how to get it."""
+def extra(name: str, purpose: str, group: str = "cluster") -> ModuleType:
+    """Return a package of an extra, or raise InputError that says how to get it."""
     try:
         return import_module(name)
     except ImportError:
-        raise InputError(
-            f"{purpose} needs the package {name.partition('.')[0]}; pip install 'carom[cluster]'"
-        ) from None
+        package = name.partition(".")[0]
+        hint = f"pip install 'carom[{group}]'"
+        raise InputError(f"{purpose} needs the package {package}; {hint}") from None

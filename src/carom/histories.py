@@ -8,6 +8,7 @@ from carom.bodies import Sphere
 from carom.pairs import Pair
 
 if TYPE_CHECKING:
+    from carom.dimensionless.lossy.solution import LossySolution
     from carom.dimensionless.solution import Solution
 
 RESULTS = (
@@ -27,6 +28,7 @@ RESULTS = (
     "tangential_restitution",
     "contact_restitution",
     "dissipated_energy",
+    "lost_energy",
 )
 PAIR = (
     "friction",
@@ -76,7 +78,7 @@ def inertia(body: Sphere) -> float:
 
 
 def history_columns(
-    pair: Pair, normal_speed: float, start: Tangential, solution: "Solution", n: int
+    pair: Pair, normal_speed: float, start: Tangential, solution: "Solution | LossySolution", n: int
 ) -> dict[str, Any]:
     """Return the impact at n times by name of column, in SI units.
 
@@ -101,7 +103,7 @@ def history_columns(
         "tangential_speed": now.tangential_speed,
         "spin": now.spin,
         "spin2": now.spin2,
-        "normal_force": h.penetration**1.5 * scales.force,
+        "normal_force": h.normal_force * scales.force,
         "tangential_force": h.force * scales.tangential_force,
         "contact_radius": h.contact_radius * scales.radius,
         "stick_radius": h.stick_radius * scales.radius * (0.0 if slides_freely else 1.0),
@@ -109,7 +111,8 @@ def history_columns(
         "tangential_kinetic_energy": 0.5 * pair.normal_mass * now.tangential_speed**2,
         "spin_kinetic_energy": now.spin_energy(pair),
         "contact_kinetic_energy": 0.5 * pair.tangential_mass * velocity**2,
-        "normal_elastic_energy": h.penetration**2.5 * scales.energy,
+        "normal_elastic_energy": h.normal_stored * scales.energy,
+        "normal_loss": h.normal_lost * scales.energy,
         "tangential_elastic_energy": h.stored * energy_unit,
         "frictional_work": h.dissipated * energy_unit,
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import isfinite
+from math import isfinite, nan
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,9 +15,13 @@ from numpy.typing import ArrayLike
 from carom.approach import approach
 from carom.bodies import Sphere, Value
 from carom.contacts import Contact, contact_in_impact
-from carom.dimensionless.solution import Phase, SlipAngle, Solution, solve
+from carom.dimensionless.lossy.solution import LossySolution, solve_with_losses
+from carom.dimensionless.phases import Status
+from carom.dimensionless.solution import Solution, solve
+from carom.dimensionless.states import Phase, SlipAngle
 from carom.fields import radial_fields, surface_fields
 from carom.histories import Tangential, history_columns
+from carom.normals import NormalLaw
 from carom.outcomes import Outcome
 from carom.pairs import Pair, representable
 from carom.quantities import InputError, counted, finite, number, refusal
@@ -38,7 +42,7 @@ class Impact(Outcome):
     adds to the tangential speed of the contact point: V_x = v_t + R spin + R_2 spin2.
     """
 
-    solution: Solution = field(repr=False)
+    solution: Solution | LossySolution = field(repr=False)
 
     @cached_property
     def phases(self) -> tuple[Phase, ...]:
@@ -66,20 +70,21 @@ class Impact(Outcome):
         times = counted("n", n, 2)
         columns = history_columns(self.pair, self.normal_speed, self._before, self.solution, times)
         angles = self.slip_angles
-        return labelled(
-            columns,
-            self.scalars(),
-            self.phases,
-            self.inputs(),
-            phase_columns={
-                "phase_slip_angle_max": [angle.largest for angle in angles],
-                "phase_slip_angle_mean": [angle.mean for angle in angles],
-            },
-        )
+        phase_columns = {
+            "phase_slip_angle_max": [angle.largest for angle in angles],
+            "phase_slip_angle_mean": [angle.mean for angle in angles],
+        }
+        known = {} if self.normal is not None else phase_columns
+        return labelled(columns, self.scalars(), self.phases, self.inputs(), phase_columns=known)
 
     @property
     def slip_angles(self) -> tuple[SlipAngle, ...]:
-        """Angle between slip and traction in each phase, which the theory neglects, in rad."""
+        """Angle between slip and traction in each phase, which the theory neglects, in rad.
+
+        NaN where the normal motion loses energy: there it is not known.
+        """
+        if isinstance(self.solution, LossySolution):
+            return (SlipAngle(nan, nan),) * len(self.phases)
         if not isfinite(self.psi_in):
             return (SlipAngle(0.0, 0.0),)
         return self.solution.slip_angles(self.pair.lateral_ratio)
@@ -87,8 +92,12 @@ class Impact(Outcome):
     def contact(self, time: Value) -> Contact:
         """Return the contact at a time since the first touch: what fields and stresses come from.
 
-        Raises InputError for a time outside the contact.
+        Raises InputError for a time outside the contact, or if the normal motion loses energy.
         """
+        if isinstance(self.solution, LossySolution):
+            raise InputError(
+                "normal: fields and stresses are those of elastic impacts; leave normal out"
+            )
         instant = number("time", time)
         if not 0.0 <= instant <= self.duration:
             allowed = f"must lie within the contact, from 0 to {self.duration:.6g} s"
@@ -246,8 +255,9 @@ def impact(
     tangential_speed: Value | None = None,
     spin: Value = 0.0,
     spin2: Value = 0.0,
+    normal: NormalLaw | None = None,
 ) -> Impact:
-    """Solve one oblique impact of two elastic bodies exactly, within Hertz's theory.
+    """Solve one oblique impact of two bodies exactly, within Hertz's theory.
 
     V_1 = speed cos(angle), v_t = speed sin(angle), V_x = v_t + R spin + R_2 spin2,
     psi_1 = kappa V_x/(mu V_1).
@@ -262,6 +272,8 @@ def impact(
         The same as components, instead of speed and angle; relative, of the first to the second.
     spin, spin2 : float or str
         Spin of either body; positive spin adds to the tangential speed of the contact point.
+    normal : KelvinVoigt or ElasticPlastic, optional
+        What the normal motion loses energy to; by default nothing, the bodies are elastic.
 
     Raises
     ------
@@ -281,15 +293,37 @@ def impact(
     """
     if not isinstance(pair, Pair):
         raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
-    normal, tangential = approach(speed, angle, normal_speed, tangential_speed)
+    approaching, tangential = approach(speed, angle, normal_speed, tangential_speed)
     first_spin, second_spin = finite("spin", spin), finite("spin2", spin2)
     if second_spin and not isinstance(pair.second, Sphere):
         raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
     velocity = Tangential(tangential, first_spin, second_spin).contact_velocity(pair)
-    _refuse_overflow(pair, normal, velocity)
-    psi = pair.psi(velocity, normal)
-    solution = solve(psi if isfinite(psi) else 0.0, pair.chi)
-    return Impact(pair, normal, tangential, first_spin, second_spin, solution)
+    _refuse_overflow(pair, approaching, velocity)
+    psi = pair.psi(velocity, approaching)
+    solved = psi if isfinite(psi) else 0.0
+    return Impact(
+        pair,
+        approaching,
+        tangential,
+        first_spin,
+        second_spin,
+        _solution(pair, approaching, solved, normal),
+        normal,
+    )
+
+
+def _solution(
+    pair: Pair, normal_speed: float, psi: float, normal: NormalLaw | None
+) -> Solution | LossySolution:
+    if normal is None:
+        return solve(psi, pair.chi)
+    if not hasattr(normal, "loss"):
+        allowed = "must be a law of normal loss, e.g. carom.KelvinVoigt(restitution=0.9)"
+        raise refusal("normal", normal, allowed)
+    found = solve_with_losses(psi, pair.chi, *normal.loss(pair, normal_speed))
+    if found.status is not Status.SOLVED:
+        raise refusal("normal", normal.describe(), f"the impact is {found.status.message}")
+    return found
 
 
 def _refuse_overflow(pair: Pair, normal: float, velocity: float) -> None:

@@ -6,18 +6,27 @@ from math import nan
 from typing import Any, Protocol
 
 from carom.bodies import describe
-from carom.dimensionless import hertz
 from carom.elementwise import arctan2, hypot, isfinite, quotient, where
 from carom.histories import PAIR, RESULTS, Tangential
+from carom.normals import NormalLaw
 from carom.pairs import Pair, Scales
 
 
 class Solved(Protocol):
-    """What an outcome needs of a solution; a number, or an array of them."""
+    """What an outcome needs of a solution: numbers, or arrays of them, in units of the scales."""
 
     @property
-    def psi_out(self) -> float:
-        """Tangential velocity of the contact point after, dimensionless."""
+    def psi_out(self) -> float: ...
+    @property
+    def restitution(self) -> float: ...
+    @property
+    def duration(self) -> float: ...
+    @property
+    def max_penetration(self) -> float: ...
+    @property
+    def max_force(self) -> float: ...
+    @property
+    def max_radius(self) -> float: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,6 +43,7 @@ class Outcome:
     spin: float
     spin2: float
     solution: Solved = field(repr=False)
+    normal: NormalLaw | None = None
 
     @cached_property
     def contact_velocity(self) -> float:
@@ -87,17 +97,22 @@ class Outcome:
     @property
     def rebound_speed(self) -> float:
         """Relative speed of the centres after, in m/s."""
-        return hypot(self.normal_speed, self.tangential_speed_out)
+        return hypot(self.normal_speed_out, self.tangential_speed_out)
 
     @property
     def rebound_angle(self) -> float:
         """Angle of rebound of the centre from the normal, in rad; negative if it goes back."""
-        return arctan2(self.tangential_speed_out, self.normal_speed)
+        return arctan2(self.tangential_speed_out, self.normal_speed_out)
 
     @property
     def normal_restitution(self) -> float:
         """Normal velocity after to before: 1 for elastic bodies."""
-        return 1.0
+        return self.solution.restitution
+
+    @property
+    def normal_speed_out(self) -> float:
+        """Normal speed of the centres after, in m/s."""
+        return self.normal_restitution * self.normal_speed
 
     @property
     def tangential_restitution(self) -> float:
@@ -115,6 +130,12 @@ class Outcome:
         before, after = self.contact_velocity, self.contact_velocity_out
         return 0.5 * self.pair.tangential_mass * (before - after) * (before + after)
 
+    @property
+    def lost_energy(self) -> float:
+        """Energy lost in the normal motion, in J."""
+        left = self.normal_restitution**2
+        return self.scales.energy * (1.0 - left)
+
     @cached_property
     def scales(self) -> Scales:
         """What the dimensionless impact is multiplied by."""
@@ -123,27 +144,28 @@ class Outcome:
     @property
     def duration(self) -> float:
         """Duration of the contact, in s."""
-        return hertz.DURATION * self.scales.time
+        return self.solution.duration * self.scales.time
 
     @property
     def max_penetration(self) -> float:
         """Largest normal approach, in m."""
-        return self.scales.length
+        return self.solution.max_penetration * self.scales.length
 
     @property
     def max_force(self) -> float:
         """Largest normal force, in N."""
-        return self.scales.force
+        return self.solution.max_force * self.scales.force
 
     @property
     def max_radius(self) -> float:
         """Largest contact radius, in m."""
-        return self.scales.radius
+        return self.solution.max_radius * self.scales.radius
 
     @property
     def max_pressure(self) -> float:
-        """Largest contact pressure, in Pa."""
-        return self.scales.pressure
+        """Largest contact pressure of Hertz's theory at the largest force, in Pa."""
+        cubed: float = self.solution.max_force ** (1.0 / 3.0)
+        return cubed * self.scales.pressure
 
     def scalars(self) -> dict[str, float]:
         """Return the numbers of the result by name."""
@@ -158,6 +180,7 @@ class Outcome:
             "friction": self.pair.friction,
             "normal_speed": self.normal_speed,
             **self._before._asdict(),
+            **({} if self.normal is None else {"normal": self.normal.describe()}),
         }
 
 

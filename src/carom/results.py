@@ -13,7 +13,7 @@ from carom.glossary import GLOSSARY
 if TYPE_CHECKING:
     import xarray as xr
 
-    from carom.dimensionless.solution import Phase
+    from carom.dimensionless.states import Phase
 
 
 CONVENTIONS = "CF-1.11"

@@ -7,7 +7,8 @@ import pytest
 
 import carom
 from carom.dimensionless.phases import TRANSITIONS, Kind
-from carom.dimensionless.solution import CAUSE_NAMES, KIND_NAMES
+from carom.dimensionless.solution import CAUSE_NAMES
+from carom.dimensionless.states import KIND_NAMES
 
 STICK, PLUS, MINUS = ("stick", 0), ("slip", 1), ("slip", -1)
 GROSS_PLUS, GROSS_MINUS = ("gross slip", 1), ("gross slip", -1)

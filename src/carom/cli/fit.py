@@ -69,9 +69,12 @@ def fit_command(
     from carom.cli.compiling import announced
     from carom.cli.files import refuse_same
     from carom.fitting import fit
+    from carom.quantities import refusal
     from carom.storage import FIGURES, TABLES, checked_output, save
 
     source = _source(data, dataset)
+    if about is not None and advice is None:
+        raise refusal("for", about, "it is the parameter of --advice; give that, too")
     files = {"data": source, "case": case, "plot": plot, "output": output, "posterior": posterior}
     refuse_same(files)
     allowed = ((plot, FIGURES), (output, TABLES), (posterior, (*TABLES, *FIGURES)))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from carom.collisions.records import SKEW, CollisionStatus, Inertia
 from carom.dimensionless._jit import kernel
-from carom.dimensionless.rebounds import available_cores
+from carom.dimensionless.blocks import available_cores
 from carom.laws.rules import LARGEST, Rule, one_plus_beta
 
 Flat = NDArray[np.floating]  # x, y, z of one pair after the other

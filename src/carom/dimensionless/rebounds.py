@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import os
 import warnings
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom.dimensionless._jit import kernel
+from carom.dimensionless.blocks import in_blocks
+from carom.dimensionless.lossy.normal import NormalLoss
+from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.motion import PSI
 from carom.dimensionless.phases import Status, new_work, run_phases
 from carom.dimensionless.record import KIND, KIND_SIGN, Record, new_record
@@ -72,12 +73,18 @@ def rebound(
     *,
     threads: int | None = ...,
     return_status: Literal[False] = ...,
+    normal: NormalLoss | None = ...,
 ) -> Any: ...
 
 
 @overload
 def rebound(
-    psi: ArrayLike, chi: ArrayLike, *, threads: int | None = ..., return_status: Literal[True]
+    psi: ArrayLike,
+    chi: ArrayLike,
+    *,
+    threads: int | None = ...,
+    return_status: Literal[True],
+    normal: NormalLoss | None = ...,
 ) -> tuple[Any, Any]: ...
 
 
@@ -87,12 +94,13 @@ def rebound(
     *,
     threads: int | None = None,
     return_status: bool = False,
+    normal: NormalLoss | None = None,
 ) -> Any:
-    """Return the tangential velocity of the contact point after an oblique elastic impact.
+    """Return the tangential velocity of the contact point after an oblique impact.
 
     psi_2 = psi_2(psi_1, chi) of Maw, Barber & Fawcett (1976), with the stick phase of Barber's
     equations (15)-(37) and the slip ring that follows it, to 1e-10 max(1, |psi_1|) for
-    0.05 <= chi <= 10 and ten times that for chi <= 60.
+    0.05 <= chi <= 10 and ten times that for chi <= 60; with losses to 1e-8 max(1, |psi_1|).
 
     Parameters
     ----------
@@ -105,6 +113,8 @@ def rebound(
         How many threads to use, all cores by default. The result does not depend on it.
     return_status : bool
         Return also an array of `Status` values, one per impact.
+    normal : KelvinVoigt or ElasticPlastic, optional
+        What the normal motion loses energy to, free of units; by default nothing.
 
     Returns
     -------
@@ -124,13 +134,21 @@ def rebound(
     0.0471310838
     >>> carom.rebound([0.5, 1.5, 3.5, 6.0], 1.44).round(6)
     array([ 0.047131, -0.429967, -1.477247,  0.24    ])
+    >>> carom.rebound([0.5, 6.0], 1.44, normal=carom.KelvinVoigt(restitution=0.9)).round(6)
+    array([-0.001046,  0.5304  ])
     """
     if threads is not None and (not isinstance(threads, int) or threads < 1):
         raise ValueError(f"threads: {threads!r} cannot be used; must be a whole number from 1 on")
     psi_in, chi_in = _real("psi", psi), _real("chi", chi)
     shape = np.broadcast_shapes(psi_in.shape, chi_in.shape)
     flat_psi, flat_chi = (np.array(np.broadcast_to(x, shape)).ravel() for x in (psi_in, chi_in))
-    psi_out, status, _ = solved(flat_psi, flat_chi, threads)
+    if normal is None:
+        psi_out, status, _ = solved(flat_psi, flat_chi, threads)
+    else:
+        loss, parameter = normal.scale_free()
+        parameters = np.full(flat_psi.size, parameter)
+        found = lossy_rebounds(flat_psi, flat_chi, loss, parameters, threads)
+        psi_out, status = found.psi_out, found.status
     result = psi_out.reshape(shape) if shape else float(psi_out[0])
     if return_status:
         return result, status.reshape(shape) if shape else int(status[0])
@@ -151,32 +169,13 @@ def solved(
     """Return psi_2, `Status` and a number for the sequence of phases of impacts, in threads."""
     psi_out, status = np.empty(psi.size), np.empty(psi.size, dtype=np.int8)
     sequence = np.empty(psi.size, dtype=np.int64)
-    threads = threads or available_cores()
-    size = min(BLOCK, max(SMALLEST_BLOCK, -(-psi.size // (2 * threads))))
 
-    def block(start: int) -> None:
-        part = slice(start, start + size)
+    def block(part: slice) -> None:
         results = psi_out[part], status[part], sequence[part]
         fill(psi[part], chi[part], new_work(), new_record(False), *results)
 
-    starts = range(0, psi.size, size)
-    workers = min(threads, len(starts))
-    if workers <= 1:
-        for start in starts:
-            block(start)
-        return psi_out, status, sequence
-    block(0)  # compiles, if need be, in one thread
-    with ThreadPoolExecutor(workers) as pool:
-        list(pool.map(block, starts[1:]))
+    in_blocks(block, psi.size, BLOCK, SMALLEST_BLOCK, threads)
     return psi_out, status, sequence
-
-
-def available_cores() -> int:
-    """Return the number of cores this process may use."""
-    try:
-        return len(os.sched_getaffinity(0))
-    except AttributeError:  # not on every system
-        return os.cpu_count() or 1
 
 
 def warn_of_unsolved(status: NDArray[np.int8]) -> None:

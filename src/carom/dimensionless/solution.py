@@ -1,14 +1,16 @@
 """One impact in plain numbers: its phases, and its state at any time."""
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from operator import index
-from typing import NamedTuple
+from typing import ClassVar, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom.dimensionless import dense, hertz, slip
 from carom.dimensionless.annuli import Memory, memory_at
+from carom.dimensionless.lossy.normal import NormalLoss
+from carom.dimensionless.lossy.solution import LossySolution, solve_with_losses
 from carom.dimensionless.motion import PSI
 from carom.dimensionless.phases import Cause, Kind, Status, new_work, run_phases
 from carom.dimensionless.rebounds import LINEAR, TOLERANCE
@@ -20,10 +22,10 @@ from carom.dimensionless.record import (
     new_record,
     trimmed,
 )
+from carom.dimensionless.states import KIND_NAMES, History, Phase, SlipAngle, now_at
 
 Array = NDArray[np.float64]
 
-KIND_NAMES = {Kind.STICK: "stick", Kind.SLIP: "slip", Kind.GROSS_SLIP: "gross slip"}
 CAUSE_NAMES = {
     Cause.EDGE_AT_LIMIT: "edge reaches friction limit",
     Cause.SLIP_STOPS: "slip stops",
@@ -33,45 +35,6 @@ CAUSE_NAMES = {
     Cause.UNRESOLVED: "not resolved",
 }
 SHORTEST = 1e-12  # of a phase, in units of d_max/V_1; what is shorter is rounding
-
-
-class Phase(NamedTuple):
-    """A phase of an impact: its kind, sign of slip (0 in stick), times, and what ended it.
-
-    Times are in d_max/V_1 in a `Solution`, in s in an `Impact`.
-    """
-
-    kind: str
-    sign: int
-    start: float
-    end: float
-    cause: str
-
-
-class SlipAngle(NamedTuple):
-    """Angle between slip and traction in a phase, in rad: largest, and mean by frictional work."""
-
-    largest: float
-    mean: float
-
-
-@dataclass(frozen=True, eq=False)
-class History:
-    """An impact at some times, in the dimensionless units of `Solution`."""
-
-    time: Array
-    penetration: Array
-    speed: Array
-    psi: Array
-    displacement: Array
-    force: Array
-    stick_radius: Array
-    contact_radius: Array
-    stored: Array
-    dissipated: Array
-
-    def __len__(self) -> int:
-        return len(self.time)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,10 +66,11 @@ class Solution:
     _times: Array = field(repr=False)
     _moved: Array = field(repr=False)
 
-    @property
-    def duration(self) -> float:
-        """Time from the first touch to the last."""
-        return hertz.DURATION
+    restitution: ClassVar[float] = 1.0
+    duration: ClassVar[float] = hertz.DURATION
+    max_penetration: ClassVar[float] = 1.0
+    max_force: ClassVar[float] = 1.0
+    max_radius: ClassVar[float] = 1.0
 
     @property
     def scale(self) -> float:
@@ -142,6 +106,9 @@ class Solution:
             contact_radius=rows[:, dense.AT_CONTACT],
             stored=scale**2 * rows[:, dense.AT_STORED],
             dissipated=scale**2 * rows[:, dense.AT_DISSIPATED],
+            normal_force=rows[:, dense.AT_D] ** 1.5,
+            normal_stored=rows[:, dense.AT_D] ** 2.5,
+            normal_lost=np.zeros(wanted.size),
         )
 
     def history(self, n: int = 200) -> History:
@@ -201,13 +168,16 @@ class Solution:
         return SlipAngle(float(np.arcsin(lateral_ratio)), float(rate @ turned / (rate @ power)))
 
 
-def now_at(history: History) -> dict[str, float]:
-    """Return the only row of a history as numbers."""
-    return {item.name: float(getattr(history, item.name)[0]) for item in fields(history)}
+@overload
+def solve(psi: float, chi: float, *, normal: None = ...) -> Solution: ...
 
 
-def solve(psi: float, chi: float) -> Solution:
-    """Solve one oblique impact of elastic bodies exactly, phase by phase.
+@overload
+def solve(psi: float, chi: float, *, normal: NormalLoss) -> LossySolution: ...
+
+
+def solve(psi: float, chi: float, *, normal: NormalLoss | None = None) -> Solution | LossySolution:
+    """Solve one oblique impact exactly, phase by phase.
 
     psi' = -(15/4) chi Q, with Q' that of the phase of the moment: stick (Barber 1979, (15)), a slip
     ring around a stick zone, or gross slip (33).
@@ -218,6 +188,8 @@ def solve(psi: float, chi: float) -> Solution:
         psi_1 = kappa V_x / (mu V_1), any finite number.
     chi : float
         chi = (kappa/2) (m_n/m_t), positive.
+    normal : KelvinVoigt or ElasticPlastic, optional
+        What the normal motion loses energy to, free of units; by default nothing.
 
     Raises
     ------
@@ -235,6 +207,9 @@ def solve(psi: float, chi: float) -> Solution:
     gross slip -1 until 2.9433: separation
     """
     psi, chi = float(psi), float(chi)
+    if normal is not None:
+        loss, parameter = normal.scale_free()
+        return solve_with_losses(psi, chi, loss, parameter)
     work, record = new_work(), new_record(True)
     recorded = max(abs(psi), LINEAR) if psi != 0.0 else 0.0
     status = Status(run_phases(recorded, chi, TOLERANCE, work, record))

@@ -24,6 +24,7 @@ Array = NDArray[np.float64]
 
 DEGREES = np.arange(1.0, 86.0)  # incidences that are considered
 MOST = 10_000  # further measurements that are worth a thought
+ROUNDING = 0.01  # of a measurement
 PRIOR = 1e-2  # information on what nothing is known of, per unit of its coordinate
 HALF = 4.0  # the variance that is to be divided by
 
@@ -86,7 +87,7 @@ def advise(fit: "Fit", n: int, parameter: str | None) -> Advice:
     now = np.linalg.inv(matrix)[place, place]
     needed = [_needed(matrix, gain, place, now) for gain in gains]
     places = [
-        Place(float(np.radians(degrees)), regime, None if need > MOST else ceil(need))
+        Place(float(np.radians(degrees)), regime, None if need > MOST else ceil(need - ROUNDING))
         for degrees, regime, need in zip(DEGREES, regimes, needed, strict=True)
     ]
     chosen = []
@@ -206,4 +207,4 @@ def _needed(matrix: Array, gain: Array, place: int, now: float) -> float:
     for _ in range(40):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if variance(10.0**middle) > now / HALF else (low, middle)
-    return 10.0**high
+    return float(10.0**high)

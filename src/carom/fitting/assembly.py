@@ -42,7 +42,7 @@ class Told:
 def told(best: Best, confidence: float) -> Told:
     """Return the ends of the intervals, from a better fit if the search meets one."""
     for _ in range(TRIES):
-        ends = profile(best, rise_of(confidence, best.freedom))
+        ends = profile(best, best.caution * rise_of(confidence, best.freedom))
         if ends.better is None:
             break
         best = estimate(best.model, best.loss, ends.better[np.newaxis])

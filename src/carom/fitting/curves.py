@@ -1,8 +1,11 @@
 """psi_2 of many (psi_1, chi, e) at once: interpolated between curves that are solved for once."""
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.dimensionless._jit import kernel
 from carom.dimensionless.rebounds import solved
 
 Array = NDArray[np.float64]
@@ -23,7 +26,7 @@ def solved_curve(psi: Array, chi: Array, restitution: Array) -> Array:
     return solved(psi, 0.5 * chi * (1.0 + restitution))[0]
 
 
-def borders(chi: Array, restitution: Array) -> Array:
+def borders(chi: Any, restitution: Any) -> Array:
     """Return |psi_1| at the ends of the panels, 0 and the kinks, along a new last axis."""
     impulse = np.maximum(chi * (1.0 + restitution), 1.0)
     zero = np.zeros_like(impulse)
@@ -33,21 +36,21 @@ def borders(chi: Array, restitution: Array) -> Array:
 def psi_out(psi: Array, chi: Array, restitution: Array) -> Array:
     """Return psi_2, odd in psi_1, of shape (batch, points); chi and e have the shape (batch,).
 
-    Cubic interpolation of psi_2/psi_1 in the angle of Chebyshev nodes between the kinks, in log chi and in e, of
-    curves that are solved for when first needed, and kept. The error is below 1e-4 for
-    0.1 <= chi <= 1.75, where solid spheres are, and below 2e-2 up to 4, with its many kinks.
+    Cubic interpolation of psi_2/psi_1 in the angle of Chebyshev nodes between the kinks, in log chi
+    and in e, between curves that are solved for when first needed, and kept. The error is below
+    1e-4 for 0.1 <= chi <= 1.7, and below 1e-2 up to 4, where psi_2 has more kinks.
     """
     codes, weights = _stencils(chi, restitution)
     curves = np.einsum("bs,bsk->bk", weights, _curves(codes))
-    speed, ends = np.abs(psi), borders(chi, restitution)
-    slides = (2.0 * chi * (1.0 + restitution))[:, np.newaxis]
-    ratio = _interpolated(curves, ends, speed)
-    return np.where(speed < ends[:, -1:], psi * ratio, psi - np.copysign(slides, psi))
+    result = np.empty(psi.shape)
+    slide = 2.0 * chi * (1.0 + restitution)
+    interpolate(curves, borders(chi, restitution), slide, np.ascontiguousarray(psi), result)
+    return result
 
 
 def regimes(psi: Array, chi: float, restitution: float) -> NDArray[np.int8]:
     """Return the place of the regime of each psi_1 in `carom.curves.REGIMES`."""
-    ends = borders(np.array(chi), np.array(restitution))[1:]
+    ends = borders(chi, restitution)[1:]
     return np.searchsorted(ends, np.abs(psi), side="right").astype(np.int8)
 
 
@@ -56,36 +59,44 @@ def on_grid(chi: Array) -> Array:
     return np.asarray(FOLD * np.exp(LOG_CHI * np.round(np.log(chi / FOLD) / LOG_CHI)))
 
 
-def _interpolated(curves: Array, ends: Array, speed: Array) -> Array:
-    """Return psi_2/psi_1 of curves, one a row, at |psi_1|."""
-    kinks = (ends[:, i, np.newaxis] for i in range(1, PANELS))
-    panel = sum((speed >= kink for kink in kinks), np.zeros(speed.shape, dtype=np.int64))
-    start = np.take_along_axis(ends, panel, axis=1)
-    width = np.take_along_axis(ends, panel + 1, axis=1) - start
-    part = np.clip((speed - start) / np.maximum(width, 1e-12), 0.0, 1.0)
-    place = np.arccos(1.0 - 2.0 * part) * ((NODES - 1) / np.pi)
-    cell = np.clip(place.astype(np.int64), 1, NODES - 3)
-    index = panel * NODES + cell - 1
-    weights = _cubic(place - cell)
-    rows = NODES * PANELS * np.arange(len(curves))[:, np.newaxis]
-    values = curves.ravel()
-    return sum(  # type: ignore[no-any-return]
-        weights[..., j] * values.take(index + (rows + j)) for j in range(4)
-    )
+@kernel
+def interpolate(curves: Array, ends: Array, slide: Array, psi: Array, result: Array) -> None:
+    """Write psi_2 of all points, from psi_2/psi_1 at the nodes, a row of either for a curve."""
+    for row in range(psi.shape[0]):
+        for point in range(psi.shape[1]):
+            speed = abs(psi[row, point])
+            if speed >= ends[row, PANELS]:
+                result[row, point] = psi[row, point] - np.copysign(slide[row], psi[row, point])
+                continue
+            panel = 0
+            for later in range(1, PANELS):
+                if speed >= ends[row, later]:
+                    panel = later
+            start = ends[row, panel]
+            part = (speed - start) / (ends[row, panel + 1] - start)
+            place = np.arccos(1.0 - 2.0 * part) * ((NODES - 1) / np.pi)
+            cell = min(max(int(place), 1), NODES - 3)
+            first = panel * NODES + cell - 1
+            one, two, three, four = cubic(place - cell)
+            near = curves[row, first : first + 4]
+            ratio = one * near[0] + two * near[1] + three * near[2] + four * near[3]
+            result[row, point] = psi[row, point] * ratio
 
 
-def _cubic(part: Array) -> Array:
-    """Return the weights of the values at -1, 0, 1, 2 (Lagrange), along a new last axis."""
+@kernel
+def cubic(part: float) -> tuple[float, float, float, float]:
+    """Return the weights of the values at -1, 0, 1, 2 (Lagrange) for a place between 0 and 1."""
     below, above, far = part + 1.0, part - 1.0, part - 2.0
-    return np.stack(
-        (
-            -part * above * far / 6.0,
-            below * above * far / 2.0,
-            -below * part * far / 2.0,
-            below * part * above / 6.0,
-        ),
-        axis=-1,
+    return (
+        -part * above * far / 6.0,
+        below * above * far / 2.0,
+        -below * part * far / 2.0,
+        below * part * above / 6.0,
     )
+
+
+def _weights(part: Any) -> Array:
+    return np.stack(cubic.py_func(part), axis=-1)  # type: ignore[attr-defined]
 
 
 def _stencils(chi: Array, restitution: Array) -> tuple[Indices, Array]:
@@ -96,8 +107,8 @@ def _stencils(chi: Array, restitution: Array) -> tuple[Indices, Array]:
     first = np.where(along_chi >= 0.0, np.maximum(low, 0), np.minimum(low, -3))
     start = np.clip(np.floor(along_e).astype(np.int64) - 1, 0, round(1.0 / STEP_E) - 3)
     weights = (
-        _cubic(along_chi - first - 1)[:, :, np.newaxis]
-        * _cubic(along_e - start - 1)[:, np.newaxis, :]
+        _weights(along_chi - first - 1)[:, :, np.newaxis]
+        * _weights(along_e - start - 1)[:, np.newaxis, :]
     )
     steps = np.arange(4)
     codes = (CODES * (first[:, np.newaxis] + steps))[:, :, np.newaxis] + (

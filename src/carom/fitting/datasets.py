@@ -97,7 +97,7 @@ def _curves(fit: "Fit") -> dict[str, Any]:
     half_width = _band(fit, motion)
     values = model.values(best.at[np.newaxis])
     mu, kappa, e = (float(values[name][0, 0]) for name in ("friction", "kappa", "restitution"))
-    psi = borders(np.array(half_ratio(problem.pair) * kappa), np.array(e))[1:]
+    psi = borders(half_ratio(problem.pair) * kappa, e)[1:]
     words = {"units": "rad", "long_name": "incidence of the contact point at which a regime starts"}
     own = "in the unit of the response"
     wide = ("curve", "response")
@@ -148,8 +148,8 @@ def _band(fit: "Fit", motion: Motion) -> Array:
     at = best.at[np.newaxis]
     slopes = jacobian(lines, at, lines(at), model.bounds)[0]
     variance = np.einsum("mp,pq,mq->m", slopes, best.information.covariance, slopes)
-    rise = float(rise_of(fit.confidence, best.freedom).max())
-    return np.sqrt(best.spread * rise * variance).reshape(-1, len(names))
+    rise = float((best.caution * rise_of(fit.confidence, best.freedom)).max())
+    return np.asarray(np.sqrt(best.spread * rise * variance).reshape(-1, len(names)))
 
 
 def _parameters(fit: "Fit") -> dict[str, Any]:

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.extras import extra
 from carom.fitting.curves import on_grid
 from carom.fitting.descent import Minimum, descend
 from carom.fitting.errors import NORMAL, Loss, Weights, gaussian_mean, weights_at
 from carom.fitting.information import Information, information
 from carom.fitting.laws import EXACT, half_ratio
 from carom.fitting.model import Model
-from carom.fitting.needs import needed
 from carom.fitting.problem import Problem
 
 Array = NDArray[np.float64]
@@ -48,7 +48,8 @@ class Best:
     @property
     def residuals(self) -> Array:
         """Residuals in standard deviations, of shape (rows, responses), 0 where not measured."""
-        return self.weights.whitened(self.model.problem, self.model.expected(self.at[None]))[0]
+        expected = self.model.expected(self.at[np.newaxis])
+        return np.asarray(self.weights.whitened(self.model.problem, expected)[0])
 
     @cached_property
     def information(self) -> Information:
@@ -58,12 +59,30 @@ class Best:
     @property
     def freedom(self) -> Array:
         """Degrees of freedom of the error of each parameter (Welch & Satterthwaite 1946-47)."""
-        own = np.maximum(self.model.problem.present.sum(axis=0) - self.information.used, 1.0)
-        shares = self.information.shares
-        guessed = self.estimated | (self.scale > 1.0)
-        doubt = (shares**2 * (guessed / own)).sum(axis=1)
         with np.errstate(divide="ignore"):
-            return np.asarray(shares.sum(axis=1) ** 2 / doubt)
+            return np.asarray(1.0 / (self._shares**2 * self._doubts).sum(axis=1))
+
+    @property
+    def caution(self) -> Array:
+        """What weights from the scatter, uncertain themselves, add to variances (Meier 1953).
+
+        1 + 4 sum p (1 - p)/nu over responses, with the part p of each in a variance, for each
+        parameter.
+        """
+        parts = self._shares
+        return np.asarray(1.0 + 4.0 * (parts * (1.0 - parts) * self._doubts).sum(axis=1))
+
+    @property
+    def _shares(self) -> Array:
+        """Part of each response in the variance of each parameter, (parameters, responses)."""
+        shares = self.information.shares
+        return np.asarray(shares / np.maximum(shares.sum(axis=1, keepdims=True), 1e-300))
+
+    @property
+    def _doubts(self) -> Array:
+        """One over the degrees of freedom of errors from the scatter, 0 where they are known."""
+        own = np.maximum(self.model.problem.present.sum(axis=0) - self.information.used, 1.0)
+        return np.asarray((self.estimated | (self.scale > 1.0)) / own)
 
     @property
     def spread(self) -> float:
@@ -85,7 +104,7 @@ def estimate(model: Model, loss: Loss, start: Array | None = None) -> Best:
     """
     problem = model.problem
     unknown = problem.present & ~np.isfinite(problem.errors)
-    estimated = unknown.any(axis=0)
+    estimated = np.asarray(unknown.any(axis=0))
     sigma = np.where(unknown, _first_errors(problem), problem.errors)
     scale = np.ones(len(problem.responses))
     at = scan(model, loss, sigma) if start is None else start
@@ -102,7 +121,8 @@ def estimate(model: Model, loss: Loss, start: Array | None = None) -> Best:
         factors = _scatter(model, at[:1], weights, loss)
         sigma = np.where(unknown, np.maximum(sigma * factors, _least(problem)), sigma)
         given = np.where(estimated, 1.0, np.maximum(scale * factors, 1.0))
-        scale = np.where(_significant(problem, given, estimated), given, 1.0)
+        common = scale * _typical(model, at[:1], weights)
+        scale = np.where(_significant(problem, given, common), given, 1.0)
         if np.all(np.abs(factors[estimated] - 1.0) < 1e-3) and turn:
             break
     weights = weights_at(model.law, problem, model.values(at[:1]), sigma, scale)
@@ -128,7 +148,7 @@ def scan(model: Model, loss: Loss, sigma: Array) -> Array:
 
 def polished(model: Model, weights: Weights, loss: Loss, at: Array) -> tuple[Array, Any]:
     """Return the minimum that lmfit finds from here, and its result."""
-    lmfit = needed("lmfit", "fit")
+    lmfit = extra("lmfit", "fit", "fit")
     parameters = lmfit.Parameters()
     for name, value, low, high in zip(model.free, at, *model.bounds, strict=True):
         parameters.add(name, value=float(value), min=float(low), max=float(high))
@@ -136,7 +156,8 @@ def polished(model: Model, weights: Weights, loss: Loss, at: Array) -> tuple[Arr
     present = model.problem.present.ravel()
 
     def of(given: Any) -> Array:
-        return residuals(np.array([list(given.valuesdict().values())]))[0][present]
+        at = np.array([list(given.valuesdict().values())])
+        return np.asarray(residuals(at)[0][present])
 
     result = lmfit.minimize(of, parameters, method="leastsq", xtol=1e-9, ftol=1e-10)
     found = np.array(list(result.params.valuesdict().values()))
@@ -190,7 +211,7 @@ def _least(problem: Problem) -> Array:
 
 def _diagonal(problem: Problem, sigma: Array) -> Array:
     inverse = 1.0 / np.where(problem.present, sigma, 1.0)
-    return np.einsum("rj,jk->rjk", inverse, np.eye(sigma.shape[1]))
+    return np.asarray(np.einsum("rj,jk->rjk", inverse, np.eye(sigma.shape[1])))
 
 
 def _scatter(model: Model, at: Array, weights: Weights, loss: Loss) -> Array:
@@ -219,8 +240,19 @@ def _factor(residuals: Array, loss: Loss, wanted: float) -> float:
     return factor
 
 
-def _significant(problem: Problem, factors: Array, estimated: NDArray[np.bool_]) -> Any:
-    """Tell which scatter is larger than errors that were given allow (Wilson & Hilferty 1931)."""
+def _typical(model: Model, at: Array, weights: Weights) -> Array:
+    """Return the median deviation of each response, in its errors; few outliers do not move it."""
+    residuals = weights.whitened(model.problem, model.expected(at))[0]
+    shown = np.where(model.problem.present, np.abs(residuals), np.nan)
+    return np.asarray(np.nanmedian(shown, axis=0) / 0.6745)
+
+
+def _significant(problem: Problem, factors: Array, typical: Array) -> Any:
+    """Tell which scatter is larger than errors that were given allow.
+
+    Chi squared (Wilson & Hilferty 1931) and the median deviation (Huber 1981, section 5.1) must
+    both say so: not a few outliers, but most of the values.
+    """
     counts = np.maximum(problem.present.sum(axis=0), 1)
     bound = (1.0 - 2.0 / (9.0 * counts) + SURE * np.sqrt(2.0 / (9.0 * counts))) ** 1.5
-    return ~estimated & (factors > bound)
+    return (factors > bound) & (typical > 1.0 + SURE * 1.17 / np.sqrt(counts))

@@ -69,7 +69,7 @@ def _held(best: Best, name: str, start: float, loss: Loss) -> Best:
 
 
 def row_regimes(best: Best, at: Array | None = None) -> NDArray[np.int8]:
-    """Return the place of the regime of each row in `carom.curves.REGIMES`, by default at the fit."""
+    """Return the place of each row's regime in `carom.curves.REGIMES`, by default at the fit."""
     model, problem = best.model, best.model.problem
     point = best.at if at is None else at
     values = {name: float(v[0, 0]) for name, v in model.values(point[np.newaxis]).items()}

@@ -24,7 +24,7 @@ class Information:
     @cached_property
     def matrix(self) -> Array:
         """Fisher's information, of shape (parameters, parameters)."""
-        return np.einsum("rjp,rjq->pq", self.slopes, self.slopes)
+        return np.asarray(np.einsum("rjp,rjq->pq", self.slopes, self.slopes))
 
     @cached_property
     def covariance(self) -> Array:

@@ -1,4 +1,4 @@
-"""What is fitted: the exact rebound, and the rival laws of rigid spheres, as functions of numbers."""
+"""What is fitted: the exact rebound, and the rival laws of rigid spheres."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

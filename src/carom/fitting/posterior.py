@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.extras import extra
 from carom.fitting.laws import half_ratio
-from carom.fitting.needs import needed
 from carom.quantities import counted
 from carom.results import labelled_dataset
 
@@ -37,7 +37,7 @@ def sample(
 
     Raises InputError for fewer than 100 steps, or if emcee is not there.
     """
-    emcee = needed("emcee", "posterior")
+    emcee = extra("emcee", "posterior", "fit")
     count = counted("steps", steps, 100)
     best = fit.best
     low, high = best.model.bounds

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import inf, isfinite, nan
+from math import floor, inf, isfinite, isnan, log10, nan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -46,7 +46,7 @@ class Estimate:
     @property
     def determined(self) -> bool:
         """Whether there is an interval, be it with an open end."""
-        return not self.low != self.low
+        return not isnan(self.low)
 
     @property
     def open(self) -> bool:
@@ -78,8 +78,6 @@ def significant(value: float, width: float) -> int:
     >>> significant(0.0921, 0.0014), significant(-3.0, 40.0)
     (4, 2)
     """
-    from math import floor, log10
-
     if not (isfinite(width) and width > 0.0 and value):
         return 4
     return max(2, min(8, 2 + floor(log10(abs(value))) - floor(log10(width))))

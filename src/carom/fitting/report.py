@@ -40,7 +40,7 @@ def notes(best: Best, ends: Profile) -> tuple[str, ...]:
     ]
     if problem.ignored:
         found.append(f"columns that were not used: {', '.join(problem.ignored)}")
-    gaps = ~problem.present.any(axis=1)
+    gaps = np.asarray(~problem.present.any(axis=1))
     if gaps.any():
         found.append(f"nothing was measured in {problem.rows.named(gaps)}")
     return tuple(found)
@@ -62,9 +62,9 @@ def _about_errors(best: Best) -> list[str]:
 
 
 def _about_outliers(best: Best) -> list[str]:
-    far = np.abs(best.residuals) > FAR
+    far = np.asarray((np.abs(best.residuals) > FAR).any(axis=1))
     rows = best.model.problem.rows
-    return [f"outliers: {rows.named(far.any(axis=1))}"] if far.any() else []
+    return [f"outliers: {rows.named(far)}"] if far.any() else []
 
 
 def _about_regimes(best: Best, ends: Profile) -> list[str]:

@@ -104,10 +104,10 @@ def plot_corner(samples: "xr.Dataset") -> Figure:
     samples : xarray.Dataset
         What `carom.fit(...).posterior()` returns.
     """
-    from carom.fitting.needs import needed
+    from carom.extras import extra
     from carom.fitting.posterior import corner_names
 
-    corner = needed("corner", "a corner plot")
+    corner = extra("corner", "a corner plot", "fit")
     names = corner_names(samples)
     side = max(SINGLE, 45.0 * len(names)) * MM
     figure = Figure(figsize=(side, side))

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from carom.approach import components
 from carom.bodies import Cup, HalfSpace, Material, Sphere, unchecked
+from carom.dimensionless import hertz
 from carom.dimensionless.phases import Status
 from carom.dimensionless.rebounds import rebound
 from carom.histories import PAIR
@@ -70,9 +71,14 @@ APPROACHING = ("speed", "normal_speed")
 
 
 class Rebounds(NamedTuple):
-    """What an outcome needs of many solutions."""
+    """What an outcome needs of many elastic solutions."""
 
     psi_out: Any
+    restitution: Any = 1.0
+    duration: Any = hertz.DURATION
+    max_penetration: Any = 1.0
+    max_force: Any = 1.0
+    max_radius: Any = 1.0
 
 
 def evaluate(

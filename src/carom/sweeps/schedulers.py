@@ -16,7 +16,7 @@ from importlib.metadata import version
 from itertools import islice
 from typing import Any, NamedTuple
 
-from carom.dimensionless.rebounds import available_cores
+from carom.dimensionless.blocks import available_cores
 from carom.extras import extra
 from carom.quantities import InputError, counted, refusal
 from carom.results import carom_version

@@ -6,8 +6,9 @@ from carom.dimensionless._jit import kernel
 from carom.dimensionless.lossy import normal
 from carom.dimensionless.lossy.collocation import FLAT_ENDS, FLAT_START, NODES, PLACES, evaluate
 from carom.dimensionless.lossy.memory import MOVED, RADIUS
-from carom.dimensionless.lossy.normal import Loss, Motion, Stage
-from carom.dimensionless.lossy.panels import PSI, SPEED, Panel, Work, cut_memory
+from carom.dimensionless.lossy.normal import Motion, Stage
+from carom.dimensionless.lossy.panels import Panel, cut_memory
+from carom.dimensionless.lossy.work import PSI, SPEED, Work
 
 EARLY = 5e-4  # part of a panel in which zones that begin with it are too thin to be told
 TO = 0.9999  # place up to which the structure is looked at
@@ -76,31 +77,3 @@ def change_between(
         else:
             high = middle
     return high
-
-
-@kernel
-def beyond_stage(motion: Motion, b: float, v: float) -> float:
-    """Return how far the normal motion is beyond the end of its stage; negative before it."""
-    if motion.stage == Stage.UNLOADING.value:
-        return -b
-    if motion.loss == Loss.PLASTIC.value and motion.stage == Stage.LOADING.value:
-        return max(b - motion.parameter, -v)
-    return -v
-
-
-@kernel
-def stage_end(work: Work, motion: Motion) -> float:
-    """Return the part of a panel with an even clock after which its stage ends, 1 if not in it."""
-    last = NODES - 1
-    b, v = work.values[RADIUS], work.values[SPEED]
-    beyond = beyond_stage(motion, b[last], v[last])
-    if beyond <= 0.0:
-        return 1.0
-    before = beyond_stage(motion, b[last - 1], v[last - 1])
-    for j in range(last - 1, 0, -1):
-        before = beyond_stage(motion, b[j], v[j])
-        if before <= 0.0:
-            near, far = 0.5 * (1.0 + PLACES[j]), 0.5 * (1.0 + PLACES[j + 1])
-            return float(near + (far - near) * before / (before - beyond))
-        beyond = before
-    return float(0.5 * (1.0 + PLACES[1]))

@@ -1,9 +1,10 @@
 """An impact with normal losses, panel after panel from the first touch to the last."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from carom.dimensionless._jit import kernel
-from carom.dimensionless.lossy import normal
 from carom.dimensionless.lossy.collocation import (
     EVEN,
     FLAT_END,
@@ -13,114 +14,147 @@ from carom.dimensionless.lossy.collocation import (
     clock,
     tail,
 )
-from carom.dimensionless.lossy.events import beyond_stage, first_change, stage_end
-from carom.dimensionless.lossy.memory import MOVED, RADIUS
-from carom.dimensionless.lossy.normal import Loss, Motion, Stage
-from carom.dimensionless.lossy.panels import (
-    MAX_PANELS,
-    PSI,
-    SPEED,
-    Panel,
-    Work,
-    commit,
-    solve_normal,
-    solve_panel,
-)
+from carom.dimensionless.lossy.events import first_change
+from carom.dimensionless.lossy.memory import MOVED
+from carom.dimensionless.lossy.normal import Motion, Stage
+from carom.dimensionless.lossy.panels import Panel, commit, solve_panel
+from carom.dimensionless.lossy.record import Array, Record, note_panel
+from carom.dimensionless.lossy.stages import cut_to_stage, next_stage
+from carom.dimensionless.lossy.work import MAX_PANELS, PSI, SPEED, Work
+from carom.dimensionless.phases import Status
 
-FIRST, LONGEST, SHORTEST = 0.3, 0.8, 1e-8
-TRIALS = 40
+FIRST, LONGEST, SHORTEST = 0.3, 0.8, 1e-8  # lengths of panels
+TRIALS = 60  # of a panel
 NEAR, NEAR_FLAT = 1e-9, 1e-5  # part of a panel: a change so near its end is its end
-ORDER = 9.0
+ORDER = 9.0  # of the error of a panel in its length, about
+SAFETY, STEEPEST, GROWTH = 0.8, 0.2, 4.0
+
+
+class Plan(NamedTuple):
+    """How a panel is to be solved: its length, its clock, and what lies at either end of it."""
+
+    length: float
+    clock: int
+    natural: float  # length that accuracy alone would allow
+    from_change: bool
+    to_change: bool
+    to_stage_end: bool
+    flat_is_worse: bool
+    error: float  # with an even clock
 
 
 @kernel
-def shortened_to_stage(work: Work, motion: Motion, kind: int, h: float) -> tuple[float, bool]:
-    """Return the length of a panel, cut at the end of its stage, and whether it was; solve it."""
-    solve_normal(work, motion, EVEN, h)
-    if beyond_stage(motion, work.values[RADIUS, NODES - 1], work.values[SPEED, NODES - 1]) < 0.0:
-        if kind != EVEN:
-            solve_normal(work, motion, kind, h)
-        return h, False
-    h *= stage_end(work, motion)
-    for _ in range(8):
-        solve_normal(work, motion, kind, h)
-        b, v = work.values[RADIUS, NODES - 1], work.values[SPEED, NODES - 1]
-        if motion.stage == Stage.UNLOADING.value:
-            step = -b / normal.edge_rate(motion, b, v)
-        elif motion.loss == Loss.PLASTIC.value and motion.stage == Stage.LOADING.value:
-            step = (motion.parameter - b) / v
-        else:
-            step = -v / normal.speed_rate(motion, b, v)
-        if abs(step) <= 1e-15:
-            break
-        h += step
-    return h, True
+def with_length(plan: Plan, h: float, natural: float, to_change: bool, to_end: bool) -> Plan:
+    """Return a plan with another length and end."""
+    return Plan(
+        h,
+        plan.clock,
+        natural,
+        plan.from_change,
+        to_change,
+        to_end,
+        plan.flat_is_worse,
+        plan.error,
+    )
+
+
+@kernel
+def with_clock(plan: Plan, kind: int, flat_is_worse: bool, error: float) -> Plan:
+    """Return a plan with another clock."""
+    return Plan(
+        plan.length,
+        kind,
+        plan.natural,
+        plan.from_change,
+        plan.to_change,
+        plan.to_stage_end,
+        flat_is_worse,
+        error,
+    )
+
+
+@kernel
+def revised(plan: Plan, error: float, tolerance: float) -> Plan:
+    """Return how to try again after too large an error: with a flat clock once, or shorter."""
+    rooted = plan.from_change or plan.to_change
+    if plan.clock == EVEN and rooted and not plan.flat_is_worse:
+        kind = (FLAT_START if plan.from_change else 0) + (FLAT_END if plan.to_change else 0)
+        return with_clock(plan, kind, False, error)
+    if plan.clock != EVEN and error > plan.error:
+        error = plan.error
+        plan = with_clock(plan, EVEN, True, error)
+    elif plan.clock == FLAT_END or plan.clock == FLAT_ENDS:
+        plan = with_clock(plan, plan.clock - FLAT_END, plan.flat_is_worse, error)
+    h = plan.length * max(STEEPEST, SAFETY * (tolerance / error) ** (1.0 / ORDER))
+    return with_length(plan, h, h, False, False)
 
 
 @kernel
 def run(
-    psi: float, chi: float, loss: int, parameter: float, tolerance: float, work: Work, log: np.ndarray
-) -> int:
-    """Run a whole impact; its last state is left at the last node. Return the number of panels."""
-    values = work.values
-    values[:, 0] = 0.0
-    values[SPEED, 0], values[PSI, 0] = 1.0, psi
+    psi: float,
+    chi: float,
+    loss: int,
+    parameter: float,
+    tolerance: float,
+    work: Work,
+    numbers: Array,
+    record: Record,
+) -> tuple[int, int]:
+    """Run a whole impact, psi_1 of either sign; return its status and the number of panels."""
+    if not np.isfinite(psi):
+        return Status.PSI_NOT_FINITE.value, 0
+    if not (0.0 < chi < np.inf):
+        return Status.CHI_NOT_POSITIVE.value, 0
+    numbers[:] = 0.0
+    work.values[:, 0] = 0.0
+    work.values[SPEED, 0], work.values[PSI, 0] = 1.0, psi
     motion = Motion(loss, Stage.LOADING.value, parameter, 1.0, chi)
-    pieces, natural, after_change = 0, FIRST, False
+    pieces, natural, from_change = 0, FIRST, False
     for number in range(MAX_PANELS):
-        h, kind, to_change = natural, EVEN, False
-        flat_failed, even_error = False, 0.0
-        for _ in range(TRIALS):
-            h, ends = shortened_to_stage(work, motion, kind, h)
-            panel = Panel(number, kind, h, pieces)
-            settled = solve_panel(work, motion, panel)
-            log[4] += 1
-            if not settled:
-                h, natural, to_change = 0.5 * h, 0.5 * h, False
-                continue
-            change = first_change(work, motion, panel)
-            near = NEAR if kind == EVEN else NEAR_FLAT
-            if change < 1.0 and clock(kind, change) < 1.0 - near and h > SHORTEST:
-                h, to_change = h * clock(kind, change), True
-                continue
-            series = work.series[number]
-            error = max(tail(series[PSI]), tail(series[MOVED])) / (1.0 + abs(psi))
-            if error <= tolerance or h <= SHORTEST:
-                break
-            if kind == EVEN and (after_change or to_change) and not flat_failed:
-                kind = (FLAT_START if after_change else 0) + (FLAT_END if to_change else 0)
-                even_error = error
-                continue
-            if kind != EVEN and error > even_error:
-                flat_failed, kind, error = True, EVEN, even_error
-            h *= max(0.2, 0.8 * (tolerance / error) ** (1.0 / ORDER))
-            natural, to_change = h, False
-            if kind == FLAT_END or kind == FLAT_ENDS:
-                kind -= FLAT_END
-        else:
-            return -1
+        plan = Plan(natural, EVEN, natural, from_change, False, False, False, 0.0)
+        plan, error = solved_panel(work, motion, number, pieces, plan, tolerance * (1.0 + abs(psi)))
+        if error < 0.0:
+            return Status.UNRESOLVED.value, number
+        panel = Panel(number, plan.clock, plan.length, pieces)
+        note_panel(work, motion, panel, numbers, record)
         pieces = commit(work, motion, panel)
-        values[:, 0] = values[:, NODES - 1]
-        after_change = to_change
-        if not (to_change or ends):
-            natural = min(LONGEST, h * min(4.0, 0.8 * (tolerance / (error + 1e-18)) ** (1.0 / ORDER)))
-        if ends:
-            after_change = True
-            if motion.stage == Stage.UNLOADING.value:
-                log[0], log[1], log[2], log[3] = values[PSI, 0], values[SPEED, 0], values[MOVED, 0], pieces
-                return number + 1
-            motion, after_change = next_stage(work, motion), True
-    return -1
+        work.values[:, 0] = work.values[:, NODES - 1]
+        if plan.to_stage_end and motion.stage == Stage.UNLOADING.value:
+            return Status.SOLVED.value, number + 1
+        from_change, natural = plan.to_change or plan.to_stage_end, plan.natural
+        if plan.to_stage_end:
+            motion = next_stage(work, motion)
+        elif not plan.to_change:
+            growth = SAFETY * (tolerance / (error + 1e-18)) ** (1.0 / ORDER)
+            natural = min(LONGEST, plan.length * min(GROWTH, growth))
+    return Status.TOO_MANY_PHASES.value, MAX_PANELS
 
 
 @kernel
-def next_stage(work: Work, motion: Motion) -> Motion:
-    """Return what rules the motion after a stage, whose end the state is put to exactly."""
-    loss, stage, parameter, _, chi = motion
-    if loss == Loss.PLASTIC.value and stage == Stage.LOADING.value:
-        if work.values[SPEED, 0] > 1e-12:
-            work.values[RADIUS, 0] = parameter
-            return Motion(loss, Stage.YIELDING.value, parameter, 1.0, chi)
-    work.values[SPEED, 0] = 0.0
-    growth = normal.released_growth(motion, work.values[RADIUS, 0])
-    return Motion(loss, Stage.UNLOADING.value, parameter, growth, chi)
+def solved_panel(
+    work: Work, motion: Motion, number: int, pieces: int, plan: Plan, tolerance: float
+) -> tuple[Plan, float]:
+    """Solve the next panel, cut where the structure changes; return how, and its error.
+
+    The error is negative if it cannot be solved.
+    """
+    series = work.series[number]
+    for _ in range(TRIALS):
+        h, ends = cut_to_stage(work, motion, plan.clock, plan.length)
+        plan = with_length(plan, h, plan.natural, plan.to_change, ends)
+        panel = Panel(number, plan.clock, plan.length, pieces)
+        if not solve_panel(work, motion, panel):
+            half = 0.5 * plan.length
+            plan = with_length(plan, half, half, False, False)
+            continue
+        change = first_change(work, motion, panel)
+        near = NEAR if plan.clock == EVEN else NEAR_FLAT
+        part = clock(plan.clock, change) if change < 1.0 else 1.0
+        if part < 1.0 - near and plan.length > SHORTEST:
+            plan = with_length(plan, plan.length * part, plan.natural, True, False)
+            continue
+        error = max(tail(series[PSI]), tail(series[MOVED]))
+        if error <= tolerance or plan.length <= SHORTEST:
+            return plan, error
+        plan = revised(plan, error, tolerance)
+    return plan, -1.0

@@ -10,7 +10,7 @@ The clock d(tau) = dt/(2 b), with b^2 = s at the edge of the contact, makes all 
 """
 
 from enum import IntEnum
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -31,6 +31,13 @@ class Stage(IntEnum):
     LOADING = 0
     YIELDING = 1
     UNLOADING = 2
+
+
+class NormalLoss(Protocol):
+    """What an impact needs of a law of normal loss, free of units."""
+
+    def scale_free(self) -> tuple[int, float]:
+        """Return the loss and its parameter; ValueError if they depend on the speed."""
 
 
 class Motion(NamedTuple):
@@ -56,7 +63,9 @@ def is_shifted(motion: Motion) -> bool:
 def edge_rate(motion: Motion, b: float, v: float) -> float:
     """Return b', which is the speed of the edge, d(b^2)/dt."""
     if motion.loss == Loss.PLASTIC.value:
-        return motion.parameter * v / b if motion.stage == Stage.YIELDING.value else motion.growth * v
+        return (
+            motion.parameter * v / b if motion.stage == Stage.YIELDING.value else motion.growth * v
+        )
     if motion.loss == Loss.VISCOUS.value and motion.stage == Stage.UNLOADING.value:
         return v - 1.25 * motion.parameter * b * b * b
     return v
@@ -88,6 +97,27 @@ def limit_rate(motion: Motion, b: float, v: float) -> float:
     if is_shifted(motion):
         return v - 1.25 * motion.parameter * b * (b * b + 1.5 * motion.parameter * v)
     return edge_rate(motion, b, v)
+
+
+@kernel
+def stored(motion: Motion, b: float, d: float) -> float:
+    """Return the elastic energy that is left in the normal springs, in units of m_n V_1^2/2."""
+    if motion.loss == Loss.PLASTIC.value:
+        growth = motion.growth
+        if motion.stage == Stage.YIELDING.value:
+            growth = released_growth(motion, b)
+        return b**5 / growth
+    return b * (1.875 * d * d - b * b * (1.25 * d - 0.375 * b * b))
+
+
+@kernel
+def loss_rate(motion: Motion, b: float, v: float) -> float:
+    """Return the rate of viscous loss by the clock, in dashpots and in springs that let go."""
+    rate = 7.5 * motion.parameter * v * v * b * b
+    if motion.stage == Stage.UNLOADING.value:
+        let_go = motion.parameter * v
+        rate -= 1.875 * let_go * let_go * edge_rate(motion, b, v)
+    return rate
 
 
 @kernel

@@ -2,9 +2,6 @@
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from carom.dimensionless._jit import kernel
 from carom.dimensionless.lossy import memory, normal
 from carom.dimensionless.lossy.collocation import (
@@ -26,7 +23,6 @@ from carom.dimensionless.lossy.memory import (
     MAX_PIECES,
     MOVED,
     PANEL,
-    PARTS,
     R0,
     R1,
     RADIUS,
@@ -38,41 +34,11 @@ from carom.dimensionless.lossy.memory import (
     Pieces,
 )
 from carom.dimensionless.lossy.normal import Motion, Stage
+from carom.dimensionless.lossy.work import PSI, SPEED, Work
 
-MAX_PANELS = 600
-SPEED, PSI, VALUES = 5, 6, 7  # series beyond those of the memory: v, psi
 MAX_ITERATIONS = 30
 SETTLED = 1e-13
 THIN = 1e-5  # part of the contact: zones that are narrower are not told
-
-
-class Work(NamedTuple):
-    """Arrays that an impact needs, made once and used for many."""
-
-    series: Pieces  # (panels, VALUES, NODES)
-    values: Pieces  # (VALUES, NODES), at the nodes of the panel of the moment
-    rates: Pieces  # (3, NODES)
-    matrix: Pieces  # (NODES, NODES)
-    pieces: Pieces
-    spare: Pieces
-    parts: Pieces
-    laid: Pieces
-    zones: NDArray[np.int64]  # (NODES,)
-
-
-def new_work() -> Work:
-    """Return the arrays that an impact needs."""
-    return Work(
-        series=np.zeros((MAX_PANELS, VALUES, NODES)),
-        values=np.zeros((VALUES, NODES)),
-        rates=np.zeros((3, NODES)),
-        matrix=np.zeros((NODES, NODES)),
-        pieces=np.zeros((MAX_PIECES, memory.COLUMNS)),
-        spare=np.zeros((MAX_PIECES, memory.COLUMNS)),
-        parts=np.zeros((PARTS, memory.COLUMNS)),
-        laid=np.zeros((1, memory.COLUMNS)),
-        zones=np.zeros(NODES, dtype=np.int64),
-    )
 
 
 class Panel(NamedTuple):
@@ -95,26 +61,6 @@ class Cut(NamedTuple):
     plus: float
     minus: float
     zones: int
-
-
-@kernel
-def solve_normal(work: Work, motion: Motion, kind: int, h: float) -> None:
-    """Solve for b and v at the nodes, from their values at the first."""
-    b, v, rates = work.values[RADIUS], work.values[SPEED], work.rates
-    b0, v0 = b[0], v[0]
-    pace = normal.edge_rate(motion, b0, v0)
-    for j in range(NODES):
-        b[j], v[j] = b0 + h * CLOCKS[kind, j] * pace, v0
-    for _ in range(MAX_ITERATIONS):
-        last_b, last_v = b[NODES - 1], v[NODES - 1]
-        for j in range(NODES):
-            rates[0, j] = normal.speed_rate(motion, b[j], v[j])
-        integrate(kind, v0, h, rates[0], v)
-        for j in range(NODES):
-            rates[0, j] = normal.edge_rate(motion, b[j], v[j])
-        integrate(kind, b0, h, rates[0], b)
-        if abs(b[NODES - 1] - last_b) + abs(v[NODES - 1] - last_v) <= SETTLED:
-            break
 
 
 @kernel
@@ -294,10 +240,10 @@ def commit(work: Work, motion: Motion, panel: Panel) -> int:
 def append(pieces: Pieces, made: int, part: Pieces) -> int:
     """Append a part, joined to the one before if both slip alike; return how many there are."""
     before = made - 1
-    if made > 0 and part[PANEL] == ACTIVE and pieces[before, PANEL] == ACTIVE:
-        if pieces[before, SIGN] == part[SIGN]:
-            pieces[before, R1], pieces[before, A1] = part[R1], part[A1]
-            return made
+    slips = made > 0 and part[PANEL] == ACTIVE and pieces[before, PANEL] == ACTIVE
+    if slips and pieces[before, SIGN] == part[SIGN]:
+        pieces[before, R1], pieces[before, A1] = part[R1], part[A1]
+        return made
     if made < MAX_PIECES:
         pieces[made] = part
         made += 1

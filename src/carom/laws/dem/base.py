@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from carom.dimensionless.rebounds import available_cores
+from carom.dimensionless.blocks import available_cores
 from carom.laws.dem.adaptive import rebounds
 from carom.laws.dem.coefficients import Coefficients
 from carom.laws.dem.stepping import HISTORY, longest, stepped, stepped_rebounds

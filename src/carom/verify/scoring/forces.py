@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from carom.dimensionless import hertz
-from carom.dimensionless.solution import History
+from carom.dimensionless.states import History
 from carom.impacts import Impact
 from carom.readings import Array
 from carom.verify.scoring.contact import Samples

@@ -1,0 +1,174 @@
+"""One impact with losses in plain numbers: its phases, and its state at any time."""
+
+from dataclasses import dataclass, field
+from operator import index
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from carom.dimensionless.lossy.collocation import NODES, TO_SERIES, place
+from carom.dimensionless.lossy.rebounds import LINEAR, outgoing
+from carom.dimensionless.lossy.record import (
+    AT_B,
+    AT_D,
+    AT_LOST,
+    AT_P,
+    AT_PSI,
+    AT_Q,
+    AT_STORED,
+    AT_STUCK,
+    AT_TIME,
+    AT_U,
+    AT_V,
+    AT_WORK,
+    DEEPEST,
+    NUMBERS,
+    PSI_OUT,
+    RESTITUTION,
+    STRONGEST,
+    TIME,
+    WIDEST,
+    Record,
+    new_record,
+)
+from carom.dimensionless.lossy.work import new_work
+from carom.dimensionless.phases import Kind, Status
+from carom.dimensionless.states import KIND_NAMES, History, Phase
+
+Array = NDArray[np.float64]
+
+SHORTEST = 1e-6  # of a phase, in units of d_max/V_1: structure is not told any finer
+CAUSES = {
+    ("stick", "slip"): "friction limit reached",
+    ("stick", "gross slip"): "friction limit reached",
+    ("slip", "stick"): "slip stops",
+    ("slip", "slip"): "slip reverses",
+    ("slip", "gross slip"): "stick zone vanishes",
+    ("gross slip", "stick"): "slip stops",
+    ("gross slip", "slip"): "slip reverses",
+    ("gross slip", "gross slip"): "slip reverses",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class LossySolution:
+    """One oblique impact with losses in the normal motion, solved; made by `solve`.
+
+    Units are those of `Solution`, of the elastic impact at the same speed. Kinetic energy of the
+    normal motion, `normal_stored` and `normal_lost` add up to 1.
+
+    Examples
+    --------
+    >>> import carom
+    >>> s = carom.solve(1.5, 1.44, normal=carom.KelvinVoigt(restitution=0.9))
+    >>> round(s.psi_out, 6), round(s.restitution, 10)
+    (-0.499138, 0.9)
+    """
+
+    psi_in: float
+    chi: float
+    psi_out: float
+    status: Status
+    phases: tuple[Phase, ...]
+    restitution: float
+    duration: float
+    max_penetration: float
+    max_force: float
+    max_radius: float
+    _record: Record = field(repr=False)
+    _scale: float = field(repr=False)
+
+    def at(self, time: ArrayLike) -> History:
+        """Return the state at the given times, 0 <= time <= duration, one row for each.
+
+        `stick_radius` is what the stick zones add up to, wherever they lie. Raises ValueError for
+        a time outside the contact, or if the impact is not solved.
+        """
+        if self.status is not Status.SOLVED:
+            raise ValueError(f"psi = {self.psi_in:g}, chi = {self.chi:g}: {self.status.message}")
+        wanted = np.asarray(time, dtype=np.float64).ravel()
+        if not np.all((wanted >= 0.0) & (wanted <= self.duration)):
+            outside = wanted[~((wanted >= 0.0) & (wanted <= self.duration))][0]
+            raise ValueError(f"time: {outside:g} is outside the contact, 0 to {self.duration:.6g}")
+        rows = self._sampled(wanted)
+        scale = self._scale
+        return History(
+            time=wanted,
+            penetration=rows[AT_D],
+            speed=rows[AT_V],
+            psi=scale * rows[AT_PSI],
+            displacement=scale * rows[AT_U],
+            force=scale * rows[AT_Q],
+            stick_radius=np.minimum(rows[AT_STUCK], rows[AT_B]),
+            contact_radius=rows[AT_B],
+            stored=scale**2 * self._stored(rows),
+            dissipated=scale**2 * 3.75 * self.chi * rows[AT_WORK],
+            normal_force=rows[AT_P],
+            normal_stored=rows[AT_STORED],
+            normal_lost=rows[AT_LOST],
+        )
+
+    def history(self, n: int = 200) -> History:
+        """Return the impact at n >= 2 times, evenly spaced from the first touch to the last."""
+        if index(n) < 2:
+            raise ValueError(f"n: {n} cannot be used; must be a whole number of at least 2")
+        return self.at(np.linspace(0.0, self.duration, n))
+
+    def _sampled(self, wanted: Array) -> Array:
+        """Return all rows of the record at these times, shape (rows, times)."""
+        rows, starts = self._record.rows, self._record.rows[:, AT_TIME, 0]
+        panels = np.clip(np.searchsorted(starts, wanted, side="right") - 1, 0, len(rows) - 1)
+        found = np.empty((rows.shape[1], wanted.size))
+        for i, (panel, instant) in enumerate(zip(panels, wanted, strict=True)):
+            series = rows[panel] @ TO_SERIES.T
+            x = place(series[AT_TIME], instant, -1.0, 1.0)
+            found[:, i] = np.polynomial.chebyshev.chebval(x, series.T)
+        return found
+
+    def _stored(self, rows: Array) -> Array:
+        """Return the elastic energy of the tangential springs, from the ledger."""
+        first = self._record.rows[0, AT_PSI, 0]
+        lost = 3.75 * self.chi * rows[AT_WORK]
+        return np.asarray(0.5 * (first - rows[AT_PSI]) * (first + rows[AT_PSI]) - lost)
+
+
+def solve_with_losses(psi: float, chi: float, loss: int, parameter: float) -> LossySolution:
+    """Solve one oblique impact whose normal motion loses energy; ValueError for bad numbers."""
+    record, numbers = new_record(True), np.zeros(NUMBERS)
+    code, panels = outgoing(psi, chi, int(loss), parameter, new_work(), record, numbers)
+    status = Status(code)
+    if status in (Status.PSI_NOT_FINITE, Status.CHI_NOT_POSITIVE):
+        name, value = ("psi", psi) if status is Status.PSI_NOT_FINITE else ("chi", chi)
+        raise ValueError(f"{name}: {value:g} is not allowed; {status.message}")
+    kept = Record(record.rows[:panels].copy(), record.kinds[:panels].copy())
+    scale = psi / LINEAR if abs(psi) < LINEAR else float(np.copysign(1.0, psi))
+    return LossySolution(
+        psi_in=psi,
+        chi=chi,
+        psi_out=float(numbers[PSI_OUT]),
+        status=status,
+        phases=_phases(kept, -1 if psi < 0.0 else 1),
+        restitution=float(numbers[RESTITUTION]),
+        duration=float(numbers[TIME]),
+        max_penetration=float(numbers[DEEPEST]),
+        max_force=float(numbers[STRONGEST]),
+        max_radius=float(numbers[WIDEST]),
+        _record=kept,
+        _scale=scale,
+    )
+
+
+def _phases(record: Record, mirror: int) -> tuple[Phase, ...]:
+    """Return the phases that the panels make up; what is too short goes to the one before."""
+    found: list[Phase] = []
+    for rows, (kind, sign) in zip(record.rows, record.kinds.tolist(), strict=True):
+        start = found[-1].end if found else 0.0
+        end = float(rows[AT_TIME, NODES - 1])
+        name, sign = KIND_NAMES[Kind(kind)], mirror * sign
+        if found and ((found[-1].kind, found[-1].sign) == (name, sign) or end - start <= SHORTEST):
+            found[-1] = found[-1]._replace(end=end)
+            continue
+        if found:
+            found[-1] = found[-1]._replace(cause=CAUSES[found[-1].kind, name])
+        found.append(Phase(name, sign, start, end, "separation"))
+    return tuple(found)

@@ -1,0 +1,149 @@
+"""The normal motion alone: on a panel, to the end of a stage, and as a whole."""
+
+import numpy as np
+from scipy.optimize import brentq
+
+from carom.dimensionless._jit import kernel
+from carom.dimensionless.lossy import normal
+from carom.dimensionless.lossy.collocation import CLOCKS, EVEN, NODES, PLACES, integrate
+from carom.dimensionless.lossy.memory import RADIUS
+from carom.dimensionless.lossy.normal import Loss, Motion, Stage
+from carom.dimensionless.lossy.work import MAX_PANELS, SPEED, Work, new_work
+
+MAX_ITERATIONS = 40
+SETTLED = 1e-15
+CORRECTIONS = 8
+SLOPE = 1.89171  # of 1 - e in alpha where it is small, (3/2) B(3/5, 3/2)
+NEARLY_ELASTIC, LARGEST = 1.0 - 1e-12, 100.0
+LENGTH = 0.1  # of a panel on which the normal motion is good to rounding
+
+
+@kernel
+def solve_normal(work: Work, motion: Motion, kind: int, h: float) -> None:
+    """Solve for b and v at the nodes, from their values at the first."""
+    b, v, rates = work.values[RADIUS], work.values[SPEED], work.rates
+    b0, v0 = b[0], v[0]
+    pace = normal.edge_rate(motion, b0, v0)
+    for j in range(NODES):
+        b[j], v[j] = b0 + h * CLOCKS[kind, j] * pace, v0
+    for _ in range(MAX_ITERATIONS):
+        last_b, last_v = b[NODES - 1], v[NODES - 1]
+        for j in range(NODES):
+            rates[0, j] = normal.speed_rate(motion, b[j], v[j])
+        integrate(kind, v0, h, rates[0], v)
+        for j in range(NODES):
+            rates[0, j] = normal.edge_rate(motion, b[j], v[j])
+        integrate(kind, b0, h, rates[0], b)
+        if abs(b[NODES - 1] - last_b) + abs(v[NODES - 1] - last_v) <= SETTLED:
+            break
+
+
+@kernel
+def beyond_stage(motion: Motion, b: float, v: float) -> float:
+    """Return how far the normal motion is beyond the end of its stage; negative before it."""
+    if motion.stage == Stage.UNLOADING.value:
+        return -b
+    if motion.loss == Loss.PLASTIC.value and motion.stage == Stage.LOADING.value:
+        return max(b - min(motion.parameter, 2.0), -v)
+    return -v
+
+
+@kernel
+def stage_end(work: Work, motion: Motion) -> float:
+    """Return the part of a panel with an even clock after which its stage ends, 1 if not in it."""
+    last = NODES - 1
+    b, v = work.values[RADIUS], work.values[SPEED]
+    beyond = beyond_stage(motion, b[last], v[last])
+    if beyond <= 0.0:
+        return 1.0
+    before = beyond_stage(motion, b[last - 1], v[last - 1])
+    for j in range(last - 1, 0, -1):
+        before = beyond_stage(motion, b[j], v[j])
+        if before <= 0.0:
+            near, far = 0.5 * (1.0 + PLACES[j]), 0.5 * (1.0 + PLACES[j + 1])
+            return float(near + (far - near) * before / (before - beyond))
+        beyond = before
+    return float(0.5 * (1.0 + PLACES[1]))
+
+
+@kernel
+def until_stage_end(motion: Motion, b: float, v: float) -> float:
+    """Return the clock time to the end of a stage, to first order."""
+    if motion.stage == Stage.UNLOADING.value:
+        return -b / normal.edge_rate(motion, b, v)
+    if motion.loss == Loss.PLASTIC.value and motion.stage == Stage.LOADING.value and v > 0.0:
+        return (
+            (motion.parameter - b) / v
+            if motion.parameter < 1.0
+            else -v / normal.speed_rate(motion, b, v)
+        )
+    return -v / normal.speed_rate(motion, b, v)
+
+
+@kernel
+def cut_to_stage(work: Work, motion: Motion, kind: int, h: float) -> tuple[float, bool]:
+    """Solve for the normal motion on a panel, cut at the end of its stage.
+
+    Return its length, and whether it was cut.
+    """
+    b, v, last = work.values[RADIUS], work.values[SPEED], NODES - 1
+    solve_normal(work, motion, EVEN, h)
+    if beyond_stage(motion, b[last], v[last]) < 0.0:
+        if kind != EVEN:
+            solve_normal(work, motion, kind, h)
+        return h, False
+    h *= stage_end(work, motion)
+    for _ in range(CORRECTIONS):
+        solve_normal(work, motion, kind, h)
+        step = until_stage_end(motion, b[last], v[last])
+        if abs(step) <= SETTLED:
+            break
+        h += step
+    return h, True
+
+
+@kernel
+def next_stage(work: Work, motion: Motion) -> Motion:
+    """Return what rules the motion after a stage, whose end the state is put to exactly."""
+    loss, stage, parameter, _, chi = motion
+    b, v = work.values[RADIUS, 0], work.values[SPEED, 0]
+    if loss == Loss.PLASTIC.value and stage == Stage.LOADING.value and v > 1e-12:
+        work.values[RADIUS, 0] = parameter
+        return Motion(loss, Stage.YIELDING.value, parameter, 1.0, chi)
+    work.values[SPEED, 0] = 0.0
+    growth = normal.released_growth(motion, b)
+    return Motion(loss, Stage.UNLOADING.value, parameter, growth, chi)
+
+
+@kernel
+def restitution(loss: int, parameter: float, work: Work) -> float:
+    """Return the normal speed after to before, normal motion alone; NaN if without end."""
+    values = work.values
+    values[RADIUS, 0], values[SPEED, 0] = 0.0, 1.0
+    motion = Motion(loss, Stage.LOADING.value, parameter, 1.0, 1.0)
+    for _ in range(MAX_PANELS):
+        _, ends = cut_to_stage(work, motion, EVEN, LENGTH)
+        for row in (RADIUS, SPEED):
+            values[row, 0] = values[row, NODES - 1]
+        if ends and motion.stage == Stage.UNLOADING.value:
+            return float(-values[SPEED, 0])
+        if ends:
+            motion = next_stage(work, motion)
+    return np.nan
+
+
+def viscous_loss(wanted: float) -> float:
+    """Return alpha, loss time in d_max/V_1, that gives a restitution 0 < e <= 1, to 1e-12 or so.
+
+    >>> round(viscous_loss(0.9), 10)
+    0.0565783139
+    """
+    work = new_work()
+
+    def excess(log_alpha: float) -> float:
+        return float(restitution(Loss.VISCOUS.value, np.exp(log_alpha), work)) - wanted
+
+    first = (1.0 - wanted) / SLOPE  # e is convex: alpha is larger than this
+    if wanted > NEARLY_ELASTIC:
+        return first
+    return float(np.exp(brentq(excess, np.log(0.5 * first), np.log(LARGEST), xtol=1e-15)))

@@ -1,0 +1,60 @@
+"""What a solved impact is told in: phases, and states at some times."""
+
+from dataclasses import dataclass, fields
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.dimensionless.phases import Kind
+
+Array = NDArray[np.float64]
+
+KIND_NAMES = {Kind.STICK: "stick", Kind.SLIP: "slip", Kind.GROSS_SLIP: "gross slip"}
+
+
+class Phase(NamedTuple):
+    """A phase of an impact: its kind, sign of slip (0 in stick), times, and what ended it.
+
+    Times are in d_max/V_1 in a `Solution`, in s in an `Impact`.
+    """
+
+    kind: str
+    sign: int
+    start: float
+    end: float
+    cause: str
+
+
+class SlipAngle(NamedTuple):
+    """Angle between slip and traction in a phase, in rad: largest, and mean by frictional work."""
+
+    largest: float
+    mean: float
+
+
+@dataclass(frozen=True, eq=False)
+class History:
+    """An impact at some times, in the dimensionless units of `Solution`."""
+
+    time: Array
+    penetration: Array
+    speed: Array
+    psi: Array
+    displacement: Array
+    force: Array
+    stick_radius: Array
+    contact_radius: Array
+    stored: Array
+    dissipated: Array
+    normal_force: Array
+    normal_stored: Array
+    normal_lost: Array
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+
+def now_at(history: History) -> dict[str, float]:
+    """Return the only row of a history as numbers."""
+    return {item.name: float(getattr(history, item.name)[0]) for item in fields(history)}

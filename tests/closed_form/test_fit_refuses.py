@@ -1,0 +1,117 @@
+"""Bad input to `fit`: one clear line that names what is wrong, where, and what to do."""
+
+import json
+
+import numpy as np
+import pytest
+
+import carom
+from carom.cases import case_of
+from carom.fitting import fit
+
+ANGLES = [10.0, 20.0, 30.0, 40.0, 50.0]
+BALL = carom.Sphere(radius="2.5 mm", material="steel")
+PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.12)
+GOOD = {"angle [deg]": ANGLES, "contact_beta": [0.1, 0.25, 0.0, -0.3, -0.5]}
+SPEEDS = {"speed": [2.0] * 5}
+NAN = float("nan")
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"contact_beta": None, "contact_bta": [0.1] * 5}, "'contact_beta'"),
+        ({"contact_beta": None, "e_t": [0.6] * 5}, "'tangential_restitution'"),
+        ({"contact_beta": None}, "no measured response"),
+        ({"angle [deg]": None}, "angle: column missing"),
+        ({"angle [deg]": None, "angle": ANGLES}, r"every row.*'angle \[deg\]'"),
+        ({"angle [deg]": [10.0, NAN, 30.0, 40.0, 95.0]}, "row 2"),
+        ({"angle [deg]": [10.0, 20.0, 30.0, 40.0, 95.0]}, "in row 5 cannot be used"),
+        ({"contact_beta": [0.1, NAN, 0.0, NAN, 0.1]}, "rows 2 and 4; write '-'"),
+        ({"contact_beta": [0.1, "x", 0.0, 0.1, 0.1]}, "row 2"),
+        ({"speed [kg]": [2.0] * 5}, "kilogram"),
+        ({"spin_out": [-10.0] * 5}, "speed: column missing; spin_out needs"),
+        ({**SPEEDS, "spin_out": [10.0] * 5}, "change the signs"),
+        ({"tangential_speed": [1.0] * 5}, "tangential_speed and angle say the same twice"),
+        ({"normal_restitution": [98.0] * 5}, "0.98 for 98 percent"),
+        ({**SPEEDS, "normal_speed_out": [30.0] * 5}, "normal_speed_out: 30 in every row"),
+        ({"contact_beta_error": [0.1, 0.0, 0.1, 0.1, 0.1]}, "0 in row 2.*positive"),
+        ({"angle_error": [0.1] * 5}, r"angle_error \[deg\]"),
+        ({"angle [deg]": [0.0, *ANGLES[1:]]}, "contact_beta: 0.1 in row 1.*nothing moved"),
+        ({"angle [deg]": [0.0] * 5, "contact_beta": None, "impulse_ratio": [0.0] * 5}, "sideways"),
+        ({**SPEEDS, "speed": [2.0, -1.0, 2.0, 2.0, 2.0]}, "speed: -1 in row 2"),
+    ],
+)
+def test_bad_columns(changes, words):
+    data = {name: values for name, values in (GOOD | changes).items() if values is not None}
+    with pytest.raises(carom.InputError, match=words) as caught:
+        fit(data, pair=PAIR)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"pair": None}, "pair: missing.*# case:"),
+        ({"pair": 5}, "pair: 5 cannot be used"),
+        ({"vary": ["frction"]}, "did you mean 'friction'"),
+        ({"vary": []}, "nothing is left to fit"),
+        ({"vary": ["friction", "spin_offset"]}, "spin_offset: needs speeds"),
+        ({"fixed": {"mu": 0.1}}, "'mu' is no parameter"),
+        ({"fixed": {"restitution": 1.2}}, "between 0.01 and 1"),
+        ({"fixed": {"friction": -1.0}}, "between 0.001 and 10"),
+        ({"fixed": {"restitution": "2 m"}}, "it has a unit"),
+        ({"fixed": 5}, "values by name"),
+        ({"vary": ["friction"], "fixed": {"friction": 0.1}}, "both varied and fixed"),
+        ({"confidence": 95}, "between 0.5 and 1"),
+    ],
+)
+def test_bad_options(options, words):
+    with pytest.raises(carom.InputError, match=words):
+        fit(GOOD, **{"pair": PAIR, **options})
+
+
+def test_too_few_values_are_counted():
+    few = {name: values[:3] for name, values in GOOD.items()}
+    with pytest.raises(carom.InputError, match="3 measured values cannot tell 3 parameters"):
+        fit(few, pair=PAIR)
+    enough = {**few, "contact_beta_error": [0.05] * 3}
+    assert fit(enough, pair=PAIR, fixed={"restitution": 1.0}).friction.determined
+
+
+def test_lines_of_a_file_are_named(tmp_path):
+    path = tmp_path / "rebounds.csv"
+    path.write_text("# mine\nangle [deg],contact_beta\n10,0.1\n20,\n30,0.0\n")
+    with pytest.raises(carom.InputError, match="contact_beta: not a number in line 4"):
+        fit(path, pair=PAIR)
+
+
+def test_bodies_may_stand_in_the_file(tmp_path):
+    """The case of a comment is the pair; its friction may be left out."""
+    case = {name: value for name, value in case_of(PAIR).items() if name != "friction"}
+    rows = "\n".join(f"{a},{b}" for a, b in zip(*GOOD.values(), strict=True))
+    path = tmp_path / "rebounds.csv"
+    path.write_text(f"# case: {json.dumps(case)}\nangle [deg],contact_beta\n{rows}\n")
+    options = {"fixed": {"restitution": 1.0}}
+    assert fit(path, **options).friction.value == pytest.approx(
+        fit(GOOD, pair=PAIR, **options).friction.value, rel=1e-6
+    )
+
+
+def test_what_was_not_used_is_told():
+    found = fit({**GOOD, "humidity": [40.0] * 5}, pair=PAIR, fixed={"restitution": 1.0})
+    assert "columns that were not used: humidity" in found.notes
+
+
+def test_advice_on_what_was_not_fitted_is_refused():
+    found = fit(GOOD, pair=PAIR, fixed={"restitution": 1.0})
+    with pytest.raises(carom.InputError, match="'restitution' was not fitted"):
+        found.advice(2, "restitution")
+    with pytest.raises(carom.InputError, match="at least 1"):
+        found.advice(0)
+
+
+def test_normal_impacts_tell_restitution_if_nothing_else_is_asked():
+    data = {"angle": np.zeros(4), "normal_restitution": [0.9, 0.91, 0.89, 0.9]}
+    found = fit(data, pair=PAIR, vary="restitution")
+    assert found.restitution.value == pytest.approx(0.9, abs=1e-6)

@@ -1,0 +1,108 @@
+"""`fit` against other algorithms: scipy on residuals of `rebound`, and profiles by brute force."""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq, least_squares
+
+import carom
+from carom.fitting import curves, fit
+
+MU, SIGMA = 0.12, 0.02
+BALL = carom.Sphere(radius="2.5 mm", material="steel")
+FLOOR = carom.HalfSpace(material="steel")
+PAIR = carom.Pair(BALL, FLOOR, friction=MU)
+START = carom.Pair(BALL, FLOOR, friction=0.4)
+ANGLES = np.radians([4.0, 9.0, 14.0, 19.0, 24.0, 29.0, 34.0, 45.0, 60.0])
+
+
+@pytest.fixture(scope="module")
+def data():
+    """Impacts through all regimes, by `impact`, with Gaussian errors that are known."""
+    hits = [carom.impact(PAIR, speed=2.0, angle=angle) for angle in ANGLES]
+    noise = np.random.default_rng(4).normal(0.0, SIGMA, ANGLES.size)
+    beta = -np.array([hit.contact_restitution for hit in hits]) + noise
+    return {"angle": ANGLES, "contact_beta": beta, "contact_beta_error": np.full(9, SIGMA)}
+
+
+@pytest.fixture(scope="module")
+def found(data):
+    return fit(data, pair=START, fixed={"restitution": 1.0}, robust=False)
+
+
+def residuals(data, mu, kappa):
+    """Return residuals in standard deviations, psi_2 from the phase solver point by point."""
+    psi = kappa * np.tan(data["angle"]) / mu
+    chi = 0.5 * kappa * PAIR.normal_mass / PAIR.tangential_mass
+    return (data["contact_beta"] + carom.rebound(psi, chi) / psi) / SIGMA
+
+
+def loss_with(data, name, value, guess):
+    """Return the least sum of squares with one parameter held, the other by scipy."""
+
+    def of(free):
+        mu, kappa = (value, free[0]) if name == "friction" else (free[0], value)
+        return residuals(data, mu, kappa)
+
+    return 2.0 * least_squares(of, [guess], x_scale=0.1, xtol=1e-12, ftol=1e-12).cost
+
+
+def test_best_fit_is_that_of_scipy(data, found):
+    """Trust-region least squares in plain parameters finds the same minimum."""
+    best = least_squares(
+        lambda x: residuals(data, *x), [0.15, 0.9], x_scale=0.1, xtol=1e-12, ftol=1e-12
+    )
+    assert found.friction.value == pytest.approx(best.x[0], rel=2e-4)
+    assert found.kappa.value == pytest.approx(best.x[1], rel=2e-4)
+    assert found.best.sum == pytest.approx(2.0 * best.cost, abs=2e-3)
+
+
+@pytest.mark.parametrize("name", ["friction", "kappa"])
+def test_interval_ends_where_chi_squared_has_risen_by_its_quantile(data, found, name):
+    """chi^2 of the profile, minimised anew by scipy, is 3.8415 above the least at both ends."""
+    estimate = found[name]
+    guess = found.kappa.value if name == "friction" else found.friction.value
+    least = loss_with(data, name, estimate.value, guess)
+
+    def excess(value):
+        return loss_with(data, name, value, guess) - least - 3.841459
+
+    low = brentq(excess, 0.75 * estimate.value, estimate.value, xtol=1e-6)
+    high = brentq(excess, estimate.value, 1.35 * estimate.value, xtol=1e-6)
+    width = high - low
+    assert estimate.low == pytest.approx(low, abs=5e-3 * width)
+    assert estimate.high == pytest.approx(high, abs=5e-3 * width)
+
+
+def test_interval_of_chi_is_that_of_kappa(found):
+    ratio = 0.5 * PAIR.normal_mass / PAIR.tangential_mass
+    assert found.chi.low == pytest.approx(ratio * found.kappa.low)
+    assert found.chi.high == pytest.approx(ratio * found.kappa.high)
+
+
+def test_a_start_far_away_ends_in_the_same_minimum(data, found):
+    """psi_2 is not monotone; the scan keeps the fit out of side minima."""
+    for friction in (0.01, 2.0):
+        pair = carom.Pair(BALL, FLOOR, friction=friction)
+        other = fit(data, pair=pair, fixed={"restitution": 1.0}, robust=False)
+        assert other.friction.value == pytest.approx(found.friction.value, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("chi", "error"), [(0.15, 1e-4), (0.52, 1e-4), (1.1667, 1e-4), (1.4412, 1e-4), (1.69, 1e-4)]
+)
+def test_interpolated_curves_are_those_of_the_solver(chi, error):
+    """psi_2 between the curves that are kept, against the solver, to what the docstring says."""
+    psi = np.random.default_rng(5).uniform(-1.3, 1.3, 400) * max(1.0, 4.0 * chi - 1.0)
+    found = curves.psi_out(psi[np.newaxis], np.array([chi]), np.array([1.0]))[0]
+    assert np.abs(found - carom.rebound(psi, chi)).max() < error
+
+
+@pytest.mark.parametrize("chi", [0.3, 1.4412])
+def test_curves_hardly_change_across_a_kink(chi):
+    """psi_2 is continuous at the borders of the regimes, and odd."""
+    borders = curves.borders(chi, 1.0)[1:]
+    psi = np.sort(np.concatenate([borders - 1e-9, borders + 1e-9]))[np.newaxis]
+    chis, ones = np.array([chi]), np.array([1.0])
+    found = curves.psi_out(psi, chis, ones)[0]
+    assert np.abs(found[1::2] - found[::2]).max() < 1e-6
+    np.testing.assert_array_equal(curves.psi_out(-psi, chis, ones)[0], -found)

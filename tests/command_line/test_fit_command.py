@@ -1,0 +1,113 @@
+"""`carom fit`: what it prints and stores, exit codes, and one clear line for bad input."""
+
+import json
+
+import numpy as np
+import pytest
+
+import carom
+from carom.cli import main
+
+CASE = """
+[first]
+radius = "2.5 mm"
+material = "steel"
+"""
+DEGREES = (4.0, 9.0, 14.0, 19.0, 24.0, 29.0, 34.0, 45.0, 60.0)
+MU = 0.12
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch, table):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "ball.toml").write_text(CASE)
+    (tmp_path / "data.csv").write_text(table)
+
+
+@pytest.fixture(scope="module")
+def table():
+    ball = carom.Sphere(radius="2.5 mm", material="steel")
+    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=MU)
+    noise = np.random.default_rng(9).normal(0.0, 0.01, len(DEGREES))
+    lines = ["angle [deg],tangential_restitution,tangential_restitution_error"]
+    for degrees, error in zip(DEGREES, noise, strict=True):
+        hit = carom.impact(pair, speed=2.0, angle=f"{degrees} deg")
+        lines.append(f"{degrees},{hit.tangential_restitution + error},0.01")
+    return "\n".join(lines) + "\n"
+
+
+def run(capsys, *arguments):
+    code = main(["fit", *arguments])
+    shown = capsys.readouterr()
+    return code, shown.out, shown.err
+
+
+def test_table_of_a_file_with_a_case(capsys):
+    code, out, _ = run(capsys, "data.csv", "--case", "ball.toml", "--fix", "restitution=1")
+    assert code == 0
+    value = float(out.split("friction")[1].split()[0])
+    assert value == pytest.approx(MU, rel=0.1)
+    assert "restitution    1, held" in out
+    assert "rows by regime: stick from the first touch: 1" in out
+
+
+def test_json_and_advice(capsys):
+    given = ("data.csv", "--case", "ball.toml", "--fix", "restitution=1", "--json")
+    code, out, _ = run(capsys, *given, "--advice", "3", "--for", "friction")
+    record = json.loads(out)
+    assert code == 0
+    low, high = (record["parameters"]["friction"][end] for end in ("low", "high"))
+    assert low < MU < high
+    assert record["advice"]["parameter"] == "friction"
+    assert len(record["advice"]["places"]) == 3
+
+
+def test_shipped_data(capsys):
+    code, out, _ = run(capsys, "--dataset", "kharaz2001", "--fix", "restitution=0.98")
+    assert code == 0
+    assert "24 values" in out
+
+
+def test_files_are_stored(capsys, tmp_path):
+    files = ("--plot", "fit.png", "--output", "fit.nc", "--posterior", "samples.csv")
+    given = ("data.csv", "--case", "ball.toml", "--fix", "restitution=1", "--steps", "100")
+    code, _, err = run(capsys, *given, *files)
+    assert code == 0
+    assert {"fit.png", "fit.nc", "samples.csv"} <= {path.name for path in tmp_path.iterdir()}
+    assert "the chain is short" in err
+    samples = carom.read("samples.csv")
+    assert samples.sizes["sample"] == 75 * 16  # steps kept, walkers
+    code, _, _ = run(capsys, *given, "--posterior", "corner.png")
+    assert code == 0
+    assert (tmp_path / "corner.png").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ((), "give a CSV file, or --dataset"),
+        (("data.csv", "--dataset", "kharaz2001"), "give a CSV file, or --dataset"),
+        (("data.csv",), "pair: missing"),
+        (("none.csv", "--case", "ball.toml"), "cannot be read"),
+        (("--dataset", "kharaz"), "did you mean 'kharaz2001'"),
+        (("data.csv", "--case", "ball.toml", "--fix", "restitution"), "restitution=0.98"),
+        (("data.csv", "--case", "ball.toml", "--fix", "e=1"), "'e' is no parameter"),
+        (("data.csv", "--case", "ball.toml", "--vary", "friction,x"), "'x' is no parameter"),
+        (("data.csv", "--case", "ball.toml", "--plot", "fit.txt"), "must end in"),
+        (("data.csv", "--case", "ball.toml", "--output", "data.csv"), "it is the file of data"),
+        (("data.csv", "--case", "ball.toml", "--confidence", "95"), "between 0.5 and 1"),
+        (("data.csv", "--case", "ball.toml", "--for", "friction"), "--advice"),
+    ],
+)
+def test_bad_input_is_one_line_and_code_2(capsys, arguments, words):
+    code, out, err = run(capsys, *arguments)
+    assert code == 2
+    assert out == ""
+    assert words in err
+    assert len(err.strip().splitlines()) == 1
+
+
+def test_help_has_an_example(capsys):
+    code, out, _ = run(capsys, "--help")
+    assert code == 0
+    assert "Example: carom fit" in out

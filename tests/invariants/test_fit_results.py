@@ -1,0 +1,127 @@
+"""Results of `fit`: samples of the posterior, datasets, figures, words."""
+
+import json
+import sys
+
+import numpy as np
+import pytest
+
+import carom
+from carom.fitting import fit
+from carom.plots.fits import plot_corner, plot_fit
+
+MU = 0.12
+BALL = carom.Sphere(radius="2.5 mm", material="steel")
+PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=MU)
+DEGREES = np.array([4.0, 9.0, 14.0, 19.0, 24.0, 29.0, 34.0, 45.0, 60.0])
+
+
+@pytest.fixture(scope="module")
+def data():
+    random = np.random.default_rng(8)
+    hits = [carom.impact(PAIR, speed=2.0, angle=f"{angle} deg") for angle in DEGREES]
+    beta = -np.array([hit.contact_restitution for hit in hits]) + random.normal(0.0, 0.02, 9)
+    spin = np.array([hit.spin_out for hit in hits]) + random.normal(0.0, 5.0, 9)
+    before = {"angle [deg]": DEGREES, "speed": np.full(9, 2.0)}
+    return {
+        **before,
+        "contact_beta": beta,
+        "contact_beta_error": np.full(9, 0.02),
+        "spin_out": spin,
+    }
+
+
+@pytest.fixture(scope="module")
+def found(data):
+    return fit(data, pair=PAIR, fixed={"restitution": 1.0})
+
+
+def test_posterior_agrees_with_the_profile(data):
+    """Squares and many values: quantiles of the samples are the ends of the profile interval."""
+    told = {**data, "spin_out_error": np.full(9, 5.0)}
+    squares = fit(told, pair=PAIR, fixed={"restitution": 1.0}, robust=False)
+    samples = squares.posterior(steps=1500, seed=3)
+    for name in ("friction", "kappa", "chi"):
+        low, high = np.quantile(samples[name].values, [0.025, 0.975])
+        width = squares[name].high - squares[name].low
+        assert low == pytest.approx(squares[name].low, abs=0.1 * width)
+        assert high == pytest.approx(squares[name].high, abs=0.1 * width)
+    assert samples.attrs["converged"] == 1
+
+
+def test_posterior_depends_on_its_seed_alone(found):
+    one, same, other = (found.posterior(steps=100, seed=seed) for seed in (5, 5, 6))
+    np.testing.assert_array_equal(one.friction.values, same.friction.values)
+    assert not np.array_equal(one.friction.values, other.friction.values)
+    with pytest.raises(carom.InputError, match="at least 100"):
+        found.posterior(steps=20)
+
+
+@pytest.mark.parametrize("ending", [".nc", ".csv"])
+def test_a_stored_fit_is_drawn_without_fitting(found, tmp_path, ending):
+    path = carom.save(found, tmp_path / f"fit{ending}")
+    stored = carom.read(path)
+    assert stored.value.sel(parameter="friction").item() == found.friction.value
+    np.testing.assert_array_equal(stored.measured, found.to_dataset().measured)
+    figure = plot_fit(stored)
+    assert len(figure.axes) == 4  # curves and residuals of two responses
+
+
+def test_dataset_holds_data_curves_and_residuals(found, data):
+    stored = found.to_dataset()
+    beta = stored.sel(response="contact_beta")
+    np.testing.assert_allclose(beta.measured - beta.expected, beta.residual)
+    np.testing.assert_allclose(np.degrees(stored.incidence), DEGREES)
+    curve = beta.curve_expected.sel(law="exact")
+    at_data = np.interp(stored.incidence, stored.curve_incidence, curve)
+    np.testing.assert_allclose(at_data, beta.expected, atol=2e-3)
+    assert np.all(beta.curve_low < curve)
+    assert np.all(curve < beta.curve_high)
+    border = np.arctan(found.friction.value / found.kappa.value)
+    assert stored.border.values[0] == pytest.approx(border)
+
+
+def test_rival_curves_are_their_laws(found):
+    """Rigid Coulomb: beta = 0 in stick, else mu (1 + e)(m_n/m_t) V_n/V_x - 1."""
+    stored = found.to_dataset().sel(response="contact_beta")
+    mu = found.comparison["rigid Coulomb"].values["friction"]
+    slides = 2.0 * mu * 3.5 / np.tan(stored.curve_incidence.values)
+    expected = np.minimum(slides, 1.0) - 1.0
+    np.testing.assert_allclose(stored.curve_expected.sel(law="rigid Coulomb"), expected, atol=1e-12)
+
+
+def test_json_is_json(found):
+    record = json.loads(json.dumps(found.to_dict(), allow_nan=False))
+    assert record["parameters"]["friction"]["determined"]
+    assert record["comparison"]["Walton"]["aicc"] > record["comparison"]["exact"]["aicc"]
+    advice = json.loads(json.dumps(found.advice(2).to_dict(), allow_nan=False))
+    assert len(advice["places"]) == 2
+
+
+def test_text_names_value_and_ends(found):
+    text = str(found)
+    assert f"({found.friction.low:.2g}"[:5] in text
+    assert "spin_out: standard deviation" in text
+    assert "Walton is out of the question" in text
+
+
+def test_pair_of_the_fit_can_be_used_on(found):
+    hit = carom.impact(found.pair, speed=2.0, angle="60 deg")
+    assert hit.tangential_impulse == pytest.approx(
+        found.friction.value * 2.0 * found.pair.normal_mass * hit.normal_speed
+    )
+
+
+def test_figures_are_stored(found, tmp_path):
+    found.plot(tmp_path / "fit.png")
+    assert (tmp_path / "fit.png").stat().st_size > 10_000
+    corner = plot_corner(found.posterior(steps=200, seed=1))
+    assert len(corner.axes) == 4
+    with pytest.raises(carom.InputError, match=r"carom\.fit"):
+        plot_fit(carom.curve(1.44, [0.5, 1.0]))
+
+
+def test_without_lmfit_one_line_says_what_to_install(data, monkeypatch):
+    monkeypatch.setitem(sys.modules, "lmfit", None)
+    with pytest.raises(carom.InputError, match=r"lmfit.*pip install 'carom\[fit\]'"):
+        fit(data, pair=PAIR)
