@@ -48,7 +48,7 @@ def fit_command(
             help="Sample by emcee; store samples (.nc, .csv) or a corner plot (.png ...)."
         ),
     ] = None,
-    steps: Annotated[int, typer.Option(help="Steps of the sampling.")] = 2000,
+    steps: Annotated[int, typer.Option(help="Steps of the sampling.")] = 1000,
     seed: Annotated[int, typer.Option(help="Seed of the sampling.")] = 0,
     plot: Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")] = None,
     output: Annotated[str | None, typer.Option(help="Store the fit: .csv or .nc.")] = None,

@@ -1,4 +1,4 @@
-"""Samples of the posterior by an affine-invariant ensemble (Goodman & Weare 2010), emcee's."""
+"""Samples of the posterior by an ensemble of walkers, those of emcee."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
@@ -26,14 +26,15 @@ LONG = 50.0  # autocorrelation times that a chain should have (emcee's documenta
 
 def sample(
     fit: "Fit",
-    steps: int = 2000,
+    steps: int = 1000,
     seed: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> "xr.Dataset":
     """Return samples of the parameters that the data determine, as a dataset along `sample`.
 
-    The likelihood is exp(-loss/(2 lambda)) with the loss and its spread lambda of the fit, the
-    prior even in log friction, log kappa, restitution and spin offset within their ranges.
+    Walkers move by differential evolution (ter Braak 2006). The likelihood is
+    exp(-loss/(2 lambda)) with the loss and its spread lambda of the fit, the prior even in log
+    friction, log kappa, restitution and spin offset within their ranges.
 
     Raises InputError for fewer than 100 steps, or if emcee is not there.
     """
@@ -54,7 +55,8 @@ def sample(
     deviations = np.sqrt(np.diag(best.information.covariance))
     offsets = generator.normal(size=(WALKERS * free, free)) * np.minimum(deviations, 0.3)
     start = _within(best.at + offsets, low, high)
-    sampler = emcee.EnsembleSampler(len(start), free, log_probability, vectorize=True)
+    moves = [(emcee.moves.DEMove(), 0.9), (emcee.moves.DEMove(gamma0=1.0), 0.1)]
+    sampler = emcee.EnsembleSampler(len(start), free, log_probability, vectorize=True, moves=moves)
     sampler.random_state = np.random.RandomState(generator.integers(2**31)).get_state()
     state = start
     for done in range(0, count, CHUNK):

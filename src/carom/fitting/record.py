@@ -1,6 +1,6 @@
 """The result of a fit."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import floor, inf, isfinite, isnan, log10, nan
@@ -149,11 +149,16 @@ class Fit:
 
         return advise(self, n, parameter)
 
-    def posterior(self, steps: int = 2000, seed: int | None = None, **more: Any) -> "xr.Dataset":
-        """Return samples of the posterior by emcee."""
+    def posterior(
+        self,
+        steps: int = 1000,
+        seed: int | None = None,
+        progress: Callable[[int, int], object] | None = None,
+    ) -> "xr.Dataset":
+        """Return samples of the posterior by emcee; `progress` is told steps done and to do."""
         from carom.fitting.posterior import sample
 
-        return sample(self, steps, seed, **more)
+        return sample(self, steps, seed, progress)
 
     def to_dataset(self) -> "xr.Dataset":
         """Return data, fit, curves and intervals as one dataset, from which the figure is drawn."""

@@ -16,6 +16,7 @@ PLACES = extrema(DEGREE)  # x of the nodes, both ends included
 TO_SERIES = from_extrema(DEGREE)
 
 EVEN, FLAT_START, FLAT_END, FLAT_ENDS = range(4)  # clocks
+MAX_STEPS = 80
 
 
 @kernel
@@ -29,6 +30,18 @@ def clock(kind: int, x: float) -> float:
     if kind == FLAT_END:
         return y * (2.0 - y)
     return y * y * (3.0 - 2.0 * y)
+
+
+@kernel
+def place_of_clock(kind: int, part: float) -> float:
+    """Return the place at which the clock shows this part of a panel."""
+    if kind == FLAT_START:
+        part = np.sqrt(part)
+    elif kind == FLAT_END:
+        part = 1.0 - np.sqrt(1.0 - part)
+    elif kind == FLAT_ENDS:
+        part = 0.5 - np.sin(np.arcsin(1.0 - 2.0 * part) / 3.0)
+    return 2.0 * part - 1.0
 
 
 def _clocks() -> np.ndarray:
@@ -84,12 +97,12 @@ def integrate(kind: int, start: float, h: float, rates: np.ndarray, values: np.n
 
 
 @kernel
-def evaluate(series: np.ndarray, x: float) -> float:
-    """Return the value of a series at x (Clenshaw 1955)."""
+def evaluate(table: np.ndarray, panel: int, row: int, x: float) -> float:
+    """Return the value at x of a row of series on a panel (Clenshaw 1955)."""
     last, one = 0.0, 0.0
     for k in range(DEGREE, 0, -1):
-        last, one = one, series[k] + 2.0 * x * one - last
-    return float(series[0] + x * one - last)
+        last, one = one, table[panel, row, k] + 2.0 * x * one - last
+    return float(table[panel, row, 0] + x * one - last)
 
 
 @kernel
@@ -107,15 +120,16 @@ def tail(series: np.ndarray) -> float:
 
 
 @kernel
-def place(series: np.ndarray, level: float, low: float, high: float) -> float:
+def place(table: np.ndarray, panel: int, row: int, level: float, low: float, high: float) -> float:
     """Return where a monotone series between two places passes a level (Illinois method)."""
-    f_low, f_high = evaluate(series, low) - level, evaluate(series, high) - level
+    f_low = evaluate(table, panel, row, low) - level
+    f_high = evaluate(table, panel, row, high) - level
     if (f_low > 0.0) == (f_high > 0.0):
         return low if abs(f_low) < abs(f_high) else high
     x, side = high, 0
-    for _ in range(80):
+    for _ in range(MAX_STEPS):
         x = high - f_high * (high - low) / (f_high - f_low)
-        f = evaluate(series, x) - level
+        f = evaluate(table, panel, row, x) - level
         if abs(f) <= 1e-16 or abs(high - low) <= 1e-15:
             break
         if (f > 0.0) == (f_high > 0.0):

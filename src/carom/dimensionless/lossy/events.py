@@ -12,7 +12,7 @@ from carom.dimensionless.lossy.work import PSI, SPEED, Work
 
 EARLY = 5e-4  # part of a panel in which zones that begin with it are too thin to be told
 TO = 0.9999  # place up to which the structure is looked at
-BISECTIONS = 45
+BISECTIONS = 36
 LEVEL = 1e-9  # a limit that falls more slowly does not fall
 
 
@@ -32,12 +32,27 @@ def signs(motion: Motion, zones: int, b: float, v: float, psi: float) -> int:
 
 
 @kernel
+def zones_at(work: Work, motion: Motion, panel: Panel, x: float) -> int:
+    """Return a number for the zones at a place of a solved panel."""
+    series, n = work.series, panel.number
+    b, v, u = (
+        evaluate(series, n, RADIUS, x),
+        evaluate(series, n, SPEED, x),
+        evaluate(series, n, MOVED, x),
+    )
+    return cut_memory(work, motion, panel, x, b, v, u).zones
+
+
+@kernel
 def structure(work: Work, motion: Motion, panel: Panel, x: float) -> int:
     """Return a number for what happens at a place of a solved panel."""
-    series = work.series[panel.number]
-    b, v, psi = evaluate(series[RADIUS], x), evaluate(series[SPEED], x), evaluate(series[PSI], x)
-    cut = cut_memory(work, motion, panel, x, b, v, evaluate(series[MOVED], x))
-    return signs(motion, cut.zones, b, v, psi)
+    series, n = work.series, panel.number
+    b, v, psi = (
+        evaluate(series, n, RADIUS, x),
+        evaluate(series, n, SPEED, x),
+        evaluate(series, n, PSI, x),
+    )
+    return signs(motion, zones_at(work, motion, panel, x), b, v, psi)
 
 
 @kernel
@@ -70,9 +85,15 @@ def change_between(
     work: Work, motion: Motion, panel: Panel, low: float, high: float, own: int
 ) -> float:
     """Return where between two places the structure ceases to be this, by bisection."""
+    series, n = work.series, panel.number
+    zones = zones_at(work, motion, panel, low)
+    steady = zones == zones_at(work, motion, panel, high)
     for _ in range(BISECTIONS):
         middle = 0.5 * (low + high)
-        if structure(work, motion, panel, middle) == own:
+        if not steady:
+            zones = zones_at(work, motion, panel, middle)
+        b, v = evaluate(series, n, RADIUS, middle), evaluate(series, n, SPEED, middle)
+        if signs(motion, zones, b, v, evaluate(series, n, PSI, middle)) == own:
             low = middle
         else:
             high = middle

@@ -138,15 +138,17 @@ def solved_panel(
 
     The error is negative if it cannot be solved.
     """
-    series = work.series[number]
+    series, before = work.series[number], Panel(number, EVEN, 0.0, pieces)
     for _ in range(TRIALS):
         h, ends = cut_to_stage(work, motion, plan.clock, plan.length)
         plan = with_length(plan, h, plan.natural, plan.to_change, ends)
         panel = Panel(number, plan.clock, plan.length, pieces)
-        if not solve_panel(work, motion, panel):
+        if not solve_panel(work, motion, panel, before):
             half = 0.5 * plan.length
             plan = with_length(plan, half, half, False, False)
+            before = Panel(number, EVEN, 0.0, pieces)
             continue
+        before = panel
         change = first_change(work, motion, panel)
         near = NEAR if plan.clock == EVEN else NEAR_FLAT
         part = clock(plan.clock, change) if change < 1.0 else 1.0

@@ -35,71 +35,76 @@ def cubes(inner: float, outer: float) -> float:
 
 
 @kernel
-def force(piece: Pieces, u: float) -> float:
+def force(pieces: Pieces, i: int, u: float) -> float:
     """Return the integral of q = U + A - s over a piece."""
-    r0, width = piece[R0], piece[R1] - piece[R0]
-    if piece[SIGN] == 0.0:
-        return float(u * width - (piece[W1] - piece[W0]))
-    share = cubes(r0, piece[R1])
-    if piece[SIGN] > 0.0:
-        return float((u + piece[A0]) * width - share)
-    return float((u + piece[A0] - 2.0 * r0 * r0) * width + share)
+    r0, r1 = pieces[i, R0], pieces[i, R1]
+    if pieces[i, SIGN] == 0.0:
+        return float(u * (r1 - r0) - (pieces[i, W1] - pieces[i, W0]))
+    if pieces[i, SIGN] > 0.0:
+        return float((u + pieces[i, A0]) * (r1 - r0) - cubes(r0, r1))
+    return float((u + pieces[i, A0] - 2.0 * r0 * r0) * (r1 - r0) + cubes(r0, r1))
 
 
 @kernel
-def is_whole(piece: Pieces, p: float, m: float, edge: float) -> bool:
+def is_whole(pieces: Pieces, i: int, p: float, m: float, edge: float) -> bool:
     """Tell whether a piece lies within the contact and its limits."""
-    if piece[R1] > edge or piece[A0] > p + SLACK or piece[A1] > p + SLACK:
+    r0, r1, a0, a1 = pieces[i, R0], pieces[i, R1], pieces[i, A0], pieces[i, A1]
+    if r1 > edge or a0 > p + SLACK or a1 > p + SLACK:
         return False
-    s0, s1 = piece[R0] * piece[R0], piece[R1] * piece[R1]
-    return bool(2.0 * s0 - piece[A0] <= m + SLACK and 2.0 * s1 - piece[A1] <= m + SLACK)
+    return bool(2.0 * r0 * r0 - a0 <= m + SLACK and 2.0 * r1 * r1 - a1 <= m + SLACK)
 
 
 @kernel
-def cut(piece: Pieces, series: Pieces, p: float, m: float, edge: float, parts: Pieces) -> int:
+def cut(
+    pieces: Pieces, i: int, series: Pieces, p: float, m: float, edge: float, parts: Pieces
+) -> int:
     """Cut a piece by both limits and the edge; write its parts and return how many there are."""
-    if is_whole(piece, p, m, edge):
-        parts[0] = piece
+    if is_whole(pieces, i, p, m, edge):
+        copy(pieces, i, parts, 0)
         return 1
-    if piece[SIGN] == 0.0:
-        return cut_laid(piece, series, p, m, edge, parts)
-    return cut_flat(piece, p, m, edge, parts)
+    if pieces[i, SIGN] == 0.0:
+        return cut_laid(pieces, i, series, p, m, edge, parts)
+    return cut_flat(pieces, i, p, m, edge, parts)
 
 
 @kernel
-def cut_laid(piece: Pieces, series: Pieces, p: float, m: float, edge: float, parts: Pieces) -> int:
+def cut_laid(
+    pieces: Pieces, i: int, series: Pieces, p: float, m: float, edge: float, parts: Pieces
+) -> int:
     """Cut a piece that was laid in stick."""
-    x0, x1, outer = piece[X0], piece[X1], piece[R1]
+    panel, inner, outer = int(pieces[i, PANEL]), pieces[i, R0], pieces[i, R1]
+    x0, x1 = pieces[i, X0], pieces[i, X1]
     if outer > edge:
-        x1, outer = place(series[RADIUS], edge, x0, x1), edge
+        x1, outer = place(series, panel, RADIUS, edge, x0, x1), edge
     begins, ends = 0, 0
     for sign in (1, -1):
-        level, laid = (p, series[LAID_A]) if sign == 1 else (m, series[LAID_B])
-        inside, outside = piece[A0], piece[A1]
+        level, row, inside, outside = p, LAID_A, pieces[i, A0], pieces[i, A1]
         if sign == -1:
-            inside = 2.0 * piece[R0] * piece[R0] - inside
-            outside = 2.0 * piece[R1] * piece[R1] - outside
+            level, row = m, LAID_B
+            inside = 2.0 * inner * inner - inside
+            outside = 2.0 * pieces[i, R1] * pieces[i, R1] - outside
+        if inside <= level + SLACK and outside <= level + SLACK:
+            continue
+        x = x1
+        if inside <= level + SLACK or outside < level - SLACK:
+            x = min(place(series, panel, row, level, pieces[i, X0], pieces[i, X1]), x1)
         if inside > level + SLACK:
-            begins = sign
-            x = x1
-            if outside < level - SLACK:
-                x = place(laid, level, piece[X0], piece[X1])
-            x0 = max(x0, min(x, x1))
-        elif outside > level + SLACK:
-            x = place(laid, level, piece[X0], piece[X1])
-            if x < x1:
-                ends, x1 = sign, x
-    r0 = piece[R0] if begins == 0 else min(max(evaluate(series[RADIUS], x0), piece[R0]), outer)
-    r1 = outer
+            begins, x0 = sign, max(x0, x)
+        elif x < x1:
+            ends, x1 = sign, x
+    r0, r1 = inner, outer
+    if begins != 0:
+        r0 = min(max(evaluate(series, panel, RADIUS, x0), inner), outer)
     if x1 <= x0:
         r1 = r0
     elif ends != 0:
-        r1 = max(min(evaluate(series[RADIUS], x1), outer), r0)
+        r1 = max(min(evaluate(series, panel, RADIUS, x1), outer), r0)
     count = 0
-    if r0 > piece[R0]:
-        count = add_slipping(parts, count, begins, piece[R0], r0, p, m)
+    if r0 > inner:
+        count = add_slipping(parts, count, begins, inner, r0, p, m)
     if r1 > r0:
-        add_laid(parts[count], piece, series, x0, x1, r0, r1)
+        copy(pieces, i, parts, count)
+        trim_laid(parts, count, series, x0, x1, r0, r1)
         count += 1
     if outer > r1:
         count = add_slipping(parts, count, ends if ends != 0 else begins, r1, outer, p, m)
@@ -107,17 +112,17 @@ def cut_laid(piece: Pieces, series: Pieces, p: float, m: float, edge: float, par
 
 
 @kernel
-def cut_flat(piece: Pieces, p: float, m: float, edge: float, parts: Pieces) -> int:
+def cut_flat(pieces: Pieces, i: int, p: float, m: float, edge: float, parts: Pieces) -> int:
     """Cut a piece that slip made flat: A is constant there for sign +, B for sign -."""
-    sign, inner, outer = int(piece[SIGN]), piece[R0], min(piece[R1], edge)
-    own = piece[A0] if sign == 1 else 2.0 * inner * inner - piece[A0]
+    sign, inner, outer = int(pieces[i, SIGN]), pieces[i, R0], min(pieces[i, R1], edge)
+    own = pieces[i, A0] if sign == 1 else 2.0 * inner * inner - pieces[i, A0]
     limit, other = (p, m) if sign == 1 else (m, p)
     if own > limit + SLACK:
         return add_slipping(parts, 0, sign, inner, outer, p, m)
     border = min(max(np.sqrt(max(0.5 * (own + other), 0.0)), inner), outer)
     count = 0
     if border > inner:
-        parts[0] = piece
+        copy(pieces, i, parts, 0)
         parts[0, R1] = border
         parts[0, A1] = own if sign == 1 else 2.0 * border * border - own
         count = 1
@@ -127,26 +132,35 @@ def cut_flat(piece: Pieces, p: float, m: float, edge: float, parts: Pieces) -> i
 
 
 @kernel
+def copy(pieces: Pieces, i: int, others: Pieces, j: int) -> None:
+    """Write a piece over another: column by column, as slices are slow."""
+    for column in range(COLUMNS):
+        others[j, column] = pieces[i, column]
+
+
+@kernel
 def add_slipping(
     parts: Pieces, count: int, sign: int, r0: float, r1: float, p: float, m: float
 ) -> int:
     """Write a part that slip of this sign holds at its limit; return how many there are now."""
-    part = parts[count]
-    part[:] = 0.0
-    part[SIGN], part[PANEL], part[R0], part[R1] = sign, ACTIVE, r0, r1
-    part[A0] = p if sign == 1 else 2.0 * r0 * r0 - m
-    part[A1] = p if sign == 1 else 2.0 * r1 * r1 - m
+    parts[count, SIGN], parts[count, PANEL] = sign, ACTIVE
+    parts[count, R0], parts[count, R1] = r0, r1
+    parts[count, A0] = p if sign == 1 else 2.0 * r0 * r0 - m
+    parts[count, A1] = p if sign == 1 else 2.0 * r1 * r1 - m
     return count + 1
 
 
 @kernel
-def add_laid(
-    part: Pieces, piece: Pieces, series: Pieces, x0: float, x1: float, r0: float, r1: float
+def trim_laid(
+    parts: Pieces, k: int, series: Pieces, x0: float, x1: float, r0: float, r1: float
 ) -> None:
-    """Write what is left of a laid piece between two places of its panel."""
-    part[:] = piece
-    part[X0], part[X1], part[R0], part[R1] = x0, x1, r0, r1
-    if x0 != piece[X0]:
-        part[A0], part[W0] = evaluate(series[LAID_A], x0), evaluate(series[LAID], x0)
-    if x1 != piece[X1]:
-        part[A1], part[W1] = evaluate(series[LAID_A], x1), evaluate(series[LAID], x1)
+    """Trim a laid part to what lies between two places of its panel."""
+    panel = int(parts[k, PANEL])
+    parts[k, R0], parts[k, R1] = r0, r1
+    if x0 != parts[k, X0]:
+        parts[k, A0] = evaluate(series, panel, LAID_A, x0)
+        parts[k, W0] = evaluate(series, panel, LAID, x0)
+    if x1 != parts[k, X1]:
+        parts[k, A1] = evaluate(series, panel, LAID_A, x1)
+        parts[k, W1] = evaluate(series, panel, LAID, x1)
+    parts[k, X0], parts[k, X1] = x0, x1

@@ -12,6 +12,7 @@ from carom.dimensionless.lossy.collocation import (
     evaluate,
     expand,
     integrate,
+    place_of_clock,
 )
 from carom.dimensionless.lossy.memory import (
     A0,
@@ -38,6 +39,7 @@ from carom.dimensionless.lossy.work import PSI, SPEED, Work
 
 MAX_ITERATIONS = 30
 SETTLED = 1e-13
+ZONES, SLIPS_FORTH, SLIPS_BACK = 7, 3, 1  # codes of zones; what sticks has 4, 5, 6
 THIN = 1e-5  # part of the contact: zones that are narrower are not told
 
 
@@ -65,12 +67,13 @@ class Cut(NamedTuple):
 
 @kernel
 def lay(work: Work, panel: Panel, x: float, b: float, u: float) -> None:
-    """Write the piece that the panel has laid up to x."""
-    piece, b0, u0 = work.laid[0], work.values[RADIUS, 0], work.values[MOVED, 0]
-    piece[SIGN], piece[PANEL], piece[X0], piece[X1] = 0.0, panel.number, -1.0, x
-    piece[R0], piece[R1] = b0, b
-    piece[A0], piece[A1] = b0 * b0 - u0, b * b - u
-    piece[W0], piece[W1] = 0.0, evaluate(work.series[panel.number, LAID], x)
+    """Write the piece that the panel has laid up to x behind the others."""
+    pieces, i, b0, u0 = work.pieces, panel.pieces, work.values[RADIUS, 0], work.values[MOVED, 0]
+    pieces[i, SIGN], pieces[i, PANEL] = 0.0, panel.number
+    pieces[i, X0], pieces[i, X1] = -1.0, x
+    pieces[i, R0], pieces[i, R1] = b0, b
+    pieces[i, A0], pieces[i, A1] = b0 * b0 - u0, b * b - u
+    pieces[i, W0], pieces[i, W1] = 0.0, evaluate(work.series, panel.number, LAID, x)
 
 
 @kernel
@@ -78,51 +81,41 @@ def cut_memory(
     work: Work, motion: Motion, panel: Panel, x: float, b: float, v: float, u: float
 ) -> Cut:
     """Return the memory at a place of a panel, where the edge, the speed and U are these."""
+    pieces, parts, series = work.pieces, work.parts, work.series
     d = normal.limit(motion, b, v)
-    p, m = d - u, d + u
     total, stuck, plus, minus, broad = 0.0, 0.0, 0.0, 0.0, 0.0
     code, now, last = 0, 0, 0
     laying = motion.stage != Stage.UNLOADING.value
     if laying:
         lay(work, panel, x, b, u)
     for i in range(panel.pieces + laying):
-        piece = work.pieces[i] if i < panel.pieces else work.laid[0]
-        if piece[R0] >= b:
+        if pieces[i, R0] >= b:
             break
-        if memory.is_whole(piece, p, m, b):
-            width = piece[R1] - piece[R0]
-            total += memory.force(piece, u)
-            stuck += width
-            zone = int(piece[SIGN]) + 5
-            broad = width if zone != now else broad + width
-            now = zone
-            if zone != last and broad > THIN * b:
-                code = code * 7 + zone
-                last = zone
-            continue
-        source = int(piece[PANEL]) if piece[SIGN] == 0.0 else 0
-        for k in range(memory.cut(piece, work.series[source], p, m, b, work.parts)):
-            part = work.parts[k]
-            width = part[R1] - part[R0]
-            total += memory.force(part, u)
-            zone = int(part[SIGN]) + (2 if part[PANEL] == ACTIVE else 5)
-            if part[PANEL] != ACTIVE:
-                stuck += width
-            elif part[SIGN] > 0.0:
-                plus += d * width - memory.cubes(part[R0], part[R1])
+        for k in range(memory.cut(pieces, i, series, d - u, d + u, b, parts)):
+            r0, r1, sign = parts[k, R0], parts[k, R1], int(parts[k, SIGN])
+            total += memory.force(parts, k, u)
+            zone = sign + 5
+            if parts[k, SIGN] == 0.0 or parts[k, PANEL] != ACTIVE:
+                stuck += r1 - r0
+            elif sign > 0:
+                zone = SLIPS_FORTH
+                plus += d * (r1 - r0) - memory.cubes(r0, r1)
             else:
-                minus += d * width - memory.cubes(part[R0], part[R1])
-            broad = width if zone != now else broad + width
+                zone = SLIPS_BACK
+                minus += d * (r1 - r0) - memory.cubes(r0, r1)
+            broad = r1 - r0 if zone != now else broad + r1 - r0
             now = zone
             if zone != last and broad > THIN * b:
-                code = code * 7 + zone
+                code = code * ZONES + zone
                 last = zone
     return Cut(total, stuck, plus, minus, code)
 
 
 @kernel
-def solve_panel(work: Work, motion: Motion, panel: Panel) -> bool:
+def solve_panel(work: Work, motion: Motion, panel: Panel, before: Panel) -> bool:
     """Solve for U and psi at the nodes, b and v being there; tell whether the iteration settled.
+
+    `before` is the same panel as it was tried last, its length 0 if it was not.
 
     psi = psi_0 - (15/2) chi integral of b Q, by Newton's method in which only the stuck width of
     the first iterate gives dQ/dU.
@@ -131,9 +124,10 @@ def solve_panel(work: Work, motion: Motion, panel: Panel) -> bool:
     b, psi, h = values[RADIUS], values[PSI], panel.length
     psi0, u0 = psi[0], values[MOVED, 0]
     expand(b, series[RADIUS])
-    start = cut_memory(work, motion, panel, -1.0, b[0], values[SPEED, 0], u0)
-    for j in range(NODES):
-        psi[j] = psi0 - 7.5 * motion.chi * b[0] * start.force * h * CLOCKS[panel.clock, j]
+    if not guess(work, panel, before):
+        start = cut_memory(work, motion, panel, -1.0, b[0], values[SPEED, 0], u0)
+        for j in range(NODES):
+            psi[j] = psi0 - 7.5 * motion.chi * b[0] * start.force * h * CLOCKS[panel.clock, j]
     for iteration in range(MAX_ITERATIONS):
         follow(work, motion, panel, u0)
         for j in range(NODES):
@@ -160,6 +154,19 @@ def solve_panel(work: Work, motion: Motion, panel: Panel) -> bool:
             expand(values[SPEED], series[SPEED])
             return True
     return False
+
+
+@kernel
+def guess(work: Work, panel: Panel, before: Panel) -> bool:
+    """Write psi as it was when the panel was tried last, if it was longer; tell whether so."""
+    if before.length < panel.length:
+        return False
+    ratio = panel.length / before.length
+    for j in range(1, NODES):
+        part = min(CLOCKS[panel.clock, j] * ratio, 1.0)
+        x = place_of_clock(before.clock, part)
+        work.values[PSI, j] = evaluate(work.series, panel.number, PSI, x)
+    return True
 
 
 @kernel
@@ -223,28 +230,26 @@ def commit(work: Work, motion: Motion, panel: Panel) -> int:
         lay(work, panel, 1.0, b, u)
     made = 0
     for i in range(panel.pieces + laying):
-        piece = work.pieces[i] if i < panel.pieces else work.laid[0]
-        if piece[R0] >= b:
+        if work.pieces[i, R0] >= b:
             break
-        source = int(piece[PANEL]) if piece[SIGN] == 0.0 else 0
-        for k in range(memory.cut(piece, work.series[source], d - u, d + u, b, work.parts)):
-            made = append(work.spare, made, work.parts[k])
+        for k in range(memory.cut(work.pieces, i, work.series, d - u, d + u, b, work.parts)):
+            made = append(work.spare, made, work.parts, k)
     for i in range(made):
-        work.pieces[i] = work.spare[i]
+        memory.copy(work.spare, i, work.pieces, i)
         if work.pieces[i, PANEL] == ACTIVE:
             work.pieces[i, PANEL] = memory.PAST
     return made
 
 
 @kernel
-def append(pieces: Pieces, made: int, part: Pieces) -> int:
+def append(pieces: Pieces, made: int, parts: Pieces, k: int) -> int:
     """Append a part, joined to the one before if both slip alike; return how many there are."""
     before = made - 1
-    slips = made > 0 and part[PANEL] == ACTIVE and pieces[before, PANEL] == ACTIVE
-    if slips and pieces[before, SIGN] == part[SIGN]:
-        pieces[before, R1], pieces[before, A1] = part[R1], part[A1]
+    slips = made > 0 and parts[k, PANEL] == ACTIVE and pieces[before, PANEL] == ACTIVE
+    if slips and pieces[before, SIGN] == parts[k, SIGN]:
+        pieces[before, R1], pieces[before, A1] = parts[k, R1], parts[k, A1]
         return made
-    if made < MAX_PIECES:
-        pieces[made] = part
+    if made < MAX_PIECES - 1:
+        memory.copy(parts, k, pieces, made)
         made += 1
     return made

@@ -76,20 +76,25 @@ def strongest(work: Work, motion: Motion, panel: Panel) -> float:
         best = j if force[j] > force[best] else best
     if best == 0 or best == NODES - 1:
         return float(force[best])
-    low, high, series = PLACES[best - 1], PLACES[best + 1], work.series[panel.number]
+    low, high = PLACES[best - 1], PLACES[best + 1]
+    series, n = work.series, panel.number
     for _ in range(SEARCH):
         near, far = (2.0 * low + high) / 3.0, (low + 2.0 * high) / 3.0
-        if force_at(motion, series, near) < force_at(motion, series, far):
+        if force_at(motion, work.series, panel.number, near) < force_at(
+            motion, work.series, panel.number, far
+        ):
             low = near
         else:
             high = far
-    return max(force_at(motion, series, 0.5 * (low + high)), float(force[best]))
+    return max(force_at(motion, series, n, 0.5 * (low + high)), float(force[best]))
 
 
 @kernel
-def force_at(motion: Motion, series: Array, x: float) -> float:
+def force_at(motion: Motion, series: Array, n: int, x: float) -> float:
     """Return the normal force at a place of a panel."""
-    return normal.normal_force(motion, evaluate(series[RADIUS], x), evaluate(series[SPEED], x))
+    return normal.normal_force(
+        motion, evaluate(series, n, RADIUS, x), evaluate(series, n, SPEED, x)
+    )
 
 
 @kernel

@@ -118,11 +118,10 @@ class LossySolution:
         """Return all rows of the record at these times, shape (rows, times)."""
         rows, starts = self._record.rows, self._record.rows[:, AT_TIME, 0]
         panels = np.clip(np.searchsorted(starts, wanted, side="right") - 1, 0, len(rows) - 1)
-        found = np.empty((rows.shape[1], wanted.size))
+        found, series = np.empty((rows.shape[1], wanted.size)), rows @ TO_SERIES.T
         for i, (panel, instant) in enumerate(zip(panels, wanted, strict=True)):
-            series = rows[panel] @ TO_SERIES.T
-            x = place(series[AT_TIME], instant, -1.0, 1.0)
-            found[:, i] = np.polynomial.chebyshev.chebval(x, series.T)
+            x = place(series, panel, AT_TIME, instant, -1.0, 1.0)
+            found[:, i] = np.polynomial.chebyshev.chebval(x, series[panel].T)
         return found
 
     def _stored(self, rows: Array) -> Array:

@@ -23,7 +23,6 @@ class Work(NamedTuple):
     pieces: Pieces
     spare: Pieces
     parts: Pieces
-    laid: Pieces
     zones: NDArray[np.int64]  # (NODES,)
 
 
@@ -37,6 +36,5 @@ def new_work() -> Work:
         pieces=np.zeros((MAX_PIECES, memory.COLUMNS)),
         spare=np.zeros((MAX_PIECES, memory.COLUMNS)),
         parts=np.zeros((PARTS, memory.COLUMNS)),
-        laid=np.zeros((1, memory.COLUMNS)),
         zones=np.zeros(NODES, dtype=np.int64),
     )
