@@ -1,15 +1,19 @@
-"""Cases: bodies, friction and motion as a TOML file or a mapping gives them."""
+"""Cases: bodies, friction, motion and losses as a TOML file or a mapping gives them."""
 
 import re
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from carom.approach import slope
 from carom.bodies import VALUES, Cup, HalfSpace, Material, Sphere, as_material, describe
 from carom.pairs import Counterbody, Pair
-from carom.quantities import InputError, finite, nearest, not_negative, positive, refusal
+from carom.quantities import InputError, finite, nearest, not_negative, number, positive, refusal
+
+if TYPE_CHECKING:
+    from carom.normals import NormalLaw
 
 Case = dict[str, Any]
 
@@ -21,6 +25,9 @@ MOTION: dict[str, Callable[[str, Any], float]] = {
     "spin": finite,
     "spin2": finite,
 }
+LOSSES = ("restitution", "loss_time", "yield_velocity")  # of the normal motion, one at most
+ONE_LOSS = "both tell what the normal motion loses"
+FROM_STRENGTH = "material"  # the yield velocity that the yield strengths give
 SIZES: dict[str, Callable[[str, Any], float]] = {
     "radius": positive,
     "gyration_radius": positive,
@@ -35,8 +42,8 @@ SHAPES = (HalfSpace, Sphere, Cup)
 SWEEP = "sweep"  # the table of a sweep, which `carom.sweeps` reads
 
 
-def read_case(path: Path) -> Case:
-    """Return the content of a case file, its keys checked."""
+def read_case(path: Path, *, losses: bool = False) -> Case:
+    """Return the content of a case file, its keys checked; `losses` as in `check_case`."""
     try:
         text = path.read_text(encoding="utf-8-sig")
         case = tomllib.loads(text)
@@ -47,12 +54,21 @@ def read_case(path: Path) -> Case:
         raise InputError(f"case file: {str(path)!r} is not text; give a TOML file") from None
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"case file: {str(path)!r} is not TOML; {error}") from None
-    check_case(case, lambda key, table: f" in {path}, line {line_of(key, text, table)}")
+    where = partial(_place, path, text)
+    check_case(case, where, losses=losses)
     return case
 
 
-def check_case(case: Mapping[str, Any], place: Callable[[str, str], str] = lambda *_: "") -> None:
-    """Raise InputError for a key that is not known; `place` tells where a key of a table is."""
+def check_case(
+    case: Mapping[str, Any],
+    place: Callable[[str, str], str] = lambda *_: "",
+    *,
+    losses: bool = False,
+) -> None:
+    """Raise InputError for a key that is not known; `place` tells where a key of a table is.
+
+    Losses of the normal motion are refused, too, unless the caller can do with them.
+    """
 
     def check(table: Mapping[str, Any], allowed: Iterable[str], name: str) -> None:
         for key in table:
@@ -62,7 +78,11 @@ def check_case(case: Mapping[str, Any], place: Callable[[str, str], str] = lambd
 
     if not isinstance(case, Mapping):
         raise refusal("case", case, "must be a mapping with friction, speeds, first and second")
-    check(case, ("friction", *MOTION, *TABLES, SWEEP), "")
+    for key in () if losses else LOSSES:
+        if key in case:
+            where = place(key, "")
+            raise InputError(f"{key}: of no use{where}; this is for elastic impacts, leave it out")
+    check(case, ("friction", *MOTION, *LOSSES, *TABLES, SWEEP), "")
     for name, allowed in TABLES.items():
         table = case.get(name, {})
         if not isinstance(table, Mapping):
@@ -72,16 +92,20 @@ def check_case(case: Mapping[str, Any], place: Callable[[str, str], str] = lambd
             check(table["material"], MATERIAL, name)
 
 
+def _place(path: Path, text: str, key: str, table: str) -> str:
+    return f" in {path}, line {line_of(key, text, table)}"
+
+
 def line_of(key: str, text: str, table: str) -> int:
     """Return the line of a key, searched from the header of its table on."""
     word = re.escape(key)
     pattern = re.compile(rf"^\s*\[?\s*[\"']?{word}[\"']?\s*[=\].]|[{{,]\s*{word}\s*=")
     header = re.compile(rf"^\s*\[?\s*{table}\b") if table else re.compile("")
     inside = False
-    for number, line in enumerate(text.splitlines(), 1):
+    for row, line in enumerate(text.splitlines(), 1):
         inside = inside or bool(header.match(line))
         if inside and pattern.search(line):
-            return number
+            return row
     return 1
 
 
@@ -112,6 +136,39 @@ def _body_of(body: Counterbody) -> Case:
 def motion_of(case: Mapping[str, Any]) -> dict[str, Any]:
     """Return what a case says about speeds and spins."""
     return {name: case[name] for name in MOTION if case.get(name) is not None}
+
+
+def normal_of(case: Mapping[str, Any]) -> "NormalLaw | None":
+    """Return what the normal motion of a case loses energy to, None where it does not.
+
+    Raises InputError if it is given in two ways, or out of range.
+
+    >>> normal_of({"restitution": 0.9}), normal_of({"speed": "2 m/s"})
+    (KelvinVoigt(restitution=0.9, loss_time=None), None)
+    """
+    given = [name for name in LOSSES if case.get(name) is not None]
+    if len(given) > 1:
+        raise InputError(f"{given[1]}: give it or {given[0]}, not both; {ONE_LOSS}")
+    return law_of(given[0], read_loss(given[0], case[given[0]])) if given else None
+
+
+def law_of(name: str, value: Any) -> "NormalLaw":
+    """Return the law of a loss; its value is a number, an array, or None for the strengths."""
+    from carom.normals import ElasticPlastic, KelvinVoigt  # compiled code: not to read a case
+
+    return ElasticPlastic(value) if name == "yield_velocity" else KelvinVoigt(**{name: value})
+
+
+def read_loss(name: str, value: Any) -> float | None:
+    """Return the value of a loss in SI units, None for that of the strengths, or InputError."""
+    if name == "yield_velocity" and isinstance(value, str) and value.strip().isalpha():
+        if value.strip() == FROM_STRENGTH:
+            return None
+        allowed = f"give a speed, e.g. '0.1 m/s', or '{FROM_STRENGTH}' for that of yield strengths"
+        raise refusal(name, value, allowed)
+    read = number(name, value)
+    law_of(name, read)
+    return read
 
 
 def as_kind(kind: Any) -> str:

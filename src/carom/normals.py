@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, reduce
 from math import pi
 from typing import Any, Protocol
 
@@ -11,6 +11,7 @@ import numpy as np
 from carom.bodies import Value
 from carom.dimensionless.lossy.normal import Loss
 from carom.dimensionless.lossy.stages import viscous_loss
+from carom.elementwise import sqrt
 from carom.pairs import Pair
 from carom.quantities import InputError, positive, refusal
 
@@ -175,10 +176,11 @@ def yield_velocity(pair: Pair) -> float:
     strengths = [body.yield_strength for body in bodies if body.yield_strength is not None]
     if not strengths:
         raise InputError("yield_velocity: missing, as no yield strength is known; give it")
-    ratio = pi * LIMIT_PRESSURE * min(strengths) / (2.0 * pair.effective_modulus)
+    strength = reduce(np.fmin, strengths)
+    ratio = pi * LIMIT_PRESSURE * strength / (2.0 * pair.effective_modulus)
     length = pair.effective_radius * ratio**2
-    stiffness = 16.0 / 15.0 * pair.effective_modulus * np.sqrt(pair.effective_radius)
-    return float(np.sqrt(stiffness * length**2.5 / pair.normal_mass))
+    stiffness = 16.0 / 15.0 * pair.effective_modulus * sqrt(pair.effective_radius)
+    return sqrt(stiffness * length**2.5 / pair.normal_mass)
 
 
 def _alphas(restitution: Any) -> Any:

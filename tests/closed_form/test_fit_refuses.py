@@ -58,7 +58,7 @@ def test_bad_columns(changes, words):
         ({"vary": []}, "nothing is left to fit"),
         ({"vary": ["friction", "spin_offset"]}, "spin_offset: needs speeds"),
         ({"fixed": {"mu": 0.1}}, "'mu' is no parameter"),
-        ({"fixed": {"restitution": 1.2}}, "between 0.01 and 1"),
+        ({"fixed": {"restitution": 1.2}}, "between 0.3 and 1"),
         ({"fixed": {"friction": -1.0}}, "between 0.001 and 10"),
         ({"fixed": {"restitution": "2 m"}}, "it has a unit"),
         ({"fixed": 5}, "values by name"),

@@ -88,13 +88,26 @@ def test_a_start_far_away_ends_in_the_same_minimum(data, found):
 
 
 @pytest.mark.parametrize(
-    ("chi", "error"), [(0.15, 1e-4), (0.52, 1e-4), (1.1667, 1e-4), (1.4412, 1e-4), (1.69, 1e-4)]
+    ("chi", "e", "error"),
+    [
+        (0.3, 1.0, 2e-4),
+        (0.52, 1.0, 2e-4),
+        (1.1667, 1.0, 2e-4),
+        (1.4412, 1.0, 2e-4),
+        (1.75, 1.0, 2e-4),
+        (1.4412, 0.97, 5e-4),
+        (1.2, 0.83, 1e-3),
+        (1.4412, 0.6, 3e-3),
+        (3.8, 1.0, 1e-2),
+    ],
 )
-def test_interpolated_curves_are_those_of_the_solver(chi, error):
-    """psi_2 between the curves that are kept, against the solver, to what the docstring says."""
-    psi = np.random.default_rng(5).uniform(-1.3, 1.3, 400) * max(1.0, 4.0 * chi - 1.0)
-    found = curves.psi_out(psi[np.newaxis], np.array([chi]), np.array([1.0]))[0]
-    assert np.abs(found - carom.rebound(psi, chi)).max() < error
+def test_interpolated_curves_are_those_of_the_solver(chi, e, error):
+    """psi_2 between the curves of the table, against the solver, to what the docstring says."""
+    psi = np.random.default_rng(5).uniform(-1.6, 1.6, 200) * max(1.0, 4.0 * chi - 1.0)
+    psi[:2] = 1e-3, 30.0 * psi[1]
+    found = curves.psi_out(psi[np.newaxis], np.array([chi]), np.array([e]))[0]
+    law = None if e == 1.0 else carom.KelvinVoigt(restitution=e)
+    assert np.abs(found - carom.rebound(psi, chi, normal=law)).max() < error
 
 
 @pytest.mark.parametrize("chi", [0.3, 1.4412])

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from carom.cases import OUTPUT, Case, motion_of, pair_of
+from carom.cases import LOSSES, OUTPUT, Case, motion_of, normal_of, pair_of
 from carom.impacts import Impact, impact
 from carom.quantities import refusal
 
@@ -24,6 +24,8 @@ def merged(case: Case, flags: Mapping[str, Any]) -> Case:
         result.pop("normal_speed", None), result.pop("tangential_speed", None)
     if given & {"normal_speed", "tangential_speed"}:
         result.pop("speed", None), result.pop("angle", None)
+    for name in LOSSES if given & set(LOSSES) else ():
+        result.pop(name, None)
     for name in given:
         table, _, key = name.rpartition(".")
         if table:
@@ -35,7 +37,7 @@ def merged(case: Case, flags: Mapping[str, Any]) -> Case:
 
 def solve_case(case: Case) -> Impact:
     """Solve the impact that a case describes."""
-    return impact(pair_of(case), **motion_of(case))
+    return impact(pair_of(case), **motion_of(case), normal=normal_of(case))
 
 
 def outputs(case: Case) -> Output:

@@ -22,7 +22,11 @@ def _flag(name: str, example: str, of: str = "") -> Any:
 
 
 Text = str | None
-HIDDEN = ("normal_restitution",)  # always 1
+OF_LOSSES = ("normal_restitution", "lost_energy")  # 1 and 0 without
+NOTES = {  # by whether there are losses
+    False: "  * angle between slip and traction in degrees, which the theory neglects",
+    True: "  * angle between slip and traction, which is known without losses only",
+}
 FRAMES = 60  # of an animation
 
 
@@ -49,6 +53,19 @@ def impact_command(
     tangential_speed: Annotated[Text, _flag("tangential_speed", "1")] = None,
     spin: Annotated[Text, _flag("spin", "'100 rad/s'")] = None,
     spin2: Annotated[Text, _flag("spin2", "0")] = None,
+    restitution: Annotated[
+        Text, typer.Option(help="Normal restitution of a viscous (Kelvin-Voigt) contact, e.g. 0.9.")
+    ] = None,
+    loss_time: Annotated[
+        Text, typer.Option(help="Loss time of such a contact, e.g. '2 us' [s].")
+    ] = None,
+    yield_velocity: Annotated[
+        Text,
+        typer.Option(
+            help="Normal velocity from which on a body yields, e.g. '0.1 m/s', "
+            "or 'material': from the yield strengths."
+        ),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
     plot: Annotated[Text, typer.Option(help="Store a figure: .png, .pdf or .svg.")] = None,
     animate: Annotated[
@@ -60,9 +77,11 @@ def impact_command(
 
     Example: carom impact --radius "5 mm" --material steel --friction 0.2 --speed 2 --angle "30 deg"
 
+    A ball that loses energy: the same with --restitution 0.9, or --yield-velocity "0.1 m/s"
+
     A case file with figures: carom impact examples/steel_ball.toml --plot hit.png --animate hit.gif
     """
-    from carom.cases import read_case
+    from carom.cases import normal_of, read_case
     from carom.cli.cases import merged, outputs, solve_case
     from carom.cli.compiling import announced
 
@@ -81,13 +100,16 @@ def impact_command(
         "tangential_speed": tangential_speed,
         "spin": spin,
         "spin2": spin2,
+        "restitution": restitution,
+        "loss_time": loss_time,
+        "yield_velocity": yield_velocity,
         "output.plot": plot,
         "output.animation": animate,
         "output.data": output,
     }
-    content = merged(read_case(case) if case else {}, flags)
+    content = merged(read_case(case, losses=True) if case else {}, flags)
     files = outputs(content)
-    _check_outputs(files)
+    _check_outputs(files, elastic=normal_of(content) is None)
     with announced():
         hit = solve_case(content)
         stored = _store(hit, files)
@@ -96,7 +118,8 @@ def impact_command(
         typer.echo(f"stored {path}", err=True)
 
 
-def _check_outputs(files: "Output") -> None:
+def _check_outputs(files: "Output", *, elastic: bool) -> None:
+    from carom.quantities import refusal
     from carom.storage import FIGURES, TABLES, checked_output
 
     for path, endings in ((files.plot, FIGURES), (files.data, TABLES)):
@@ -105,6 +128,9 @@ def _check_outputs(files: "Output") -> None:
     if files.animation is not None:
         from carom.plots.animation import checked_animation
 
+        if not elastic:
+            allowed = "fields are those of elastic impacts; leave it or the losses out"
+            raise refusal("animation", files.animation, allowed)
         checked_animation(files.animation)
 
 
@@ -131,7 +157,11 @@ def as_record(hit: "Impact") -> dict[str, Any]:
         "inputs": hit.inputs(),
         "result": scalars,
         "phases": [
-            {**phase._asdict(), "slip_angle_max": angle.largest, "slip_angle_mean": angle.mean}
+            {
+                **phase._asdict(),
+                "slip_angle_max": _finite(angle.largest),
+                "slip_angle_mean": _finite(angle.mean),
+            }
             for phase, angle in zip(hit.phases, hit.slip_angles, strict=True)
         ],
         "validity": [
@@ -150,24 +180,23 @@ def as_table(hit: "Impact") -> str:
     from carom.histories import RESULTS
     from carom.results import MARKS
 
-    scalars = hit.scalars()
-    shown = ["chi", *(name for name in RESULTS if name not in HIDDEN)]
+    scalars, loses = hit.scalars(), hit.normal is not None
+    shown = ["chi", *(name for name in RESULTS if loses or name not in OF_LOSSES)]
     if len(hit.pair.moving) == 1:
         shown.remove("spin2_out")
     lines = [f"  {GLOSSARY[name].meaning:58s} {_with_unit(name, scalars[name])}" for name in shown]
     phases = [
         f"  {_slip(p.kind, p.sign):14s}{p.start:12.4e} {p.end:12.4e}"
-        f" {degrees(angle.mean):9.2f} {degrees(angle.largest):9.2f}   {p.cause}"
+        f" {_in_degrees(angle.mean)} {_in_degrees(angle.largest)}   {p.cause}"
         for p, angle in zip(hit.phases, hit.slip_angles, strict=True)
     ]
     columns = f"{'from (s)':>12s} {'to (s)':>12s} {'mean*':>9s} {'max*':>9s}"
     head = f"  {'':14s}{columns}   ended by"
-    note = "  * angle between slip and traction in degrees, which the theory neglects"
     findings = [
         f"  {MARKS[f.holds]} {f.name + ' = ' + format(f.value, '.3g'):34s} {f.verdict}"
         for f in hit.validity.findings
     ]
-    parts = ("Rebound", *lines, "Phases", head, *phases, note, "Validity", *findings)
+    parts = ("Rebound", *lines, "Phases", head, *phases, NOTES[loses], "Validity", *findings)
     return "\n".join(parts)
 
 
@@ -178,6 +207,10 @@ def _with_unit(name: str, value: float) -> str:
         return f"{degrees(value):.5g} deg"
     unit = GLOSSARY[name].unit
     return f"{value:.6g}" + ("" if unit == "1" else f" {unit}")
+
+
+def _in_degrees(angle: float) -> str:
+    return "-".rjust(9) if isnan(angle) else f"{degrees(angle):9.2f}"
 
 
 def _slip(kind: str, sign: int) -> str:

@@ -48,7 +48,7 @@ def sweep_command(
     from carom.sweeps.plans import plan
     from carom.sweeps.summaries import summary
 
-    content = read_case(case)
+    content = read_case(case, losses=True)
     file = output or _file(content)
     if file is not None:
         checked_output(file, TABLES)

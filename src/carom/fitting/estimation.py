@@ -9,11 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.extras import extra
-from carom.fitting.curves import on_grid
 from carom.fitting.descent import Minimum, descend
 from carom.fitting.errors import NORMAL, Loss, Weights, gaussian_mean, weights_at
 from carom.fitting.information import Information, information
-from carom.fitting.laws import EXACT, half_ratio
 from carom.fitting.model import Model
 from carom.fitting.problem import Problem
 
@@ -168,23 +166,14 @@ def polished(model: Model, weights: Weights, loss: Loss, at: Array) -> tuple[Arr
 def _levels(model: Model, name: str) -> Array:
     """Return the coordinates of a parameter in the scan."""
     place = model.free.index(name)
-    parameter, low, high = (
-        model.parameters[place],
-        model.bounds.low[place],
-        model.bounds.high[place],
-    )
+    low, high = model.bounds.low[place], model.bounds.high[place]
     if name not in FINE:
         return np.zeros(1)
     if name == "friction":
         low, high = np.log(5e-3), np.log(3.0)
     if name == "restitution":
         return _likely_restitutions(model.problem)
-    levels = np.linspace(low, high, FINE[name] + 2)[1:-1]
-    if name == "kappa" and model.law is EXACT:
-        half = half_ratio(model.problem.pair)
-        kappas = on_grid(half * parameter.value(levels)) / half
-        return np.clip(np.log(kappas), low, high)
-    return np.asarray(levels)
+    return np.linspace(low, high, FINE[name] + 2)[1:-1]
 
 
 def _likely_restitutions(problem: Problem) -> Array:
@@ -196,7 +185,7 @@ def _likely_restitutions(problem: Problem) -> Array:
         found = measured["normal_speed_out"] / problem.motion.normal_speed
     else:
         return np.array([0.6, 0.8, 0.95])
-    return np.clip([float(np.nanmedian(found))], 0.05, 0.999)
+    return np.clip([float(np.nanmedian(found))], 0.35, 0.999)
 
 
 def _first_errors(problem: Problem) -> Array:

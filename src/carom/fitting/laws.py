@@ -7,7 +7,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.fitting.curves import psi_out
+from carom.fitting.curves import LEAST_CHI, LEAST_E, MOST_CHI, psi_out
 from carom.pairs import Pair
 
 Array = NDArray[np.float64]
@@ -31,9 +31,10 @@ class Parameter(NamedTuple):
         return np.exp(coordinate) if self.scale is None else coordinate * self.scale
 
 
+ROUNDING = 1e-9
 FRICTION = Parameter("friction", 1e-3, 10.0, None)
 KAPPA = Parameter("kappa", 0.1, 4.0, None)
-RESTITUTION = Parameter("restitution", 0.01, 1.0)
+RESTITUTION = Parameter("restitution", LEAST_E, 1.0)
 BETA = Parameter("tangential_restitution", -1.0, 1.0)
 
 
@@ -101,6 +102,15 @@ class Walton:
 
 EXACT = Exact()
 RIVALS: tuple[Law, ...] = (RigidCoulomb(), Walton())
+
+
+def ranged(parameter: Parameter, pair: Pair) -> Parameter:
+    """Return a parameter with the range it has for a pair: chi of a kappa must be in the table."""
+    if parameter.name != "kappa":
+        return parameter
+    half = half_ratio(pair)
+    low, high = max(parameter.low, LEAST_CHI / half), min(parameter.high, MOST_CHI / half)
+    return parameter._replace(low=low * (1.0 + ROUNDING), high=high * (1.0 - ROUNDING))
 
 
 def half_ratio(pair: Pair) -> float:

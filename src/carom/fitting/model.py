@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from carom.fitting.descent import Bounds, Residuals
 from carom.fitting.errors import Loss, Weights
-from carom.fitting.laws import Law, Parameter, Values
+from carom.fitting.laws import Law, Parameter, Values, ranged
 from carom.fitting.prediction import predicted
 from carom.fitting.problem import Problem
 
@@ -30,7 +30,8 @@ class Model:
     @cached_property
     def parameters(self) -> tuple[Parameter, ...]:
         """The free parameters, in the order of the coordinates."""
-        known = {parameter.name: parameter for parameter in self.law.parameters}
+        own = (ranged(parameter, self.problem.pair) for parameter in self.law.parameters)
+        known = {parameter.name: parameter for parameter in own}
         return tuple(known.get(name) or offset_parameter(self.problem) for name in self.free)
 
     @cached_property

@@ -3,7 +3,7 @@
 from collections.abc import Collection, Mapping
 from typing import Any, NamedTuple
 
-from carom.fitting.laws import EXACT, half_ratio
+from carom.fitting.laws import EXACT, KAPPA, half_ratio, ranged
 from carom.fitting.model import OFFSET, offset_parameter
 from carom.fitting.problem import Problem
 from carom.quantities import InputError, nearest, number, refusal
@@ -38,7 +38,9 @@ def read_options(
     if not wanted:
         raise InputError("vary: nothing is left to fit; fix fewer parameters")
     pair = problem.pair
-    start = {"friction": pair.friction, "kappa": pair.kappa, "restitution": 1.0, OFFSET: 0.0}
+    kappa = ranged(KAPPA, pair)
+    stiffness = min(max(pair.kappa, kappa.low), kappa.high)
+    start = {"friction": pair.friction, "kappa": stiffness, "restitution": 1.0, OFFSET: 0.0}
     return Options(tuple(wanted), {**start, **held})
 
 
@@ -76,7 +78,7 @@ def _fixed(problem: Problem, fixed: Mapping[str, Any]) -> dict[str, float]:
     """Return the parameters that are held, in SI units; chi becomes kappa."""
     if not isinstance(fixed, Mapping):
         raise refusal("fixed", fixed, "must be values by name, e.g. {'restitution': 0.98}")
-    ranges = {parameter.name: parameter for parameter in EXACT.parameters}
+    ranges = {each.name: ranged(each, problem.pair) for each in EXACT.parameters}
     held: dict[str, float] = {}
     for name, value in fixed.items():
         _check_name("fixed", name)

@@ -37,6 +37,7 @@ ENERGIES = {
     "tangential_elastic_energy": ("elastic, tangential", "#E69F00", ""),
     "frictional_work": ("lost to friction", "#6E6E6E", "\\\\\\\\"),
 }
+LOST = {"normal_loss": ("normal losses", "#DDA6C3", "xxxx")}  # where there is any
 
 HISTORY = "the history of an impact, what Impact.history returns"
 FORCES = ("tangential_force", "normal_force", "friction", "time")
@@ -162,12 +163,14 @@ def _stick_line(stick: Array, contact: Array) -> Array:
 
 
 def energies_panel(axis: Axes, dataset: "xr.Dataset") -> None:
-    """Draw how the energy is shared between motion, deformation and friction."""
+    """Draw how the energy is shared between motion, deformation, friction and normal losses."""
     time = time_axis(axis, dataset)
-    parts = np.array([dataset[name].values for name in ENERGIES])
+    lossy = any(name in dataset and np.any(dataset[name].values) for name in LOST)
+    drawn = ENERGIES | LOST if lossy else ENERGIES
+    parts = np.array([dataset[name].values for name in drawn])
     total = float(parts[:, 0].sum())
-    shares = axis.stackplot(time, parts / total, colors=[face for _, face, _ in ENERGIES.values()])
-    for area, (name, _, hatch) in zip(shares, ENERGIES.values(), strict=True):
+    shares = axis.stackplot(time, parts / total, colors=[face for _, face, _ in drawn.values()])
+    for area, (name, _, hatch) in zip(shares, drawn.values(), strict=True):
         area.set(label=name, hatch=hatch, edgecolor="0.35", linewidth=0.4)
     axis.set_ylim(0.0, 1.0)
     axis.set_ylabel("share of energy")

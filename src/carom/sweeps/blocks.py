@@ -14,15 +14,17 @@ FEWEST, MOST = 1024, 2**14  # points of a block
 BLOCKS = 32  # that a sweep of middling size is cut into
 
 
-def chunk_shape(shape: Sequence[int]) -> tuple[int, ...]:
+def chunk_shape(shape: Sequence[int], cost: int = 1) -> tuple[int, ...]:
     """Return the shape of the blocks of a sweep, filled from its last axis on.
+
+    Blocks have fewer points where each point costs more.
 
     Examples
     --------
     >>> chunk_shape((1_000_000,)), chunk_shape((86, 40, 500))
     ((16130,), (1, 20, 500))
     """
-    room = min(max(prod(shape) // BLOCKS, FEWEST), MOST)
+    room = min(max(prod(shape) // BLOCKS, FEWEST // cost), MOST // cost)
     chunks = []
     for length in reversed(shape):
         pieces = ceil(length / max(1, min(length, room)))

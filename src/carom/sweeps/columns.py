@@ -7,17 +7,28 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.cases import KINDS, MOTION, SIZES, Case, as_kind, check_case, material_values, pair_of
+from carom.cases import (
+    KINDS,
+    LOSSES,
+    MOTION,
+    SIZES,
+    Case,
+    as_kind,
+    check_case,
+    material_values,
+    pair_of,
+    read_loss,
+)
 from carom.quantities import InputError, not_negative
 from carom.sweeps.designs import Design
-from carom.sweeps.inputs import BODIES, ELASTIC, Choice, leaf, refuse_contradictions
+from carom.sweeps.inputs import BODIES, ELASTIC, STRENGTH, Choice, leaf, refuse_contradictions
 
 OF_SECOND = {  # what describes a second body of each kind
-    "half-space": ("material.young", "material.poisson"),
-    "cup": ("radius", "material.young", "material.poisson"),
-    "sphere": (*SIZES, *(f"material.{name}" for name in ELASTIC)),
+    "half-space": ("material.young", "material.poisson", f"material.{STRENGTH}"),
+    "cup": ("radius", "material.young", "material.poisson", f"material.{STRENGTH}"),
+    "sphere": (*SIZES, *(f"material.{name}" for name in (*ELASTIC, STRENGTH))),
 }
-OPTIONAL = ("gyration_radius", "inner_radius")
+OPTIONAL = ("gyration_radius", "inner_radius", f"material.{STRENGTH}")
 AT_REST = {"angle": 0.0, "tangential_speed": 0.0, "spin": 0.0, "spin2": 0.0}
 
 
@@ -25,26 +36,35 @@ AT_REST = {"angle": 0.0, "tangential_speed": 0.0, "spin": 0.0, "spin2": 0.0}
 class Common:
     """What the impacts of a sweep have in common, in SI units, made by `common`.
 
-    `kinds` are those of the second body, `inherits` whether it is made of what the first is.
+    `kinds` are those of the second body, `inherits` whether it is made of what the first is; `loss`
+    is what the normal motion loses energy to, if it does, and `yields` whether the yield velocity
+    is that of the yield strengths.
     """
 
     fixed: Mapping[str, float]
     kinds: tuple[str, ...]
     inherits: bool
+    loss: str | None
+    yields: bool
 
     def columns(self, given: Mapping[str, Any], design: Design, kind: str) -> dict[str, Any]:
         """Return the inputs of impacts on a body of this kind: numbers, or an array of them."""
         columns: dict[str, Any] = {name: np.float64(v) for name, v in self.fixed.items()}
         for name, values in given.items():
             if leaf(name) == "material":
-                columns |= _taken_apart(name, values, design.choices[name])
+                columns |= _taken_apart(name, values, design.choices[name], self.numbers)
             elif leaf(name) != "kind":
                 columns[name] = values
         if kind == "sphere":
             _inherit(columns, "radius")
         if self.inherits:
-            _inherit(columns, *(f"material.{name}" for name in ELASTIC))
+            _inherit(columns, *(f"material.{name}" for name in self.numbers))
         return {**AT_REST, **{n: v for n, v in columns.items() if _belongs(n, kind)}}
+
+    @property
+    def numbers(self) -> tuple[str, ...]:
+        """Names of the numbers of a material on which the impacts depend."""
+        return (*ELASTIC, STRENGTH) if self.yields else ELASTIC
 
     def groups(self, given: Mapping[str, Any], design: Design) -> Iterator[tuple[str, Any]]:
         """Yield the kinds of second bodies, and the points of each."""
@@ -63,19 +83,23 @@ def common(case: Case, design: Design) -> Common:
     Raises InputError if case and design do not give everything that an impact needs, or something
     in two ways, or what the second body does not have.
     """
-    check_case(case)
+    check_case(case, losses=True)
     second, names = case.get("second", {}), design.names
+    losses = [name for name in LOSSES if name in names or case.get(name) is not None]
     kinds: tuple[str, ...] = (as_kind(second.get("kind", KINDS[0])),)
     if "second.kind" in names:
         kinds = tuple(choice.label for choice in design.choices["second.kind"])
     inherits = second.get("material") is None and "second.material" not in names
     fixed = {name: value for name, value in _numbers(case) if not _replaced(name, names)}
+    yields = "yield_velocity" in losses and "yield_velocity" not in (*names, *fixed)
+    if not yields:
+        fixed = {name: value for name, value in fixed.items() if leaf(name) != STRENGTH}
     if fixed.get("spin2") == 0.0:  # every body may be without
         del fixed["spin2"]
     if "sphere" not in kinds:  # a material may have more than a fixed body needs
         fixed.pop("second.material.density", None)
-    refuse_contradictions({*names, *(name for name in fixed if "material" not in name)})
-    whole = Common(fixed, kinds, inherits)
+    refuse_contradictions({*names, *losses, *(name for name in fixed if "material" not in name)})
+    whole = Common(fixed, kinds, inherits, next(iter(losses), None), yields)
     _refuse_foreign(whole, names)
     _refuse_missing(whole, design)
     if not any("." in name for name in names):
@@ -88,6 +112,9 @@ def _numbers(case: Case) -> Iterator[tuple[str, float]]:
     for name, check in {"friction": not_negative, **MOTION}.items():
         if case.get(name) is not None:
             yield name, check(name, case[name])
+    for name in LOSSES:
+        if case.get(name) is not None and (value := read_loss(name, case[name])) is not None:
+            yield name, value
     for body in BODIES:
         table = case.get(body, {})
         for name, check in SIZES.items():
@@ -95,8 +122,7 @@ def _numbers(case: Case) -> Iterator[tuple[str, float]]:
                 yield f"{body}.{name}", check(name, table[name])
         if table.get("material") is not None:
             for name, value in material_values(table["material"]).items():
-                if name in ELASTIC:
-                    yield f"{body}.material.{name}", value
+                yield f"{body}.material.{name}", value
 
 
 def _replaced(name: str, names: tuple[str, ...]) -> bool:
@@ -116,12 +142,16 @@ def _belongs(name: str, kind: str) -> bool:
 
 
 def _taken_apart(
-    name: str, codes: NDArray[Any], choices: tuple[Choice, ...]
+    name: str, codes: NDArray[Any], choices: tuple[Choice, ...], keys: tuple[str, ...]
 ) -> dict[str, NDArray[np.float64]]:
     """Return the numbers of materials that are given by name; the last code, -1, has none."""
     numbers = {}
-    for key in ELASTIC:
-        table = np.array([*(choice.values.get(key, np.nan) for choice in choices), np.nan])
+    for key in keys:
+        known = [
+            choice.strength if key == STRENGTH else choice.values.get(key, np.nan)
+            for choice in choices
+        ]
+        table = np.array([*known, np.nan])
         numbers[f"{name}.{key}"] = table[codes]
     return numbers
 
@@ -144,3 +174,5 @@ def _refuse_missing(whole: Common, design: Design) -> None:
         for name in needed:
             if name not in columns:
                 raise InputError(f"{name}: missing; give it in the case or in the design")
+        if whole.yields and not any(leaf(name) == STRENGTH for name in columns):
+            raise InputError("yield_velocity: missing, as no yield strength is known; give it")

@@ -2,24 +2,27 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from math import prod
+from math import isnan, prod
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.cases import Case
+from carom.cases import FROM_STRENGTH, Case
 from carom.histories import PAIR, RESULTS
 from carom.quantities import InputError, nearest, refusal
 from carom.results import attributes, flags
+from carom.sweeps.blocks import chunk_shape
 from carom.sweeps.columns import AT_REST, Common, common
 from carom.sweeps.designs import Box, Design
 from carom.sweeps.inputs import (
     CODE,
+    STRENGTH,
     UNREADABLE,
     Choice,
     fill_record,
     input_attributes,
+    leaf,
     variable,
 )
 from carom.sweeps.points import NOT_RUN, PointStatus, evaluate
@@ -44,6 +47,8 @@ OUTPUTS = (
     "max_radius",
     "max_pressure",
 )
+OF_LOSSES = ("normal_restitution", "lost_energy")
+COSTLIER = 16  # an impact with losses than one without, about: blocks are smaller by so much
 
 
 class VariableInfo(NamedTuple):
@@ -66,7 +71,7 @@ class Problem:
         In what the impacts differ.
     outputs : sequence of str, optional
         Names of results of an impact or of quantities of its pair; by default `OUTPUTS`, spin2_out
-        only if the second body is a sphere.
+        only if the second body is a sphere, and with losses `OF_LOSSES`.
 
     Raises
     ------
@@ -99,8 +104,18 @@ class Problem:
             raise refusal("case", case, "must be a mapping like a case file, {'friction': 0.2}")
         shared = common(dict(case), design)
         wanted = tuple(name for name in OUTPUTS if name != "spin2_out" or "sphere" in shared.kinds)
+        wanted += OF_LOSSES if shared.loss else ()
         wanted = wanted if outputs is None else _checked_outputs(outputs, design.names)
         fill_record(self, case=dict(case), design=design, outputs=wanted, _common=shared)
+
+    @property
+    def loses(self) -> bool:
+        """Whether the normal motion loses energy."""
+        return self._common.loss is not None
+
+    def chunks(self) -> tuple[int, ...]:
+        """Return the shape of the blocks into which the sweep is cut."""
+        return chunk_shape(self.design.shape, COSTLIER if self.loses else 1)
 
     def block(self, box: Box, threads: int | None = 1) -> dict[str, NDArray[Any]]:
         """Return the outputs, sampled inputs and status of a box of points, in its shape.
@@ -115,9 +130,9 @@ class Problem:
         found = {name: np.full(size, np.nan) for name in self.outputs}
         for kind, where in self._common.groups(given, self.design):
             part = {name: values[where] for name, values in given.items()}
-            columns = self._common.columns(part, self.design, kind)
+            columns, loss = self._common.columns(part, self.design, kind), self._common.loss
             values, status[where] = evaluate(
-                columns, kind, status[where].size, self.outputs, threads
+                columns, kind, loss, status[where].size, self.outputs, threads
             )
             for name in self.outputs:
                 found[name][where] = values[name]
@@ -140,11 +155,22 @@ class Problem:
         at_rest = {name: value for name, value in AT_REST.items() if name not in names}
         numbers = Choice("", {**at_rest, **self._common.fixed}).description()
         del numbers["label"]
+        if self._common.yields:
+            numbers["yield_velocity"] = FROM_STRENGTH
+            numbers |= self._strengths()
         return {
             "case": dict(sorted(numbers.items())),
             "second": list(self._common.kinds),
             "design": self.design.description(),
             "outputs": list(self.outputs),
+        }
+
+    def _strengths(self) -> dict[str, Any]:
+        """Return the yield strengths of the materials that are inputs, None where not known."""
+        return {
+            f"{name}.{STRENGTH}": [None if isnan(x.strength) else x.strength for x in choices]
+            for name, choices in self.design.choices.items()
+            if leaf(name) == "material"
         }
 
     def _input_info(self, name: str) -> VariableInfo:

@@ -1,13 +1,22 @@
 """Inputs of sweeps: their names, their meaning, and those whose values are names themselves."""
 
 from collections.abc import Iterable, Mapping
-from math import isinf
+from itertools import combinations
+from math import isinf, nan
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.cases import MOTION, SIZES, as_kind, material_values, read_material
+from carom.cases import (
+    LOSSES,
+    MOTION,
+    ONE_LOSS,
+    SIZES,
+    as_kind,
+    material_values,
+    read_material,
+)
 from carom.glossary import GLOSSARY
 from carom.quantities import InputError, nearest, refusal
 
@@ -16,17 +25,20 @@ Box = tuple[slice, ...]
 CODE = np.int8
 
 ELASTIC = ("young", "poisson", "density")
+STRENGTH = "yield_strength"
 BODIES = ("first", "second")
 CHOSEN = ("first.material", "second.material", "second.kind")  # by name, not by number
 INPUTS = (
     "friction",
     *MOTION,
+    *LOSSES,
     *(f"{body}.{size}" for body in BODIES for size in SIZES),
     *(f"{body}.material.{value}" for body in BODIES for value in ELASTIC),
     *CHOSEN,
 )
 EXCLUSIVE = [  # what cannot be given together, and why
-    ({"speed", "angle"}, {"normal_speed", "tangential_speed"}, "both tell how the bodies approach")
+    ({"speed", "angle"}, {"normal_speed", "tangential_speed"}, "both tell how the bodies approach"),
+    *(({one}, {other}, ONE_LOSS) for one, other in combinations(LOSSES, 2)),
 ]
 for _body in BODIES:
     _values = {f"{_body}.material.{value}" for value in ELASTIC}
@@ -41,6 +53,7 @@ class Choice(NamedTuple):
 
     label: str
     values: dict[str, float]
+    strength: float = nan  # of a material, which elastic impacts do not depend on
 
     def description(self) -> dict[str, Any]:
         """Return it as JSON can hold it."""
@@ -115,9 +128,11 @@ def read_choice(name: str, value: Any) -> Choice:
     if leaf(name) == "kind":
         return Choice(as_kind(value), {})
     stuff = read_material(value)
-    known = {key: number for key, number in material_values(stuff).items() if key in ELASTIC}
+    values = material_values(stuff)
+    known = {key: number for key, number in values.items() if key in ELASTIC}
     unnamed = ", ".join(f"{key}={number:g}" for key, number in known.items())
-    return Choice(value if isinstance(value, str) else stuff.name or unnamed, known)
+    label = value if isinstance(value, str) else stuff.name or unnamed
+    return Choice(label, known, values.get(STRENGTH, nan))
 
 
 def as_mapping(name: str, given: Any) -> Mapping[str, Any]:

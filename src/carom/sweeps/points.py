@@ -10,13 +10,16 @@ from numpy.typing import NDArray
 
 from carom.approach import components
 from carom.bodies import Cup, HalfSpace, Material, Sphere, unchecked
+from carom.cases import law_of
 from carom.dimensionless import hertz
+from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.phases import Status
 from carom.dimensionless.rebounds import rebound
 from carom.histories import PAIR
+from carom.normals import SMALLEST_RESTITUTION, NormalLaw
 from carom.outcomes import Outcome
 from carom.pairs import Counterbody, Pair, representable
-from carom.sweeps.inputs import ELASTIC, Array, leaf
+from carom.sweeps.inputs import ELASTIC, STRENGTH, Array, leaf
 
 Codes = NDArray[np.int8]
 Columns = Mapping[str, Any]  # inputs by name: a number, or an array with one for every point
@@ -65,13 +68,13 @@ OF_SOLVER = {
     Status.UNRESOLVED: PointStatus.UNRESOLVED,
 }
 FROM_SOLVER = np.array([OF_SOLVER[status] for status in Status], dtype=np.int8)
-POSITIVE = ("radius", "gyration_radius", "young", "density")
-NOT_NEGATIVE = ("friction", "inner_radius")
+POSITIVE = ("radius", "gyration_radius", "young", "density", "yield_velocity")
+NOT_NEGATIVE = ("friction", "inner_radius", "loss_time")
 APPROACHING = ("speed", "normal_speed")
 
 
 class Rebounds(NamedTuple):
-    """What an outcome needs of many elastic solutions."""
+    """What an outcome needs of many solutions, without losses unless it is told."""
 
     psi_out: Any
     restitution: Any = 1.0
@@ -82,23 +85,59 @@ class Rebounds(NamedTuple):
 
 
 def evaluate(
-    columns: Columns, kind: str, size: int, outputs: Sequence[str], threads: int | None
+    columns: Columns,
+    kind: str,
+    loss: str | None,
+    size: int,
+    outputs: Sequence[str],
+    threads: int | None,
 ) -> tuple[dict[str, Array], Codes]:
     """Return the outputs of so many impacts, NaN where one is not solved, and their status."""
     with np.errstate(all="ignore"):
         status = _status(columns, kind, size)
-        psi_out = np.full(size, np.nan)
-        outcome = _outcome(columns, kind, psi_out)  # psi_out is filled before it is asked for
+        solution = _unsolved(size, loss)
+        outcome = _outcome(columns, kind, solution)  # which is filled before it is asked for
         fits = representable(outcome.scales, outcome.contact_velocity)
         lost = (status == PointStatus.SOLVED) & np.logical_not(fits)
         status[lost] = PointStatus.BEYOND_FLOATING_POINT
-        psi, chi = (np.broadcast_to(x, size) for x in (outcome.psi_in, outcome.pair.chi))
-        run = (status == PointStatus.SOLVED) & np.isfinite(psi)  # without friction psi is infinite
-        psi_out[run], ended = rebound(psi[run], chi[run], threads=threads, return_status=True)
-        status[run] = FROM_SOLVER[ended]
+        if loss is None:
+            _solve(outcome, solution, status, threads)
+        else:
+            law = law_of(loss, columns.get(loss))
+            _solve_with_losses(outcome, law, solution, status, threads)
         solved = status == PointStatus.SOLVED
         values = {name: np.where(solved, _result(outcome, name), np.nan) for name in outputs}
     return values, status
+
+
+def _unsolved(size: int, loss: str | None) -> Rebounds:
+    if loss is None:
+        return Rebounds(np.full(size, np.nan))
+    return Rebounds(*(np.full(size, np.nan) for _ in Rebounds._fields))
+
+
+def _solve(outcome: Outcome, solution: Rebounds, status: Codes, threads: int | None) -> None:
+    """Fill in the elastic impacts whose status is SOLVED, and what became of them."""
+    psi, chi = (np.broadcast_to(x, status.shape) for x in (outcome.psi_in, outcome.pair.chi))
+    run = (status == PointStatus.SOLVED) & np.isfinite(psi)  # without friction psi is infinite
+    found, ended = rebound(psi[run], chi[run], threads=threads, return_status=True)
+    solution.psi_out[run], status[run] = found, FROM_SOLVER[ended]
+
+
+def _solve_with_losses(
+    outcome: Outcome, law: NormalLaw, solution: Rebounds, status: Codes, threads: int | None
+) -> None:
+    """Fill in the impacts with losses, also those without friction: e and the like differ."""
+    loss, numbers = law.loss(outcome.pair, outcome.normal_speed)
+    given = (outcome.psi_in, outcome.pair.chi, numbers)
+    psi, chi, parameter = (np.broadcast_to(x, status.shape) for x in given)
+    status[(status == PointStatus.SOLVED) & np.isnan(parameter)] = PointStatus.NOT_A_NUMBER
+    run = status == PointStatus.SOLVED
+    psi = np.where(np.isfinite(psi), psi, 0.0)
+    found = lossy_rebounds(psi[run], chi[run], loss, parameter[run], threads)
+    for name in Rebounds._fields:
+        getattr(solution, name)[run] = getattr(found, name)
+    status[run] = FROM_SOLVER[found.status]
 
 
 def _result(outcome: Outcome, name: str) -> Any:
@@ -120,6 +159,8 @@ def _status(columns: Columns, kind: str, size: int) -> Codes:
             mark(~(values >= 0.0), PointStatus.OUT_OF_RANGE)
         elif key == "poisson":
             mark(~((values > -1.0) & (values <= 0.5)), PointStatus.OUT_OF_RANGE)
+        elif key == "restitution":
+            mark(~((values >= SMALLEST_RESTITUTION) & (values <= 1.0)), PointStatus.OUT_OF_RANGE)
     mark(_misfit(columns, kind), PointStatus.OUT_OF_RANGE)
     for name in APPROACHING:
         if name in columns:
@@ -145,7 +186,7 @@ def _misfit(columns: Columns, kind: str) -> Any:
     return np.logical_or.reduce(np.broadcast_arrays(young, *hollow, *tight))
 
 
-def _outcome(columns: Columns, kind: str, psi_out: Array) -> Outcome:
+def _outcome(columns: Columns, kind: str, solution: Rebounds) -> Outcome:
     pair = unchecked(
         Pair,
         first=_sphere(columns, "first"),
@@ -156,7 +197,7 @@ def _outcome(columns: Columns, kind: str, psi_out: Array) -> Outcome:
         normal, tangential = components(columns["speed"], columns["angle"])
     else:
         normal, tangential = columns["normal_speed"], columns["tangential_speed"]
-    return Outcome(pair, normal, tangential, columns["spin"], columns["spin2"], Rebounds(psi_out))
+    return Outcome(pair, normal, tangential, columns["spin"], columns["spin2"], solution)
 
 
 def _second(columns: Columns, kind: str) -> Counterbody:
@@ -180,4 +221,5 @@ def _sphere(columns: Columns, body: str) -> Sphere:
 
 def _material(columns: Columns, body: str) -> Material:
     values = {name: columns.get(f"{body}.material.{name}") for name in ELASTIC}
-    return unchecked(Material, **values, yield_strength=None, name=None)
+    strength = columns.get(f"{body}.material.{STRENGTH}")
+    return unchecked(Material, **values, yield_strength=strength, name=None)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from carom.quantities import refusal
 from carom.results import labelled_dataset
-from carom.sweeps.blocks import Box, Values, boxes, chunk_shape
+from carom.sweeps.blocks import Box, Values, boxes
 from carom.sweeps.evaluation import Problem
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 LONG = 1000  # values of an axis; the dataset has them as its coordinate
 TITLE = "sweep of oblique impacts of elastic spheres"
+LOSSY_TITLE = "sweep of oblique impacts of spheres with losses"
 
 
 class SweepStopped(RuntimeError):
@@ -53,7 +54,7 @@ class Memory:
         except MemoryError:
             allowed = "its results do not fit into memory; give a store"
             raise refusal("design", f"{prod(shape)} points", allowed) from None
-        self.todo = list(boxes(shape, chunk_shape(shape)))
+        self.todo = list(boxes(shape, problem.chunks()))
 
     def write(self, box: Box, values: Values) -> None:
         """Keep a block."""
@@ -78,7 +79,7 @@ def blank_dataset(
         name: (problem.design.dims, values, known[name].attributes)
         for name, values in (arrays or {}).items()
     }
-    attributes = {"title": TITLE, "inputs": identity(problem)}
+    attributes = {"title": LOSSY_TITLE if problem.loses else TITLE, "inputs": identity(problem)}
     return labelled_dataset(variables, problem.design.coords(), attributes)
 
 

@@ -24,7 +24,7 @@ from carom.extras import extra
 from carom.quantities import refusal
 from carom.results import carom_version
 from carom.storage import STATUS, STORE, read_store
-from carom.sweeps.blocks import Box, Values, boxes, chunk_shape
+from carom.sweeps.blocks import Box, Values, boxes
 from carom.sweeps.chunks import chunk_file, codecs, write_chunk
 from carom.sweeps.evaluation import NOT_RUN, Problem
 from carom.sweeps.records import SweepStopped, blank_dataset, identity
@@ -154,7 +154,7 @@ def _fill(path: Path, problem: Problem) -> None:
         group.create_array(
             name,
             shape=design.shape,
-            chunks=chunk_shape(design.shape),
+            chunks=problem.chunks(),
             dtype=info.dtype,
             fill_value=_blank(name, info.dtype),
             dimension_names=design.dims,

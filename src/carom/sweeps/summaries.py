@@ -13,7 +13,15 @@ from carom.sweeps.blocks import Box, boxes, chunk_shape
 if TYPE_CHECKING:
     import xarray as xr
 
-MAIN = ("rebound_speed", "rebound_angle", "spin_out", "tangential_restitution", "dissipated_energy")
+MAIN = (
+    "rebound_speed",
+    "rebound_angle",
+    "spin_out",
+    "normal_restitution",
+    "tangential_restitution",
+    "dissipated_energy",
+    "lost_energy",
+)
 
 
 class Summary(NamedTuple):

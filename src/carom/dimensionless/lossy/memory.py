@@ -22,7 +22,7 @@ MAX_PIECES = 400
 ACTIVE, PAST = -1.0, -2.0  # instead of a panel: slips at the moment, has slipped
 PARTS = 3  # into which a piece can be cut
 
-SLACK = 1e-11  # beyond a limit by rounding alone
+SLACK = 1e-13  # beyond a limit by rounding alone
 
 # Series of a panel: b, U, integral of U db, A and B as they are laid.
 RADIUS, MOVED, LAID, LAID_A, LAID_B = range(5)

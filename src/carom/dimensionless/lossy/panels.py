@@ -52,6 +52,22 @@ class Panel(NamedTuple):
     pieces: int
 
 
+class State(NamedTuple):
+    """The state at an instant: radius of the edge, normal speed, U, psi."""
+
+    radius: float
+    speed: float
+    moved: float
+    psi: float
+
+
+@kernel
+def state_at_node(work: Work, j: int) -> State:
+    """Return the state at a node."""
+    values = work.values
+    return State(values[RADIUS, j], values[SPEED, j], values[MOVED, j], values[PSI, j])
+
+
 class Cut(NamedTuple):
     """The memory at an instant: Q, what sticks, what slips of either sign, a code of the zones.
 
@@ -77,21 +93,21 @@ def lay(work: Work, panel: Panel, x: float, b: float, u: float) -> None:
 
 
 @kernel
-def cut_memory(
-    work: Work, motion: Motion, panel: Panel, x: float, b: float, v: float, u: float
-) -> Cut:
-    """Return the memory at a place of a panel, where the edge, the speed and U are these."""
+def cut_memory(work: Work, motion: Motion, panel: Panel, x: float, now: State) -> Cut:
+    """Return the memory at a place of a panel, in this state."""
+    b, u = now.radius, now.moved
     pieces, parts, series = work.pieces, work.parts, work.series
-    d = normal.limit(motion, b, v)
+    d = normal.limit(motion, b, now.speed)
+    p, m = d - u, d + u
     total, stuck, plus, minus, broad = 0.0, 0.0, 0.0, 0.0, 0.0
-    code, now, last = 0, 0, 0
+    code, zone_before, last = 0, 0, 0
     laying = motion.stage != Stage.UNLOADING.value
     if laying:
         lay(work, panel, x, b, u)
     for i in range(panel.pieces + laying):
         if pieces[i, R0] >= b:
             break
-        for k in range(memory.cut(pieces, i, series, d - u, d + u, b, parts)):
+        for k in range(memory.cut(pieces, i, series, p, m, b, parts)):
             r0, r1, sign = parts[k, R0], parts[k, R1], int(parts[k, SIGN])
             total += memory.force(parts, k, u)
             zone = sign + 5
@@ -103,8 +119,8 @@ def cut_memory(
             else:
                 zone = SLIPS_BACK
                 minus += d * (r1 - r0) - memory.cubes(r0, r1)
-            broad = r1 - r0 if zone != now else broad + r1 - r0
-            now = zone
+            broad = r1 - r0 if zone != zone_before else broad + r1 - r0
+            zone_before = zone
             if zone != last and broad > THIN * b:
                 code = code * ZONES + zone
                 last = zone
@@ -125,15 +141,13 @@ def solve_panel(work: Work, motion: Motion, panel: Panel, before: Panel) -> bool
     psi0, u0 = psi[0], values[MOVED, 0]
     expand(b, series[RADIUS])
     if not guess(work, panel, before):
-        start = cut_memory(work, motion, panel, -1.0, b[0], values[SPEED, 0], u0)
+        start = cut_memory(work, motion, panel, -1.0, state_at_node(work, 0))
         for j in range(NODES):
             psi[j] = psi0 - 7.5 * motion.chi * b[0] * start.force * h * CLOCKS[panel.clock, j]
     for iteration in range(MAX_ITERATIONS):
         follow(work, motion, panel, u0)
         for j in range(NODES):
-            cut = cut_memory(
-                work, motion, panel, PLACES[j], b[j], values[SPEED, j], values[MOVED, j]
-            )
+            cut = cut_memory(work, motion, panel, PLACES[j], state_at_node(work, j))
             work.zones[j] = cut.zones
             rates[1, j] = -7.5 * motion.chi * b[j] * cut.force
             rates[2, j] = -7.5 * motion.chi * b[j] * cut.stuck
@@ -222,17 +236,17 @@ def back_substitute(work: Work) -> None:
 @kernel
 def commit(work: Work, motion: Motion, panel: Panel) -> int:
     """Cut the memory for good at the end of a panel; return how many pieces are left."""
-    last = NODES - 1
-    b, v, u = work.values[RADIUS, last], work.values[SPEED, last], work.values[MOVED, last]
-    d = normal.limit(motion, b, v)
+    now = state_at_node(work, NODES - 1)
+    b, d = now.radius, normal.limit(motion, now.radius, now.speed)
+    p, m = d - now.moved, d + now.moved
     laying = motion.stage != Stage.UNLOADING.value
     if laying:
-        lay(work, panel, 1.0, b, u)
+        lay(work, panel, 1.0, b, now.moved)
     made = 0
     for i in range(panel.pieces + laying):
         if work.pieces[i, R0] >= b:
             break
-        for k in range(memory.cut(work.pieces, i, work.series, d - u, d + u, b, work.parts)):
+        for k in range(memory.cut(work.pieces, i, work.series, p, m, b, work.parts)):
             made = append(work.spare, made, work.parts, k)
     for i in range(made):
         memory.copy(work.spare, i, work.pieces, i)

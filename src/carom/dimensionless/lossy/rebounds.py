@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from carom.dimensionless._jit import kernel
 from carom.dimensionless.blocks import in_blocks
 from carom.dimensionless.lossy.impacts import run
+from carom.dimensionless.lossy.normal import Loss
 from carom.dimensionless.lossy.record import (
     DEEPEST,
     NUMBERS,
@@ -24,6 +25,7 @@ from carom.dimensionless.lossy.work import Work, new_work
 from carom.dimensionless.phases import Status
 
 TOLERANCE = 1e-9  # of a panel; keeps psi_2 to 1e-8 max(1, |psi_1|)
+TIE = 1e-6  # about psi_1 = 1
 LINEAR = 1e-4  # below, psi_2 is taken proportional to psi_1
 BLOCK, SMALLEST_BLOCK = 64, 2  # impacts that a thread takes at once
 
@@ -48,8 +50,11 @@ def outgoing(
     speed, scale = abs(psi), np.copysign(1.0, psi)
     if speed < LINEAR:
         speed, scale = LINEAR, psi / LINEAR
-    status, panels = run(speed, chi, loss, parameter, TOLERANCE, work, numbers, record)
-    numbers[PSI_OUT] *= scale
+    beside = 0.0
+    if loss != Loss.VISCOUS.value and chi <= 0.5 and abs(speed - 1.0) < TIE:
+        beside = TIE  # at the border of stick, slip would start too slowly to be told
+    status, panels = run(speed + beside, chi, loss, parameter, TOLERANCE, work, numbers, record)
+    numbers[PSI_OUT] = scale * (numbers[PSI_OUT] - beside)
     if status != Status.SOLVED.value:
         numbers[:] = np.nan
     return status, panels

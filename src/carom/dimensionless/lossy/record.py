@@ -14,9 +14,9 @@ from carom.dimensionless.lossy.collocation import (
     evaluate,
     integrate,
 )
-from carom.dimensionless.lossy.memory import MOVED, RADIUS
+from carom.dimensionless.lossy.memory import RADIUS
 from carom.dimensionless.lossy.normal import Loss, Motion
-from carom.dimensionless.lossy.panels import Panel, cut_memory
+from carom.dimensionless.lossy.panels import Panel, cut_memory, state_at_node
 from carom.dimensionless.lossy.work import MAX_PANELS, PSI, SPEED, Work
 
 Array = NDArray[np.float64]
@@ -123,9 +123,8 @@ def keep_node(
     work: Work, motion: Motion, panel: Panel, j: int, rows: Array, kind: NDArray[np.int8]
 ) -> float:
     """Keep what there is at a node; return the rate of frictional work by the clock."""
-    b, v = work.values[RADIUS, j], work.values[SPEED, j]
-    u, psi = work.values[MOVED, j], work.values[PSI, j]
-    cut = cut_memory(work, motion, panel, PLACES[j], b, v, u)
+    b, v, u, psi = state_at_node(work, j)
+    cut = cut_memory(work, motion, panel, PLACES[j], state_at_node(work, j))
     rows[AT_V, j], rows[AT_PSI, j], rows[AT_U, j], rows[AT_Q, j] = v, psi, u, cut.force
     rows[AT_B, j], rows[AT_STUCK, j] = b, cut.stuck
     rows[AT_P, j] = normal.normal_force(motion, b, v)

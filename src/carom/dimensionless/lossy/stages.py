@@ -13,6 +13,7 @@ from carom.dimensionless.lossy.work import MAX_PANELS, SPEED, Work, new_work
 MAX_ITERATIONS = 40
 SETTLED = 1e-15
 CORRECTIONS = 8
+FARTHEST = 2.0  # times the way to the end of a stage, to first order
 SLOPE = 1.89171  # of 1 - e in alpha where it is small, (3/2) B(3/5, 3/2)
 NEARLY_ELASTIC, LARGEST = 1.0 - 1e-12, 100.0
 LENGTH = 0.1  # of a panel on which the normal motion is good to rounding
@@ -87,6 +88,9 @@ def cut_to_stage(work: Work, motion: Motion, kind: int, h: float) -> tuple[float
     Return its length, and whether it was cut.
     """
     b, v, last = work.values[RADIUS], work.values[SPEED], NODES - 1
+    ahead = until_stage_end(motion, b[0], v[0])
+    if ahead > 0.0:  # far beyond the end of a stage its equations mean nothing
+        h = min(h, FARTHEST * ahead)
     solve_normal(work, motion, EVEN, h)
     if beyond_stage(motion, b[last], v[last]) < 0.0:
         if kind != EVEN:

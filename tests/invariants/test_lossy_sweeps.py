@@ -1,0 +1,290 @@
+"""Sweeps of impacts that lose energy: each point is what `carom.impact` solves."""
+
+import json
+import math
+import pickle
+
+import numpy as np
+import pytest
+
+import carom
+from carom import InputError
+from carom.cases import motion_of, normal_of, pair_of
+from carom.sweeps import sweep
+from carom.sweeps.designs import Grid, LatinHypercube, Table
+from carom.sweeps.evaluation import OUTPUTS, PointStatus, Problem
+from carom.sweeps.records import identity
+
+STEEL = {"young": "210 GPa", "poisson": 0.3, "density": 7850}
+BALL = {"friction": 0.2, "speed": 2.0, "first": {"radius": "5 mm", "material": STEEL}}
+SECONDS = {
+    "half-space": {"material": "glass"},
+    "sphere": {"kind": "sphere", "radius": "9 mm", "material": "aluminium"},
+    "cup": {"kind": "cup", "radius": "30 mm", "material": "rigid"},
+}
+RANGES = {
+    "friction": (0.02, 0.6),
+    "speed": (0.1, 5.0),
+    "angle": (-1.5, 1.5),
+    "spin": (-300.0, 300.0),
+    "first.material.young": (1e9, 3e11),
+}
+LOSSES = {"restitution": (0.3, 1.0), "loss_time": (0.0, 2e-6), "yield_velocity": (0.01, 3.0)}
+POINTS = 24
+ULP = 1e-10  # what the solver makes of a last bit, of powers of arrays and of numbers, at most
+
+
+def whole(design):
+    return tuple(slice(0, n) for n in design.shape)
+
+
+def solved_alone(case, point):
+    """Solve a case with the inputs of a point in their places, as one impact."""
+    full = json.loads(json.dumps(case))
+    for name, value in point.items():
+        *path, last = name.split(".")
+        table = full
+        for key in path:
+            table = table.setdefault(key, {})
+        table[last] = value
+    return carom.impact(pair_of(full), **motion_of(full), normal=normal_of(full))
+
+
+def require_same(problem, found, case, at, point):
+    """Every output of a point is that of `impact`, against the largest of the block."""
+    hit = solved_alone(case, point).scalars()
+    assert found["status"].flat[at] == PointStatus.SOLVED
+    for name in problem.outputs:
+        scale = np.nanmax(np.abs(found[name]))
+        value, wanted = found[name].flat[at], hit[name]
+        assert value == pytest.approx(wanted, rel=ULP, abs=ULP * scale, nan_ok=True), name
+
+
+def thornton(ratio):
+    """Return e for V_y/V_1 <= 1 (Thornton 1997, the closed form after (28))."""
+    slow = math.sqrt(1.2 - 0.2 * ratio**2)
+    return (
+        math.sqrt(1.2 * math.sqrt(3.0))
+        * math.sqrt(1.0 - ratio**2 / 6.0)
+        * (ratio / (ratio + 2.0 * slow)) ** 0.25
+    )
+
+
+@pytest.mark.parametrize(("loss", "kind"), list(zip(LOSSES, SECONDS, strict=True)))
+def test_a_swept_loss_gives_what_single_impacts_give(loss, kind):
+    """Hypercubes and tables over five inputs and the loss, against the scalar code."""
+    rng = np.random.default_rng(len(loss))
+    ranges, case = RANGES | {loss: LOSSES[loss]}, BALL | {"second": SECONDS[kind]}
+    cube = LatinHypercube(ranges, samples=POINTS, seed=5)
+    table = Table({name: rng.uniform(*ends, POINTS) for name, ends in ranges.items()})
+    for design in (cube, table):
+        problem = Problem(case, design)
+        found, given = problem.block(whole(design)), design.inputs(whole(design))
+        assert set(problem.outputs) >= {*OUTPUTS[:3], "normal_restitution", "lost_energy"}
+        for at in range(POINTS):
+            point = {name: float(values[at]) for name, values in given.items()}
+            require_same(problem, found, case, at, point)
+
+
+@pytest.mark.parametrize(
+    "loss", ["restitution = 0.8", "loss_time = 1 us", "yield_velocity = 1 m/s"]
+)
+def test_a_fixed_loss_holds_at_every_point(loss):
+    name, text = loss.split(" = ")
+    case = BALL | {name: text}
+    grid = Grid({"angle": [0.0, 0.4], "speed": ["50 cm/s", 2.0], "friction": [0.0, 0.3]})
+    problem = Problem(case, grid, ["normal_restitution", "psi_out", "duration", "max_force", "chi"])
+    found, given = problem.block(whole(grid)), grid.inputs(whole(grid))
+    for at in range(8):
+        require_same(problem, found, case, at, {key: float(v[at]) for key, v in given.items()})
+    if name == "restitution":
+        assert np.max(np.abs(found["normal_restitution"] - 0.8)) < 1e-12
+
+
+def test_restitution_of_yielding_bodies_is_thorntons():
+    """The closed form at each speed, 1 below the yield velocity; with and without friction."""
+    grid = Grid({"normal_speed": [0.05, 0.2, 1.0, 10.0], "friction": [0.0, 0.4]})
+    case = {"first": BALL["first"], "yield_velocity": "0.1 m/s"}
+    found = Problem(case, grid, ["normal_restitution"]).block(whole(grid))["normal_restitution"]
+    for row, speed in zip(found, (0.05, 0.2, 1.0, 10.0), strict=True):
+        assert row == pytest.approx(thornton(min(1.0, 0.1 / speed)), rel=1e-9)
+
+
+def test_energy_that_is_missing_was_lost():
+    """Kinetic energy before less after is what friction and the normal motion took."""
+    names = ["rebound_speed", "spin_out", "dissipated_energy", "lost_energy", "normal_mass"]
+    for loss, ends in LOSSES.items():
+        cube = LatinHypercube({**RANGES, loss: ends}, samples=40, seed=1)
+        found = Problem(BALL, cube, names).block(whole(cube))
+        given = cube.inputs(whole(cube))
+        inertia = 0.4 * 0.005**2 * found["normal_mass"]
+        before = found["normal_mass"] * given["speed"] ** 2 + inertia * given["spin"] ** 2
+        after = (
+            found["normal_mass"] * found["rebound_speed"] ** 2 + inertia * found["spin_out"] ** 2
+        )
+        lost = 2.0 * (found["dissipated_energy"] + found["lost_energy"])
+        assert np.max(np.abs((before - after - lost) / before)) < 1e-13
+        assert np.all(found["lost_energy"] >= 0.0)
+        assert found["lost_energy"].max() > 1e-3 * before.max()
+
+
+def test_losses_that_are_none_give_the_elastic_sweep():
+    """e = 1, no loss time, a yield velocity never reached: against the elastic solver."""
+    cube = LatinHypercube(RANGES, samples=30, seed=7)
+    elastic = Problem(BALL, cube).block(whole(cube))
+    for loss in ({"restitution": 1}, {"loss_time": 0}, {"yield_velocity": "1 km/s"}):
+        problem = Problem(BALL | loss, cube)
+        found = problem.block(whole(cube))
+        for name in OUTPUTS[:3] + OUTPUTS[-4:]:
+            wanted = elastic.get(name)
+            assert np.all(np.abs(found[name] - wanted) <= 1e-8 * np.abs(wanted).max()), name
+        assert np.all(np.abs(found["normal_restitution"] - 1.0) < 1e-12)
+
+
+BAD = {
+    "restitution": {1.001: 2, 0.0009: 2, -0.5: 2, math.nan: 1, math.inf: 1},
+    "loss_time": {-1e-9: 2, math.nan: 1, math.inf: 1, 1.0: 6},
+    "yield_velocity": {0.0: 2, -1.0: 2, math.nan: 1, math.inf: 1},
+}
+
+
+@pytest.mark.parametrize("loss", LOSSES)
+def test_bad_rows_have_a_status_and_spoil_nothing(loss):
+    """2 out of range, 1 not a number, 6 not resolved; the scalar code refuses the same."""
+    rng = np.random.default_rng(4)
+    good = {name: rng.uniform(*ends, 20) for name, ends in (RANGES | {loss: LOSSES[loss]}).items()}
+    expected = Problem(BALL, Table(good)).block((slice(0, 20),))
+    bad = {name: values.copy() for name, values in good.items()}
+    rows = rng.permutation(20)[: len(BAD[loss])]
+    bad[loss][rows] = list(BAD[loss])
+    problem = Problem(BALL, Table(bad))
+    found, others = problem.block((slice(0, 20),)), np.setdiff1d(np.arange(20), rows)
+    for name in (*problem.outputs, "status"):
+        assert found[name][others].tobytes() == expected[name][others].tobytes(), name
+    assert found["status"][rows].tolist() == list(BAD[loss].values())
+    for row in rows:
+        assert all(np.isnan(found[name][row]) for name in problem.outputs)
+        with pytest.raises(InputError):
+            solved_alone(BALL, {name: float(values[row]) for name, values in bad.items()})
+
+
+def test_the_yield_velocity_of_the_materials():
+    """By name and by number, the softer of two yielding first; NaN where no strength is known."""
+    case = {"friction": 0.2, "speed": 3.0, "angle": 0.5, "yield_velocity": "material"}
+    names = ["aluminium", "bearing-steel", "glass"]
+    grid = Grid({"first.material": names, "second.material": names, "first.radius": [0.001, 0.02]})
+    problem = Problem(case, grid, ["normal_restitution", "psi_out"])
+    found, given = problem.block(whole(grid)), grid.inputs(whole(grid))
+    assert carom.material("glass").yield_strength is None
+    for at in range(18):
+        first, second = (names[given[f"{body}.material"][at]] for body in ("first", "second"))
+        if (first, second) == ("glass", "glass"):
+            assert found["status"].flat[at] == PointStatus.NOT_A_NUMBER
+            continue
+        point = {"first.material": first, "second.material": second}
+        point["first.radius"] = float(given["first.radius"][at])
+        require_same(problem, found, case, at, point)
+    soft = {"young": 7e10, "poisson": 0.3, "density": 2700, "yield_strength": "200 MPa"}
+    case |= {"first": {"radius": "5 mm", "material": soft}}
+    grid = Grid({"first.material.poisson": [0.2, 0.4]})
+    for at, poisson in enumerate((0.2, 0.4)):
+        one = Problem(case, grid)
+        point = {"first.material": soft | {"poisson": poisson}}
+        require_same(one, one.block((slice(0, 2),)), case, at, point)
+
+
+def test_blocks_do_not_depend_on_how_they_are_cut():
+    """Any box and any number of threads give the same bits, from a record that was pickled."""
+    rng = np.random.default_rng(6)
+    for loss, ends in LOSSES.items():
+        cube = LatinHypercube(RANGES | {loss: ends}, samples=70)
+        problem = Problem(BALL, cube)
+        together, problem = problem.block(whole(cube)), pickle.loads(pickle.dumps(problem))
+        for _ in range(3):
+            start, stop = sorted(rng.choice(71, 2, replace=False).tolist())
+            for name, values in problem.block((slice(start, stop),), threads=2).items():
+                assert values.tobytes() == together[name][start:stop].tobytes(), name
+
+
+def test_stopped_and_resumed_a_store_ends_in_the_same_bits(tmp_path, monkeypatch):
+    """Blocks are small, as points cost more; a store of another loss is refused."""
+    grid = Grid({"angle": np.linspace(0.0, 1.0, 24), "restitution": np.linspace(0.5, 1.0, 6)})
+    truth, path = sweep(BALL, grid), tmp_path / "sweep.zarr"
+    from carom.sweeps import stores
+
+    write, written = stores.write_chunk, []
+
+    def until_the_third(array, *given):
+        written.append(array.name == "status")
+        if sum(written) > 2:
+            raise KeyboardInterrupt
+        write(array, *given)
+
+    with monkeypatch.context() as interrupted:
+        interrupted.setattr(stores, "write_chunk", until_the_third)
+        with pytest.raises(KeyboardInterrupt, match="2 of 3 blocks are safe"):
+            sweep(BALL, grid, store=path)
+    with pytest.raises(InputError, match=r"it is of another sweep: .*restitution"):
+        sweep(BALL, Grid({"angle": grid.inputs(whole(grid))["angle"]}), store=path, resume=True)
+    result = sweep(BALL, grid, store=path, resume=True)
+    assert truth.title == result.title == "sweep of oblique impacts of spheres with losses"
+    for name in truth.variables:
+        assert truth[name].values.tobytes() == result[name].values.tobytes(), name
+
+
+def test_descriptions_tell_losses_apart_and_leave_elastic_sweeps_as_they_were():
+    """That of an elastic sweep is, word for word, what stores had before there were losses."""
+    grid = Grid({"angle": [0.5], "first.material": ["steel"]})
+    case = {"friction": 0.2, "speed": 2.0, "first": {"radius": 0.005}}
+    elastic = Problem(case, grid, ["psi_out"])
+    steel = {"label": "steel", "young": 210e9, "poisson": 0.3, "density": 7850.0}
+    assert identity(elastic) == {
+        "case": {
+            "first.radius": 0.005,
+            "friction": 0.2,
+            "speed": 2.0,
+            "spin": 0.0,
+            "spin2": 0.0,
+            "tangential_speed": 0.0,
+        },
+        "second": ["half-space"],
+        "design": {
+            "kind": "grid",
+            "order": ["angle", "first.material"],
+            "axes": {"angle": [0.5], "first.material": [steel]},
+        },
+        "outputs": ["psi_out"],
+    }
+    losses = ({}, {"restitution": 0.9}, {"restitution": 0.8}, {"loss_time": 1e-6})
+    losses += ({"yield_velocity": 0.1}, {"yield_velocity": "material"})
+    told = [json.dumps(Problem(case | loss, grid, ["psi_out"]).description()) for loss in losses]
+    assert len(set(told)) == len(losses)
+    assert str(carom.material("steel").yield_strength) in told[-1]
+
+
+ANGLE = Grid({"angle": [0.1, 0.2]})
+
+
+@pytest.mark.parametrize(
+    ("case", "design", "message"),
+    [
+        ({"restitution": 0.9, "loss_time": 1e-6}, ANGLE, "not both; both tell what the normal"),
+        ({"restitution": 0.9}, Grid({"yield_velocity": [1.0]}), "not both"),
+        ({"yield_velocity": "material"}, Grid({"loss_time": [1e-6]}), "not both"),
+        ({"restitution": 1.1}, ANGLE, r"restitution: 1\.1 .* from 0\.001 to 1"),
+        ({"loss_time": "2 mm"}, ANGLE, "loss_time: '2 mm' .* a value in s"),
+        ({"yield_velocity": "materials"}, ANGLE, "yield_velocity: 'materials' .*'material'"),
+        ({"yield_velocity": "material"}, ANGLE, "yield_velocity: missing, as no yield strength"),
+        ({"restitution": [0.9]}, ANGLE, r"restitution: \[0\.9\]"),
+    ],
+)
+def test_what_is_no_sweep_with_losses_is_refused_in_a_line(case, design, message):
+    assert not Problem(BALL, ANGLE).loses  # the case is otherwise whole
+    with pytest.raises(InputError, match=message) as refused:
+        Problem(BALL | case, design)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_design_of_two_losses_is_refused():
+    with pytest.raises(InputError, match=r"restitution: give it or loss_time, not both"):
+        Grid({"loss_time": [0.0], "restitution": [1.0]})
