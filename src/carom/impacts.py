@@ -15,9 +15,9 @@ from numpy.typing import ArrayLike
 from carom.approach import approach
 from carom.bodies import Sphere, Value
 from carom.contacts import Contact, contact_in_impact
-from carom.dimensionless.lossy.solution import LossySolution, solve_with_losses
+from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.phases import Status
-from carom.dimensionless.solution import Solution, solve
+from carom.dimensionless.solution import Solution, solve, solve_with
 from carom.dimensionless.states import Phase, SlipAngle
 from carom.fields import radial_fields, surface_fields
 from carom.histories import Tangential, history_columns
@@ -64,8 +64,8 @@ class Impact(Outcome):
     def history(self, n: int = 200) -> xr.Dataset:
         """Return the impact at n times: a dataset with forces, velocities, radii, energies.
 
-        The times are evenly spaced from the first touch to the last; maximum compression is in the
-        middle, at half of `duration`.
+        The times are evenly spaced from the first touch to the last; maximum compression of elastic
+        bodies is in the middle, at half of `duration`.
         """
         times = counted("n", n, 2)
         columns = history_columns(self.pair, self.normal_speed, self._before, self.solution, times)
@@ -74,7 +74,7 @@ class Impact(Outcome):
             "phase_slip_angle_max": [angle.largest for angle in angles],
             "phase_slip_angle_mean": [angle.mean for angle in angles],
         }
-        known = {} if self.normal is not None else phase_columns
+        known = {} if isinstance(self.solution, LossySolution) else phase_columns
         return labelled(columns, self.scalars(), self.phases, self.inputs(), phase_columns=known)
 
     @property
@@ -320,7 +320,11 @@ def _solution(
     if not hasattr(normal, "loss"):
         allowed = "must be a law of normal loss, e.g. carom.KelvinVoigt(restitution=0.9)"
         raise refusal("normal", normal, allowed)
-    found = solve_with_losses(psi, pair.chi, *normal.loss(pair, normal_speed))
+    loss, parameter = normal.loss(pair, normal_speed)
+    if np.ndim(parameter):
+        allowed = "an impact takes one number; carom.sweep takes many"
+        raise refusal("normal", normal.describe(), allowed)
+    found = solve_with(psi, pair.chi, loss, float(parameter))
     if found.status is not Status.SOLVED:
         raise refusal("normal", normal.describe(), f"the impact is {found.status.message}")
     return found

@@ -8,7 +8,7 @@ from scipy.stats import norm, t
 import carom
 from carom.fitting import fit
 
-MU, E = 0.15, 0.8
+MU, E = 0.15, 1.0
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.3)
 NORMAL = np.linspace(0.5, 3.0, 20)

@@ -9,11 +9,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.dimensionless import dense, hertz, slip
 from carom.dimensionless.annuli import Memory, memory_at
+from carom.dimensionless.elastic import LINEAR, TOLERANCE
 from carom.dimensionless.lossy.normal import NormalLoss
+from carom.dimensionless.lossy.rebounds import is_elastic
 from carom.dimensionless.lossy.solution import LossySolution, solve_with_losses
 from carom.dimensionless.motion import PSI
 from carom.dimensionless.phases import Cause, Kind, Status, new_work, run_phases
-from carom.dimensionless.rebounds import LINEAR, TOLERANCE
 from carom.dimensionless.record import (
     CAUSE,
     KIND,
@@ -168,12 +169,19 @@ class Solution:
         return SlipAngle(float(np.arcsin(lateral_ratio)), float(rate @ turned / (rate @ power)))
 
 
+def solve_with(psi: float, chi: float, loss: int, parameter: float) -> Solution | LossySolution:
+    """Solve one impact with a loss in the normal motion, as elastic if that is nothing."""
+    if is_elastic(loss, parameter):
+        return solve(psi, chi)
+    return solve_with_losses(psi, chi, loss, parameter)
+
+
 @overload
 def solve(psi: float, chi: float, *, normal: None = ...) -> Solution: ...
 
 
 @overload
-def solve(psi: float, chi: float, *, normal: NormalLoss) -> LossySolution: ...
+def solve(psi: float, chi: float, *, normal: NormalLoss) -> Solution | LossySolution: ...
 
 
 def solve(psi: float, chi: float, *, normal: NormalLoss | None = None) -> Solution | LossySolution:
@@ -208,8 +216,7 @@ def solve(psi: float, chi: float, *, normal: NormalLoss | None = None) -> Soluti
     """
     psi, chi = float(psi), float(chi)
     if normal is not None:
-        loss, parameter = normal.scale_free()
-        return solve_with_losses(psi, chi, loss, parameter)
+        return solve_with(psi, chi, *normal.scale_free())
     work, record = new_work(), new_record(True)
     recorded = max(abs(psi), LINEAR) if psi != 0.0 else 0.0
     status = Status(run_phases(recorded, chi, TOLERANCE, work, record))

@@ -28,9 +28,10 @@ def fit(
     """Return friction, stiffness ratio and restitution from measured rebounds, with intervals.
 
     V_n' = e V_n, V_x' = mu V_n psi_2(psi_1; chi, e)/kappa with psi_1 = kappa V_x/(mu V_n) and
-    chi = (kappa/2)(m_n/m_t), J_t = m_t (V_x - V_x'): the sum of losses of the residuals in standard
-    deviations is least, and an interval ends where it has risen by a quantile of chi squared (or F,
-    where errors come from the scatter), all other parameters following (profile likelihood).
+    chi = (kappa/2)(m_n/m_t), J_t = m_t (V_x - V_x'); what e < 1 loses is as in `KelvinVoigt`. The
+    sum of losses of the residuals in standard deviations is least; an interval ends where it has
+    risen by a quantile of chi squared (or F, where errors come from the scatter), all other
+    parameters following (profile likelihood).
 
     Parameters
     ----------

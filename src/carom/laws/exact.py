@@ -1,4 +1,4 @@
-"""The exact rebound as a table: psi_2(psi_1) at one chi, as Chebyshev series between its kinks."""
+"""The exact rebound as a table: psi_2(psi_1) at one chi and e, as series between its kinks."""
 
 from __future__ import annotations
 
@@ -12,44 +12,50 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from carom.dimensionless import hertz
-from carom.dimensionless.chebyshev import Panels, fitted
-from carom.dimensionless.phases import Status
-from carom.dimensionless.rebounds import solved
+from carom.dimensionless.chebyshev import Panels
+from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.laws.panels import borders, elastic_panels, lossy_panels, reach_of
 from carom.laws.portable import applied, lost
 from carom.laws.rules import DEGREE, Rule, frozen
+from carom.normals import KelvinVoigt
 from carom.pairs import Pair
 from carom.quantities import InputError, positive, refusal
 
 Array = NDArray[np.float64]
 
-SMALLEST = 1e-6  # psi_1: below, r is that of the first panel
-TOLERANCE = 4e-10  # of the tail of a series; the error stays below 1e-9
-
 
 @dataclass(frozen=True, eq=False)
 class ReboundLaw:
-    """The exact rebound at one chi, tabulated to 1e-9 for chi up to 10.
+    """The exact rebound at one chi, tabulated to 1e-9 for chi up to 10; or at one chi and e < 1.
 
     psi_2 = psi_1 r(|psi_1|), r as Chebyshev series on panels up to the border of gross slip
-    throughout, psi_2 = psi_1 -+ 4 chi from there on (Maw, Barber & Fawcett 1976; Barber (33)).
+    throughout, psi_2 = psi_1 -+ 4 chi from there on (Maw, Barber & Fawcett 1976; Barber (33)). With
+    losses psi_2 = psi_1 - x (1 - r(x)), x = psi_1/(1 + |psi_1|/S), S = 2 chi (1 + e), to 1e-6
+    max(1, |psi_1|); gross slip throughout, psi_1 -+ S, is then the limit of large |psi_1|.
 
     Parameters
     ----------
     chi : float
         (kappa/2)(m_n/m_t), positive; spheres have 0.5 to 3. Made in 20 to 70 ms up to 3, in seconds
         beyond 30. Beyond 10 impacts have many phases, and the error reaches 2e-9.
+    normal : KelvinVoigt, optional
+        What the normal motion loses energy to, the same at all speeds: a restitution is given. Made
+        in 0.5 to 3 s for chi up to 3, 10 s at 10.
 
     Attributes
     ----------
+    restitution : float
+        e; 1 without losses.
     edges : ndarray, shape (n + 1,)
-        psi_1 at which panels begin and end, from 0 to max(1, 4 chi - 1).
+        psi_1 at which panels begin and end, from 0 to max(1, 4 chi - 1); with losses to 1e9 S.
     coefficients : ndarray, shape (n, 11)
         Chebyshev coefficients of r on each panel.
 
     Raises
     ------
     InputError
-        If chi is not positive, or too large for `rebound` to solve.
+        If chi is not positive, or too large for `rebound` to solve, or if the losses depend on the
+        speed.
 
     Examples
     --------
@@ -59,18 +65,23 @@ class ReboundLaw:
     array([ 0.047131, -0.429967,  1.477247,  0.24    ])
     >>> law.nbytes < 4000
     True
+    >>> lossy = carom.ReboundLaw(1.44, normal=carom.KelvinVoigt(restitution=0.9))
+    >>> lossy([0.5, 6.0]).round(5), round(lossy.duration, 4)
+    (array([-0.00105,  0.5304 ]), 2.9)
     """
 
     chi: float
+    restitution: float
     edges: Array
     coefficients: Array
 
-    def __init__(self, chi: float) -> None:
-        value = positive("chi", chi)
-        self._hold(value, _panels(value))
+    def __init__(self, chi: float, *, normal: KelvinVoigt | None = None) -> None:
+        value, e = positive("chi", chi), _restitution_of(normal)
+        self._hold(value, e, elastic_panels(value) if e == 1.0 else lossy_panels(value, e))
 
-    def _hold(self, chi: float, panels: Panels) -> None:
+    def _hold(self, chi: float, restitution: float, panels: Panels) -> None:
         object.__setattr__(self, "chi", chi)
+        object.__setattr__(self, "restitution", restitution)
         for name, values in zip(("edges", "coefficients"), panels, strict=True):
             values.setflags(write=False)
             object.__setattr__(self, name, values)
@@ -80,15 +91,18 @@ class ReboundLaw:
         return applied(lambda incoming, xp: incoming - lost(incoming, self._rule, xp), "psi", psi)
 
     def impulse(self, psi: Any) -> Any:
-        """Return tangential impulse over friction times normal impulse, (psi_1 - psi_2)/(4 chi).
+        """Return tangential impulse over friction times normal impulse, (psi_1 - psi_2)/S.
 
-        It is 1 in gross slip throughout; mu 2 m_n V_1 makes it N s.
+        S = 2 chi (1 + e). It is 1 in gross slip throughout; mu (1 + e) m_n V_1 makes it N s.
         """
         bound = self._rule.sliding
         return applied(lambda incoming, xp: lost(incoming, self._rule, xp) / bound, "psi", psi)
 
     def dissipation(self, psi: Any) -> Any:
-        """Return the dissipated energy psi_1^2 - psi_2^2; (m_t/2)(mu V_1/kappa)^2 makes it J."""
+        """Return the energy that friction takes, psi_1^2 - psi_2^2.
+
+        (m_t/2)(mu V_1/kappa)^2 makes it J.
+        """
 
         def energy(incoming: Any, xp: Any) -> Any:
             change = lost(incoming, self._rule, xp)
@@ -98,8 +112,15 @@ class ReboundLaw:
 
     @property
     def duration(self) -> float:
-        """Duration of the contact in units of d_max/V_1; the same for every psi_1 (Hertz 1882)."""
-        return float(hertz.DURATION)
+        """Duration of the contact, the same for every psi_1 (without losses Hertz 1882).
+
+        In units of d_max/V_1, d_max that of the elastic impact.
+        """
+        if self.restitution == 1.0:
+            return float(hertz.DURATION)
+        loss, parameter = KelvinVoigt(restitution=self.restitution).scale_free()
+        one = np.ones(1)
+        return float(lossy_rebounds(0.0 * one, one, loss, parameter * one).duration[0])
 
     @property
     def nbytes(self) -> int:
@@ -111,7 +132,7 @@ class ReboundLaw:
         if abs(pair.chi - self.chi) > 1e-9 * self.chi:
             raise InputError(
                 f"law: it is for chi = {self.chi:.10g}, the pair has chi = {pair.chi:.10g}; "
-                "make ReboundLaw(pair.chi)"
+                "make the law with pair.chi"
             )
         if pair.friction == 0.0:
             return self._rule._replace(sliding=0.0)
@@ -120,19 +141,22 @@ class ReboundLaw:
     @cached_property
     def _rule(self) -> Rule:
         """The table in powers, with a last panel on which sliding alone counts."""
-        low, high = self.edges[:-1], self.edges[1:]
+        reach = reach_of(self.chi, self.restitution)
+        places = reach.bent(self.edges)
+        low, high = places[:-1], places[1:]
         powers = np.zeros((self.edges.size, DEGREE + 1))
         powers[:-1] = [-chebyshev.cheb2poly(row) for row in self.coefficients]
         powers[:-1, 0] += 1.0
         powers[-1, 0] = 2.0
         slopes = np.append(2.0 / (high - low), 0.0)
         shifts = np.append(-(high + low) / (high - low), 0.0)
-        return frozen(Rule(1.0, 1.0, 4.0 * self.chi, self.edges, slopes, shifts, powers))
+        return frozen(Rule(self.restitution, 1.0, *reach, self.edges, slopes, shifts, powers))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the table as plain numbers and lists, for JSON; `from_dict` takes it back."""
         return {
             "chi": self.chi,
+            "restitution": self.restitution,
             "edges": self.edges.tolist(),
             "coefficients": self.coefficients.tolist(),
         }
@@ -143,54 +167,53 @@ class ReboundLaw:
         try:
             edges, rows = (np.array(table[name], float) for name in ("edges", "coefficients"))
             chi = positive("chi", table["chi"])
-            whole = _is_whole(chi, edges, rows)
+            e = _restitution_of(KelvinVoigt(restitution=table.get("restitution", 1.0)))
+            whole = _is_whole(chi, e, edges, rows)
         except (KeyError, TypeError, ValueError):
             whole = False
         if not whole:
             raise InputError("table: not one of a ReboundLaw; give what to_dict returned")
         law = object.__new__(cls)
-        law._hold(chi, Panels(edges, rows))
+        law._hold(chi, e, Panels(edges, rows))
         return law
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self).from_dict, (self.to_dict(),)
 
     def __repr__(self) -> str:
-        return f"ReboundLaw(chi={self.chi!r})"
+        if self.restitution == 1.0:
+            return f"ReboundLaw(chi={self.chi!r})"
+        return f"ReboundLaw(chi={self.chi!r}, normal=KelvinVoigt(restitution={self.restitution!r}))"
 
 
 @lru_cache(maxsize=128)
-def law_of(chi: float) -> ReboundLaw:
+def law_of(chi: float, normal: KelvinVoigt | None = None) -> ReboundLaw:
     """Return the law at one chi, built once."""
-    return ReboundLaw(chi)
+    return ReboundLaw(chi, normal=normal)
 
 
-def _borders(chi: float) -> list[float]:
-    return [SMALLEST, 1.0] if chi <= 0.5 else [SMALLEST, 1.0, 2.0 * chi, 4.0 * chi - 1.0]
-
-
-def _is_whole(chi: float, edges: Array, rows: Array) -> bool:
+def _is_whole(chi: float, restitution: float, edges: Array, rows: Array) -> bool:
     """Tell whether a table is that of a law: its ends, its order, no gap in psi_2 at an edge."""
-    borders = _borders(chi)
+    ends, reach = borders(chi, restitution), reach_of(chi, restitution)
     if rows.shape != (edges.size - 1, DEGREE + 1) or edges.ndim != 1:
         return False
-    ends = edges[0] == borders[0] and edges[-1] == borders[-1]
-    if not np.all(np.isfinite(edges)):
+    if not np.all(np.isfinite(edges)) or [edges[0], edges[-1]] != [ends[0], ends[-1]]:
         return False
+    places = reach.bent(edges[1:])
     starts = rows @ (-1.0) ** np.arange(rows.shape[1])
-    after = np.append(starts[1:], 1.0 - 4.0 * chi / borders[-1])
-    gaps = np.abs(rows.sum(axis=1) - after) * edges[1:]
-    return bool(ends and np.all(np.diff(edges) > 0.0) and np.all(gaps < 1e-8))
+    after = np.append(starts[1:], 1.0 - reach.sliding / places[-1])
+    gaps = np.abs(rows.sum(axis=1) - after) * places
+    return bool(np.all(np.diff(edges) > 0.0) and np.all(gaps < 1e-8))
 
 
-def _panels(chi: float) -> Panels:
-    """Return the table of r = psi_2/psi_1 between the regime borders."""
-
-    def ratio(psi: Array) -> tuple[Array, NDArray[np.int64]]:
-        outgoing, status, sequence = solved(psi, np.full(psi.size, chi))
-        if np.any(status):
-            message = Status(int(status[status != 0][0])).message
-            raise refusal("chi", chi, f"its rebounds are {message}")
-        return outgoing / psi, sequence
-
-    return fitted(ratio, _borders(chi), DEGREE, TOLERANCE, singular=(1.0,))
+def _restitution_of(normal: KelvinVoigt | None) -> float:
+    """Return e of a law of normal loss that is the same at all speeds, or raise InputError."""
+    if normal is None:
+        return 1.0
+    if not hasattr(normal, "scale_free"):
+        allowed = "must be a law of normal loss, e.g. carom.KelvinVoigt(restitution=0.9)"
+        raise refusal("normal", normal, allowed)
+    if np.ndim(getattr(normal, "restitution", None)):
+        raise refusal("normal", normal, "a table is for one restitution; make one for each")
+    normal.scale_free()
+    return float(normal.restitution)

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom.dimensionless._jit import kernel
+from carom.dimensionless.elastic import solved
 from carom.dimensionless.patches import Patches, fitted_patches, value_at
-from carom.dimensionless.rebounds import solved, warn_of_unsolved
+from carom.dimensionless.rebounds import warn_of_unsolved
 from carom.quantities import InputError, positive, refusal
 
 Array = NDArray[np.float64]

@@ -27,6 +27,7 @@ FIRST, LONGEST, SHORTEST = 0.3, 0.8, 1e-8  # lengths of panels
 TRIALS = 60  # of a panel
 NEAR, NEAR_FLAT = 1e-9, 1e-5  # part of a panel: a change so near its end is its end
 ORDER = 9.0  # of the error of a panel in its length, about
+NORMAL_WEIGHT = 30.0  # of the error of the normal motion, which is cheap to keep small
 SAFETY, STEEPEST, GROWTH = 0.8, 0.2, 4.0
 
 
@@ -156,6 +157,7 @@ def solved_panel(
             plan = with_length(plan, plan.length * part, plan.natural, True, False)
             continue
         error = max(tail(series[PSI]), tail(series[MOVED]))
+        error = max(error, NORMAL_WEIGHT * tail(series[SPEED]) * (1.0 + abs(series[PSI, 0])))
         if error <= tolerance or plan.length <= SHORTEST:
             return plan, error
         plan = revised(plan, error, tolerance)

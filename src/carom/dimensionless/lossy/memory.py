@@ -15,17 +15,17 @@ from carom.dimensionless.lossy.collocation import evaluate, place
 Pieces = NDArray[np.float64]
 
 # Columns of a piece: sign of the slip that made it flat (0: laid), its panel, where in the panel it
-# begins and ends, and there: radius, A, and the integral of U db since the panel's start.
-SIGN, PANEL, X0, X1, R0, R1, A0, A1, W0, W1 = range(10)
-COLUMNS = 10
+# begins and ends, and there: radius, A, and the integrals of U db and U^2 db since its start.
+SIGN, PANEL, X0, X1, R0, R1, A0, A1, W0, W1, S0, S1 = range(12)
+COLUMNS = 12
 MAX_PIECES = 400
 ACTIVE, PAST = -1.0, -2.0  # instead of a panel: slips at the moment, has slipped
 PARTS = 3  # into which a piece can be cut
 
 SLACK = 1e-13  # beyond a limit by rounding alone
 
-# Series of a panel: b, U, integral of U db, A and B as they are laid.
-RADIUS, MOVED, LAID, LAID_A, LAID_B = range(5)
+# Series of a panel: b, U, integrals of U db and U^2 db, A and B as they are laid.
+RADIUS, MOVED, LAID, LAID_SQUARE, LAID_A, LAID_B = range(6)
 
 
 @kernel
@@ -43,6 +43,19 @@ def force(pieces: Pieces, i: int, u: float) -> float:
     if pieces[i, SIGN] > 0.0:
         return float((u + pieces[i, A0]) * (r1 - r0) - cubes(r0, r1))
     return float((u + pieces[i, A0] - 2.0 * r0 * r0) * (r1 - r0) + cubes(r0, r1))
+
+
+@kernel
+def square(pieces: Pieces, i: int, u: float) -> float:
+    """Return the integral of q^2 over a piece."""
+    r0, r1 = pieces[i, R0], pieces[i, R1]
+    if pieces[i, SIGN] == 0.0:
+        once, twice = pieces[i, W1] - pieces[i, W0], pieces[i, S1] - pieces[i, S0]
+        return float(u * (u * (r1 - r0) - 2.0 * once) + twice)
+    c = u + pieces[i, A0]  # q = c - s, or s - (2 s_0 - c)
+    if pieces[i, SIGN] < 0.0:
+        c = 2.0 * r0 * r0 - c
+    return float(c * (c * (r1 - r0) - 2.0 * cubes(r0, r1)) + (r1**5 - r0**5) / 5.0)
 
 
 @kernel
@@ -160,7 +173,9 @@ def trim_laid(
     if x0 != parts[k, X0]:
         parts[k, A0] = evaluate(series, panel, LAID_A, x0)
         parts[k, W0] = evaluate(series, panel, LAID, x0)
+        parts[k, S0] = evaluate(series, panel, LAID_SQUARE, x0)
     if x1 != parts[k, X1]:
         parts[k, A1] = evaluate(series, panel, LAID_A, x1)
         parts[k, W1] = evaluate(series, panel, LAID, x1)
+        parts[k, S1] = evaluate(series, panel, LAID_SQUARE, x1)
     parts[k, X0], parts[k, X1] = x0, x1

@@ -21,12 +21,15 @@ from carom.dimensionless.lossy.memory import (
     LAID,
     LAID_A,
     LAID_B,
+    LAID_SQUARE,
     MAX_PIECES,
     MOVED,
     PANEL,
     R0,
     R1,
     RADIUS,
+    S0,
+    S1,
     SIGN,
     W0,
     W1,
@@ -71,13 +74,14 @@ def state_at_node(work: Work, j: int) -> State:
 class Cut(NamedTuple):
     """The memory at an instant: Q, what sticks, what slips of either sign, a code of the zones.
 
-    `stuck` is a width; `plus` and `minus` are integrals of D - s over what slips.
+    `stuck` is a width, `stored` the integral of q^2.
     """
 
     force: float
     stuck: float
-    plus: float
-    minus: float
+    stored: float
+    plus: bool
+    minus: bool
     zones: int
 
 
@@ -89,7 +93,9 @@ def lay(work: Work, panel: Panel, x: float, b: float, u: float) -> None:
     pieces[i, X0], pieces[i, X1] = -1.0, x
     pieces[i, R0], pieces[i, R1] = b0, b
     pieces[i, A0], pieces[i, A1] = b0 * b0 - u0, b * b - u
-    pieces[i, W0], pieces[i, W1] = 0.0, evaluate(work.series, panel.number, LAID, x)
+    pieces[i, W0], pieces[i, S0] = 0.0, 0.0
+    pieces[i, W1] = evaluate(work.series, panel.number, LAID, x)
+    pieces[i, S1] = evaluate(work.series, panel.number, LAID_SQUARE, x)
 
 
 @kernel
@@ -99,8 +105,8 @@ def cut_memory(work: Work, motion: Motion, panel: Panel, x: float, now: State) -
     pieces, parts, series = work.pieces, work.parts, work.series
     d = normal.limit(motion, b, now.speed)
     p, m = d - u, d + u
-    total, stuck, plus, minus, broad = 0.0, 0.0, 0.0, 0.0, 0.0
-    code, zone_before, last = 0, 0, 0
+    total, stuck, stored, broad = 0.0, 0.0, 0.0, 0.0
+    plus, minus, code, zone_before, last = False, False, 0, 0, 0
     laying = motion.stage != Stage.UNLOADING.value
     if laying:
         lay(work, panel, x, b, u)
@@ -110,21 +116,22 @@ def cut_memory(work: Work, motion: Motion, panel: Panel, x: float, now: State) -
         for k in range(memory.cut(pieces, i, series, p, m, b, parts)):
             r0, r1, sign = parts[k, R0], parts[k, R1], int(parts[k, SIGN])
             total += memory.force(parts, k, u)
+            stored += memory.square(parts, k, u)
             zone = sign + 5
             if parts[k, SIGN] == 0.0 or parts[k, PANEL] != ACTIVE:
                 stuck += r1 - r0
             elif sign > 0:
                 zone = SLIPS_FORTH
-                plus += d * (r1 - r0) - memory.cubes(r0, r1)
+                plus = True
             else:
                 zone = SLIPS_BACK
-                minus += d * (r1 - r0) - memory.cubes(r0, r1)
+                minus = True
             broad = r1 - r0 if zone != zone_before else broad + r1 - r0
             zone_before = zone
             if zone != last and broad > THIN * b:
                 code = code * ZONES + zone
                 last = zone
-    return Cut(total, stuck, plus, minus, code)
+    return Cut(total, stuck, stored, plus, minus, code)
 
 
 @kernel
@@ -198,7 +205,10 @@ def follow(work: Work, motion: Motion, panel: Panel, u0: float) -> None:
         rates[0, j] = u[j] * normal.edge_rate(motion, b[j], values[SPEED, j])
         values[LAID_A, j], values[LAID_B, j] = b[j] * b[j] - u[j], b[j] * b[j] + u[j]
     integrate(panel.clock, 0.0, h, rates[0], values[LAID])
-    for row in (LAID, LAID_A, LAID_B):
+    for j in range(NODES):
+        rates[0, j] *= u[j]
+    integrate(panel.clock, 0.0, h, rates[0], values[LAID_SQUARE])
+    for row in (LAID, LAID_SQUARE, LAID_A, LAID_B):
         expand(values[row], series[row])
 
 

@@ -5,8 +5,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.dimensionless import hertz
 from carom.dimensionless._jit import kernel
 from carom.dimensionless.blocks import in_blocks
+from carom.dimensionless.elastic import solved
 from carom.dimensionless.lossy.impacts import run
 from carom.dimensionless.lossy.normal import Loss
 from carom.dimensionless.lossy.record import (
@@ -25,9 +27,17 @@ from carom.dimensionless.lossy.work import Work, new_work
 from carom.dimensionless.phases import Status
 
 TOLERANCE = 1e-9  # of a panel; keeps psi_2 to 1e-8 max(1, |psi_1|)
+NEARLY_ELASTIC, NEARLY_YIELDING = 1e-10, 1e-5
 TIE = 1e-6  # about psi_1 = 1
-LINEAR = 1e-4  # below, psi_2 is taken proportional to psi_1
+LINEAR, FAR = 1e-3, 1e4  # psi_1 between which impacts are solved
 BLOCK, SMALLEST_BLOCK = 64, 2  # impacts that a thread takes at once
+
+
+def is_elastic(loss: int, parameter: float) -> bool:
+    """Tell whether so little is lost, 1 - e below 2e-10, that the impact is the elastic one."""
+    if loss == Loss.VISCOUS:
+        return 0.0 <= parameter < NEARLY_ELASTIC
+    return loss == Loss.NONE or parameter > 1.0 - NEARLY_YIELDING
 
 
 class Rebounds(NamedTuple):
@@ -46,17 +56,38 @@ class Rebounds(NamedTuple):
 def outgoing(
     psi: float, chi: float, loss: int, parameter: float, work: Work, record: Record, numbers: Array
 ) -> tuple[int, int]:
-    """Run an impact of any psi_1; return its status and the number of panels."""
-    speed, scale = abs(psi), np.copysign(1.0, psi)
+    """Run an impact of any psi_1; return its status and the number of panels.
+
+    Below LINEAR psi_2/psi_1 is linear in psi_1, beyond FAR the impulse is that of sliding.
+    """
+    speed = abs(psi)
+    other, near = 0.0, LINEAR
     if speed < LINEAR:
-        speed, scale = LINEAR, psi / LINEAR
-    beside = 0.0
-    if loss != Loss.VISCOUS.value and chi <= 0.5 and abs(speed - 1.0) < TIE:
-        beside = TIE  # at the border of stick, slip would start too slowly to be told
-    status, panels = run(speed + beside, chi, loss, parameter, TOLERANCE, work, numbers, record)
-    numbers[PSI_OUT] = scale * (numbers[PSI_OUT] - beside)
+        run_beside(2.0 * LINEAR, chi, loss, parameter, work, record, numbers)
+        other = 0.5 * numbers[PSI_OUT] / LINEAR
+    near = min(max(speed, LINEAR), FAR) if np.isfinite(psi) else psi
+    status, panels = run_beside(near, chi, loss, parameter, work, record, numbers)
+    if speed < LINEAR:
+        ratio = numbers[PSI_OUT] / LINEAR
+        numbers[PSI_OUT] = speed * (ratio + (ratio - other) * (1.0 - speed / LINEAR))
+    elif speed > FAR:
+        numbers[PSI_OUT] += speed - FAR
+    numbers[PSI_OUT] *= np.copysign(1.0, psi)
     if status != Status.SOLVED.value:
         numbers[:] = np.nan
+    return status, panels
+
+
+@kernel
+def run_beside(
+    psi: float, chi: float, loss: int, parameter: float, work: Work, record: Record, numbers: Array
+) -> tuple[int, int]:
+    """Run an impact, psi_1 > 0, beside the border of stick if it lies on it."""
+    beside = 0.0
+    if loss != Loss.VISCOUS.value and chi <= 0.5 and abs(psi - 1.0) < TIE:
+        beside = TIE  # slip would start too slowly to be told
+    status, panels = run(psi + beside, chi, loss, parameter, TOLERANCE, work, numbers, record)
+    numbers[PSI_OUT] -= beside
     return status, panels
 
 
@@ -64,7 +95,7 @@ def outgoing(
 def fill(
     psi: Array,
     chi: Array,
-    loss: NDArray[np.int64],
+    loss: int,
     parameter: Array,
     work: Work,
     record: Record,
@@ -73,7 +104,7 @@ def fill(
 ) -> None:
     """Write what every impact comes to, and its status."""
     for i in range(psi.size):
-        status[i], _ = outgoing(psi[i], chi[i], loss[i], parameter[i], work, record, numbers[i])
+        status[i], _ = outgoing(psi[i], chi[i], loss, parameter[i], work, record, numbers[i])
 
 
 def lossy_rebounds(
@@ -83,14 +114,21 @@ def lossy_rebounds(
 
     NaN where the status is not SOLVED.
     """
-    numbers, status = np.empty((psi.size, NUMBERS)), np.empty(psi.size, dtype=np.int8)
-    losses = np.full(psi.size, loss)
+    numbers, status = np.ones((psi.size, NUMBERS)), np.zeros(psi.size, dtype=np.int8)
+    elastic = np.array([is_elastic(loss, float(value)) for value in parameter], dtype=bool)
+    numbers[:, TIME] = hertz.DURATION
+    numbers[elastic, PSI_OUT], status[elastic], _ = solved(psi[elastic], chi[elastic], threads)
+    numbers[status != Status.SOLVED] = np.nan
+    lossy = np.flatnonzero(~elastic)
+    psis, chis, parameters = psi[lossy], chi[lossy], parameter[lossy]
+    found, codes = np.empty((lossy.size, NUMBERS)), np.empty(lossy.size, dtype=np.int8)
 
     def block(part: slice) -> None:
-        given = psi[part], chi[part], losses[part], parameter[part]
-        fill(*given, new_work(), new_record(False), numbers[part], status[part])
+        given = psis[part], chis[part], loss, parameters[part]
+        fill(*given, new_work(), new_record(False), found[part], codes[part])
 
-    in_blocks(block, psi.size, BLOCK, SMALLEST_BLOCK, threads)
+    in_blocks(block, lossy.size, BLOCK, SMALLEST_BLOCK, threads)
+    numbers[lossy], status[lossy] = found, codes
     return Rebounds(
         psi_out=numbers[:, PSI_OUT],
         restitution=numbers[:, RESTITUTION],

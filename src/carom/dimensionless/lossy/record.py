@@ -21,12 +21,12 @@ from carom.dimensionless.lossy.work import MAX_PANELS, PSI, SPEED, Work
 
 Array = NDArray[np.float64]
 
-# What an impact comes to; time, penetration and work are those so far.
-PSI_OUT, RESTITUTION, TIME, PENETRATION, WORK, LOST, DEEPEST, STRONGEST, WIDEST = range(9)
-NUMBERS = 9
+# What an impact comes to; time, penetration and loss are those so far.
+PSI_OUT, RESTITUTION, TIME, PENETRATION, LOST, DEEPEST, STRONGEST, WIDEST = range(8)
+NUMBERS = 8
 
 # What is kept of a panel, at its nodes.
-AT_TIME, AT_D, AT_V, AT_PSI, AT_U, AT_Q, AT_P, AT_B, AT_STUCK, AT_WORK = range(10)
+AT_TIME, AT_D, AT_V, AT_PSI, AT_U, AT_Q, AT_P, AT_B, AT_STUCK, AT_SQUARE = range(10)
 AT_STORED, AT_LOST = 10, 11
 ROWS = 12
 STICK, SLIP, GROSS_SLIP = range(3)  # what a panel does
@@ -74,9 +74,7 @@ def strongest(work: Work, motion: Motion, panel: Panel) -> float:
     for j in range(NODES):
         force[j] = normal.normal_force(motion, values[RADIUS, j], values[SPEED, j])
         best = j if force[j] > force[best] else best
-    if best == 0 or best == NODES - 1:
-        return float(force[best])
-    low, high = PLACES[best - 1], PLACES[best + 1]
+    low, high = PLACES[max(best - 1, 0)], PLACES[min(best + 1, NODES - 1)]
     series, n = work.series, panel.number
     for _ in range(SEARCH):
         near, far = (2.0 * low + high) / 3.0, (low + 2.0 * high) / 3.0
@@ -104,35 +102,30 @@ def keep(work: Work, motion: Motion, panel: Panel, numbers: Array, record: Recor
     b, v = work.values[RADIUS], work.values[SPEED]
     for j in range(NODES):
         rates[0, j], rates[1, j] = 2.0 * b[j], 2.0 * b[j] * v[j]
+        rates[2, j] = normal.loss_rate(motion, b[j], v[j])
     integrate(panel.clock, numbers[TIME], h, rates[0], rows[AT_TIME])
     integrate(panel.clock, numbers[PENETRATION], h, rates[1], rows[AT_D])
+    integrate(panel.clock, numbers[LOST], h, rates[2], rows[AT_LOST])
     for j in range(NODES):
-        rates[0, j] = keep_node(work, motion, panel, j, rows, record.kinds[panel.number])
-        rates[1, j] = normal.loss_rate(motion, b[j], v[j])
-    begin_smoothly(rates[0])  # what slips from the first node on does not slip at it yet
-    begin_smoothly(rows[AT_STUCK])
-    integrate(panel.clock, numbers[WORK], h, rates[0], rows[AT_WORK])
-    integrate(panel.clock, numbers[LOST], h, rates[1], rows[AT_LOST])
+        keep_node(work, motion, panel, j, rows, record.kinds[panel.number])
+    begin_smoothly(rows[AT_STUCK])  # what slips from the first node on does not slip at it yet
     if motion.loss == Loss.PLASTIC.value:
         rows[AT_LOST] = 1.0 - v * v - rows[AT_STORED]
-    numbers[WORK], numbers[LOST] = rows[AT_WORK, NODES - 1], rows[AT_LOST, NODES - 1]
+    numbers[LOST] = rows[AT_LOST, NODES - 1]
 
 
 @kernel
 def keep_node(
     work: Work, motion: Motion, panel: Panel, j: int, rows: Array, kind: NDArray[np.int8]
-) -> float:
-    """Keep what there is at a node; return the rate of frictional work by the clock."""
-    b, v, u, psi = state_at_node(work, j)
-    cut = cut_memory(work, motion, panel, PLACES[j], state_at_node(work, j))
-    rows[AT_V, j], rows[AT_PSI, j], rows[AT_U, j], rows[AT_Q, j] = v, psi, u, cut.force
-    rows[AT_B, j], rows[AT_STUCK, j] = b, cut.stuck
-    rows[AT_P, j] = normal.normal_force(motion, b, v)
-    rows[AT_STORED, j] = normal.stored(motion, b, rows[AT_D, j])
+) -> None:
+    """Keep what there is at a node, and at the middle one what the panel does."""
+    now = state_at_node(work, j)
+    cut = cut_memory(work, motion, panel, PLACES[j], now)
+    rows[AT_B, j], rows[AT_V, j], rows[AT_U, j], rows[AT_PSI, j] = now
+    rows[AT_Q, j], rows[AT_SQUARE, j], rows[AT_STUCK, j] = cut.force, cut.stored, cut.stuck
+    rows[AT_P, j] = normal.normal_force(motion, now.radius, now.speed)
+    rows[AT_STORED, j] = normal.stored(motion, now.radius, rows[AT_D, j])
     if j == NODES // 2:
-        forth, back = int(cut.plus > 0.0), int(cut.minus > 0.0)
+        forth, back = int(cut.plus), int(cut.minus)
         kind[0] = STICK if forth + back == 0 else (SLIP if cut.stuck > 0.0 else GROSS_SLIP)
         kind[1] = forth - back
-    pace = normal.limit_rate(motion, b, v)
-    slip = max(psi - pace, 0.0) * cut.plus + max(-psi - pace, 0.0) * cut.minus
-    return float(2.0 * b * slip)

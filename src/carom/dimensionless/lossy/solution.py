@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom.dimensionless.lossy.collocation import NODES, TO_SERIES, place
-from carom.dimensionless.lossy.rebounds import LINEAR, outgoing
+from carom.dimensionless.lossy.rebounds import outgoing
 from carom.dimensionless.lossy.record import (
     AT_B,
     AT_D,
@@ -15,12 +15,12 @@ from carom.dimensionless.lossy.record import (
     AT_P,
     AT_PSI,
     AT_Q,
+    AT_SQUARE,
     AT_STORED,
     AT_STUCK,
     AT_TIME,
     AT_U,
     AT_V,
-    AT_WORK,
     DEEPEST,
     NUMBERS,
     PSI_OUT,
@@ -90,19 +90,20 @@ class LossySolution:
         if not np.all((wanted >= 0.0) & (wanted <= self.duration)):
             outside = wanted[~((wanted >= 0.0) & (wanted <= self.duration))][0]
             raise ValueError(f"time: {outside:g} is outside the contact, 0 to {self.duration:.6g}")
-        rows = self._sampled(wanted)
-        scale = self._scale
+        rows, scale = self._sampled(wanted), self._scale
+        first, psi = self._record.rows[0, AT_PSI, 0], rows[AT_PSI]
+        stored = 1.875 * self.chi * rows[AT_SQUARE]
         return History(
             time=wanted,
             penetration=rows[AT_D],
             speed=rows[AT_V],
-            psi=scale * rows[AT_PSI],
+            psi=scale * psi,
             displacement=scale * rows[AT_U],
             force=scale * rows[AT_Q],
             stick_radius=np.minimum(rows[AT_STUCK], rows[AT_B]),
             contact_radius=rows[AT_B],
-            stored=scale**2 * self._stored(rows),
-            dissipated=scale**2 * 3.75 * self.chi * rows[AT_WORK],
+            stored=scale**2 * stored,
+            dissipated=scale**2 * (0.5 * (first - psi) * (first + psi) - stored),
             normal_force=rows[AT_P],
             normal_stored=rows[AT_STORED],
             normal_lost=rows[AT_LOST],
@@ -124,12 +125,6 @@ class LossySolution:
             found[:, i] = np.polynomial.chebyshev.chebval(x, series[panel].T)
         return found
 
-    def _stored(self, rows: Array) -> Array:
-        """Return the elastic energy of the tangential springs, from the ledger."""
-        first = self._record.rows[0, AT_PSI, 0]
-        lost = 3.75 * self.chi * rows[AT_WORK]
-        return np.asarray(0.5 * (first - rows[AT_PSI]) * (first + rows[AT_PSI]) - lost)
-
 
 def solve_with_losses(psi: float, chi: float, loss: int, parameter: float) -> LossySolution:
     """Solve one oblique impact whose normal motion loses energy; ValueError for bad numbers."""
@@ -140,7 +135,7 @@ def solve_with_losses(psi: float, chi: float, loss: int, parameter: float) -> Lo
         name, value = ("psi", psi) if status is Status.PSI_NOT_FINITE else ("chi", chi)
         raise ValueError(f"{name}: {value:g} is not allowed; {status.message}")
     kept = Record(record.rows[:panels].copy(), record.kinds[:panels].copy())
-    scale = psi / LINEAR if abs(psi) < LINEAR else float(np.copysign(1.0, psi))
+    first = float(kept.rows[0, AT_PSI, 0]) if panels else 1.0
     return LossySolution(
         psi_in=psi,
         chi=chi,
@@ -153,7 +148,7 @@ def solve_with_losses(psi: float, chi: float, loss: int, parameter: float) -> Lo
         max_force=float(numbers[STRONGEST]),
         max_radius=float(numbers[WIDEST]),
         _record=kept,
-        _scale=scale,
+        _scale=psi / first,
     )
 
 

@@ -1,7 +1,6 @@
 """The normal motion alone: on a panel, to the end of a stage, and as a whole."""
 
 import numpy as np
-from scipy.optimize import brentq
 
 from carom.dimensionless._jit import kernel
 from carom.dimensionless.lossy import normal
@@ -142,6 +141,8 @@ def viscous_loss(wanted: float) -> float:
     >>> round(viscous_loss(0.9), 10)
     0.0565783139
     """
+    from scipy.optimize import brentq
+
     work = new_work()
 
     def excess(log_alpha: float) -> float:
@@ -150,4 +151,5 @@ def viscous_loss(wanted: float) -> float:
     first = (1.0 - wanted) / SLOPE  # e is convex: alpha is larger than this
     if wanted > NEARLY_ELASTIC:
         return first
-    return float(np.exp(brentq(excess, np.log(0.5 * first), np.log(LARGEST), xtol=1e-15)))
+    low, high = np.log(0.5 * first), np.log(min(4.0 / wanted * first, LARGEST))
+    return float(np.exp(brentq(excess, low, high, xtol=1e-14, rtol=1e-14)))

@@ -10,7 +10,7 @@ from carom.dimensionless.lossy.collocation import NODES
 from carom.dimensionless.lossy.memory import MAX_PIECES, PARTS, Pieces
 
 MAX_PANELS = 600
-SPEED, PSI, VALUES = 5, 6, 7  # rows beyond those of the memory: v, psi
+SPEED, PSI, VALUES = 6, 7, 8  # rows beyond those of the memory: v, psi
 
 
 class Work(NamedTuple):

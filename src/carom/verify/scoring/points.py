@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.curves import regime_map
+from carom.dimensionless.elastic import solved
 from carom.dimensionless.phases import Status
-from carom.dimensionless.rebounds import solved
 from carom.quantities import InputError
 from carom.readings import Array, Results, named
 

@@ -1,0 +1,104 @@
+"""What a table of the exact rebound holds: series of r between kinks, with and without losses.
+
+psi_1 - psi_2 = x (1 - r), x = psi_1/(1 + bend psi_1). Without losses the bend is zero, so that
+r = psi_2/psi_1. With losses gross slip throughout is a limit only, psi_2 falling short of
+psi_1 - S, S = 2 chi (1 + e), by a part that dies away as 1/psi_1: the belt laid in stick at the
+edge. With bend = 1/S all psi_1 lie in 0 <= x < S, and r(S) = 0 is that limit.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.dimensionless.chebyshev import Panels, fitted
+from carom.dimensionless.elastic import solved
+from carom.dimensionless.lossy import rebounds as lossy
+from carom.dimensionless.phases import Status
+from carom.laws.rules import DEGREE
+from carom.normals import KelvinVoigt
+from carom.quantities import refusal
+
+Array = NDArray[np.float64]
+Branches = NDArray[np.int64]
+
+SMALLEST = 1e-6  # psi_1: below, r is that of the first panel
+TOLERANCE = 4e-10  # of the tail of a series; the error stays below 1e-9
+LOSSY_TOLERANCE = 1e-7
+FAR, END = 1e4, 1e9  # psi_1/S: beyond, what is lacking is taken for c/psi_1; for nothing
+PATIENCE = 2.0  # seconds before a bar tells how many impacts are solved
+
+
+class Reach(NamedTuple):
+    """How large a loss of psi can be, 2 chi (1 + e), and how psi_1 is bent to a finite range."""
+
+    sliding: float
+    bend: float
+
+    def bent(self, psi: Array) -> Array:
+        """Return x at psi_1 >= 0."""
+        return psi / (1.0 + self.bend * psi)
+
+    def straight(self, x: Array) -> Array:
+        """Return psi_1 at x."""
+        return x / (1.0 - self.bend * x)
+
+
+def reach_of(chi: float, restitution: float) -> Reach:
+    """Return the reach of the rebounds at one chi and e."""
+    sliding = 2.0 * chi * (1.0 + restitution)
+    return Reach(sliding, 0.0 if restitution == 1.0 else 1.0 / sliding)
+
+
+def borders(chi: float, restitution: float) -> list[float]:
+    """Return psi_1 between which panels lie, of the first and the last and of known kinks."""
+    if restitution != 1.0:
+        return [lossy.LINEAR, END * reach_of(chi, restitution).sliding]
+    return [SMALLEST, 1.0] if chi <= 0.5 else [SMALLEST, 1.0, 2.0 * chi, 4.0 * chi - 1.0]
+
+
+def elastic_panels(chi: float) -> Panels:
+    """Return the table of r = psi_2/psi_1 between the regime borders."""
+
+    def ratio(psi: Array) -> tuple[Array, Branches]:
+        outgoing, status, sequence = solved(psi, np.full(psi.size, chi))
+        _refuse_unsolved(chi, status)
+        return outgoing / psi, sequence
+
+    return fitted(ratio, borders(chi, 1.0), DEGREE, TOLERANCE, singular=(1.0,))
+
+
+def lossy_panels(chi: float, restitution: float) -> Panels:
+    """Return the table of r at one e, found by its error alone; a bar tells of it after 2 s."""
+    from tqdm import tqdm
+
+    reach, ends = reach_of(chi, restitution), borders(chi, restitution)
+    loss, parameter = KelvinVoigt(restitution=restitution).scale_free()
+    with tqdm(desc="table of rebounds", unit=" impacts", delay=PATIENCE, disable=None) as bar:
+
+        def outgoing(psi: Array) -> Array:
+            known = np.full(psi.size, chi), loss, np.full(psi.size, parameter)
+            found = lossy.lossy_rebounds(psi, *known)
+            _refuse_unsolved(chi, found.status)
+            bar.update(psi.size)
+            return found.psi_out
+
+        far = FAR * reach.sliding
+        lacking = far * (outgoing(np.array([far]))[0] - (far - reach.sliding))
+
+        def ratio(x: Array) -> tuple[Array, Branches]:
+            psi = reach.straight(x)
+            lost, near = reach.sliding - lacking / psi, psi < far
+            lost[near] = psi[near] - outgoing(psi[near])
+            return 1.0 - lost / x, np.zeros(x.size, dtype=np.int64)
+
+        found = fitted(ratio, list(reach.bent(np.array(ends))), DEGREE, LOSSY_TOLERANCE)
+    edges = reach.straight(found.edges)
+    edges[[0, -1]] = ends
+    return Panels(edges, found.coefficients)
+
+
+def _refuse_unsolved(chi: float, status: NDArray[np.int8]) -> None:
+    if np.any(status):
+        message = Status(int(status[status != 0][0])).message
+        raise refusal("chi", chi, f"its rebounds are {message}")

@@ -1,0 +1,175 @@
+"""The laws of normal loss as users meet them: units, refusals, how the loss follows the speed."""
+
+import numpy as np
+import pytest
+from scipy.special import beta
+
+import carom
+from carom.dimensionless.lossy.normal import Loss
+from carom.normals import yield_velocity
+from carom.quantities import InputError
+
+STEEL = carom.Pair(
+    carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), friction=0.2
+)
+UNKNOWN = carom.Material(young="70 GPa", poisson=0.22, density=2500)
+GLASS = carom.Pair(
+    carom.Sphere(radius="1 mm", material=UNKNOWN), carom.HalfSpace(material=UNKNOWN), friction=0.1
+)
+
+
+def hit(law: object, speed: float = 1.0, pair: carom.Pair = STEEL) -> carom.Impact:
+    return carom.impact(pair, normal_speed=speed, tangential_speed=0.4 * speed, normal=law)
+
+
+def test_loss_time_is_read_with_its_unit() -> None:
+    plain, worded = carom.KelvinVoigt(loss_time=2e-6), carom.KelvinVoigt(loss_time="2 us")
+    assert worded.loss_time == plain.loss_time == pytest.approx(2e-6, rel=1e-15)
+    assert hit(worded).normal_restitution == hit(plain).normal_restitution
+
+
+def test_loss_time_is_in_units_of_the_elastic_impact() -> None:
+    """alpha = tau V_1/d_max."""
+    loss, alpha = carom.KelvinVoigt(loss_time="2 us").loss(STEEL, 0.7)
+    scales = STEEL.scales(0.7)
+    assert loss == Loss.VISCOUS
+    assert alpha == pytest.approx(2e-6 * 0.7 / scales.length, rel=1e-12)
+
+
+def test_yield_velocity_is_read_with_its_unit() -> None:
+    law = carom.ElasticPlastic(yield_velocity="50 mm/s")
+    loss, y = law.loss(STEEL, 1.6)
+    assert loss == Loss.PLASTIC
+    assert y == pytest.approx((0.05 / 1.6) ** 0.4, rel=1e-14)
+
+
+def test_yield_velocity_of_the_materials() -> None:
+    """V_y^2 = (pi/(2 E*))^4 (16/15) (1.6 Y)^5 pi R^3/(2 m) ...: Johnson (1985), (11.20)-(11.21),
+    m V_y^2/2 = (pi/(2 E*))^4 (8/15) R^3 pi (p)^5/... checked as the largest pressure of Hertz."""
+    speed = yield_velocity(STEEL)
+    scales = STEEL.scales(speed)
+    radius = np.sqrt(STEEL.effective_radius * scales.length)
+    pressure = 1.5 * scales.force / (np.pi * radius**2)
+    assert pressure == pytest.approx(1.6 * STEEL.first.material.yield_strength, rel=1e-12)
+    assert hit(carom.ElasticPlastic(), 0.99 * speed).normal_restitution == pytest.approx(1, abs=1e-9)
+    assert hit(carom.ElasticPlastic(), 1.5 * speed).normal_restitution < 0.99
+
+
+def test_weaker_body_yields_first() -> None:
+    soft = carom.Material(
+        young="210 GPa", poisson=0.3, density=7800, yield_strength="100 MPa"
+    )
+    hard = carom.Material(
+        young="210 GPa", poisson=0.3, density=7800, yield_strength="900 MPa"
+    )
+    found = [
+        yield_velocity(carom.Pair(carom.Sphere(radius=0.01, material=a), carom.HalfSpace(material=b), friction=0.2))
+        for a, b in ((soft, soft), (hard, hard), (hard, soft))
+    ]
+    assert found[1] / found[0] == pytest.approx(9.0**2.5, rel=1e-12)
+    assert found[2] == pytest.approx(found[0], rel=1e-12)
+
+
+@pytest.mark.parametrize("e", [0.001, 0.02, 0.3, 0.7, 0.95, 0.9999, 1.0])
+@pytest.mark.parametrize("speed", [0.01, 3.0])
+def test_wanted_restitution_is_what_comes_out(e: float, speed: float) -> None:
+    """At any speed, to 1e-10."""
+    found = hit(carom.KelvinVoigt(restitution=e), speed).normal_restitution
+    assert found == pytest.approx(e, abs=1e-10)
+
+
+def test_restitution_on_arrays_is_that_of_each() -> None:
+    e = np.array([[0.5, 0.9], [0.9, 1.0]])
+    loss, alpha = carom.KelvinVoigt(restitution=e).loss(STEEL, np.ones((2, 2)))
+    each = [carom.KelvinVoigt(restitution=x).loss(STEEL, 1.0)[1] for x in e.ravel()]
+    assert loss == Loss.VISCOUS
+    assert np.array_equal(alpha, np.reshape(each, (2, 2)))
+
+
+def test_speeds_in_arrays_give_the_loss_of_each() -> None:
+    speed = np.array([0.1, 1.0, 4.0])
+    for law in (carom.KelvinVoigt(loss_time="1 us"), carom.ElasticPlastic("0.2 m/s")):
+        together = law.loss(STEEL, speed)[1]
+        assert together == pytest.approx([law.loss(STEEL, v)[1] for v in speed], rel=1e-14)
+
+
+def test_arrays_mark_what_is_out_of_range() -> None:
+    alpha = carom.KelvinVoigt(restitution=np.array([0.9, 0.0, 1.2, np.nan])).loss(STEEL, 1.0)[1]
+    assert np.array_equal(np.isnan(alpha), [False, True, True, True])
+
+
+def test_viscous_loss_grows_with_the_fifth_root_of_the_speed() -> None:
+    """1 - e -> (3/2) B(3/5, 3/2) tau V_1/d_max, d_max ~ V_1^(4/5)."""
+    law = carom.KelvinVoigt(loss_time="1 ns")
+    speeds = np.array([0.1, 3.2])
+    lost = np.array([1.0 - hit(law, v).normal_restitution for v in speeds])
+    assert lost[1] / lost[0] == pytest.approx(32.0**0.2, rel=1e-3)
+    alpha = law.loss(STEEL, 0.1)[1]
+    assert lost[0] == pytest.approx(1.5 * beta(0.6, 1.5) * alpha, rel=1e-3)
+
+
+def test_plastic_restitution_falls_with_the_fourth_root_of_the_speed() -> None:
+    law = carom.ElasticPlastic(yield_velocity="1 mm/s")
+    found = [hit(law, v).normal_restitution for v in (1.0, 4.0)]
+    assert found[0] / found[1] == pytest.approx(4.0**0.25, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({}, "restitution"),
+        ({"restitution": 0.9, "loss_time": "1 us"}, "restitution"),
+        ({"restitution": 1.01}, "restitution.*1.01"),
+        ({"restitution": 0.0}, "restitution.*0"),
+        ({"restitution": 9e-4}, "restitution.*0.0009"),
+        ({"restitution": -0.5}, "restitution.*-0.5"),
+        ({"restitution": np.nan}, "restitution.*nan"),
+        ({"restitution": np.inf}, "restitution.*inf"),
+        ({"restitution": "high"}, "restitution.*high"),
+        ({"restitution": "0.9 m"}, "restitution.*0.9 m"),
+        ({"loss_time": "2 mm"}, "loss_time.*2 mm"),
+        ({"loss_time": -1e-6}, "loss_time.*-1e-06"),
+        ({"loss_time": np.nan}, "loss_time.*nan"),
+        ({"loss_time": True}, "loss_time.*True"),
+    ],
+)
+def test_viscous_law_refuses(given: dict[str, object], words: str) -> None:
+    """Every refusal names the argument and what was given."""
+    with pytest.raises(InputError, match=words):
+        carom.KelvinVoigt(**given)
+
+
+@pytest.mark.parametrize("value", ["0.1 s", 0.0, -0.1, np.nan, np.inf, "fast"])
+def test_plastic_law_refuses(value: object) -> None:
+    with pytest.raises(InputError, match=f"yield_velocity.*{value}"):
+        carom.ElasticPlastic(yield_velocity=value)
+
+
+def test_plastic_law_wants_a_yield_strength() -> None:
+    with pytest.raises(InputError, match="yield_velocity: missing"):
+        hit(carom.ElasticPlastic(), pair=GLASS)
+    assert hit(carom.ElasticPlastic("0.5 m/s"), pair=GLASS).normal_restitution < 1.0
+
+
+@pytest.mark.parametrize("law", [carom.KelvinVoigt(loss_time="1 us"), carom.ElasticPlastic("1 m/s")])
+def test_laws_of_the_speed_are_refused_without_units(law: object) -> None:
+    for call in (carom.rebound, carom.solve):
+        with pytest.raises(InputError, match="normal"):
+            call(1.0, 1.44, normal=law)
+
+
+@pytest.mark.parametrize("law", [0.9, "KelvinVoigt", {"restitution": 0.9}])
+def test_what_is_no_law_is_refused(law: object) -> None:
+    with pytest.raises(InputError, match="normal: .*law of normal loss"):
+        hit(law)
+
+
+def test_too_large_a_loss_time_is_refused_not_answered() -> None:
+    """alpha of 1e5: no bodies rebound so slowly; the impact says so."""
+    with pytest.raises(InputError, match="normal"):
+        hit(carom.KelvinVoigt(loss_time="1 s"))
+
+
+def test_fields_of_impacts_with_losses_are_refused() -> None:
+    with pytest.raises(InputError, match="normal"):
+        hit(carom.KelvinVoigt(restitution=0.9)).contact(time=1e-6)

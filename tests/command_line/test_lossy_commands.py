@@ -1,0 +1,186 @@
+"""`carom impact` and `carom sweep` with losses of the normal motion, as a user would type them."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import carom
+from carom import plots
+from carom.cases import normal_of
+from carom.cli import main
+
+BALL = ["impact", "--radius", "5 mm", "--material", "steel", "--friction", "0.2"]
+SPEED = ["--speed", "2", "--angle", "30 deg"]
+LAWS = {
+    "--restitution 0.9": carom.KelvinVoigt(restitution=0.9),
+    "--loss-time 2us": carom.KelvinVoigt(loss_time="2 us"),
+    "--yield-velocity 100mm/s": carom.ElasticPlastic(yield_velocity=0.1),
+    "--yield-velocity material": carom.ElasticPlastic(),
+}
+CASE = """\
+friction = 0.2
+speed = "2 m/s"
+angle = "30 deg"
+loss_time = "2 us"
+
+[first]
+radius = "5 mm"
+material = "steel"
+"""
+SWEEP = """
+[sweep.axes]
+restitution = [0.6, 0.8, 1.0, 1.2]
+friction = [0.1, 0.3]
+"""
+
+
+@pytest.fixture
+def run(capsys, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    Path("case.toml").write_text(CASE)
+
+    def call(*arguments):
+        code = main(list(arguments))
+        caught = capsys.readouterr()
+        return code, caught.out, caught.err
+
+    return call
+
+
+def steel_on_steel(friction=0.2):
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    return carom.Pair(ball, carom.HalfSpace(material="steel"), friction=friction)
+
+
+@pytest.mark.parametrize("flags", LAWS)
+def test_an_impact_with_losses_is_that_of_the_library(run, flags):
+    """All numbers and phases as JSON, which knows no slip angles with losses."""
+    code, out, _ = run(*BALL, *SPEED, *flags.split(" "), "--json")
+    hit = carom.impact(steel_on_steel(), speed=2.0, angle="30 deg", normal=LAWS[flags])
+    record = json.loads(out)
+    assert code == 0
+    assert record["result"] == hit.scalars()
+    assert record["result"]["normal_restitution"] < 0.95
+    assert record["inputs"]["normal"] == LAWS[flags].describe()
+    assert [phase["end"] for phase in record["phases"]] == [phase.end for phase in hit.phases]
+    angles = {(phase["slip_angle_max"], phase["slip_angle_mean"]) for phase in record["phases"]}
+    assert angles == {(None, None)}
+
+
+def test_the_table_tells_what_was_lost_where_something_was(run):
+    meanings = ("normal velocity, after to before  ", "energy lost in the normal motion  ")
+    _, lossy, _ = run(*BALL, *SPEED, "--restitution", "0.9")
+    _, elastic, _ = run(*BALL, *SPEED)
+    assert [meaning in lossy for meaning in meanings] == [True, True]
+    assert [meaning in elastic for meaning in meanings] == [False, False]
+    told = dict(line.strip().rsplit("  ", 1) for line in lossy.splitlines() if "  " in line.strip())
+    values = {key.strip(): value for key, value in told.items()}
+    assert float(values[meanings[0].strip()]) == pytest.approx(0.9, abs=1e-5)
+    stuck = next(line for line in lossy.splitlines() if line.startswith("  stick"))
+    assert stuck.split()[3:5] == ["-", "-"]
+
+
+def test_a_flag_takes_the_place_of_what_the_case_file_has(run):
+    """Of another kind, too; the file alone gives its own law."""
+    for flags, law in (
+        ([], {"loss_time": 2e-6}),
+        (["--loss-time", "1 us"], {"loss_time": 1e-6}),
+        (["--restitution", "0.8"], {"restitution": 0.8}),
+        (["--yield-velocity", "material"], {"yield_velocity": None}),
+    ):
+        code, out, _ = run("impact", "case.toml", *flags, "--json")
+        assert code == 0
+        assert json.loads(out)["inputs"]["normal"] == law
+
+
+def test_files_of_an_impact_with_losses_are_what_it_is_and_can_be_drawn(run):
+    code, _, err = run("impact", "case.toml", "--output", "hit.nc", "--plot", "hit.svg")
+    assert (code, err.count("stored")) == (0, 2)
+    assert "normal losses" in Path("hit.svg").read_text()
+    law = carom.KelvinVoigt(loss_time=2e-6)
+    wanted = carom.impact(steel_on_steel(), speed=2, angle="30 deg", normal=law).to_dataset()
+    assert run("impact", "case.toml", "--output", "hit.csv")[0] == 0
+    for name in ("hit.nc", "hit.csv"):
+        assert carom.read(name).identical(wanted), name
+    assert len(plots.plot_impact(carom.read("hit.csv")).axes[3].collections) == 7
+
+
+@pytest.mark.parametrize(
+    ("flags", "words"),
+    [
+        (["--restitution", "1.1"], ("restitution: 1.1", "from 0.001 to 1")),
+        (["--restitution", "0"], ("restitution: 0",)),
+        (["--restitution", "90 %"], ("restitution: '90 %'", "percent")),
+        (["--restitution", "0.9", "--loss-time", "1 us"], ("give it or restitution, not both",)),
+        (["--loss-time", "2 mm"], ("loss_time: '2 mm'", "not a value in s")),
+        (["--loss-time", "1 s"], ("loss_time", "not solved")),
+        (["--yield-velocity", "steel"], ("yield_velocity: 'steel'", "'material'", "0.1 m/s")),
+        (["--yield-velocity", "0 m/s"], ("yield_velocity: 0.0", "positive")),
+        (
+            ["--restitution", "0.9", "--animate", "x.gif", "--plot", "x.png"],
+            ("animation: 'x.gif'",),
+        ),
+    ],
+)
+def test_refuses_losses_in_one_line_and_leaves_nothing(run, flags, words):
+    code, out, err = run(*BALL, *SPEED, *flags)
+    line = err.splitlines()[-1]
+    assert (code, out) == (2, "")
+    assert line.startswith("carom: ")
+    assert [word for word in words if word not in line] == [], line
+    assert [path.name for path in Path().iterdir()] == ["case.toml"]
+
+
+def test_without_a_yield_strength_there_is_no_yield_velocity(run):
+    code, _, err = run(*BALL, *SPEED, "--material", "glass", "--yield-velocity", "material")
+    assert code == 2
+    assert "no yield strength is known; give it" in err
+
+
+def test_commands_about_elastic_impacts_refuse_a_case_with_losses(run):
+    """They say where it stands, rather than to leave it aside."""
+    Path("data.csv").write_text("psi_in,psi_out\n1,-0.2\n2,-0.8\n3,-1.3\n")
+    code, _, err = run("verify", "score", "data.csv", "--case", "case.toml")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "loss_time: of no use in case.toml, line 4; this is for elastic impacts" in err
+
+
+def test_a_case_has_one_loss_or_none():
+    assert normal_of({}) is normal_of({"restitution": None}) is None
+    assert normal_of({"loss_time": "2 us"}) == carom.KelvinVoigt(loss_time=2e-6)
+    assert normal_of({"yield_velocity": " material"}) == carom.ElasticPlastic()
+    with pytest.raises(carom.InputError, match="loss_time: give it or restitution, not both"):
+        normal_of({"loss_time": 0.0, "restitution": 1.0})
+    with pytest.raises(carom.InputError, match=r"restitution: \[0.9\] cannot be used"):
+        normal_of({"restitution": [0.9]})
+
+
+def test_a_sweep_over_restitutions(run):
+    """Each point against the library, one that is out of range counted with its reason."""
+    Path("case.toml").write_text(CASE.replace('loss_time = "2 us"', "") + SWEEP)
+    code, out, _ = run("sweep", "case.toml", "--json", "--output", "sweep.nc")
+    record, found = json.loads(out), carom.read("sweep.nc")
+    assert code == 0
+    assert record["status"] == {"solved": 6, "input out of range": 2}
+    assert found.sizes == {"restitution": 4, "friction": 2}
+    assert found.restitution.units == "1"
+    for e in (0.6, 0.8, 1.0):
+        law = carom.KelvinVoigt(restitution=e)
+        for mu in (0.1, 0.3):
+            hit = carom.impact(steel_on_steel(mu), speed=2.0, angle="30 deg", normal=law)
+            point = found.sel(restitution=e, friction=mu)
+            for name in ("normal_restitution", "psi_out", "lost_energy", "max_force"):
+                assert float(point[name]) == pytest.approx(getattr(hit, name), rel=1e-10), name
+    assert np.isnan(found.psi_out.sel(restitution=1.2)).all()
+    span = record["ranges"]["normal_restitution"]
+    assert (span["min"], span["max"]) == pytest.approx((0.6, 1.0), abs=1e-8)
+    assert record["ranges"]["lost_energy"]["units"] == "J"
+
+
+def test_a_sweep_of_two_losses_is_refused(run):
+    Path("case.toml").write_text(CASE + SWEEP)
+    code, out, err = run("sweep", "case.toml")
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert "give it or restitution, not both" in err or "give it or loss_time, not both" in err

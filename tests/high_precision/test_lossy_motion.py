@@ -1,0 +1,79 @@
+"""Normal motion of the solver for impacts with losses against power series at 40 digits.
+
+The figures are those of the table beside (test_kelvin_voigt), which makes them; here are some.
+"""
+
+import numpy as np
+import pytest
+from scipy.special import beta
+
+from carom.dimensionless.lossy.normal import Loss
+from carom.dimensionless.lossy.rebounds import Rebounds, lossy_rebounds
+from carom.dimensionless.lossy.stages import restitution, viscous_loss
+from carom.dimensionless.lossy.work import new_work
+
+WORK = new_work()
+
+# alpha, restitution, duration, largest b^2
+TABLE = np.array(
+    [
+        [1e-6, 0.999998108297074864538, 2.94327474110608010186, 0.999999243318357358765],
+        [1e-4, 0.999810858694227770822, 2.94323086529316996062, 0.999924338752814766042],
+        [1e-3, 0.998111218305156711169, 2.94283225114521915528, 0.999244015736712340625],
+        [0.01, 0.981371609939200244115, 2.93887134963297834857, 0.992502373139721106056],
+        [0.05, 0.912241720358431630459, 2.92179990294291061364, 0.963831094296967884330],
+        [0.1, 0.836404652176792274528, 2.90158915191212801191, 0.930695879791390401007],
+        [0.2, 0.712382433649457977447, 2.86442300773268560600, 0.872045107390488178155],
+        [0.45, 0.505932242030271667667, 2.78606682051943807647, 0.757949515255600387783],
+        [1.0, 0.287230201467896573168, 2.65907259723084280453, 0.599265075186471385219],
+    ]
+)
+
+
+def impacts(psi: float, chi: float = 1.44) -> Rebounds:
+    """Return the impacts of the table at one psi_1."""
+    rows = np.ones(len(TABLE))
+    return lossy_rebounds(psi * rows, chi * rows, Loss.VISCOUS.value, TABLE[:, 0])
+
+
+def test_restitution_of_the_normal_motion_alone() -> None:
+    found = [restitution(Loss.VISCOUS.value, alpha, WORK) for alpha in TABLE[:, 0]]
+    assert found == pytest.approx(TABLE[:, 1], abs=1e-13)
+
+
+@pytest.mark.parametrize("psi", [0.0, 1e-6, 1e-3, 0.5, 2.0, 4.0, 7.9])
+def test_normal_motion_of_oblique_impacts(psi: float) -> None:
+    """The tangential motion leaves the normal one alone, however it cuts it into panels."""
+    found = impacts(psi)
+    assert found.restitution == pytest.approx(TABLE[:, 1], abs=1e-10)
+    assert found.max_radius**2 == pytest.approx(TABLE[:, 3], abs=1e-10)
+    assert found.duration == pytest.approx(TABLE[:, 2], abs=3e-7)
+
+
+def test_loss_and_restitution_are_inverse() -> None:
+    """To 1e-10 over e in [0.001, 1], and alpha -> restitution -> alpha to 1e-9 of it."""
+    wanted = np.concatenate([np.logspace(-3.0, 0.0, 60), 1.0 - np.logspace(-11, -1, 40)])
+    found = [restitution(Loss.VISCOUS.value, viscous_loss(e), WORK) for e in wanted]
+    assert np.max(np.abs(found - wanted)) < 1e-12
+    for alpha, e in TABLE[3:, :2]:
+        assert viscous_loss(e) == pytest.approx(alpha, rel=1e-12)
+
+
+def test_restitution_is_monotone() -> None:
+    """e falls with alpha, from 1 at 0 to 0.0004 at 100."""
+    found = [restitution(Loss.VISCOUS.value, a, WORK) for a in (0.0, *np.logspace(-9, 2, 200))]
+    assert found[0] == pytest.approx(1.0, abs=1e-15)
+    assert np.all(np.diff(found) < 0.0)
+
+
+def test_first_loss() -> None:
+    """1 - e = (3/2) B(3/5, 3/2) alpha = 1.89171 alpha for small alpha."""
+    slope = 1.5 * beta(0.6, 1.5)
+    assert slope == pytest.approx(1.89171, abs=5e-6)
+    for alpha in (1e-6, 1e-7):
+        lost = 1.0 - restitution(Loss.VISCOUS.value, alpha, WORK)
+        assert lost / alpha == pytest.approx(slope, abs=2.0 * slope**2 * alpha + 1e-8)
+    for gap in (1e-7, 1e-13):
+        e = 1.0 - gap
+        assert viscous_loss(e) == pytest.approx((1.0 - e) / slope, rel=1e-5 if gap > 1e-8 else 3e-3)
+    assert viscous_loss(1.0) == 0.0

@@ -1,0 +1,107 @@
+"""What impacts with losses come to depends on nothing but the impact: compiled or not, threads,
+whether a record is kept, what was solved before."""
+
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import carom
+from carom.dimensionless.lossy.normal import Loss
+from carom.dimensionless.lossy.rebounds import Rebounds, lossy_rebounds
+from carom.dimensionless.lossy.solution import solve_with_losses
+
+IMPACTS = (
+    (0.4, 1.44, Loss.VISCOUS, 0.1),
+    (1.5, 2.5, Loss.VISCOUS, 0.02),
+    (3.5, 1.44, Loss.VISCOUS, 0.4),
+    (-6.0, 1.0, Loss.VISCOUS, 0.2),
+    (1.0, 1.7, Loss.PLASTIC, 0.3),
+    (-2.5, 0.8, Loss.PLASTIC, 0.8),
+    (2.0, 1.44, Loss.NONE, 0.0),
+)
+SCRIPT = """
+import json, sys
+from carom.dimensionless.lossy.solution import solve_with_losses
+found = []
+for impact in json.load(sys.stdin):
+    s = solve_with_losses(*impact)
+    h = s.history(7)
+    found.append([s.psi_out, s.restitution, s.duration, s.max_force, s.max_penetration,
+                  *h.force, *h.dissipated, *h.normal_lost, *h.stick_radius])
+print(json.dumps(found))
+"""
+
+
+def results(**environment: str) -> np.ndarray:
+    """Return numbers of all impacts, solved in a process of its own."""
+    run = subprocess.run(
+        [sys.executable, "-c", SCRIPT],
+        input=json.dumps([[p, c, int(loss), a] for p, c, loss, a in IMPACTS]),
+        env=os.environ | environment,
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=300,
+    )
+    return np.array(json.loads(run.stdout))
+
+
+def test_compiled_kernels_do_what_python_does() -> None:
+    """To 1e-12, the work and the stick zones, which fronts decide, included."""
+    plain, compiled = results(NUMBA_DISABLE_JIT="1"), results()
+    assert np.all(np.isfinite(plain))
+    assert np.max(np.abs(plain - compiled)) < 1e-12
+
+
+def many(seed: int, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    rng = np.random.default_rng(seed)
+    return rng.uniform(-8, 8, count), rng.uniform(0.3, 3, count), rng.uniform(0.0, 0.46, count)
+
+
+def same(first: Rebounds, second: Rebounds) -> bool:
+    return all(np.array_equal(a, b, equal_nan=True) for a, b in zip(first, second, strict=True))
+
+
+@pytest.mark.parametrize("loss", [Loss.VISCOUS, Loss.PLASTIC])
+def test_threads_leave_every_bit(loss: Loss) -> None:
+    psi, chi, parameter = many(3, 333)
+    parameter = parameter if loss is Loss.VISCOUS else 0.05 + 2.0 * parameter
+    one = lossy_rebounds(psi, chi, loss.value, parameter, 1)
+    for threads in (2, 3, 8, None):
+        assert same(one, lossy_rebounds(psi, chi, loss.value, parameter, threads))
+
+
+def test_impacts_do_not_depend_on_those_before_them() -> None:
+    """Arrays are used again: in another order, among others, the bits are the same."""
+    psi, chi, alpha = many(4, 60)
+    forth = lossy_rebounds(psi, chi, Loss.VISCOUS.value, alpha, 1)
+    back = lossy_rebounds(psi[::-1], chi[::-1], Loss.VISCOUS.value, alpha[::-1], 1)
+    assert same(forth, Rebounds(*(column[::-1] for column in back)))
+    psi[::2] = np.nan
+    chi[1::4] = -1.0
+    broken = lossy_rebounds(psi, chi, Loss.VISCOUS.value, alpha, 1)
+    assert same(Rebounds(*(c[3::4] for c in forth)), Rebounds(*(c[3::4] for c in broken)))
+
+
+@pytest.mark.parametrize("impact", IMPACTS, ids=str)
+def test_a_record_leaves_every_bit(impact: tuple[float, float, Loss, float]) -> None:
+    psi, chi, loss, parameter = impact
+    kept = solve_with_losses(psi, chi, loss, parameter)
+    bare = lossy_rebounds(np.array([psi]), np.array([chi]), loss, np.array([parameter]))
+    for name in set(Rebounds._fields) - {"status"}:
+        assert getattr(kept, name) == getattr(bare, name)[0], name
+
+
+def test_rebound_solve_and_impact_are_one_solver() -> None:
+    law = carom.KelvinVoigt(restitution=0.8)
+    pair = carom.Pair(
+        carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), 0.3
+    )
+    hit = carom.impact(pair, normal_speed=1.5, tangential_speed=1.0, normal=law)
+    found = carom.rebound(hit.psi_in, pair.chi, normal=law)
+    assert found == carom.solve(hit.psi_in, pair.chi, normal=law).psi_out
+    assert hit.psi_out == found

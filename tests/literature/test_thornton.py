@@ -1,0 +1,97 @@
+"""Restitution of the elastic, perfectly plastic sphere (Thornton 1997, J. Appl. Mech. 64:383)."""
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import carom
+from carom.dimensionless.lossy.normal import Loss
+from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.lossy.stages import restitution
+from carom.dimensionless.lossy.work import new_work
+
+Array = NDArray[np.float64]
+
+WORK = new_work()
+
+
+def closed_form(ratio: Array) -> Array:
+    """Return e of V_y/V_1 < 1, Thornton's (28)."""
+    shape = ratio / (ratio + 2.0 * np.sqrt(1.2 - 0.2 * ratio**2))
+    return np.sqrt(1.2 * np.sqrt(3.0)) * np.sqrt(1.0 - ratio**2 / 6.0) * shape**0.25
+
+
+def found(ratio: Array) -> Array:
+    """Return e of the normal motion alone."""
+    return np.array([restitution(Loss.PLASTIC.value, r**0.4, WORK) for r in ratio])
+
+
+def test_closed_form_is_one_at_yield() -> None:
+    assert closed_form(np.ones(1))[0] == pytest.approx(1.0, abs=1e-15)
+
+
+def test_restitution_is_the_closed_form() -> None:
+    """From 3e4 times the yield velocity down to it."""
+    ratio = np.concatenate([10.0 ** np.linspace(-4.5, -0.01, 200), 1.0 - np.logspace(-2, -4, 40)])
+    assert np.max(np.abs(found(ratio) - closed_form(ratio))) < 1e-10
+
+
+def test_restitution_just_above_yield() -> None:
+    """Yielding so short that it is a root of the time left is not lost, and e is not above 1."""
+    ratio = 1.0 - np.logspace(-4, -13, 60)
+    values = found(ratio)
+    assert np.max(np.abs(values - closed_form(ratio))) < 1e-10
+    assert np.max(values) <= 1.0 + 1e-14
+
+
+@pytest.mark.parametrize("psi", [0.0, 1e-3, 0.4, 3.0, 9.0])
+def test_restitution_does_not_depend_on_the_tangential_motion(psi: float) -> None:
+    ratio = 10.0 ** np.linspace(-3.5, -0.001, 60)
+    impacts = lossy_rebounds(
+        np.full(60, psi), np.full(60, 1.44), Loss.PLASTIC.value, ratio**0.4
+    )
+    assert np.max(np.abs(impacts.restitution - closed_form(ratio))) < 1e-10
+
+
+def test_restitution_falls_with_the_fourth_root_of_the_speed() -> None:
+    """e -> (6 sqrt(3)/5)^(1/2) (V_y/V_1 / (2 sqrt(6/5)))^(1/4) = 1.185 (V_y/V_1)^(1/4)."""
+    ratio = np.array([1e-4, 3e-5])
+    values = found(ratio)
+    slope = np.log(values[1] / values[0]) / np.log(ratio[1] / ratio[0])
+    assert slope == pytest.approx(0.25, abs=1e-5)
+    assert values[1] / ratio[1] ** 0.25 == pytest.approx(1.185, abs=5e-4)
+
+
+def test_work_of_the_load_until_the_turning_point() -> None:
+    """(15/8) y P = slope of P''; P_max^2 = (6/5) y - y^6/5 in units of the elastic impact, and the
+    energy at the deepest point is v_y^2 spent on a load that rises with 3/2 y."""
+    y = np.array([0.05, 0.3, 0.6, 0.9, 0.99])
+    impacts = lossy_rebounds(np.full(5, 2.0), np.full(5, 1.2), Loss.PLASTIC.value, y)
+    peak = np.sqrt(1.2 * y - 0.2 * y**6)
+    assert impacts.max_force == pytest.approx(peak, abs=1e-8)
+    assert impacts.max_radius == pytest.approx(peak ** (1.0 / 3.0), abs=1e-8)
+    deepest = y**2 + (peak - y**3) / (1.5 * y)
+    assert impacts.max_penetration == pytest.approx(deepest, rel=1e-8)
+
+
+def test_below_yield_bodies_are_elastic() -> None:
+    """V_1 <= V_y: the same as without the law, to the accuracy of the solver."""
+    psi, chi = np.linspace(0.1, 7.0, 40), np.linspace(0.4, 2.5, 40)
+    for y in (1.0, 1.3, 40.0):
+        impacts = lossy_rebounds(psi, chi, Loss.PLASTIC.value, np.full(40, y))
+        assert impacts.psi_out == pytest.approx(carom.rebound(psi, chi), abs=1e-8)
+        assert impacts.restitution == pytest.approx(np.ones(40), abs=1e-9)
+
+
+def test_impacts_with_units() -> None:
+    """The yield velocity is where e leaves 1, and e depends on V_y/V_1 alone."""
+    pair = carom.Pair(
+        carom.Sphere(radius="5 mm", material="steel"),
+        carom.HalfSpace(material="steel"),
+        friction=0.2,
+    )
+    law = carom.ElasticPlastic(yield_velocity="0.1 m/s")
+    for speed in (0.05, 0.2, 1.0, 8.0):
+        hit = carom.impact(pair, normal_speed=speed, tangential_speed=0.3 * speed, normal=law)
+        wanted = 1.0 if speed < 0.1 else closed_form(np.array([0.1 / speed]))[0]
+        assert hit.normal_restitution == pytest.approx(wanted, abs=1e-9)
