@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import chain
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.arrays import finite_line, positive_line
+from carom.dimensionless.lossy.normal import NormalLoss
 from carom.dimensionless.phases import Status
 from carom.dimensionless.rebounds import rebound
 from carom.dimensionless.solution import solve
@@ -42,47 +43,65 @@ def borders(chi: float) -> tuple[float, float, float]:
     return 1.0, 2.0 * chi, 4.0 * chi - 1.0
 
 
-def curve(chi: float | Sequence[float], psi: ArrayLike) -> xr.Dataset:
+def curve(
+    chi: float | Sequence[float], psi: ArrayLike, *, normal: NormalLoss | None = None
+) -> xr.Dataset:
     """Return psi_2 and restitutions against psi_1, one row per chi, as a labelled dataset.
 
     e_c = psi_2/psi_1 is that of the contact point; e_t = 1 - (2/7)(1 - e_c) that of the centre of a
     solid sphere without spin. At psi_1 = 0 both are limits.
 
-    Raises InputError for a chi that is not positive or an empty psi.
+    Parameters
+    ----------
+    chi : float or sequence of float
+        Positive; one row for each.
+    psi : array_like
+        psi_1.
+    normal : KelvinVoigt, optional
+        What the normal motion loses energy to: a restitution is given. The `border` of regimes,
+        1, 2 chi, 4 chi - 1, is left out then, as it is that of elastic bodies.
+
+    Raises
+    ------
+    InputError
+        If a chi is not positive, psi is empty, or the losses depend on the speed.
 
     Examples
     --------
     >>> import carom
     >>> carom.curve(1.44, [0.0, 1.0, 6.0]).psi_out.values.round(4)
     array([[ 0.    , -0.0612,  0.24  ]])
+    >>> carom.curve(1.44, 6.0, normal=carom.KelvinVoigt(restitution=0.9)).psi_out.values.round(4)
+    array([[0.5304]])
     """
     chis, incoming = positive_line("chi", chi), finite_line("psi", psi)
     rows = chis[:, np.newaxis]
     nonzero = np.where(incoming == 0.0, 1e-12, incoming)
-    contact = rebound(nonzero, rows) / nonzero
-    wide = ("chi", "psi_in")
+    contact = rebound(nonzero, rows, normal=normal) / nonzero
+    wide, elastic = ("chi", "psi_in"), normal is None
     return labelled_dataset(
         {
-            "psi_out": (wide, rebound(incoming, rows)),
+            "psi_out": (wide, rebound(incoming, rows, normal=normal)),
             "contact_restitution": (wide, contact),
             "tangential_restitution": (
                 wide,
                 1.0 - SOLID_SPHERE * (1.0 - contact),
                 {"note": "solid sphere without spin"},
             ),
-            "border": (
-                ("chi", "regime_border"),
-                [borders(value) for value in chis],
-                {"units": "1", "long_name": "psi_in at which the regime changes"},
-            ),
+            **(_border(chis) if elastic else {}),
         },
         {
             "chi": chis,
             "psi_in": incoming,
-            "regime_border": ("regime_border", list(REGIMES[1:]), {}),
+            **({"regime_border": ("regime_border", list(REGIMES[1:]), {})} if elastic else {}),
         },
-        {"title": "rebound curve"},
+        {"title": "rebound curve"} | ({} if elastic else {"normal": repr(normal)}),
     )
+
+
+def _border(chis: Iterable[float]) -> dict[str, Any]:
+    meaning = {"units": "1", "long_name": "psi_in at which the regime changes"}
+    return {"border": (("chi", "regime_border"), [borders(chi) for chi in chis], meaning)}
 
 
 def regime_map(
@@ -90,6 +109,7 @@ def regime_map(
 ) -> xr.Dataset:
     """Return which phases follow which for every psi_1 and chi, as a labelled dataset.
 
+    Bodies are elastic here.
     `sequence` (chi, psi_in) is the place of the sequence in `sequence_name`, the commonest first,
     or -1 where an impact is not resolved. Beyond psi_1 = 4 chi - 1 the contact slips throughout.
 

@@ -68,7 +68,7 @@ class KelvinVoigt:
     >>> law = carom.KelvinVoigt(restitution=0.9)
     >>> hit = carom.impact(pair, speed=2.0, angle="30 deg", normal=law)
     >>> round(hit.normal_restitution, 10), round(hit.contact_restitution, 4)
-    (0.9, -0.4263)
+    (0.9, -0.4639)
     """
 
     restitution: Any = None
@@ -133,7 +133,7 @@ class ElasticPlastic:
     >>> law = carom.ElasticPlastic(yield_velocity="0.1 m/s")
     >>> hit = carom.impact(pair, normal_speed=1.0, tangential_speed=0.5, normal=law)
     >>> round(hit.normal_restitution, 6)
-    0.671869
+    0.658558
     """
 
     yield_velocity: Any = None

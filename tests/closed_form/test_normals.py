@@ -44,26 +44,27 @@ def test_yield_velocity_is_read_with_its_unit() -> None:
 
 
 def test_yield_velocity_of_the_materials() -> None:
-    """V_y^2 = (pi/(2 E*))^4 (16/15) (1.6 Y)^5 pi R^3/(2 m) ...: Johnson (1985), (11.20)-(11.21),
-    m V_y^2/2 = (pi/(2 E*))^4 (8/15) R^3 pi (p)^5/... checked as the largest pressure of Hertz."""
+    """There the largest pressure of Hertz, (3/2) P/(pi a^2), is 1.6 yield strengths."""
     speed = yield_velocity(STEEL)
     scales = STEEL.scales(speed)
     radius = np.sqrt(STEEL.effective_radius * scales.length)
     pressure = 1.5 * scales.force / (np.pi * radius**2)
     assert pressure == pytest.approx(1.6 * STEEL.first.material.yield_strength, rel=1e-12)
-    assert hit(carom.ElasticPlastic(), 0.99 * speed).normal_restitution == pytest.approx(1, abs=1e-9)
+    assert hit(carom.ElasticPlastic(), 0.99 * speed).normal_restitution == pytest.approx(
+        1, abs=1e-9
+    )
     assert hit(carom.ElasticPlastic(), 1.5 * speed).normal_restitution < 0.99
 
 
 def test_weaker_body_yields_first() -> None:
-    soft = carom.Material(
-        young="210 GPa", poisson=0.3, density=7800, yield_strength="100 MPa"
-    )
-    hard = carom.Material(
-        young="210 GPa", poisson=0.3, density=7800, yield_strength="900 MPa"
-    )
+    soft = carom.Material(young="210 GPa", poisson=0.3, density=7800, yield_strength="100 MPa")
+    hard = carom.Material(young="210 GPa", poisson=0.3, density=7800, yield_strength="900 MPa")
     found = [
-        yield_velocity(carom.Pair(carom.Sphere(radius=0.01, material=a), carom.HalfSpace(material=b), friction=0.2))
+        yield_velocity(
+            carom.Pair(
+                carom.Sphere(radius=0.01, material=a), carom.HalfSpace(material=b), friction=0.2
+            )
+        )
         for a, b in ((soft, soft), (hard, hard), (hard, soft))
     ]
     assert found[1] / found[0] == pytest.approx(9.0**2.5, rel=1e-12)
@@ -151,7 +152,9 @@ def test_plastic_law_wants_a_yield_strength() -> None:
     assert hit(carom.ElasticPlastic("0.5 m/s"), pair=GLASS).normal_restitution < 1.0
 
 
-@pytest.mark.parametrize("law", [carom.KelvinVoigt(loss_time="1 us"), carom.ElasticPlastic("1 m/s")])
+@pytest.mark.parametrize(
+    "law", [carom.KelvinVoigt(loss_time="1 us"), carom.ElasticPlastic("1 m/s")]
+)
 def test_laws_of_the_speed_are_refused_without_units(law: object) -> None:
     for call in (carom.rebound, carom.solve):
         with pytest.raises(InputError, match="normal"):
@@ -160,7 +163,7 @@ def test_laws_of_the_speed_are_refused_without_units(law: object) -> None:
 
 @pytest.mark.parametrize("law", [0.9, "KelvinVoigt", {"restitution": 0.9}])
 def test_what_is_no_law_is_refused(law: object) -> None:
-    with pytest.raises(InputError, match="normal: .*law of normal loss"):
+    with pytest.raises(InputError, match=r"normal: .*law of normal loss"):
         hit(law)
 
 

@@ -8,12 +8,18 @@ import typer
 if TYPE_CHECKING:
     import xarray as xr
 
+    from carom.normals import KelvinVoigt
+
 ROWS = 17  # of the printed table
 HEADERS = (".h",)
 
 
 def curve_command(
     chi: Annotated[list[str], typer.Option(help="chi, positive; repeat for several.")],
+    restitution: Annotated[
+        str | None,
+        typer.Option(help="Normal restitution of a viscous (Kelvin-Voigt) contact, e.g. 0.9."),
+    ] = None,
     start: Annotated[str, typer.Option("--from", help="First psi_1.")] = "0",
     stop: Annotated[
         str | None, typer.Option("--to", help="Last psi_1, by default 4 chi + 1.")
@@ -29,15 +35,18 @@ def curve_command(
         typer.Option(help="Print psi_2(psi_1) as source code: c. One function for each --chi."),
     ] = None,
 ) -> None:
-    """Tabulate psi_2, restitution and the borders of the regimes against psi_1.
+    """Tabulate psi_2, restitution and, without losses, the borders of the regimes against psi_1.
 
     Example: carom curve --chi 1.44 --chi 2 --plot curve.png
+
+    With losses: carom curve --chi 1.44 --restitution 0.9
 
     As C: carom curve --chi 1.44 --export c --output rebound.h
     """
     if export is not None:
         table = {"--json": as_json, "--plot": plot, "--from": start != "0", "--to": stop}
-        _export(chi, export, output, table | {"--points": points != "401"})
+        table["--points"] = points != "401"
+        _export(chi, restitution, export, output, table)
         return
     import numpy as np
 
@@ -57,7 +66,8 @@ def curve_command(
     if not points.isdecimal() or int(points) < 2:
         raise refusal("points", points, "must be a whole number of at least 2, e.g. 401")
     with announced():
-        dataset = curve(values, np.linspace(first, last, int(points)))
+        psi = np.linspace(first, last, int(points))
+        dataset = curve(values, psi, normal=_normal(restitution))
         if output is not None:
             typer.echo(f"stored {save(dataset, output)}", err=True)
         if plot is not None:
@@ -67,7 +77,19 @@ def curve_command(
     typer.echo(json.dumps(_record(dataset), indent=2) if as_json else _table(dataset))
 
 
-def _export(chi: list[str], language: str, output: str | None, others: dict[str, Any]) -> None:
+def _normal(restitution: str | None) -> "KelvinVoigt | None":
+    from carom.normals import KelvinVoigt
+
+    return None if restitution is None else KelvinVoigt(restitution=restitution)
+
+
+def _export(
+    chi: list[str],
+    restitution: str | None,
+    language: str,
+    output: str | None,
+    others: dict[str, Any],
+) -> None:
     """Print or store a header that holds the rebound at each chi."""
     from carom.cli.compiling import announced
     from carom.laws.exact import ReboundLaw
@@ -82,7 +104,8 @@ def _export(chi: list[str], language: str, output: str | None, others: dict[str,
         raise InputError(f"{unused}: is of no use with --export; leave one of them out")
     target = None if output is None else checked_output(output, HEADERS)
     with announced():
-        text = c_header([ReboundLaw(positive("chi", value)) for value in chi])
+        normal = _normal(restitution)
+        text = c_header([ReboundLaw(positive("chi", value), normal=normal) for value in chi])
     if target is None:
         typer.echo(text, nl=False)
         return
@@ -95,12 +118,19 @@ def _record(dataset: "xr.Dataset") -> list[dict[str, Any]]:
     for index, chi in enumerate(dataset["chi"].values):
         part = dataset.isel(chi=index)
         names = ("psi_in", "psi_out", "contact_restitution", "tangential_restitution")
-        regimes = zip(part["regime_border"].values, part["border"].values, strict=True)
+        regimes = {str(name): float(psi) for name, psi in _borders(part)}
         rows.append(
-            {"chi": float(chi), "borders": {str(name): float(psi) for name, psi in regimes}}
+            {"chi": float(chi), **({"borders": regimes} if regimes else {})}
             | {name: [_finite(value) for value in part[name].values] for name in names}
         )
     return rows
+
+
+def _borders(part: "xr.Dataset") -> list[tuple[str, float]]:
+    """Return the regimes and where they begin; none of impacts with losses."""
+    if "border" not in part:
+        return []
+    return list(zip(part["regime_border"].values, part["border"].values, strict=True))
 
 
 def _finite(value: float) -> float | None:
@@ -113,7 +143,7 @@ def _table(dataset: "xr.Dataset") -> str:
     for index, chi in enumerate(dataset["chi"].values):
         part = dataset.isel(chi=index)
         lines.append(f"chi = {chi:g}")
-        for name, psi in zip(part["regime_border"].values, part["border"].values, strict=True):
+        for name, psi in _borders(part):
             lines.append(f"  from psi_1 = {psi:<8.6g} {name}")
         lines.append(f"  {'psi_1':>12s} {'psi_2':>14s} {'e contact':>12s} {'e centre*':>12s}")
         rows = part.isel(psi_in=slice(None, None, step))

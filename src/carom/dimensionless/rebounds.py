@@ -85,7 +85,7 @@ def rebound(
     >>> carom.rebound([0.5, 1.5, 3.5, 6.0], 1.44).round(6)
     array([ 0.047131, -0.429967, -1.477247,  0.24    ])
     >>> carom.rebound([0.5, 6.0], 1.44, normal=carom.KelvinVoigt(restitution=0.9)).round(6)
-    array([-0.001046,  0.5304  ])
+    array([-0.000683,  0.529468])
     """
     if threads is not None and (not isinstance(threads, int) or threads < 1):
         raise ValueError(f"threads: {threads!r} cannot be used; must be a whole number from 1 on")

@@ -76,7 +76,7 @@ def significant(value: float, width: float) -> int:
     Examples
     --------
     >>> significant(0.0921, 0.0014), significant(-3.0, 40.0)
-    (4, 2)
+    (3, 2)
     """
     if not (isfinite(width) and width > 0.0 and value):
         return 4

@@ -29,9 +29,10 @@ class ReboundLaw:
     """The exact rebound at one chi, tabulated to 1e-9 for chi up to 10; or at one chi and e < 1.
 
     psi_2 = psi_1 r(|psi_1|), r as Chebyshev series on panels up to the border of gross slip
-    throughout, psi_2 = psi_1 -+ 4 chi from there on (Maw, Barber & Fawcett 1976; Barber (33)). With
-    losses psi_2 = psi_1 - x (1 - r(x)), x = psi_1/(1 + |psi_1|/S), S = 2 chi (1 + e), to 1e-6
-    max(1, |psi_1|); gross slip throughout, psi_1 -+ S, is then the limit of large |psi_1|.
+    throughout, psi_2 = psi_1 -+ 4 chi from there on (Maw, Barber & Fawcett 1976; Barber (33)).
+
+    With losses psi_2 = psi_1 - x (1 - r(x)), x = psi_1/(1 + |psi_1|/S), S = 2 chi (1 + e), to 1e-6
+    max(1, |psi_1|) for e >= 0.01; gross slip throughout, psi_1 -+ S, is the limit of large |psi_1|.
 
     Parameters
     ----------
@@ -47,7 +48,7 @@ class ReboundLaw:
     restitution : float
         e; 1 without losses.
     edges : ndarray, shape (n + 1,)
-        psi_1 at which panels begin and end, from 0 to max(1, 4 chi - 1); with losses to 1e9 S.
+        psi_1 at which panels begin and end, from 0 to max(1, 4 chi - 1); with losses to 1e12 S.
     coefficients : ndarray, shape (n, 11)
         Chebyshev coefficients of r on each panel.
 
@@ -213,7 +214,7 @@ def _restitution_of(normal: KelvinVoigt | None) -> float:
     if not hasattr(normal, "scale_free"):
         allowed = "must be a law of normal loss, e.g. carom.KelvinVoigt(restitution=0.9)"
         raise refusal("normal", normal, allowed)
-    if np.ndim(getattr(normal, "restitution", None)):
+    if np.ndim(getattr(normal, "restitution", 0.0)):
         raise refusal("normal", normal, "a table is for one restitution; make one for each")
     normal.scale_free()
     return float(normal.restitution)

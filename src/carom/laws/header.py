@@ -11,17 +11,19 @@ from carom.quantities import InputError
 from carom.results import carom_version
 
 HEADER = Template("""\
-/* The exact oblique impact of elastic spheres: psi_2(psi_1), to 1e-9 (chi <= 10), at chi = $chis.
+/* The exact oblique impact of spheres: psi_2(psi_1), to $error,
+ * at chi = $chis.
  *
  * Written by Carom $version; its licence, BSD 3-Clause, is that of this file.
  *
  * psi = kappa V_x / (mu V_1) is the tangential velocity of the contact point over that of approach,
  * with kappa = G* / E*, chi = (kappa / 2)(m_n / m_t). After the impact
  *
- *     V_x' = (mu V_1 / kappa) psi_2,    J_x = m_t (V_x' - V_x),    V_n' = -V_n.
+ *     V_x' = (mu V_1 / kappa) psi_2,    J_x = m_t (V_x' - V_x),    V_n' = -e V_n.
  *
- * psi_2 = psi_1 r(|psi_1|), r a polynomial on each panel; psi_2 = psi_1 -+ 4 chi in gross slip
- * throughout (Maw, Barber & Fawcett 1976; Barber 1979). C99 or C++, no state, nothing to link.
+ * psi_2 = psi_1 - x (1 - r(x)), x = psi_1 / (1 + bend |psi_1|), r a polynomial on each panel, bend
+ * = 0 for e = 1; psi_2 = psi_1 -+ 2 chi (1 + e) in gross slip throughout (Maw, Barber & Fawcett
+ * 1976; Barber 1979); e < 1 from viscous springs without tension. C99 or C++, nothing to link.
  */
 #ifndef $guard
 #define $guard
@@ -30,7 +32,7 @@ $functions
 """)
 
 FUNCTION = Template("""
-/* Return psi_2 at chi = $chi; NaN of NaN. */
+/* Return psi_2 at chi = $chi, e = $restitution; NaN of NaN. */
 static inline double $name(double psi)
 {
     enum { panels = $panels, terms = $terms };
@@ -38,7 +40,7 @@ static inline double $name(double psi)
     static const double edges[panels + 1] = {
 $edges
     };
-    /* place = slope |psi| + shift goes from -1 to 1 over a panel */
+    /* place = slope x + shift goes from -1 to 1 over a panel */
     static const double places[panels][2] = {
 $places
     };
@@ -46,8 +48,10 @@ $places
     static const double powers[panels][terms] = {
 $powers
     };
-    const double limit = $limit; /* 4 chi: psi_1 - psi_2 in gross slip */
+    const double limit = $limit; /* 2 chi (1 + e): psi_1 - psi_2 in gross slip */
+    const double bend = $bend;
     const double size = psi < 0.0 ? -psi : psi;
+    const double share = 1.0 / (1.0 + bend * size);
     double place, part, lost;
     int low = 0, high = panels, middle, k;
 
@@ -60,10 +64,11 @@ $powers
         else
             low = middle;
     }
-    place = places[low][0] * size + places[low][1];
+    place = places[low][0] * (share * size) + places[low][1];
     part = powers[low][terms - 1];
     for (k = terms - 2; k >= 0; --k)
         part = part * place + powers[low][k];
+    part *= share;
     part = part < 0.0 ? 0.0 : part > 2.0 ? 2.0 : part; /* beyond, energy would grow */
     lost = part * size > limit ? limit : part * size;
     return psi < 0.0 ? psi + lost : psi - lost;
@@ -74,18 +79,18 @@ $powers
 def c_header(laws: Sequence[ReboundLaw]) -> str:
     """Return a C99 header that evaluates one law or more, as `ReboundLaw` does.
 
-    One law becomes `double carom_rebound(double psi)`; of several, each has its chi in its name:
-    `carom_rebound_1_44`.
+    One law becomes `double carom_rebound(double psi)`; of several, each has its chi in its name,
+    and its e if that is below 1: `carom_rebound_1_44`, `carom_rebound_1_44_e_0_9`.
 
     Parameters
     ----------
     laws : sequence of ReboundLaw
-        Their chi must differ.
+        They must differ in chi or e.
 
     Raises
     ------
     InputError
-        If a chi comes twice.
+        If a chi comes twice with the same e.
 
     Examples
     --------
@@ -95,12 +100,14 @@ def c_header(laws: Sequence[ReboundLaw]) -> str:
     >>> "double carom_rebound_0_5(double psi)" in text
     True
     """
-    suffixes = [_identifier(law.chi) for law in laws]
+    suffixes = [_suffix(law) for law in laws]
+    losses = any(law.restitution < 1.0 for law in laws)
     for index, law in enumerate(laws):
         if suffixes[index] in suffixes[:index]:
             raise InputError(f"chi: {law.chi:g} comes twice; give each chi once")
     names = ["carom_rebound"] if len(laws) == 1 else [f"carom_rebound_{one}" for one in suffixes]
     return HEADER.substitute(
+        error="1e-6 max(1, |psi_1|)" if losses else "1e-9 (chi <= 10)",
         chis=", ".join(repr(law.chi) for law in laws),
         version=carom_version(),
         guard=f"CAROM_REBOUND_{'_AND_'.join(suffixes)}_H".upper(),
@@ -108,8 +115,13 @@ def c_header(laws: Sequence[ReboundLaw]) -> str:
     )
 
 
-def _identifier(chi: float) -> str:
-    return f"{chi!r}".removesuffix(".0").translate(str.maketrans(".-", "_m", "+"))
+def _suffix(law: ReboundLaw) -> str:
+    chi, e = _identifier(law.chi), law.restitution
+    return chi if e == 1.0 else f"{chi}_e_{_identifier(e)}"
+
+
+def _identifier(value: float) -> str:
+    return f"{value!r}".removesuffix(".0").translate(str.maketrans(".-", "_m", "+"))
 
 
 def _function(name: str, law: ReboundLaw) -> str:
@@ -118,6 +130,7 @@ def _function(name: str, law: ReboundLaw) -> str:
     return FUNCTION.substitute(
         name=name,
         chi=repr(law.chi),
+        restitution=repr(law.restitution),
         panels=len(law.coefficients),
         terms=table.powers.shape[1],
         edges=_row(table.edges, 8),
@@ -126,6 +139,7 @@ def _function(name: str, law: ReboundLaw) -> str:
             f"{' ' * 8}{{\n{_row(panel, 12)}\n{' ' * 8}}}," for panel in table.powers[:-1]
         ),
         limit=repr(table.sliding),
+        bend=repr(table.bend),
     )
 
 

@@ -1,9 +1,9 @@
 """What a table of the exact rebound holds: series of r between kinks, with and without losses.
 
 psi_1 - psi_2 = x (1 - r), x = psi_1/(1 + bend psi_1). Without losses the bend is zero, so that
-r = psi_2/psi_1. With losses gross slip throughout is a limit only, psi_2 falling short of
-psi_1 - S, S = 2 chi (1 + e), by a part that dies away as 1/psi_1: the belt laid in stick at the
-edge. With bend = 1/S all psi_1 lie in 0 <= x < S, and r(S) = 0 is that limit.
+r = psi_2/psi_1. With losses gross slip throughout is a limit only: psi_2 exceeds psi_1 - S,
+S = 2 chi (1 + e), by a part that dies away as 1/psi_1, due to the belt laid in stick at the edge.
+With bend = 1/S all psi_1 lie in 0 <= x < S, and r(S) = 0 is that limit.
 """
 
 from typing import NamedTuple
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from carom.dimensionless.chebyshev import Panels, fitted
 from carom.dimensionless.elastic import solved
-from carom.dimensionless.lossy import rebounds as lossy
+from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.phases import Status
 from carom.laws.rules import DEGREE
 from carom.normals import KelvinVoigt
@@ -22,10 +22,10 @@ from carom.quantities import refusal
 Array = NDArray[np.float64]
 Branches = NDArray[np.int64]
 
-SMALLEST = 1e-6  # psi_1: below, r is that of the first panel
+SMALLEST, LOSSY_SMALLEST = 1e-6, 1e-3  # psi_1: below, r is that of the first panel
 TOLERANCE = 4e-10  # of the tail of a series; the error stays below 1e-9
 LOSSY_TOLERANCE = 1e-7
-FAR, END = 1e4, 1e9  # psi_1/S: beyond, what is lacking is taken for c/psi_1; for nothing
+FAR, END = 1e4, 1e12  # psi_1/S: beyond, what is lacking is taken for c/psi_1; for nothing
 PATIENCE = 2.0  # seconds before a bar tells how many impacts are solved
 
 
@@ -53,7 +53,7 @@ def reach_of(chi: float, restitution: float) -> Reach:
 def borders(chi: float, restitution: float) -> list[float]:
     """Return psi_1 between which panels lie, of the first and the last and of known kinks."""
     if restitution != 1.0:
-        return [lossy.LINEAR, END * reach_of(chi, restitution).sliding]
+        return [LOSSY_SMALLEST, END * reach_of(chi, restitution).sliding]
     return [SMALLEST, 1.0] if chi <= 0.5 else [SMALLEST, 1.0, 2.0 * chi, 4.0 * chi - 1.0]
 
 
@@ -78,7 +78,7 @@ def lossy_panels(chi: float, restitution: float) -> Panels:
 
         def outgoing(psi: Array) -> Array:
             known = np.full(psi.size, chi), loss, np.full(psi.size, parameter)
-            found = lossy.lossy_rebounds(psi, *known)
+            found = lossy_rebounds(psi, *known)
             _refuse_unsolved(chi, found.status)
             bar.update(psi.size)
             return found.psi_out

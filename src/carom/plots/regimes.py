@@ -47,12 +47,14 @@ REGIMES = {
 }
 
 
-@draws("rebound curves, what carom.curve returns", "psi_out", "psi_in", "chi", "border")
+@draws(
+    "rebound curves, what carom.curve returns", "psi_out", "psi_in", "chi", "contact_restitution"
+)
 def plot_curve(dataset: "xr.Dataset") -> Figure:
-    """Draw psi_2 against psi_1, one line per chi, with the borders of the regimes.
+    """Draw psi_2 against psi_1, one line per chi, with the borders of the regimes if it has them.
 
     Of a single chi the regimes are bands, told by how the impact begins; of several, marks on the
-    lines are the borders.
+    lines are the borders. Curves of impacts with losses have none.
 
     Examples
     --------
@@ -66,13 +68,13 @@ def plot_curve(dataset: "xr.Dataset") -> Figure:
     axis = axes[0, 0]
     psi = dataset["psi_in"].values
     axis.axhline(0.0, color="0.5", lw=0.5, zorder=1)
-    single = dataset.sizes["chi"] == 1
+    single, regimes = dataset.sizes["chi"] == 1, "border" in dataset
     for row in range(dataset.sizes["chi"]):
-        _draw_line(axis, dataset.isel(chi=row), row, dots=not single)
-    if not single:
+        _draw_line(axis, dataset.isel(chi=row), row, dots=regimes and not single)
+    if regimes and not single:
         axis.plot([], [], MARKERS[0], color=BLACK, label="regime borders")
     lines, _ = axis.get_legend_handles_labels()
-    bands = _shade_regimes(axis, dataset) if single else []
+    bands = _shade_regimes(axis, dataset) if regimes and single else []
     span(axis, psi)
     axis.set_xlabel(label("psi_in", room=44))
     axis.set_ylabel(label("psi_out", room=36))

@@ -169,7 +169,8 @@ def _status(columns: Columns, kind: str, size: int) -> Codes:
         mark(~(np.abs(columns["angle"]) < pi / 2), PointStatus.NOT_APPROACHING)
     for name, values in columns.items():
         rigid = values == np.inf if leaf(name) == "young" else False
-        mark(~(np.isfinite(values) | rigid), PointStatus.NOT_A_NUMBER)
+        unneeded = leaf(name) == STRENGTH  # that of the other body may do
+        mark(~(np.isfinite(values) | rigid | unneeded), PointStatus.NOT_A_NUMBER)
     return status
 
 

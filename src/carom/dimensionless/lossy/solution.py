@@ -62,7 +62,7 @@ class LossySolution:
     >>> import carom
     >>> s = carom.solve(1.5, 1.44, normal=carom.KelvinVoigt(restitution=0.9))
     >>> round(s.psi_out, 6), round(s.restitution, 10)
-    (-0.499138, 0.9)
+    (-0.498972, 0.9)
     """
 
     psi_in: float

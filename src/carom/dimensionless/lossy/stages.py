@@ -139,7 +139,7 @@ def viscous_loss(wanted: float) -> float:
     """Return alpha, loss time in d_max/V_1, that gives a restitution 0 < e <= 1, to 1e-12 or so.
 
     >>> round(viscous_loss(0.9), 10)
-    0.0565783139
+    0.0576035799
     """
     from scipy.optimize import brentq
 

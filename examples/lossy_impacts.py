@@ -1,0 +1,108 @@
+"""Impacts that lose energy: what restitution does to the rebound, and speed to restitution.
+
+Viscous spheres (Kelvin & Voigt) lose little in slow impacts, 1 - e ~ V^(1/5); metals that yield
+lose more the faster they strike, e ~ V^(-1/4) (Thornton 1997). Left: psi_2 against psi_1 for equal
+e at all speeds; crosses: annuli and small steps. A contact that is viscous in compression never slides
+throughout: at its growing edge pressure comes at once and traction by and by, so a belt sticks and
+the curves stay above psi_1 - 2 chi (1 + e), the thin lines.
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+import carom
+from carom.dimensionless.lossy.stages import viscous_loss
+from carom.dimensionless.marching import extrapolated
+from carom.plots.style import (
+    BLACK,
+    BLUE,
+    DASHES,
+    DOUBLE,
+    GREEN,
+    VERMILION,
+    legend_above,
+    new_figure,
+    save_figure,
+    styled,
+)
+
+CHI = 1.44
+WANTED = {1.0: BLACK, 0.9: BLUE, 0.7: GREEN, 0.5: VERMILION}
+PSI = np.linspace(0.0, 8.0, 81)
+CROSSES = (0.75, 2.0, 3.5, 5.0)
+
+
+def rebounds(psi, e):
+    """Return psi_2 of a sphere of this restitution."""
+    return carom.rebound(psi, CHI, normal=carom.KelvinVoigt(restitution=e))
+
+
+def restitutions(pair, speeds, law):
+    """Return e at each normal speed."""
+    hits = [carom.impact(pair, normal_speed=v, tangential_speed=0.0, normal=law) for v in speeds]
+    return np.array([hit.normal_restitution for hit in hits])
+
+
+def thornton(ratio):
+    """Return e of an elastic-plastic sphere at V/V_y > 1 (Thornton 1997)."""
+    y = 1.0 / ratio
+    turned = y / (y + 2.0 * np.sqrt(1.2 - 0.2 * y * y))
+    return np.sqrt(1.2 * np.sqrt(3.0)) * np.sqrt(1.0 - y * y / 6.0) * turned**0.25
+
+
+@styled
+def draw(curves, marched, speeds, plastic, viscous):
+    """Draw psi_2 against psi_1, and restitution against speed."""
+    figure, axes = new_figure(1, 2, width=DOUBLE, height=74.0)
+    left, right = axes[0]
+    for (e, color), dash in zip(WANTED.items(), DASHES, strict=False):
+        left.plot(PSI, curves[e], color=color, ls=dash, label=f"e = {e:g}")
+        left.plot(PSI, PSI - 2.0 * CHI * (1.0 + e), color=color, lw=0.4)
+        left.plot(CROSSES, marched[e], "x", color=color, ms=4)
+    left.set(xlim=(0.0, 8.0), ylim=(-2.0, 4.0), xlabel=r"$\psi_1$", ylabel=r"$\psi_2$")
+    legend_above(left, 4)
+    right.plot(speeds, plastic, color=BLACK, label="elastic-plastic, $V_y$ = 0.1 m/s")
+    right.plot(speeds, viscous, color=BLUE, ls=DASHES[1], label=r"viscous, $\tau$ = 1 µs")
+    late = speeds[speeds > 1.0]
+    right.plot(late, plastic[-1] * (late / late[-1]) ** -0.25, color=VERMILION, lw=0.6)
+    right.text(3.0, 0.62, r"$V^{-1/4}$", color=VERMILION)
+    right.set(xscale="log", yscale="log", xlabel="normal speed (m/s)", ylabel="restitution $e$")
+    ticks = [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
+    right.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+    right.minorticks_off()
+    legend_above(right, 1)
+    return figure
+
+
+def main(folder: str | Path = ".") -> str:
+    """Solve impacts with losses, check them against other methods, and draw them."""
+    curves = {e: rebounds(PSI, e) for e in WANTED}
+    np.testing.assert_allclose(curves[1.0], carom.rebound(PSI, CHI), atol=1e-9)
+    marched = {}
+    for e in WANTED:
+        alpha = viscous_loss(e)
+        marched[e] = [extrapolated(psi, CHI, 1000, 4000, alpha=alpha) for psi in CROSSES]
+        np.testing.assert_allclose(rebounds(CROSSES, e), marched[e], atol=2e-6)
+        sliding = PSI - 2.0 * CHI * (1.0 + e)
+        assert e == 1.0 or np.all(curves[e] > sliding), "a belt at the edge always sticks"
+
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    speeds = np.geomspace(0.05, 20.0, 41)
+    plastic = restitutions(pair, speeds, carom.ElasticPlastic(yield_velocity="0.1 m/s"))
+    viscous = restitutions(pair, speeds, carom.KelvinVoigt(loss_time="1 us"))
+    yields = speeds > 0.1
+    np.testing.assert_allclose(plastic[yields], thornton(speeds[yields] / 0.1), rtol=1e-8)
+    growth = np.log((1.0 - viscous[1]) / (1.0 - viscous[0])) / np.log(speeds[1] / speeds[0])
+    assert 0.18 < growth < 0.2, "1 - e grows as V^(1/5), and a little more slowly"
+
+    save_figure(draw(curves, marched, speeds, plastic, viscous), Path(folder) / "lossy_impacts.png")
+    return (
+        f"psi_2 at psi_1 = 3.5: {', '.join(f'{rebounds(3.5, e):.3f} (e = {e:g})' for e in WANTED)};"
+        f" e at 20 m/s: {plastic[-1]:.3f} plastic, {viscous[-1]:.3f} viscous"
+    )
+
+
+if __name__ == "__main__":
+    print(main())

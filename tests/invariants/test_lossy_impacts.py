@@ -1,0 +1,245 @@
+"""What holds for every impact with normal losses: limits, energy, friction, contraction, refusals.
+
+With the normal motion given, springs that Coulomb's limit cuts are a sweeping process: two impacts
+that differ in psi_1 alone come no further apart, |psi_2 - psi_2'| <= |psi_1 - psi_1'|, as
+(psi - psi')^2/2 + (15/8) chi integral of (q - q')^2 cannot grow (Moreau 1977).
+"""
+
+import time
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.integrate import cumulative_simpson
+
+import carom
+from carom.dimensionless.lossy.normal import Loss
+from carom.dimensionless.lossy.rebounds import Rebounds, lossy_rebounds
+from carom.dimensionless.lossy.solution import LossySolution, solve_with_losses
+from carom.dimensionless.marching import march_history
+from carom.dimensionless.marching_motion import kelvin_voigt
+from carom.dimensionless.phases import Status
+
+Array = NDArray[np.float64]
+
+PROMISED = 1e-8  # of psi_2, in max(1, psi_1)
+LOSSES = [Loss.VISCOUS, Loss.PLASTIC]
+
+
+def parameters(loss: Loss, rng: np.random.Generator, count: int) -> Array:
+    """Return losses of e from 0.5 to 1 (viscous), 0.25 to 1 (elastic-plastic)."""
+    return rng.uniform(0.0, 0.46, count) if loss is Loss.VISCOUS else rng.uniform(0.1, 0.99, count)
+
+
+def impacts(loss: Loss, seed: int, count: int) -> tuple[Array, Array, Array]:
+    """Return psi, chi and the loss parameter."""
+    rng = np.random.default_rng(seed)
+    psi, chi = rng.uniform(0.0, 8.0, count), rng.uniform(0.3, 3.0, count)
+    return psi, chi, parameters(loss, rng, count)
+
+
+def solved(psi: Array, chi: Array, loss: Loss, parameter: Array) -> Rebounds:
+    """Return impacts, all of which must be solved."""
+    found = lossy_rebounds(psi, chi, loss.value, parameter)
+    failed = np.flatnonzero(found.status != Status.SOLVED)
+    assert failed.size == 0, [(psi[i], chi[i], parameter[i]) for i in failed[:5]]
+    return found
+
+
+def histories(loss: Loss, seed: int, count: int) -> list[LossySolution]:
+    return [
+        solve_with_losses(*map(float, (p, c)), loss, float(a))
+        for p, c, a in zip(*impacts(loss, seed, count), strict=True)
+    ]
+
+
+def test_without_losses_it_is_the_elastic_solver() -> None:
+    """Two solvers that share nothing but the problem, over all psi_1 and chi."""
+    rng = np.random.default_rng(5)
+    psi = np.append(rng.uniform(0.0, 8.0, 500), 10.0 ** rng.uniform(-6.0, 2.0, 200))
+    chi = np.append(rng.uniform(0.3, 3.0, 500), 10.0 ** rng.uniform(-2.0, 1.7, 200))
+    exact = carom.rebound(psi, chi)
+    found = solved(psi, chi, Loss.NONE, np.zeros(700)).psi_out
+    error = np.abs(found - exact) / np.maximum(1.0, psi)
+    assert np.max(error) < PROMISED
+    assert np.quantile(error, 0.95) < 1e-9
+
+
+def test_vanishing_losses_give_the_elastic_impact() -> None:
+    """The difference is at most 2.1 alpha, in proportion to it, down to what is promised."""
+    psi, chi, _ = impacts(Loss.VISCOUS, 6, 300)
+    exact = carom.rebound(psi, chi)
+    for alpha in (1e-4, 1e-6, 1e-8, 1e-11):
+        found = solved(psi, chi, Loss.VISCOUS, np.full(300, alpha))
+        error = np.abs(found.psi_out - exact) / np.maximum(1.0, psi)
+        assert np.max(error) < 2.1 * alpha + PROMISED
+        assert np.median(error) < 0.6 * alpha + 1e-11
+        assert np.max(np.abs(1.0 - 1.891706 * alpha - found.restitution)) < 4.0 * alpha**2 + 1e-9
+
+
+@pytest.mark.parametrize("psi", [0.0, 5e-4, 0.01, 0.03, 0.1, 1.0])
+@pytest.mark.parametrize("chi", [0.25, 0.5, 1.44])
+def test_lawful_corners_are_solved(psi: float, chi: float) -> None:
+    """Round numbers are where fronts, signs and ends meet; no loss is where they all do."""
+    expected = carom.rebound(psi, chi)
+    assert carom.rebound(psi, chi, normal=carom.KelvinVoigt(restitution=1.0)) == pytest.approx(
+        expected, abs=PROMISED
+    )
+    tiny = solved(*(np.full(4, x) for x in (psi, chi)), Loss.VISCOUS, np.logspace(-14, -8, 4))
+    assert tiny.psi_out == pytest.approx(np.full(4, expected), abs=5e-8)
+    solved(*(np.full(40, x) for x in (psi, chi)), Loss.PLASTIC, np.linspace(0.1, 1.0, 40))
+
+
+@pytest.mark.parametrize("loss", LOSSES)
+def test_opposite_approach_rebounds_oppositely(loss: Loss) -> None:
+    """To the last bit, and all else is the same."""
+    psi, chi, parameter = impacts(loss, 7, 60)
+    psi[:4] = 0.0, 1e-9, 1e-4, 1.0
+    forth, back = (solved(p, chi, loss, parameter) for p in (psi, -psi))
+    assert np.array_equal(forth.psi_out, -back.psi_out)
+    for one, other in zip(forth[1:], back[1:], strict=True):
+        assert np.array_equal(one, other)
+    h, mirrored = (solve_with_losses(p, 1.44, loss, 0.3).history(50) for p in (2.0, -2.0))
+    for name in ("psi", "displacement", "force"):
+        assert np.array_equal(getattr(h, name), -getattr(mirrored, name))
+    assert np.array_equal(h.dissipated, mirrored.dissipated)
+
+
+@pytest.mark.parametrize("loss", LOSSES)
+def test_impacts_come_no_further_apart(loss: Loss) -> None:
+    """A jump in psi_1, wherever the structure changes, would break the contraction."""
+    for chi, parameter in ((1.44, 0.2), (0.5, 0.35), (2.8, 0.05)):
+        for start, step, count in ((0.0, 0.02, 401), (0.95, 4e-4, 251), (2.0, 1e-5, 201)):
+            psi = start + step * np.arange(count)
+            row = np.ones(count)
+            found = solved(psi, chi * row, loss, parameter * row).psi_out
+            assert np.max(np.abs(np.diff(found)) - step) < 2.0 * PROMISED * (1.0 + psi[-1])
+
+
+@pytest.mark.parametrize("loss", LOSSES)
+def test_small_changes_of_chi_and_loss_change_little(loss: Loss) -> None:
+    psi, chi, parameter = impacts(loss, 8, 400)
+    base = solved(psi, chi, loss, parameter).psi_out
+    for more in ((chi + 1e-7, parameter), (chi, parameter * (1.0 + 1e-7))):
+        moved = solved(psi, more[0], loss, more[1]).psi_out
+        assert np.max(np.abs(moved - base) / np.maximum(1.0, psi)) < 20e-7 + PROMISED
+
+
+@pytest.mark.parametrize("loss", LOSSES)
+def test_friction_bounds_the_impulse_and_energy_is_lost(loss: Loss) -> None:
+    """|psi_1 - psi_2| <= 2 chi (1 + e), and |psi_2| <= |psi_1|."""
+    psi, chi, parameter = impacts(loss, 9, 800)
+    found = solved(psi, chi, loss, parameter)
+    assert np.all(np.abs(psi - found.psi_out) <= 2.0 * chi * (1.0 + found.restitution) + 1e-9)
+    assert np.all(np.abs(found.psi_out) <= psi + 1e-9)
+
+
+@pytest.mark.parametrize("loss", LOSSES)
+def test_ledgers_close_along_the_history(loss: Loss) -> None:
+    """v^2 + stored + lost = 1; no work is taken back; springs let go end with nothing stored."""
+    for s in histories(loss, 10, 20):
+        h = s.history(800)
+        assert np.max(np.abs(h.speed**2 + h.normal_stored + h.normal_lost - 1.0)) < 1e-8
+        assert np.min(np.diff(h.normal_lost)) > -1e-9
+        assert abs(h.normal_stored[-1]) < 1e-8
+        scale = 1e-5 * (1.0 + s.psi_in**2)
+        assert np.min(np.diff(h.dissipated)) > -scale
+        assert np.min(h.stored) > -scale
+        assert abs(s.psi_in**2 - s.psi_out**2 - 2.0 * h.dissipated[-1]) < scale
+
+
+@pytest.mark.parametrize("loss", LOSSES)
+def test_histories_agree_with_themselves(loss: Loss) -> None:
+    """|Q| <= (2/3) P, dU = psi dt, dd = v dt, both impulses; largest values are not exceeded."""
+    for s in histories(loss, 11, 8):
+        h = s.history(3001)
+        assert np.max(np.abs(h.force) - 2.0 / 3.0 * h.normal_force) < 1e-6
+        assert np.all(h.stick_radius <= h.contact_radius)
+        assert h.time[-1] == s.duration
+        ends = ((s.psi_out, h.psi[-1]), (-s.restitution, h.speed[-1]))
+        assert all(one == pytest.approx(other, abs=1e-12) for one, other in ends)
+        for rate, kept in ((h.psi, h.displacement), (h.speed, h.penetration)):
+            assert cumulative_simpson(rate, x=h.time, initial=0.0) == pytest.approx(kept, abs=1e-7)
+        impulse = np.trapezoid(h.force, h.time)
+        assert s.psi_in - 3.75 * s.chi * impulse == pytest.approx(s.psi_out, abs=2e-5)
+        for name in ("penetration", "contact_radius", "normal_force"):
+            largest = np.max(getattr(h, name))
+            told = getattr(
+                s,
+                {"normal_force": "max_force", "contact_radius": "max_radius"}.get(
+                    name, "max_penetration"
+                ),
+            )
+            assert largest - 1e-9 <= told <= largest + 3e-6, name
+
+
+@pytest.mark.parametrize(
+    "impact", [(0.3, 2.0, 0.2), (1.5, 1.44, 0.2), (3.0, 1.44, 0.1), (5.0, 2.5, 0.45)]
+)
+def test_histories_are_those_of_the_marching_method(impact: tuple[float, float, float]) -> None:
+    """psi, U, Q, the energy in the springs and the frictional work, at all times."""
+    psi, chi, alpha = impact
+    s = solve_with_losses(psi, chi, Loss.VISCOUS, alpha)
+    ledger = march_history(psi, chi, 1000, 4000, alpha)[:-1:20]
+    h = s.at(ledger[:, 0])
+    for name, column, factor, close in (
+        ("psi", 1, 1.0, 1e-5), ("displacement", 2, 1.0, 1e-5), ("force", 3, 1.0, 3e-5),
+        ("stored", 4, 1.875 * chi, 5e-5), ("dissipated", 5, 3.75 * chi, 5e-5),
+    ):  # fmt: skip
+        assert getattr(h, name) == pytest.approx(factor * ledger[:, column], abs=close), name
+
+
+@pytest.mark.parametrize("chi", [0.5, 1.44, 2.7])
+@pytest.mark.parametrize("alpha", [0.01, 0.1, 0.4])
+def test_small_psi_is_the_impact_without_slip(chi: float, alpha: float) -> None:
+    """psi_2/psi_1 as psi_1 -> 0: springs stick until they are let go, Q = integral of U - U(laid).
+
+    Steps of the linear problem on the closed normal motion, extrapolated.
+    """
+    slopes = []
+    for steps in (2000, 4000):
+        motion = kelvin_voigt(alpha, steps)
+        t, b, peak = motion[:, 1], motion[:, 3], steps // 2
+        psi, u, laid = 1.0, np.zeros(steps + 1), np.zeros(peak + 1)
+        for i in range(steps):
+            force = u[i] * b[i] - (laid[i] if i <= peak else np.interp(b[i], b[: peak + 1], laid))
+            half = psi - 1.875 * chi * (t[i + 1] - t[i]) * force
+            u[i + 1] = u[i] + half * (t[i + 1] - t[i])
+            if i < peak:
+                laid[i + 1] = laid[i] + 0.5 * (u[i] + u[i + 1]) * (b[i + 1] - b[i])
+            after = laid[i + 1] if i < peak else np.interp(b[i + 1], b[: peak + 1], laid)
+            psi = half - 1.875 * chi * (t[i + 1] - t[i]) * (u[i + 1] * b[i + 1] - after)
+        slopes.append(psi)
+    limit = (4.0 * slopes[1] - slopes[0]) / 3.0
+    for psi in (1e-12, 1e-7, 5e-5):
+        found = solve_with_losses(psi, chi, Loss.VISCOUS, alpha).psi_out / psi
+        assert found == pytest.approx(limit, abs=2e-4)
+
+
+def test_bad_input_is_told_and_takes_no_time() -> None:
+    """NaN comes with a status that says why; solved impacts are finite; nothing hangs."""
+    wrong = {
+        Status.PSI_NOT_FINITE: [(np.nan, 1.0, 0.1), (np.inf, 1.0, 0.1), (-np.inf, 1.0, 0.1)],
+        Status.CHI_NOT_POSITIVE: [(1.0, x, 0.1) for x in (0.0, -1.0, np.nan, np.inf)],
+    }
+    extreme = [(p, 1.44, 0.2) for p in (1e-300, 1e-12, 1e3, 1e6, 1e300)]
+    extreme += [(1.5, c, 0.2) for c in (1e-300, 0.01, 60.0, 1e6, 1e300)]
+    extreme += [(1.5, 1.44, a) for a in (np.nan, np.inf, -0.1, 1e-300, 90.0, 1e6)]
+    solved(np.ones(1), np.ones(1), Loss.VISCOUS, np.full(1, 0.1))  # compiles
+    for loss in LOSSES:
+        for status, cases in [*wrong.items(), (None, extreme)]:
+            for psi, chi, parameter in cases:
+                begun = time.perf_counter()
+                found = lossy_rebounds(*np.array([[psi], [chi]]), loss.value, np.array([parameter]))
+                assert time.perf_counter() - begun < 10.0
+                assert status is None or found.status[0] == status
+                rest = np.array([column[0] for column in found[:-1]])
+                assert np.all(np.isfinite(rest) == (found.status[0] == Status.SOLVED))
+
+
+@pytest.mark.parametrize("chi", [0.01, 0.2, 8.0, 30.0, 60.0])
+def test_bodies_of_any_inertia_are_solved(chi: float) -> None:
+    psi = np.append(np.linspace(0.01, 8.0, 30), [20.0, 100.0, 1000.0])
+    for loss in LOSSES:
+        found = solved(psi, np.full(33, chi), loss, np.full(33, 0.2))
+        assert np.all(np.abs(found.psi_out) < psi)

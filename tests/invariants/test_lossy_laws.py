@@ -1,0 +1,242 @@
+"""Tables and curves of impacts with losses are what the solver says, and never make energy."""
+
+import ctypes
+import json
+import pickle
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+import carom
+from carom.cli import main
+from carom.laws.header import c_header
+
+BALL = carom.Sphere(radius="4 mm", material="soda-lime-glass", inner_radius="2.5 mm")
+OTHER = carom.Sphere(radius="7 mm", material="steel")
+PAIR = carom.Pair(BALL, OTHER, friction=0.2)
+LOSSES = carom.KelvinVoigt(restitution=0.8)
+ACCURACY = 1e-6
+
+
+@pytest.fixture(scope="module")
+def law():
+    return carom.ReboundLaw(PAIR.chi, normal=LOSSES)
+
+
+def relative_error(law, psi):
+    exact = carom.rebound(psi, law.chi, normal=carom.KelvinVoigt(restitution=law.restitution))
+    return np.max(np.abs(law(psi) - exact) / np.maximum(1.0, np.abs(psi)))
+
+
+@pytest.mark.parametrize(("chi", "e"), [(0.3, 0.9), (1.44, 0.5), (1.44, 0.999), (2.2, 0.05)])
+def test_equals_the_solver(chi, e):
+    """Within 1e-6 max(1, |psi|) of `rebound`, of either sign, at edges, in the tail, near zero."""
+    law = carom.ReboundLaw(chi, normal=carom.KelvinVoigt(restitution=e))
+    rng = np.random.default_rng(4)
+    spread = rng.uniform(0.0, 4.0 * chi * (1.0 + e), 250)
+    psi = np.concatenate([spread, 10.0 ** rng.uniform(-7.0, 9.0, 100), law.edges])
+    assert relative_error(law, np.concatenate([psi, -psi])) <= ACCURACY
+
+
+def test_what_is_lacking_from_gross_slip_falls_as_theory_says(law):
+    """psi_1 (psi_2 - [psi_1 - S]) -> (15/8) chi alpha^2 integral of v^2 db over loading.
+
+    With b = sqrt(d) the integral is that of v^2 dd/(2 sqrt d), d' = v, v' = -(5/4) sqrt(d) (d +
+    (3/2) alpha v), marched here by Runge and Kutta's method in the clock b, on which it is regular.
+    """
+    alpha = LOSSES.scale_free()[1]
+
+    def rates(b, state):
+        v = state[0]
+        return np.array([-2.5 * b**2 * (b**2 + 1.5 * alpha * v) / v, v * v])
+
+    state, b, h = np.array([1.0, 0.0]), 0.0, 1e-4
+    while state[0] > 0.05:  # beyond, v^2 falls linearly in b to zero
+        one = rates(b, state)
+        two = rates(b + 0.5 * h, state + 0.5 * h * one)
+        three = rates(b + 0.5 * h, state + 0.5 * h * two)
+        four = rates(b + h, state + h * three)
+        state, b = state + h / 6.0 * (one + 2.0 * two + 2.0 * three + four), b + h
+    slope = 2.0 * state[0] * rates(b, state)[0]
+    integral = state[1] - state[0] ** 4 / (2.0 * slope)
+    sliding = 2.0 * law.chi * 1.8
+    psi = 300.0 * sliding
+    lacking = (law(psi) - (psi - sliding)) * psi
+    assert lacking == pytest.approx(1.875 * law.chi * alpha**2 * integral, rel=0.01)
+
+
+def test_never_gains_energy_is_odd_and_keeps_coulombs_bound(law):
+    """psi_2(-psi) = -psi_2(psi) to the bit, |psi_2| <= |psi|, impulse within +-1, to infinity."""
+    rng = np.random.default_rng(3)
+    psi = np.concatenate([10.0 ** rng.uniform(-12, 15, 20000), rng.uniform(0.0, 12.0, 20000)])
+    psi = np.concatenate([psi, law.edges, np.nextafter(law.edges, 0.0)])
+    out, impulse, loss = law(psi), law.impulse(psi), law.dissipation(psi)
+    assert np.array_equal(law(-psi), -out)
+    assert np.all(np.abs(out) <= psi)
+    assert np.all(loss >= 0.0)
+    assert np.all(np.abs(impulse) <= 1.0 + 4e-16)
+    assert np.max(np.abs(np.abs(impulse[psi > 1e9]) - 1.0)) < 1e-9
+    assert law(np.inf) == np.inf
+    assert np.isnan(law(np.nan))
+
+
+@pytest.mark.parametrize("slope", [-3.0, -0.4, 0.02, 0.3, 0.9, 20.0])
+def test_equals_an_impact_with_units(law, slope):
+    """Rebound, tangential impulse, dissipation, duration are those of `impact`, rescaled."""
+    hit = carom.impact(PAIR, normal_speed=1.3, tangential_speed=1.3 * slope, normal=LOSSES)
+    psi, largest = hit.psi_in, PAIR.friction * 1.8 * PAIR.normal_mass * 1.3
+    size = max(1.0, abs(psi))
+    energy = 0.5 * PAIR.tangential_mass * hit.scales.tangential_speed**2
+    assert law(psi) == pytest.approx(hit.psi_out, abs=ACCURACY * size)
+    assert largest * law.impulse(psi) == pytest.approx(
+        hit.tangential_impulse, abs=ACCURACY * size * largest
+    )
+    assert energy * law.dissipation(psi) == pytest.approx(
+        hit.dissipated_energy, abs=2.0 * ACCURACY * energy * size**2
+    )
+    assert law.duration * hit.scales.time == pytest.approx(hit.duration, rel=1e-8)
+
+
+def collisions(count):
+    rng = np.random.default_rng(8)
+    names = ("velocity1", "velocity2", "spin1", "spin2", "normal")
+    scales = (1.0, 1.0, 200.0, 100.0, 1.0)
+    motion = {
+        name: scale * rng.normal(size=(count, 3)) for name, scale in zip(names, scales, strict=True)
+    }
+    motion["normal"] /= np.linalg.norm(motion["normal"], axis=1, keepdims=True)
+    return motion
+
+
+def test_collisions_are_impacts(law):
+    """Random collisions in space are `impact`s in their planes: V_n' = -e V_n, V_t' to 1e-6."""
+    motion = collisions(60)
+    after = carom.collide(PAIR, law=law, **motion)
+
+    def contact(velocity1, spin1, velocity2, spin2):
+        turning = BALL.radius * spin1 + OTHER.radius * spin2
+        return velocity1 - velocity2 + np.cross(turning, motion["normal"])
+
+    before = contact(*(motion[n] for n in ("velocity1", "spin1", "velocity2", "spin2")))
+    later = contact(*after[:4])
+    checked = 0
+    for old, new, n, status in zip(before, later, motion["normal"], after.status, strict=True):
+        if status != carom.CollisionStatus.COLLIDED:
+            continue
+        along = old - (old @ n) * n
+        hit = carom.impact(
+            PAIR, normal_speed=old @ n, tangential_speed=np.linalg.norm(along), normal=LOSSES
+        )
+        want = hit.contact_velocity_out * along / np.linalg.norm(along) - 0.8 * (old @ n) * n
+        size = PAIR.friction / PAIR.kappa * (old @ n) * max(1.0, hit.psi_in)
+        np.testing.assert_allclose(new, want, rtol=0.0, atol=ACCURACY * size + 1e-12)
+        checked += 1
+    assert checked > 20
+
+
+def test_collisions_keep_momentum_and_never_gain_energy(law):
+    """Momentum to rounding; all collisions lose at least (1 - e^2) m_n V_n^2/2, of both kinds."""
+    motion = collisions(20_000)
+    after = carom.collide(PAIR, law=law, **motion)
+
+    def state(velocity1, spin1, velocity2, spin2):
+        momentum, energy = 0.0, 0.0
+        for body, velocity, spin in ((BALL, velocity1, spin1), (OTHER, velocity2, spin2)):
+            inertia = body.mass * body.gyration_ratio * body.radius**2
+            momentum = momentum + body.mass * velocity
+            energy = energy + 0.5 * np.sum(body.mass * velocity**2 + inertia * spin**2, axis=1)
+        return momentum, energy
+
+    momentum, energy = state(*(motion[n] for n in ("velocity1", "spin1", "velocity2", "spin2")))
+    momentum_out, energy_out = state(*after[:4])
+    assert np.max(np.abs(momentum_out - momentum)) <= 1e-14 * np.max(np.abs(momentum))
+    closing = np.sum((motion["velocity1"] - motion["velocity2"]) * motion["normal"], axis=1)
+    least = 0.5 * PAIR.normal_mass * (1.0 - 0.8**2) * np.maximum(closing, 0.0) ** 2
+    assert np.all(energy - energy_out >= least - 1e-13 * energy)
+    hit = after.status == carom.CollisionStatus.COLLIDED
+    assert 0.4 < hit.mean() < 0.6
+
+
+def test_survives_storage_to_the_bit_and_old_tables_load(law):
+    """JSON and pickle give the same bits; a table without restitution is one of elastic bodies."""
+    psi = np.random.default_rng(1).uniform(-15.0, 15.0, 2000)
+    stored = json.loads(json.dumps(law.to_dict()))
+    for again in (carom.ReboundLaw.from_dict(stored), pickle.loads(pickle.dumps(law))):
+        assert (again.chi, again.restitution) == (law.chi, 0.8)
+        assert np.array_equal(again(psi), law(psi))
+    elastic = carom.ReboundLaw(1.44)
+    old = {name: part for name, part in elastic.to_dict().items() if name != "restitution"}
+    assert np.array_equal(carom.ReboundLaw.from_dict(old)(psi), elastic(psi))
+    for wrong in (1.0, 0.7, 2.0, "x", None):
+        with pytest.raises(carom.InputError, match=r"^table: [^\n]+$"):
+            carom.ReboundLaw.from_dict(stored | {"restitution": wrong})
+
+
+def test_restitution_one_is_the_elastic_law():
+    """To the bit."""
+    psi = np.linspace(-9.0, 9.0, 999)
+    lossless = carom.ReboundLaw(1.44, normal=carom.KelvinVoigt(restitution=1.0))
+    assert np.array_equal(lossless(psi), carom.ReboundLaw(1.44)(psi))
+
+
+@pytest.mark.parametrize(
+    "normal",
+    [
+        carom.KelvinVoigt(loss_time="2 us"),
+        carom.KelvinVoigt(restitution=np.array([0.9, 0.8])),
+        carom.ElasticPlastic(yield_velocity="0.1 m/s"),
+        0.9,
+        "viscous",
+    ],
+)
+def test_refuses_losses_that_have_no_table(normal):
+    """One line that names normal."""
+    with pytest.raises(carom.InputError, match=r"^normal: [^\n]+$"):
+        carom.ReboundLaw(1.44, normal=normal)
+
+
+def test_c_header_is_the_law(law, tmp_path):
+    """Compiled, to 1e-14 max(1, |psi|); the text says e."""
+    compiler = shutil.which("cc")
+    if compiler is None:
+        pytest.skip("needs a C compiler, cc, on the path")
+    text = c_header([law, carom.ReboundLaw(1.44)])
+    assert "e = 0.8;" in text
+    assert max(map(len, text.splitlines())) <= 100
+    name = text.partition("double carom_rebound_")[2].partition("(")[0]
+    assert name.endswith("_e_0_8")
+    assert "double carom_rebound_1_44(double psi)" in text
+    source, library = tmp_path / "law.c", tmp_path / "law.so"
+    source.write_text(
+        f"{text}\ndouble f(double x);\ndouble f(double x) "
+        f"{{ (void)carom_rebound_1_44; return carom_rebound_{name}(x); }}\n"
+    )
+    strict = ["-Wall", "-Wextra", "-pedantic", "-Werror", "-std=c99", "-O1"]
+    command = [compiler, *strict, "-shared", "-fPIC", str(source), "-o", str(library)]
+    subprocess.run(command, check=True)
+    function = ctypes.CDLL(str(library)).f
+    function.argtypes, function.restype = [ctypes.c_double], ctypes.c_double
+    psi = np.concatenate([np.linspace(-12.0, 12.0, 2001), law.edges, [1e300, -1e15]])
+    got = np.array([function(each) for each in psi])
+    assert np.max(np.abs(got - law(psi)) / np.maximum(1.0, np.abs(psi))) <= 1e-14
+
+
+def test_curve_of_impacts_with_losses(capsys, tmp_path, monkeypatch):
+    """The command prints what `rebound` gives, without the borders of elastic regimes; plots."""
+    monkeypatch.chdir(tmp_path)
+    arguments = ["--chi", "1.44", "--chi", "2", "--restitution", "0.9", "--points", "7", "--json"]
+    assert main(["curve", *arguments, "--plot", "curve.png"]) == 0
+    rows = json.loads(capsys.readouterr().out)
+    for row in rows:
+        assert "borders" not in row
+        want = carom.rebound(row["psi_in"], row["chi"], normal=carom.KelvinVoigt(restitution=0.9))
+        np.testing.assert_allclose(row["psi_out"], want, rtol=0.0, atol=1e-12)
+    assert (tmp_path / "curve.png").stat().st_size > 1000
+    from carom.plots import plot_curve
+
+    axis = plot_curve(carom.curve(1.44, np.linspace(0.0, 6.0, 9), normal=LOSSES)).axes[0]
+    assert [text.get_text() for text in axis.get_legend().get_texts()] == [r"$\chi$ = 1.44"]
+    assert main(["curve", "--chi", "1.44", "--restitution", "1.5"]) == 2
+    assert capsys.readouterr().err.startswith("carom: restitution: '1.5' cannot be used")
