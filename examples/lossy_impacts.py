@@ -2,9 +2,9 @@
 
 Viscous spheres (Kelvin & Voigt) lose little in slow impacts, 1 - e ~ V^(1/5); metals that yield
 lose more the faster they strike, e ~ V^(-1/4) (Thornton 1997). Left: psi_2 against psi_1 for equal
-e at all speeds; crosses: annuli and small steps. A contact that is viscous in compression never slides
-throughout: at its growing edge pressure comes at once and traction by and by, so a belt sticks and
-the curves stay above psi_1 - 2 chi (1 + e), the thin lines.
+e at all speeds; crosses: annuli and small steps. A contact that is viscous in compression never
+slides throughout: at its growing edge pressure comes at once and traction by and by, so a belt
+sticks and the curves stay above psi_1 - 2 chi (1 + e), the thin lines.
 """
 
 from pathlib import Path

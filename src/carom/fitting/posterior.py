@@ -93,8 +93,3 @@ def _dataset(fit: "Fit", chain: Array, times: Array, steps: int, seed: int | Non
     }
     coords = {"sample": ("sample", np.arange(len(chain)), {"long_name": "sample"})}
     return labelled_dataset(variables, coords, told)
-
-
-def corner_names(samples: "xr.Dataset") -> list[str]:
-    """Return the variables of samples that a corner plot shows: not chi beside kappa."""
-    return [str(name) for name in samples.data_vars if name != "chi"]

@@ -105,10 +105,9 @@ def plot_corner(samples: "xr.Dataset") -> Figure:
         What `carom.fit(...).posterior()` returns.
     """
     from carom.extras import extra
-    from carom.fitting.posterior import corner_names
 
     corner = extra("corner", "a corner plot", "fit")
-    names = corner_names(samples)
+    names = _sampled_names(samples)
     side = max(SINGLE, 45.0 * len(names)) * MM
     figure = Figure(figsize=(side, side))
     values = np.stack([samples[name].values for name in names], axis=1)
@@ -122,6 +121,11 @@ def plot_corner(samples: "xr.Dataset") -> Figure:
         quiet=True,
     )
     return figure
+
+
+def _sampled_names(samples: "xr.Dataset") -> list[str]:
+    """Return the variables of samples that a corner plot shows: not chi beside kappa."""
+    return [str(name) for name in samples.data_vars if name != "chi"]
 
 
 def _draw_response(axes: Any, dataset: "xr.Dataset", name: str) -> None:
