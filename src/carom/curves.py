@@ -71,8 +71,8 @@ def curve(
     >>> import carom
     >>> carom.curve(1.44, [0.0, 1.0, 6.0]).psi_out.values.round(4)
     array([[ 0.    , -0.0612,  0.24  ]])
-    >>> carom.curve(1.44, 6.0, normal=carom.KelvinVoigt(restitution=0.9)).psi_out.values.round(4)
-    array([[0.5304]])
+    >>> carom.curve(1.44, [6.0], normal=carom.KelvinVoigt(restitution=0.9)).psi_out.values.round(4)
+    array([[0.5295]])
     """
     chis, incoming = positive_line("chi", chi), finite_line("psi", psi)
     rows = chis[:, np.newaxis]

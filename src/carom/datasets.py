@@ -1,4 +1,11 @@
-"""Measured rebounds that come with Carom: tables with units, definitions, errors and sources."""
+"""Measured rebounds that come with Carom: tables with units, definitions, errors and sources.
+
+Examples
+--------
+>>> import carom
+>>> carom.datasets.names()
+('kharaz2001', 'kharaz2001_kratos', 'kharaz2001_mfix')
+"""
 
 from functools import lru_cache
 from importlib.resources import files

@@ -68,7 +68,7 @@ class ReboundLaw:
     True
     >>> lossy = carom.ReboundLaw(1.44, normal=carom.KelvinVoigt(restitution=0.9))
     >>> lossy([0.5, 6.0]).round(5), round(lossy.duration, 4)
-    (array([-0.00105,  0.5304 ]), 2.9)
+    (array([-0.00068,  0.52947]), 2.9186)
     """
 
     chi: float
