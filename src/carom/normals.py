@@ -13,7 +13,7 @@ from carom.dimensionless.lossy.normal import Loss
 from carom.dimensionless.lossy.stages import viscous_loss
 from carom.elementwise import sqrt
 from carom.pairs import Pair
-from carom.quantities import InputError, positive, refusal
+from carom.quantities import InputError, not_negative, number, positive, refusal
 
 SMALLEST_RESTITUTION = 1e-3
 LIMIT_PRESSURE = 1.6  # in yield strengths: where a sphere first yields (Johnson 1985, 6.1)
@@ -195,15 +195,13 @@ def _alphas(restitution: Any) -> Any:
 def _restitution(value: Any) -> Any:
     if np.ndim(value):
         return value
-    found = _checked("restitution", value)
+    found = number("restitution", value)
     if not SMALLEST_RESTITUTION <= found <= 1.0:
         raise refusal("restitution", value, f"must be from {SMALLEST_RESTITUTION:g} to 1")
     return found
 
 
 def _loss_time(value: Any) -> Any:
-    from carom.quantities import not_negative
-
     return value if np.ndim(value) else not_negative("loss_time", value)
 
 

@@ -128,7 +128,7 @@ def run(
         elif not plan.to_change:
             growth = SAFETY * (tolerance / (error + 1e-18)) ** (1.0 / ORDER)
             natural = min(LONGEST, plan.length * min(GROWTH, growth))
-    return Status.TOO_MANY_PHASES.value, MAX_PANELS
+    return Status.UNRESOLVED.value, MAX_PANELS
 
 
 @kernel

@@ -124,7 +124,7 @@ def lossy_rebounds(
     found, codes = np.empty((lossy.size, NUMBERS)), np.empty(lossy.size, dtype=np.int8)
 
     def block(part: slice) -> None:
-        given = psis[part], chis[part], loss, parameters[part]
+        given = psis[part], chis[part], int(loss), parameters[part]
         fill(*given, new_work(), new_record(False), found[part], codes[part])
 
     in_blocks(block, lossy.size, BLOCK, SMALLEST_BLOCK, threads)
