@@ -23,7 +23,7 @@ from carom.dimensionless.record import (
     new_record,
     trimmed,
 )
-from carom.dimensionless.states import KIND_NAMES, History, Phase, SlipAngle, now_at
+from carom.dimensionless.states import KIND_NAMES, History, Phase, SlipAngle, now_at, times_within
 
 Array = NDArray[np.float64]
 
@@ -89,10 +89,7 @@ class Solution:
         """
         if self.status is not Status.SOLVED:
             raise ValueError(f"psi = {self.psi_in:g}, chi = {self.chi:g}: {self.status.message}")
-        wanted = np.asarray(time, dtype=np.float64).ravel()
-        if not np.all((wanted >= 0.0) & (wanted <= self.duration)):
-            outside = wanted[~((wanted >= 0.0) & (wanted <= self.duration))][0]
-            raise ValueError(f"time: {outside:g} is outside the contact, 0 to {self.duration:.6g}")
+        wanted = times_within(self.duration, time)
         rows = np.empty((wanted.size, dense.COLUMNS))
         record, scale = self._record, self.scale
         dense.sample(record.nodes, record.series, self.chi, self._times, self._moved, wanted, rows)

@@ -4,7 +4,7 @@ from dataclasses import dataclass, fields
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from carom.dimensionless.phases import Kind
 
@@ -53,6 +53,16 @@ class History:
 
     def __len__(self) -> int:
         return len(self.time)
+
+
+def times_within(duration: float, time: ArrayLike) -> Array:
+    """Return times of a contact as a line of numbers, or raise ValueError for one outside it."""
+    wanted = np.asarray(time, dtype=np.float64).ravel()
+    within = (wanted >= 0.0) & (wanted <= duration)
+    if not np.all(within):
+        outside = wanted[~within][0]
+        raise ValueError(f"time: {outside:g} is outside the contact, 0 to {duration:.6g}")
+    return wanted
 
 
 def now_at(history: History) -> dict[str, float]:

@@ -33,7 +33,7 @@ from carom.dimensionless.lossy.record import (
 )
 from carom.dimensionless.lossy.work import new_work
 from carom.dimensionless.phases import Kind, Status
-from carom.dimensionless.states import KIND_NAMES, History, Phase
+from carom.dimensionless.states import KIND_NAMES, History, Phase, times_within
 
 Array = NDArray[np.float64]
 
@@ -86,10 +86,7 @@ class LossySolution:
         """
         if self.status is not Status.SOLVED:
             raise ValueError(f"psi = {self.psi_in:g}, chi = {self.chi:g}: {self.status.message}")
-        wanted = np.asarray(time, dtype=np.float64).ravel()
-        if not np.all((wanted >= 0.0) & (wanted <= self.duration)):
-            outside = wanted[~((wanted >= 0.0) & (wanted <= self.duration))][0]
-            raise ValueError(f"time: {outside:g} is outside the contact, 0 to {self.duration:.6g}")
+        wanted = times_within(self.duration, time)
         rows, scale = self._sampled(wanted), self._scale
         first, psi = self._record.rows[0, AT_PSI, 0], rows[AT_PSI]
         stored = 1.875 * self.chi * rows[AT_SQUARE]
