@@ -94,17 +94,25 @@ def series(b, v, drag, recession):
     return [row[::-1] for row in (b, v, t)]
 
 
+def horner(row, x):
+    """Return a polynomial at x, the highest power first."""
+    total = mp.mpf(0)
+    for coefficient in row:
+        total = total * x + coefficient
+    return total
+
+
 def part(b, v, drag, recession, falls, stride):
     """Return b, v and elapsed time where b (`falls` 0) or v (1) comes down to zero."""
     time = mp.mpf(0)
     while True:
         rows = series(b, v, drag, recession)
-        ahead = [mp.polyval(row, stride) for row in rows]
+        ahead = [horner(row, stride) for row in rows]
         if ahead[falls] <= 0:
             clock = mp.findroot(
-                lambda z, row=rows[falls]: mp.polyval(row, z), (0, stride), solver="anderson"
+                lambda z, row=rows[falls]: horner(row, z), (0, stride), solver="anderson"
             )
-            b, v, dt = (mp.polyval(row, clock) for row in rows)
+            b, v, dt = (horner(row, clock) for row in rows)
             return b, v, time + dt
         b, v, time = ahead[0], ahead[1], time + ahead[2]
 
