@@ -1,0 +1,81 @@
+"""The motion of the bodies through an impact, coupled to the contact between them."""
+
+from collections.abc import Iterator
+from math import gamma, pi, sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.halfspace.influence import Field
+from carom.halfspace.quasistatic import Patch, Step
+
+DURATION = 0.8 * sqrt(pi) * gamma(0.4) / gamma(0.9)  # of Hertz's impact, 2.9433 d_max/V_1
+NORMAL = 15.0 / 16.0  # d'' = -NORMAL P
+REACH = 1.0  # elements by which the edge may move in a step
+SLOWEST = 0.05  # of V_1: near the turning point the number of steps decides
+
+
+class Motion(NamedTuple):
+    """The bodies at an instant. The tangential velocity is psi/kappa, in friction V_1."""
+
+    time: float
+    approach: float  # velocity, d'
+    velocity: Field  # shape (2,)
+    step: Step
+    force: float  # P
+    drag: Field  # F over friction, shape (2,)
+
+
+class Inertia(NamedTuple):
+    """How forces change velocities: d'' = -normal P, V' = -tangential F."""
+
+    normal: float
+    tangential: float
+
+
+def inertia(chi: float, kappa: float) -> Inertia:
+    """Return the response of bodies to forces: tangential (15/8) chi/kappa."""
+    return Inertia(NORMAL, 2.0 * NORMAL * chi / kappa)
+
+
+def move(patch: Patch, psi: Field, chi: float, steps: int) -> Iterator[Motion]:
+    """Yield the impact step by step, from the first touch to the last.
+
+    Verlet's method, of second order: half of the change of velocities, the path, the quasi-static
+    contact at its end, the other half (Hairer, Lubich & Wanner 2003, Acta Numerica 12:399). Steps
+    are a fraction of the duration of Hertz's impact, smaller where the edge of the contact moves
+    fast. The last one is cut where the bodies part.
+    """
+    kappa = patch.compliance.materials.kappa
+    response, spacing = inertia(chi, kappa), patch.compliance.spacing
+    nothing = Step(patch.untouched(), np.zeros_like(patch.untouched().yielded), patch.gap < 0.0)
+    now = Motion(0.0, 1.0, np.asarray(psi, dtype=float) / kappa, nothing, 0.0, np.zeros(2))
+    yield now
+    while True:
+        length = min(DURATION / steps, _edge_limit(now, spacing))
+        approach = now.approach - 0.5 * length * response.normal * now.force
+        velocity = now.velocity - 0.5 * length * response.tangential * now.drag
+        state = now.step.state
+        depth = state.depth + length * approach
+        if depth <= 0.0:
+            left = state.depth / -approach
+            yield Motion(now.time + left, approach, velocity, nothing, 0.0, np.zeros(2))
+            return
+        step = patch.advance(state, depth, state.displacement + length * velocity)
+        force = patch.element * float(step.state.pressure.sum())
+        drag = patch.element * step.state.traction.sum(axis=(1, 2))
+        now = Motion(
+            now.time + length,
+            approach - 0.5 * length * response.normal * force,
+            velocity - 0.5 * length * response.tangential * drag,
+            step,
+            force,
+            drag,
+        )
+        yield now
+
+
+def _edge_limit(now: Motion, spacing: float) -> float:
+    """Return the time in which the edge, a = sqrt d, moves by REACH elements."""
+    radius = max(sqrt(now.step.state.depth), 0.25 * spacing)
+    return REACH * spacing * 2.0 * radius / max(abs(now.approach), SLOWEST)

@@ -1,0 +1,123 @@
+"""The smallest energy of a contact under bounds that hold element by element.
+
+Both contact problems are of one kind: among tractions x within bounds, half-lines for the pressure
+and discs for the traction, find the one of least (1/2) x.A x - given.x, A the compliance. What is
+left, given - A x, is the pull on each element: a gap that closes, or slip.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from carom.halfspace.influence import Field
+
+ITERATIONS = 200
+INNER = 80  # conjugate gradients within one face
+FORCING = 1e-4  # what they leave of the squared residual
+FINEST = 0.3  # of what ends the whole
+HALVINGS = 30
+DECREASE = 1e-4  # of what the slope promises (Armijo)
+
+
+class Solved(NamedTuple):
+    """Tractions, and the displacement that they cause."""
+
+    load: Field
+    displacement: Field
+
+
+class Face(NamedTuple):
+    """Directions in which tractions may move, and how the bounds bend there."""
+
+    project: Callable[[Field], Field]
+    bend: Field | float
+
+
+class Bounds(Protocol):
+    """Where tractions may be."""
+
+    def project(self, load: Field) -> Field:
+        """Return the nearest tractions within the bounds."""
+
+    def face(self, load: Field, pull: Field) -> Face:
+        """Return where tractions may move, those at their bound if the pull is inwards alone."""
+
+    def largest(self, load: Field) -> float:
+        """Return the traction that errors are measured by."""
+
+
+class Operator(NamedTuple):
+    """A compliance: its displacements, roughly its inverse, and its diagonal."""
+
+    displacement: Callable[[Field], Field]
+    roughly_inverse: Callable[[Field], Field]
+    diagonal: float
+
+
+def minimise(
+    operator: Operator, given: Field, bounds: Bounds, start: Field, tolerance: float
+) -> Solved:
+    """Return the tractions of least energy within the bounds.
+
+    Newton's method projected (Bertsekas 1982, SIAM J. Control Optim. 20:221): preconditioned
+    conjugate gradients within the face of tractions that may move, then a search along the path
+    that is projected back within the bounds; from the gradient, should Newton's direction not
+    descend. It ends where no traction x differs from project(x + pull/diagonal) by more than
+    `tolerance` of the largest; raises RuntimeError if that is not reached.
+    """
+    load = bounds.project(start)
+    displacement = operator.displacement(load)
+    for _ in range(ITERATIONS):
+        pull = given - displacement
+        downhill = pull / operator.diagonal
+        allowed = tolerance * bounds.largest(load)
+        if np.abs(bounds.project(load + downhill) - load).max() <= allowed:
+            return Solved(load, displacement)
+        face = bounds.face(load, pull)
+        newton = _newton(operator, face, pull, FINEST * allowed * operator.diagonal)
+        change = _search(operator, bounds, load, newton, pull)
+        if change is None:
+            change = _search(operator, bounds, load, downhill, pull)
+        if change is None:
+            return Solved(load, displacement)  # no lower energy within rounding
+        load, displacement = load + change.load, displacement + change.displacement
+    raise RuntimeError(f"the tractions of least energy were not found in {ITERATIONS} iterations")
+
+
+def _newton(operator: Operator, face: Face, pull: Field, finest: float) -> Field:
+    """Return the step to the lowest energy within a face, to first order of its bend."""
+    residual, weight = face.project(pull), np.sqrt(1.0 / (1.0 + face.bend / operator.diagonal))
+
+    def scaled(vectors: Field) -> Field:
+        return weight * face.project(operator.roughly_inverse(face.project(weight * vectors)))
+
+    step, direction = np.zeros_like(pull), scaled(residual)
+    square = first = float(np.sum(residual * direction))
+    for _ in range(INNER):
+        if square <= FORCING * first or np.abs(residual).max() <= finest:
+            break
+        bent = face.project(operator.displacement(direction)) + face.bend * direction
+        length = square / float(np.sum(direction * bent))
+        step += length * direction
+        residual = residual - length * bent
+        preconditioned = scaled(residual)
+        last, square = square, float(np.sum(residual * preconditioned))
+        direction = preconditioned + square / last * direction
+    return step
+
+
+def _search(
+    operator: Operator, bounds: Bounds, load: Field, direction: Field, pull: Field
+) -> Solved | None:
+    """Return a change along the projected direction that lowers the energy, or None."""
+    length = 1.0
+    for _ in range(HALVINGS):
+        change = bounds.project(load + length * direction) - load
+        slope = float(np.sum(pull * change))
+        if slope > 0.0:
+            displacement = operator.displacement(change)
+            if 0.5 * float(np.sum(change * displacement)) <= (1.0 - DECREASE) * slope:
+                return Solved(change, displacement)
+        length *= 0.5
+    return None

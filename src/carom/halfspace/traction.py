@@ -1,0 +1,62 @@
+"""Tangential contact: Coulomb's law as a vector, for a pressure that is known."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.halfspace.compliance import Compliance
+from carom.halfspace.influence import Field, Mask
+from carom.halfspace.projected import Face, Operator, Solved, minimise
+
+
+class Discs(NamedTuple):
+    """Tractions are at most friction times pressure, in any direction: |q| <= p."""
+
+    bound: Field
+
+    def project(self, load: Field) -> Field:
+        """Return the nearest traction with |q| <= p."""
+        size = np.hypot(*load)
+        return load * (np.minimum(size, self.bound) / np.where(size > 0.0, size, 1.0))
+
+    def face(self, load: Field, pull: Field) -> Face:
+        """Return where traction moves freely, sticking, and along the edge of a disc, slipping.
+
+        Along the edge the energy is bent by slip over bound.
+        """
+        size = np.hypot(*load)
+        unit = load / np.where(size > 0.0, size, 1.0)
+        outwards = np.sum(pull * unit, axis=0)
+        slips = (size > 0.0) & at_bound(load, self.bound) & (outwards > 0.0)
+        sticks = (self.bound > 0.0) & ~slips
+        edge = np.where(slips, np.stack([-unit[1], unit[0]]), 0.0)
+        bend = np.where(slips, outwards / np.where(slips, self.bound, 1.0), 0.0)
+
+        def project(vectors: Field) -> Field:
+            return np.where(sticks, vectors, np.sum(edge * vectors, axis=0) * edge)
+
+        return Face(project, bend)
+
+    def largest(self, load: Field) -> float:
+        """Return the largest bound."""
+        return float(self.bound.max())
+
+
+def at_bound(traction: Field, bound: Field) -> Mask:
+    """Return where a traction is as large as friction allows."""
+    reached: Mask = np.hypot(*traction) >= bound * (1.0 - 1e-12)
+    return reached
+
+
+def solve_traction(
+    compliance: Compliance, given: Field, bound: Field, start: Field, tolerance: float = 1e-6
+) -> Solved:
+    """Return the traction with |q| <= bound that follows a given displacement as far as it can.
+
+    Of all such tractions it has the least energy (1/2) q.T q - given.q (Kalker 1990, section 4.2):
+    where |q| < bound the surfaces give way by what is given, elsewhere given - T q is slip along q.
+    """
+    operator = Operator(
+        compliance.tangential, compliance.roughly_traction, compliance.tangential_diagonal
+    )
+    return minimise(operator, given, Discs(bound), start, tolerance)
