@@ -13,10 +13,9 @@ import numpy as np
 import scipy.fft
 from carom.halfspace.compliance import Compliance
 from carom.halfspace.influence import Field, influence
-from carom.halfspace.traction import project
+from carom.halfspace.traction import Discs, at_bound
 from numba import njit
 
-EDGE = 1.0 - 1e-12  # of its bound: from there on an element is on its disc's edge
 MEMORY = 10  # iterations over which the spectral gradient may rise
 FORCING = 0.1  # what conjugate gradients leave of the residual within ADMM
 INNER = 50
@@ -34,6 +33,15 @@ class Problem(NamedTuple):
         """Return where traction is possible at all."""
         return self.bound > 0.0
 
+    def project(self, traction: Field) -> Field:
+        """Return the nearest traction on the discs."""
+        return Discs(self.bound).project(traction)
+
+    def inverse(self, displacement: Field) -> Field:
+        """Return about the traction that causes it: four transforms, of a quarter of the size."""
+        self.compliance.transforms += 1
+        return self.compliance.roughly_traction(displacement)
+
     def slip(self, displacement: Field) -> Field:
         """Return what is not followed: the negative gradient."""
         return np.where(self.touching, self.given - displacement, 0.0)
@@ -41,12 +49,13 @@ class Problem(NamedTuple):
 
 Iterates = Iterator[tuple[Field, Field] | None]
 Solver = Callable[[Problem, Field], Iterates]
+Inverse = Callable[[Field], Field]
 
 
 class Circulant:
-    """T. Chan's circulant next to T (SIAM J. Sci. Stat. Comput. 9:766, 1988), plus `shift`."""
+    """The circulant next to T (T. Chan 1988, SIAM J. Sci. Stat. Comput. 9:766), plus a shift."""
 
-    def __init__(self, problem: Problem, shift: float = 0.0) -> None:
+    def __init__(self, problem: Problem, shift: float) -> None:
         self.compliance, size = problem.compliance, problem.compliance.size
         offsets = np.fft.fftfreq(2 * size, 1.0 / (2 * size))
         unit = influence(*np.meshgrid(offsets, offsets, indexing="ij"))
@@ -72,15 +81,15 @@ class Circulant:
 
 def spectral_gradient(problem: Problem, start: Field) -> Iterates:
     """Birgin, Martinez & Raydan 2000, SIAM J. Optim. 10:1196: their second method."""
-    traction = project(start, problem.bound)
+    traction = problem.project(start)
     moved = problem.compliance.tangential(traction)
-    length, energies = 1.0 / problem.compliance.diagonal, [np.inf]
+    length, energies = 1.0 / problem.compliance.tangential_diagonal, [np.inf]
     while True:
         yield traction, moved
         slip = problem.slip(moved)
         energy = -0.5 * float(np.sum(traction * (slip + problem.given)))
         energies = [*energies, energy][-MEMORY:]
-        change = project(traction + length * slip, problem.bound) - traction
+        change = problem.project(traction + length * slip) - traction
         bent = problem.compliance.tangential(change)
         slope, curvature = float(np.sum(slip * change)), float(np.sum(change * bent))
         step, worst = 1.0, max(e for e in energies if e < np.inf)
@@ -95,14 +104,14 @@ def spectral_gradient(problem: Problem, start: Field) -> Iterates:
 def fast_gradient(problem: Problem, start: Field) -> Iterates:
     """FISTA (Beck & Teboulle 2009, SIAM J. Imaging Sci. 2:183), started anew where it rises
     (O'Donoghue & Candes 2015, Found. Comput. Math. 15:715)."""
-    traction = project(start, problem.bound)
+    traction = problem.project(start)
     moved = problem.compliance.tangential(traction)
     length, pace = 1.0 / norm(problem), 1.0
     ahead, moved_ahead = traction, moved
     while True:
         yield traction, moved
         last, last_moved = traction, moved
-        traction = project(ahead + length * problem.slip(moved_ahead), problem.bound)
+        traction = problem.project(ahead + length * problem.slip(moved_ahead))
         moved = problem.compliance.tangential(traction)
         if float(np.sum((ahead - traction) * (traction - last))) > 0.0:
             pace = 1.0
@@ -116,14 +125,14 @@ def proportioned(problem: Problem, start: Field) -> Iterates:
     """MPGP: conjugate gradients inside the discs, gradient projection for what is on their edge
     (Dostal & Kozubek 2012, Math. Program. 135:195)."""
     length = 1.9 / norm(problem)
-    traction = project(start, problem.bound)
+    traction = problem.project(start)
     moved, direction = problem.compliance.tangential(traction), None
     while True:
         yield traction, moved
         slip = problem.slip(moved)
-        inside = np.hypot(*traction) < EDGE * problem.bound
+        inside = ~at_bound(traction, problem.bound)
         free = inside * slip
-        reduced = (project(traction + length * slip, problem.bound) - traction) / length
+        reduced = (problem.project(traction + length * slip) - traction) / length
         if float(np.sum(np.where(inside, 0.0, reduced) ** 2)) <= float(np.sum(free * reduced)):
             if direction is None:
                 direction = free
@@ -137,7 +146,7 @@ def proportioned(problem: Problem, start: Field) -> Iterates:
                 direction = left - float(np.sum(left * bent)) / curvature * direction
                 continue
             slip = problem.slip(moved)
-        traction = project(traction + length * slip, problem.bound)
+        traction = problem.project(traction + length * slip)
         moved, direction = problem.compliance.tangential(traction), None
 
 
@@ -145,27 +154,26 @@ def _room(traction: Field, direction: Field, bound: Field) -> float:
     """Return how far a direction can be followed inside all discs."""
     square, along = np.sum(direction**2, axis=0), np.sum(traction * direction, axis=0)
     moving = square > 0.0
-    room = np.maximum(bound**2 - np.sum(traction**2, axis=0), 0.0)[moving]
-    square, along = square[moving], along[moving]
+    room = np.maximum(bound**2 - np.sum(traction**2, axis=0), 0.0)
     root = np.sqrt(along**2 + square * room)
-    return float(np.min(room / (along + root), where=along + root > 0.0, initial=np.inf))
+    return float(np.min((root - along)[moving] / square[moving], initial=np.inf))
 
 
 def face_gradients(problem: Problem, start: Field) -> Iterates:
     """Nonlinear conjugate gradients along the discs, projected back, after TangCG
     (Zhao, Vollebregt & Oosterlee 2015, J. Comput. Phys. 288:86)."""
-    diagonal = problem.compliance.diagonal
+    diagonal = problem.compliance.tangential_diagonal
     return _face_gradients(problem, start, lambda loads: loads / diagonal)
 
 
 def face_gradients_fft(problem: Problem, start: Field) -> Iterates:
     """The same with a circulant as preconditioner."""
-    return _face_gradients(problem, start, Circulant(problem).solve)
+    return _face_gradients(problem, start, problem.inverse)
 
 
-def _face_gradients(problem: Problem, start: Field, inverse: Callable[[Field], Field]) -> Iterates:
-    diagonal, bound = problem.compliance.diagonal, problem.bound
-    traction = project(start, bound)
+def _face_gradients(problem: Problem, start: Field, inverse: Inverse) -> Iterates:
+    diagonal, bound = problem.compliance.tangential_diagonal, problem.bound
+    traction = problem.project(start)
     moved = problem.compliance.tangential(traction)
     direction, before, last, residual_before = None, None, 1.0, None
     while True:
@@ -173,7 +181,7 @@ def _face_gradients(problem: Problem, start: Field, inverse: Callable[[Field], F
         slip, size = problem.slip(moved), np.hypot(*traction)
         unit = traction / np.where(size > 0.0, size, 1.0)
         outwards = np.sum(slip * unit, axis=0)
-        slips = problem.touching & (size >= EDGE * bound) & (outwards > 0.0)
+        slips = problem.touching & at_bound(traction, bound) & (outwards > 0.0)
 
         def along(field: Field, slips: Field = slips, unit: Field = unit) -> Field:
             field = np.where(slips, field - np.sum(field * unit, axis=0) * unit, field)
@@ -193,7 +201,7 @@ def _face_gradients(problem: Problem, start: Field, inverse: Callable[[Field], F
         length = float(np.sum(residual * direction) / np.sum(direction * (bent + bend * direction)))
         before, last, residual_before = slips, square, residual
         onward = traction + length * direction
-        traction = project(onward, bound)
+        traction = problem.project(onward)
         if np.array_equal(traction, onward):
             moved = moved + length * bent
         else:
@@ -204,10 +212,10 @@ def splitting(problem: Problem, start: Field) -> Iterates:
     """ADMM (Boyd et al. 2011, Found. Trends Mach. Learn. 3:1): elasticity and discs in turns,
     elasticity by conjugate gradients with a circulant, weight kept in balance (their 3.4.1)."""
     compliance, touching = problem.compliance, problem.touching
-    on_discs = project(start, problem.bound)
+    on_discs = problem.project(start)
     moved = compliance.tangential(on_discs)
     yield on_discs, moved
-    weight = sqrt(compliance.diagonal * norm(problem))
+    weight = sqrt(compliance.tangential_diagonal * norm(problem))
     multiplier = problem.slip(moved) / weight
     free, bent, inverse = on_discs, moved, Circulant(problem, weight)
     largest = float(problem.bound.max())
@@ -217,10 +225,10 @@ def splitting(problem: Problem, start: Field) -> Iterates:
         wanted = FORCING * float(np.abs(residual).max())
         free, bent = _shifted(problem, inverse, weight, free, bent, residual, wanted)
         relaxed = 1.6 * free - 0.6 * on_discs
-        last, on_discs = on_discs, project(relaxed + multiplier, problem.bound)
+        last, on_discs = on_discs, problem.project(relaxed + multiplier)
         multiplier = multiplier + relaxed - on_discs
         primal, dual = float(np.abs(free - on_discs).max()), float(np.abs(on_discs - last).max())
-        dual *= weight / compliance.diagonal
+        dual *= weight / compliance.tangential_diagonal
         near = max(primal, dual) <= 1e-7 * largest
         yield (on_discs, compliance.tangential(on_discs)) if near else None
         factor = 2.0 if primal > 10.0 * dual else 0.5 if dual > 10.0 * primal else 1.0
@@ -268,7 +276,7 @@ def gauss_seidel(problem: Problem, start: Field) -> Iterates:
     yy = scale * (unit.xx + unit.yy + lateral * unit.yy)
     matrix = np.stack([xx, scale * lateral * unit.xy, yy])
     given, bound = problem.given[:, touching], problem.bound[touching]
-    values = np.ascontiguousarray(project(start, problem.bound)[:, touching])
+    values = np.ascontiguousarray(problem.project(start)[:, touching])
     while True:
         traction, moved = np.zeros_like(problem.given), np.zeros_like(problem.given)
         traction[:, touching] = values

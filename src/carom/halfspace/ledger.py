@@ -1,0 +1,92 @@
+"""What a step of an impact comes to: forces, zones, energies, and which way the slip goes."""
+
+from math import pi, sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.halfspace.influence import Field
+from carom.halfspace.motion import Motion
+from carom.halfspace.quasistatic import Patch
+from carom.halfspace.traction import at_bound
+
+
+class Entry(NamedTuple):
+    """One instant of an impact, along the direction of the motion and across it.
+
+    Units as in `Compliance` and `Motion`; energies of the normal motion in E* a_max d_max^2, of the
+    tangential motion in friction^2 times that. What is `lost` and the angles belong to the step
+    that ends here.
+    """
+
+    time: float
+    depth: float
+    approach: float
+    displacement: float
+    velocity: float
+    velocity_across: float
+    force: float
+    drag: float
+    contact_radius: float  # of the circle of the same area
+    stick_radius: float
+    normal_stored: float
+    tangential_stored: float
+    lost: float  # to friction
+    lost_across: float  # of that, by slip across the direction
+    slip_angle: float  # between slip and the direction, averaged over the work of friction
+    slip_angle_max: float
+
+
+def entry(patch: Patch, before: Motion, now: Motion, direction: Field) -> Entry:
+    """Return what the step from one instant to the next comes to."""
+    state, old = now.step.state, before.step.state
+    touching, moved = state.pressure > 0.0, now.step.moved
+    slipping = now.step.gripped & at_bound(state.traction, state.pressure)
+    work = patch.element * 0.5 * (old.traction + state.traction) * moved
+    across = np.array([-direction[1], direction[0]])
+    lost_across = 0.5 * (_along(across, old.traction) + _along(across, state.traction))
+    lost_across *= _along(across, moved)
+    mean, largest = _angles(state.traction, moved, slipping, direction)
+    return Entry(
+        now.time,
+        state.depth,
+        now.approach,
+        float(state.displacement @ direction),
+        float(now.velocity @ direction),
+        float(now.velocity @ across),
+        now.force,
+        float(now.drag @ direction),
+        _radius(patch, np.count_nonzero(touching)),
+        _radius(patch, np.count_nonzero(touching & ~slipping)),
+        0.5 * patch.element * float(np.sum(state.pressure * (state.depth - patch.gap))),
+        0.5 * patch.element * float(np.sum(state.traction * state.yielded)),
+        float(work.sum()),
+        patch.element * float(lost_across.sum()),
+        mean,
+        largest,
+    )
+
+
+def _along(direction: Field, vectors: Field) -> Field:
+    return np.tensordot(direction, vectors, 1)
+
+
+def _radius(patch: Patch, elements: int) -> float:
+    return sqrt(elements * patch.element / pi)
+
+
+def _angles(
+    traction: Field, moved: Field, slipping: Field, direction: Field
+) -> tuple[float, float]:
+    """Return mean and largest angle of slip against a direction either way; zero without slip.
+
+    Slip is along the traction, whose direction is known better where slip is little.
+    """
+    if not slipping.any():
+        return 0.0, 0.0
+    slid, pulled = moved[:, slipping], traction[:, slipping]
+    work = np.maximum(np.sum(slid * pulled, axis=0), 0.0)
+    straight = np.abs(_along(direction, pulled)) / np.hypot(*pulled)
+    angle = np.arccos(np.minimum(straight, 1.0))
+    mean = float(np.sum(angle * work) / np.sum(work)) if work.sum() > 0.0 else 0.0
+    return mean, float(angle.max())

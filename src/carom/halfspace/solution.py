@@ -1,0 +1,196 @@
+"""One impact solved by boundary elements, in plain numbers."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+from math import cos, sin
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.halfspace.compliance import Materials
+from carom.halfspace.influence import Field
+from carom.halfspace.ledger import Entry, entry
+from carom.halfspace.motion import DURATION, NORMAL, Motion, inertia, move
+from carom.halfspace.quasistatic import Patch, Step
+
+Progress = Callable[[int, int], None]
+SNAPSHOTS = 60  # steps of an impact whose fields are kept, about
+
+
+class Resolution(NamedTuple):
+    """Elements across the largest contact, and steps in the duration of Hertz's impact."""
+
+    elements: int = 64
+    steps: int = 300
+
+    @property
+    def half(self) -> "Resolution":
+        """Half as fine in space and time."""
+        return Resolution(max(self.elements // 2, 2), max(self.steps // 2, 2))
+
+
+STANDARD = Resolution()
+
+
+class History(NamedTuple):
+    """An impact at some times; units d_max, d_max/V_1, and for tangential motion those of psi."""
+
+    time: Field
+    penetration: Field
+    speed: Field
+    psi: Field
+    displacement: Field
+    force: Field
+    stick_radius: Field
+    contact_radius: Field
+    stored: Field
+    dissipated: Field
+    normal_force: Field
+    normal_stored: Field
+    normal_lost: Field
+    slip_angle: Field
+    slip_angle_max: Field
+
+
+class Snapshot(NamedTuple):
+    """The contact at the end of a step, with the velocity of slip during it."""
+
+    time: float
+    step: Step
+    slip_velocity: Field
+
+
+@dataclass(frozen=True, eq=False)
+class HalfspaceSolution:
+    """An impact step by step: psi_2 = kappa V_x/(friction V_1) at its end, and the way there."""
+
+    psi_in: float
+    chi: float
+    materials: Materials
+    resolution: Resolution
+    ledger: Field  # one row an Entry
+    snapshots: tuple[Snapshot, ...]
+    patch: Patch
+
+    def column(self, name: str) -> Field:
+        """Return one quantity of `Entry` along the steps."""
+        values: Field = self.ledger[:, Entry._fields.index(name)]
+        return values
+
+    @property
+    def psi_out(self) -> float:
+        """psi after the impact, along the direction of the motion before."""
+        return self.materials.kappa * float(self.column("velocity")[-1])
+
+    @property
+    def restitution(self) -> float:
+        """Normal velocity after to before; unlike materials exchange a little with the other."""
+        return -float(self.column("approach")[-1])
+
+    @property
+    def duration(self) -> float:
+        """Time of contact, in d_max/V_1."""
+        return float(self.column("time")[-1])
+
+    @property
+    def max_penetration(self) -> float:
+        """Largest approach, in d_max of Hertz."""
+        return float(self.column("depth").max())
+
+    @property
+    def max_force(self) -> float:
+        """Largest normal force, in that of Hertz."""
+        return 0.75 * float(self.column("force").max())
+
+    @property
+    def max_radius(self) -> float:
+        """Largest radius of the contact, that of the circle of the same area, in that of Hertz."""
+        return float(self.column("contact_radius").max())
+
+    @property
+    def slip_angle(self) -> float:
+        """Angle between slip and the direction of the motion, averaged over the work of friction."""
+        work = np.maximum(self.column("lost"), 0.0)
+        return float(np.sum(self.column("slip_angle") * work) / max(work.sum(), 1e-300))
+
+    @property
+    def energy_error(self) -> float:
+        """Largest change of the sum of all energies, as a share of those before the impact."""
+        total = self._normal_energy() + self._tangential_energy()
+        return float(np.abs(total - total[0]).max() / total[0])
+
+    def history(self, n: int) -> History:
+        """Return the impact at n evenly spaced times, linear between the steps."""
+        time = np.linspace(0.0, self.duration, n)
+        return History(time, *(np.interp(time, self.column("time"), c) for c in self._columns()))
+
+    def snapshot(self, time: float) -> Snapshot:
+        """Return the kept step that ends nearest to a time."""
+        return min(self.snapshots, key=lambda kept: abs(kept.time - time))
+
+    def _columns(self) -> tuple[Field, ...]:
+        """Return all columns of a history but the time, in its units."""
+        kappa = self.materials.kappa
+        energy = kappa * 2.0 * NORMAL * self.chi  # of psi^2/2 in those of the tangential motion
+        return (
+            self.column("depth"),
+            self.column("approach"),
+            kappa * self.column("velocity"),
+            kappa * self.column("displacement"),
+            0.5 * self.column("drag"),
+            self.column("stick_radius"),
+            self.column("contact_radius"),
+            energy * self.column("tangential_stored"),
+            energy * np.cumsum(self.column("lost")),
+            0.75 * self.column("force"),
+            2.0 * NORMAL * self.column("normal_stored"),
+            np.zeros(len(self.ledger)),
+            self.column("slip_angle"),
+            self.column("slip_angle_max"),
+        )
+
+    def _normal_energy(self) -> Field:
+        return 0.5 * self.column("approach") ** 2 / NORMAL + self.column("normal_stored")
+
+    def _tangential_energy(self) -> Field:
+        response = inertia(self.chi, self.materials.kappa).tangential
+        square = self.column("velocity") ** 2 + self.column("velocity_across") ** 2
+        kept = 0.5 * square / response + self.column("tangential_stored")
+        return self.materials.friction**2 * (kept + np.cumsum(self.column("lost")))
+
+
+def solve(
+    psi: float,
+    chi: float,
+    materials: Materials,
+    resolution: Resolution = STANDARD,
+    *,
+    direction: float = 0.0,
+    progress: Progress | None = None,
+) -> HalfspaceSolution:
+    """Return the impact with psi_1 = psi, the motion at an angle `direction` to the grid.
+
+    `progress` is called after every step with how many are done and how many there are, about.
+    """
+    patch = Patch.across(resolution.elements, materials)
+    along = np.array([cos(direction), sin(direction)])
+    rows, snapshots = [], []
+    every = max(resolution.steps // SNAPSHOTS, 1)
+    motions = move(patch, psi * along, chi, resolution.steps)
+    for count, (before, now) in enumerate(pairwise(motions)):
+        if not rows:
+            rows.append(entry(patch, before, before, along))
+        rows.append(entry(patch, before, now, along))
+        if count % every == 0:
+            snapshots.append(_snapshot(before, now))
+        if progress is not None:
+            done = min(now.time / DURATION, 1.0)
+            progress(round(done * resolution.steps), resolution.steps)
+    return HalfspaceSolution(
+        psi, chi, materials, resolution, np.array(rows), tuple(snapshots), patch
+    )
+
+
+def _snapshot(before: Motion, now: Motion) -> Snapshot:
+    return Snapshot(now.time, now.step, now.step.moved / (now.time - before.time))
