@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.halfspace.influence import Field
+from carom.halfspace.influence import Field, Mask
 from carom.halfspace.motion import Motion
 from carom.halfspace.quasistatic import Patch
 from carom.halfspace.traction import at_bound
@@ -56,8 +56,8 @@ def entry(patch: Patch, before: Motion, now: Motion, direction: Field) -> Entry:
         float(now.velocity @ across),
         now.force,
         float(now.drag @ direction),
-        _radius(patch, np.count_nonzero(touching)),
-        _radius(patch, np.count_nonzero(touching & ~slipping)),
+        _radius(patch, touching),
+        _radius(patch, touching & ~slipping),
         0.5 * patch.element * float(np.sum(state.pressure * (state.depth - patch.gap))),
         0.5 * patch.element * float(np.sum(state.traction * state.yielded)),
         float(work.sum()),
@@ -71,13 +71,11 @@ def _along(direction: Field, vectors: Field) -> Field:
     return np.tensordot(direction, vectors, 1)
 
 
-def _radius(patch: Patch, elements: int) -> float:
-    return sqrt(elements * patch.element / pi)
+def _radius(patch: Patch, elements: Mask) -> float:
+    return sqrt(np.count_nonzero(elements) * patch.element / pi)
 
 
-def _angles(
-    traction: Field, moved: Field, slipping: Field, direction: Field
-) -> tuple[float, float]:
+def _angles(traction: Field, moved: Field, slipping: Mask, direction: Field) -> tuple[float, float]:
     """Return mean and largest angle of slip against a direction either way; zero without slip.
 
     Slip is along the traction, whose direction is known better where slip is little.

@@ -110,7 +110,7 @@ class HalfspaceSolution:
 
     @property
     def slip_angle(self) -> float:
-        """Angle between slip and the direction of the motion, averaged over the work of friction."""
+        """Angle between slip and the direction of motion, averaged over the work of friction."""
         work = np.maximum(self.column("lost"), 0.0)
         return float(np.sum(self.column("slip_angle") * work) / max(work.sum(), 1e-300))
 
@@ -175,7 +175,8 @@ def solve(
     """
     patch = Patch.across(resolution.elements, materials)
     along = np.array([cos(direction), sin(direction)])
-    rows, snapshots = [], []
+    rows: list[Entry] = []
+    snapshots: list[Snapshot] = []
     every = max(resolution.steps // SNAPSHOTS, 1)
     motions = move(patch, psi * along, chi, resolution.steps)
     for count, (before, now) in enumerate(pairwise(motions)):
