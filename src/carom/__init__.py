@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from carom.dimensionless.rebounds import rebound
     from carom.dimensionless.solution import Solution, solve
     from carom.fitting import Fit, fit
+    from carom.halfspace_impacts import BoundaryElements, HalfspaceImpact
     from carom.impacts import Impact, impact
     from carom.laws.dem import (
         EdemHertzMindlin,
@@ -82,6 +83,7 @@ _HOMES = {
     "carom.laws.rigid": ("RoughLaw", "SmoothLaw", "WaltonLaw"),
     "carom.pairs": ("Pair",),
     "carom.quantities": ("InputError",),
+    "carom.halfspace_impacts": ("BoundaryElements", "HalfspaceImpact"),
     "carom.impacts": ("Impact", "impact"),
     "carom.loading": ("LoadPath", "load_path"),
     "carom.normals": ("ElasticPlastic", "KelvinVoigt"),
@@ -99,6 +101,7 @@ _MODULES = ("classical", "datasets", "plots", "verify")
 _named = loader(__name__, _HOMES)
 
 __all__ = [
+    "BoundaryElements",
     "CollisionStatus",
     "Collisions",
     "Cup",
@@ -107,6 +110,7 @@ __all__ = [
     "Fit",
     "Grid",
     "HalfSpace",
+    "HalfspaceImpact",
     "HardSphere",
     "HertzLinearHistory",
     "Impact",

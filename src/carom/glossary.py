@@ -106,11 +106,13 @@ GLOSSARY = {
     "phase_start": Quantity("$t_s$", "s", "start of the phase"),
     "phase_end": Quantity("$t_e$", "s", "end of the phase"),
     "phase_slip_angle_max": Quantity(
-        r"$\beta_{max}$", "rad", "largest angle between slip and traction in the phase"
+        r"$\beta_{max}$", "rad", "largest angle between slip and $x$ in the phase"
     ),
     "phase_slip_angle_mean": Quantity(
-        r"$\bar\beta$", "rad", "angle between slip and traction, mean weighted with frictional work"
+        r"$\bar\beta$", "rad", "angle between slip and $x$, mean weighted with frictional work"
     ),
+    "slip_angle": Quantity(r"$\beta$", "rad", "angle between slip and $x$, mean over the work"),
+    "slip_angle_max": Quantity(r"$\beta_{max}$", "rad", "largest angle between slip and $x$"),
     # inside the contact
     "x": Quantity("$x$", "m", "position along the tangential motion"),
     "y": Quantity("$y$", "m", "position across the tangential motion"),
@@ -118,6 +120,7 @@ GLOSSARY = {
     "distance": Quantity("$r$", "m", "distance from the centre of the contact"),
     "pressure": Quantity("$p$", "Pa", "contact pressure"),
     "traction_x": Quantity("$f$", "Pa", "tangential traction, positive against $V_x$"),
+    "traction_y": Quantity("$f_y$", "Pa", "tangential traction across the motion"),
     "friction_limit": Quantity(r"$\mu p$", "Pa", "largest traction that friction allows"),
     "memory_g": Quantity("$g$", "1", "memory, $-dq/ds$"),
     "memory_q": Quantity("$q$", "m", "deflection of tangential spring"),
@@ -162,4 +165,10 @@ GLOSSARY = {
     "spin_out": Quantity(r"$\omega'$", "rad/s", "spin of the first body after"),
     "spin2_out": Quantity(r"$\omega_2'$", "rad/s", "spin of the second body after"),
     "dissipated_energy": Quantity("$W$", "J", "energy lost to friction"),
+    "psi_out_error": Quantity(
+        r"$\delta\psi_2$", "1", "change of psi_2 from a grid and steps half as fine"
+    ),
+    "energy_error": Quantity(
+        r"$\delta E$", "1", "largest change of the sum of all energies, as a share of it"
+    ),
 }

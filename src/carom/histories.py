@@ -2,14 +2,10 @@
 
 from itertools import zip_longest
 from math import isfinite
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 from carom.bodies import Sphere
 from carom.pairs import Pair
-
-if TYPE_CHECKING:
-    from carom.dimensionless.lossy.solution import LossySolution
-    from carom.dimensionless.solution import Solution
 
 RESULTS = (
     "psi_in",
@@ -41,6 +37,33 @@ PAIR = (
     "normal_mass",
     "tangential_mass",
 )
+
+
+class Solved(Protocol):
+    """What an outcome needs of a solution: numbers, or arrays of them, in units of the scales."""
+
+    @property
+    def psi_out(self) -> float: ...
+    @property
+    def restitution(self) -> float: ...
+    @property
+    def duration(self) -> float: ...
+    @property
+    def max_penetration(self) -> float: ...
+    @property
+    def max_force(self) -> float: ...
+    @property
+    def max_radius(self) -> float: ...
+
+
+class InTime(Solved, Protocol):
+    """What a history needs besides: phases, and the dimensionless state at n times."""
+
+    @property
+    def psi_in(self) -> float: ...
+    @property
+    def phases(self) -> tuple[Any, ...]: ...
+    def history(self, n: int) -> Any: ...
 
 
 class Tangential(NamedTuple):
@@ -78,7 +101,7 @@ def inertia(body: Sphere) -> float:
 
 
 def history_columns(
-    pair: Pair, normal_speed: float, start: Tangential, solution: "Solution | LossySolution", n: int
+    pair: Pair, normal_speed: float, start: Tangential, solution: InTime, n: int
 ) -> dict[str, Any]:
     """Return the impact at n times by name of column, in SI units.
 

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
 from math import isfinite, nan
-from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,27 +12,28 @@ from numpy.typing import ArrayLike
 from carom.approach import approach
 from carom.bodies import Sphere, Value
 from carom.contacts import Contact, contact_in_impact
+from carom.courses import Course
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.phases import Status
 from carom.dimensionless.solution import Solution, solve, solve_with
-from carom.dimensionless.states import Phase, SlipAngle
+from carom.dimensionless.states import SlipAngle
 from carom.fields import radial_fields, surface_fields
-from carom.histories import Tangential, history_columns
+from carom.histories import Tangential
 from carom.normals import NormalLaw
-from carom.outcomes import Outcome
 from carom.pairs import Pair, representable
-from carom.quantities import InputError, counted, finite, number, refusal
-from carom.results import Validity, labelled
+from carom.quantities import InputError, counted, finite, refusal
+from carom.results import Validity
 from carom.stress import stress_dataset
 from carom.validity import judge
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.figure import Figure
+
+    from carom.halfspace_impacts import BoundaryElements, HalfspaceImpact
 
 
 @dataclass(frozen=True, eq=False)
-class Impact(Outcome):
+class Impact(Course):
     """The result of `impact`: the rebound, every phase, and what happens inside the contact.
 
     SI units. Tangential speeds are those of the first body relative to the second, positive spin
@@ -44,38 +42,10 @@ class Impact(Outcome):
 
     solution: Solution | LossySolution = field(repr=False)
 
-    @cached_property
-    def phases(self) -> tuple[Phase, ...]:
-        """The phases in order, times in s."""
-        if not isfinite(self.psi_in):
-            sign = 1 if self.psi_in > 0.0 else -1
-            return (Phase("gross slip", sign, 0.0, self.duration, "separation"),)
-        unit = self.scales.time
-        return tuple(
-            Phase(p.kind, p.sign, p.start * unit, p.end * unit, p.cause)
-            for p in self.solution.phases
-        )
-
     @property
     def validity(self) -> Validity:
         """How far the assumptions of the theory hold, as numbers with a verdict."""
         return judge(self.pair, self.normal_speed, self.duration)
-
-    def history(self, n: int = 200) -> xr.Dataset:
-        """Return the impact at n times: a dataset with forces, velocities, radii, energies.
-
-        The times are evenly spaced from the first touch to the last; maximum compression of elastic
-        bodies is in the middle, at half of `duration`.
-        """
-        times = counted("n", n, 2)
-        columns = history_columns(self.pair, self.normal_speed, self._before, self.solution, times)
-        angles = self.slip_angles
-        phase_columns = {
-            "phase_slip_angle_max": [angle.largest for angle in angles],
-            "phase_slip_angle_mean": [angle.mean for angle in angles],
-        }
-        known = {} if isinstance(self.solution, LossySolution) else phase_columns
-        return labelled(columns, self.scalars(), self.phases, self.inputs(), phase_columns=known)
 
     @property
     def slip_angles(self) -> tuple[SlipAngle, ...]:
@@ -98,14 +68,10 @@ class Impact(Outcome):
             raise InputError(
                 "normal: fields and stresses are those of elastic impacts; leave normal out"
             )
-        instant = number("time", time)
-        if not 0.0 <= instant <= self.duration:
-            allowed = f"must lie within the contact, from 0 to {self.duration:.6g} s"
-            raise refusal("time", time, allowed)
         drift = 0.0 if isfinite(self.psi_in) else self.contact_velocity
         inputs = {"inputs": self.inputs()}
         return contact_in_impact(
-            self.pair, self.normal_speed, drift, self.solution, instant, inputs
+            self.pair, self.normal_speed, drift, self.solution, self._instant(time), inputs
         )
 
     def fields(
@@ -216,36 +182,16 @@ class Impact(Outcome):
         """Return pressure, traction and the memory g, q along a radius at a time in s."""
         return radial_fields(self.contact(time), counted("n", n, 2))
 
-    def to_dataset(self) -> xr.Dataset:
-        """Return all of the result as one dataset, with a history of 400 times."""
-        return self.history(400)
+    def _phase_columns(self) -> dict[str, list[float]]:
+        return {} if isinstance(self.solution, LossySolution) else super()._phase_columns()
 
-    def plot(self, path: str | Path | None = None) -> Figure:
-        """Draw the impact; with a path, store the figure there."""
-        from carom.plots import plot_impact, save_figure
-
-        figure = plot_impact(self.to_dataset())
-        if path is not None:
-            save_figure(figure, path)
-        return figure
-
-    def animate(
-        self, path: str | Path, frames: int = 60, progress: Callable[[], None] | None = None
-    ) -> Path:
-        """Store an animation of the contact through the impact as .gif, or .mp4 with ffmpeg.
-
-        `progress` is called after every frame. Raises InputError if the file cannot be written.
-        """
-        from carom.plots import animate
-
-        count = counted("frames", frames, 1)
+    def _picture(self, time: float) -> xr.Dataset:
         reach = 1.15 * self.max_radius
         line = np.linspace(-reach, reach, 101)
-        times = (np.arange(count) + 0.5) / count * self.duration
-        pictures = (self.fields(time, line, line) for time in times)
-        return animate(self.history(), pictures, path, progress=progress)
+        return self.fields(time, line, line)
 
 
+@overload
 def impact(
     pair: Pair,
     *,
@@ -256,8 +202,37 @@ def impact(
     spin: Value = 0.0,
     spin2: Value = 0.0,
     normal: NormalLaw | None = None,
-) -> Impact:
-    """Solve one oblique impact of two bodies exactly, within Hertz's theory.
+    method: Literal["exact"] = "exact",
+    progress: bool | None = None,
+) -> Impact: ...
+@overload
+def impact(
+    pair: Pair,
+    *,
+    speed: Value | None = None,
+    angle: Value | None = None,
+    normal_speed: Value | None = None,
+    tangential_speed: Value | None = None,
+    spin: Value = 0.0,
+    spin2: Value = 0.0,
+    normal: None = None,
+    method: Literal["halfspace"] | BoundaryElements,
+    progress: bool | None = None,
+) -> HalfspaceImpact: ...
+def impact(
+    pair: Pair,
+    *,
+    speed: Value | None = None,
+    angle: Value | None = None,
+    normal_speed: Value | None = None,
+    tangential_speed: Value | None = None,
+    spin: Value = 0.0,
+    spin2: Value = 0.0,
+    normal: NormalLaw | None = None,
+    method: str | BoundaryElements = "exact",
+    progress: bool | None = None,
+) -> Impact | HalfspaceImpact:
+    """Solve one oblique impact of two bodies: exactly, within the theory, or by boundary elements.
 
     V_1 = speed cos(angle), v_t = speed sin(angle), V_x = v_t + R spin + R_2 spin2,
     psi_1 = kappa V_x/(mu V_1).
@@ -274,6 +249,12 @@ def impact(
         Spin of either body; positive spin adds to the tangential speed of the contact point.
     normal : KelvinVoigt or ElasticPlastic, optional
         What the normal motion loses energy to; by default nothing, the bodies are elastic.
+    method : "exact", "halfspace" or BoundaryElements
+        The theory, in which slip is parallel to x and unlike materials do not couple; or the full
+        contact in three dimensions, which assumes neither and takes some ten seconds, a few times
+        that for unlike materials. BoundaryElements says how finely.
+    progress : bool, optional
+        Whether the latter shows a bar; by default on a terminal.
 
     Raises
     ------
@@ -297,19 +278,33 @@ def impact(
     first_spin, second_spin = finite("spin", spin), finite("spin2", spin2)
     if second_spin and not isinstance(pair.second, Sphere):
         raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
-    velocity = Tangential(tangential, first_spin, second_spin).contact_velocity(pair)
+    motion = Tangential(tangential, first_spin, second_spin)
+    velocity = motion.contact_velocity(pair)
     _refuse_overflow(pair, approaching, velocity)
+    if method != "exact":
+        return _by_elements(pair, approaching, motion, method, normal, progress)
     psi = pair.psi(velocity, approaching)
     solved = psi if isfinite(psi) else 0.0
-    return Impact(
-        pair,
-        approaching,
-        tangential,
-        first_spin,
-        second_spin,
-        _solution(pair, approaching, solved, normal),
-        normal,
-    )
+    return Impact(pair, approaching, *motion, _solution(pair, approaching, solved, normal), normal)
+
+
+def _by_elements(
+    pair: Pair,
+    normal_speed: float,
+    motion: Tangential,
+    method: str | BoundaryElements,
+    normal: NormalLaw | None,
+    progress: bool | None,
+) -> HalfspaceImpact:
+    from carom.halfspace_impacts import BoundaryElements, solve_by_elements
+
+    elements = BoundaryElements() if method == "halfspace" else method
+    if not isinstance(elements, BoundaryElements):
+        allowed = "must be 'exact', 'halfspace' or carom.BoundaryElements(elements=, steps=)"
+        raise refusal("method", method, allowed)
+    if normal is not None:
+        raise refusal("normal", normal, "boundary elements are elastic; leave it or method out")
+    return solve_by_elements(pair, normal_speed, motion, elements, progress)
 
 
 def _solution(

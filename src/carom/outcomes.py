@@ -3,30 +3,13 @@
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import nan
-from typing import Any, Protocol
+from typing import Any
 
 from carom.bodies import describe
 from carom.elementwise import arctan2, hypot, isfinite, quotient, where
-from carom.histories import PAIR, RESULTS, Tangential
+from carom.histories import PAIR, RESULTS, Solved, Tangential
 from carom.normals import NormalLaw
 from carom.pairs import Pair, Scales
-
-
-class Solved(Protocol):
-    """What an outcome needs of a solution: numbers, or arrays of them, in units of the scales."""
-
-    @property
-    def psi_out(self) -> float: ...
-    @property
-    def restitution(self) -> float: ...
-    @property
-    def duration(self) -> float: ...
-    @property
-    def max_penetration(self) -> float: ...
-    @property
-    def max_force(self) -> float: ...
-    @property
-    def max_radius(self) -> float: ...
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,14 +14,16 @@ WEAK_COUPLING = 0.01  # |Dundurs' beta|: what is left uncoupled is below a hundr
 
 def judge(pair: Pair, normal_speed: float, duration: float) -> Validity:
     """Return the findings on an impact: small contact, no yield, slow contact, no coupling."""
+    return Validity((*judge_contact(pair, normal_speed, duration), _coupling(pair.dundurs_beta)))
+
+
+def judge_contact(pair: Pair, normal_speed: float, duration: float) -> tuple[Finding, ...]:
+    """Return the findings on what does not depend on friction: small contact, no yield, slow."""
     scales = pair.scales(normal_speed)
-    return Validity(
-        (
-            _small_contact(scales.radius / pair.effective_radius),
-            *_yield(pair, scales.pressure),
-            _slow_contact(duration / max(_transit(pair), 1e-300)),
-            _coupling(pair.dundurs_beta),
-        )
+    return (
+        _small_contact(scales.radius / pair.effective_radius),
+        *_yield(pair, scales.pressure),
+        _slow_contact(duration / max(_transit(pair), 1e-300)),
     )
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from carom.halfspace.influence import Field, Mask
 from carom.halfspace.motion import Motion
-from carom.halfspace.quasistatic import Patch
+from carom.halfspace.quasistatic import Patch, Step
 from carom.halfspace.traction import at_bound
 
 
@@ -28,25 +28,40 @@ class Entry(NamedTuple):
     force: float
     drag: float
     contact_radius: float  # of the circle of the same area
-    stick_radius: float
+    slip_share: float  # of the elements under friction
     normal_stored: float
     tangential_stored: float
     lost: float  # to friction
     lost_across: float  # of that, by slip across the direction
     slip_angle: float  # between slip and the direction, averaged over the work of friction
     slip_angle_max: float
+    slip_drag: float  # what of the drag is that of slipping elements
+
+    @property
+    def stick_radius(self) -> float:
+        """Radius of the circle of the area that sticks."""
+        return sqrt(1.0 - self.slip_share) * self.contact_radius
+
+    @property
+    def normal_force(self) -> float:
+        """Normal force in the largest of Hertz's impact."""
+        return 0.75 * self.force
+
+    @property
+    def tangential_force(self) -> float:
+        """Tangential force in (3/2) friction times that."""
+        return 0.5 * self.drag
 
 
 def entry(patch: Patch, before: Motion, now: Motion, direction: Field) -> Entry:
     """Return what the step from one instant to the next comes to."""
     state, old = now.step.state, before.step.state
-    touching, moved = state.pressure > 0.0, now.step.moved
-    slipping = now.step.gripped & at_bound(state.traction, state.pressure)
+    moved, slips = now.step.moved, slipping(now.step)
     work = patch.element * 0.5 * (old.traction + state.traction) * moved
     across = np.array([-direction[1], direction[0]])
     lost_across = 0.5 * (_along(across, old.traction) + _along(across, state.traction))
     lost_across *= _along(across, moved)
-    mean, largest = _angles(state.traction, moved, slipping, direction)
+    mean, largest = _angles(state.traction, moved, slips, direction)
     return Entry(
         now.time,
         state.depth,
@@ -56,15 +71,21 @@ def entry(patch: Patch, before: Motion, now: Motion, direction: Field) -> Entry:
         float(now.velocity @ across),
         now.force,
         float(now.drag @ direction),
-        _radius(patch, touching),
-        _radius(patch, touching & ~slipping),
+        _radius(patch, state.pressure > 0.0),
+        _share(slips, now.step.gripped),
         0.5 * patch.element * float(np.sum(state.pressure * (state.depth - patch.gap))),
         0.5 * patch.element * float(np.sum(state.traction * state.yielded)),
         float(work.sum()),
         patch.element * float(lost_across.sum()),
         mean,
         largest,
+        patch.element * float(_along(direction, state.traction)[slips].sum()),
     )
+
+
+def slipping(step: Step) -> Mask:
+    """Return the elements whose traction is as large as friction allows."""
+    return step.gripped & at_bound(step.state.traction, step.state.pressure)
 
 
 def _along(direction: Field, vectors: Field) -> Field:
@@ -75,14 +96,18 @@ def _radius(patch: Patch, elements: Mask) -> float:
     return sqrt(np.count_nonzero(elements) * patch.element / pi)
 
 
-def _angles(traction: Field, moved: Field, slipping: Mask, direction: Field) -> tuple[float, float]:
+def _share(part: Mask, whole: Mask) -> float:
+    return float(np.count_nonzero(part)) / max(int(np.count_nonzero(whole)), 1)
+
+
+def _angles(traction: Field, moved: Field, slips: Mask, direction: Field) -> tuple[float, float]:
     """Return mean and largest angle of slip against a direction either way; zero without slip.
 
     Slip is along the traction, whose direction is known better where slip is little.
     """
-    if not slipping.any():
+    if not slips.any():
         return 0.0, 0.0
-    slid, pulled = moved[:, slipping], traction[:, slipping]
+    slid, pulled = moved[:, slips], traction[:, slips]
     work = np.maximum(np.sum(slid * pulled, axis=0), 0.0)
     straight = np.abs(_along(direction, pulled)) / np.hypot(*pulled)
     angle = np.arccos(np.minimum(straight, 1.0))

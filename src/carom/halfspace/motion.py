@@ -48,18 +48,18 @@ def move(patch: Patch, psi: Field, chi: float, steps: int) -> Iterator[Motion]:
     """
     kappa = patch.compliance.materials.kappa
     response, spacing = inertia(chi, kappa), patch.compliance.spacing
-    nothing = Step(patch.untouched(), np.zeros_like(patch.untouched().yielded), patch.gap < 0.0)
-    now = Motion(0.0, 1.0, np.asarray(psi, dtype=float) / kappa, nothing, 0.0, np.zeros(2))
+    now = Motion(0.0, 1.0, psi / kappa, _apart(patch, np.zeros(2)), 0.0, np.zeros(2))
     yield now
     while True:
+        state = now.step.state
         length = min(DURATION / steps, _edge_limit(now, spacing))
         approach = now.approach - 0.5 * length * response.normal * now.force
         velocity = now.velocity - 0.5 * length * response.tangential * now.drag
-        state = now.step.state
         depth = state.depth + length * approach
         if depth <= 0.0:
             left = state.depth / -approach
-            yield Motion(now.time + left, approach, velocity, nothing, 0.0, np.zeros(2))
+            apart = _apart(patch, state.displacement + left * velocity)
+            yield Motion(now.time + left, approach, velocity, apart, 0.0, np.zeros(2))
             return
         step = patch.advance(state, depth, state.displacement + length * velocity)
         force = patch.element * float(step.state.pressure.sum())
@@ -73,6 +73,12 @@ def move(patch: Patch, psi: Field, chi: float, steps: int) -> Iterator[Motion]:
             drag,
         )
         yield now
+
+
+def _apart(patch: Patch, displacement: Field) -> Step:
+    """Return the step at whose end the bodies do not touch."""
+    state = patch.untouched()._replace(displacement=displacement)
+    return Step(state, state.yielded, state.pressure > 0.0)
 
 
 def _edge_limit(now: Motion, spacing: float) -> float:

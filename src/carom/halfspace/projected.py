@@ -17,6 +17,7 @@ INNER = 80  # conjugate gradients within one face
 FORCING = 1e-4  # what they leave of the squared residual
 FINEST = 0.3  # of what ends the whole
 HALVINGS = 30
+ROUNDING = 8.0 * np.finfo(np.float64).eps  # of the work that energies are made of
 DECREASE = 1e-4  # of what the slope promises (Armijo)
 
 
@@ -80,7 +81,7 @@ def minimise(
         if change is None:
             change = _search(operator, bounds, load, downhill, pull)
         if change is None:
-            return Solved(load, displacement)  # no lower energy within rounding
+            raise RuntimeError("no traction of lower energy was found")
         load, displacement = load + change.load, displacement + change.displacement
     raise RuntimeError(f"the tractions of least energy were not found in {ITERATIONS} iterations")
 
@@ -111,13 +112,14 @@ def _search(
     operator: Operator, bounds: Bounds, load: Field, direction: Field, pull: Field
 ) -> Solved | None:
     """Return a change along the projected direction that lowers the energy, or None."""
-    length = 1.0
+    length, rounding = 1.0, ROUNDING * float(np.sum(np.abs(pull * load)))
     for _ in range(HALVINGS):
         change = bounds.project(load + length * direction) - load
         slope = float(np.sum(pull * change))
-        if slope > 0.0:
+        if slope > -rounding:
             displacement = operator.displacement(change)
-            if 0.5 * float(np.sum(change * displacement)) <= (1.0 - DECREASE) * slope:
+            bent = 0.5 * float(np.sum(change * displacement))
+            if bent <= (1.0 - DECREASE) * slope + rounding:
                 return Solved(change, displacement)
         length *= 0.5
     return None

@@ -13,8 +13,10 @@ from carom.halfspace.influence import Field
 from carom.halfspace.ledger import Entry, entry
 from carom.halfspace.motion import DURATION, NORMAL, Motion, inertia, move
 from carom.halfspace.quasistatic import Patch, Step
+from carom.halfspace.stages import Stage, stages
 
-Progress = Callable[[int, int], None]
+Progress = Callable[[float], object]
+FAINT = 1e-6  # of the normal force: slip that pulls so little has no sign
 SNAPSHOTS = 60  # steps of an impact whose fields are kept, about
 
 
@@ -56,7 +58,7 @@ class History(NamedTuple):
 class Snapshot(NamedTuple):
     """The contact at the end of a step, with the velocity of slip during it."""
 
-    time: float
+    entry: Entry
     step: Step
     slip_velocity: Field
 
@@ -109,16 +111,27 @@ class HalfspaceSolution:
         return float(self.column("contact_radius").max())
 
     @property
-    def slip_angle(self) -> float:
-        """Angle between slip and the direction of motion, averaged over the work of friction."""
-        work = np.maximum(self.column("lost"), 0.0)
-        return float(np.sum(self.column("slip_angle") * work) / max(work.sum(), 1e-300))
-
-    @property
     def energy_error(self) -> float:
         """Largest change of the sum of all energies, as a share of those before the impact."""
         total = self._normal_energy() + self._tangential_energy()
         return float(np.abs(total - total[0]).max() / total[0])
+
+    @property
+    def phases(self) -> tuple[Stage, ...]:
+        """Stick, slip and gross slip in order, as far as the grid shows them."""
+        pull = self.column("slip_drag")
+        sign = np.where(np.abs(pull) > FAINT * self.column("force"), np.sign(pull), 0.0)
+        return stages(self.column("time"), self.column("slip_share"), sign)
+
+    def slip_angles(self, start: float, end: float) -> tuple[float, float]:
+        """Return largest and mean angle of slip against the direction between two times."""
+        time = self.column("time")
+        within = (time > start) & (time <= end)
+        work = np.maximum(self.column("lost")[within], 0.0)
+        if not work.any():
+            return 0.0, 0.0
+        mean = np.sum(self.column("slip_angle")[within] * work) / work.sum()
+        return float(self.column("slip_angle_max")[within].max()), float(mean)
 
     def history(self, n: int) -> History:
         """Return the impact at n evenly spaced times, linear between the steps."""
@@ -127,7 +140,7 @@ class HalfspaceSolution:
 
     def snapshot(self, time: float) -> Snapshot:
         """Return the kept step that ends nearest to a time."""
-        return min(self.snapshots, key=lambda kept: abs(kept.time - time))
+        return min(self.snapshots, key=lambda kept: abs(kept.entry.time - time))
 
     def _columns(self) -> tuple[Field, ...]:
         """Return all columns of a history but the time, in its units."""
@@ -139,7 +152,7 @@ class HalfspaceSolution:
             kappa * self.column("velocity"),
             kappa * self.column("displacement"),
             0.5 * self.column("drag"),
-            self.column("stick_radius"),
+            np.sqrt(1.0 - self.column("slip_share")) * self.column("contact_radius"),
             self.column("contact_radius"),
             energy * self.column("tangential_stored"),
             energy * np.cumsum(self.column("lost")),
@@ -171,7 +184,7 @@ def solve(
 ) -> HalfspaceSolution:
     """Return the impact with psi_1 = psi, the motion at an angle `direction` to the grid.
 
-    `progress` is called after every step with how many are done and how many there are, about.
+    `progress` is called after every step with how many of `resolution.steps` that makes, about one.
     """
     patch = Patch.across(resolution.elements, materials)
     along = np.array([cos(direction), sin(direction)])
@@ -184,14 +197,14 @@ def solve(
             rows.append(entry(patch, before, before, along))
         rows.append(entry(patch, before, now, along))
         if count % every == 0:
-            snapshots.append(_snapshot(before, now))
+            snapshots.append(_snapshot(rows[-1], before, now))
         if progress is not None:
-            done = min(now.time / DURATION, 1.0)
-            progress(round(done * resolution.steps), resolution.steps)
+            passed = min(now.time / DURATION, 1.0) - min(before.time / DURATION, 1.0)
+            progress(passed * resolution.steps)
     return HalfspaceSolution(
         psi, chi, materials, resolution, np.array(rows), tuple(snapshots), patch
     )
 
 
-def _snapshot(before: Motion, now: Motion) -> Snapshot:
-    return Snapshot(now.time, now.step, now.step.moved / (now.time - before.time))
+def _snapshot(row: Entry, before: Motion, now: Motion) -> Snapshot:
+    return Snapshot(row, now.step, now.step.moved / (now.time - before.time))

@@ -95,11 +95,11 @@ def _fill(
     record: Record, total: int, results: Iterable[tuple[Box, Values]], progress: bool | None
 ) -> None:
     """Write blocks as they come, and show how far it is."""
+    from carom.progress import progress_bar
     from carom.sweeps.blocks import points
-    from carom.sweeps.progress import progress_bar
 
     left = sum(points(box) for box in record.todo)
-    with progress_bar(total, total - left, progress) as bar:
+    with progress_bar("points", total, total - left, progress) as bar:
         for box, values in results:
             record.write(box, values)
             bar.update(points(box))

@@ -187,7 +187,8 @@ def _impact(case: Any) -> Impact:
     if isinstance(case, Pair):
         raise InputError("case: a history needs the motion, too; give a case or an Impact")
     content = _content(case)
-    return impact(_pair(content), **motion_of(content))
+    hit: Impact = impact(_pair(content), **motion_of(content))
+    return hit
 
 
 def _content(case: Any) -> Mapping[str, Any]:
