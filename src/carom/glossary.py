@@ -165,10 +165,8 @@ GLOSSARY = {
     "spin_out": Quantity(r"$\omega'$", "rad/s", "spin of the first body after"),
     "spin2_out": Quantity(r"$\omega_2'$", "rad/s", "spin of the second body after"),
     "dissipated_energy": Quantity("$W$", "J", "energy lost to friction"),
-    "psi_out_error": Quantity(
-        r"$\delta\psi_2$", "1", "change of psi_2 from a grid and steps half as fine"
-    ),
+    "psi_out_error": Quantity(r"$\delta\psi_2$", "1", "change of psi_2 from a grid half as fine"),
     "energy_error": Quantity(
-        r"$\delta E$", "1", "largest change of the sum of all energies, as a share of it"
+        r"$\delta E$", "1", "largest change of the sum of all energies, as a share"
     ),
 }

@@ -1,11 +1,15 @@
 """Cases on the command line: flags that override a file, and the files that are asked for."""
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from carom.cases import LOSSES, OUTPUT, Case, motion_of, normal_of, pair_of
-from carom.impacts import Impact, impact
+from carom.courses import Course
+from carom.impacts import impact
 from carom.quantities import refusal
+
+if TYPE_CHECKING:
+    from carom.halfspace_impacts import BoundaryElements
 
 
 class Output(NamedTuple):
@@ -35,9 +39,11 @@ def merged(case: Case, flags: Mapping[str, Any]) -> Case:
     return result
 
 
-def solve_case(case: Case) -> Impact:
+def solve_case(case: Case, method: "str | BoundaryElements" = "exact") -> Course:
     """Solve the impact that a case describes."""
-    return impact(pair_of(case), **motion_of(case), normal=normal_of(case))
+    how: dict[str, Any] = {"normal": normal_of(case), "method": method}
+    hit: Course = impact(pair_of(case), **motion_of(case), **how)
+    return hit
 
 
 def outputs(case: Case) -> Output:

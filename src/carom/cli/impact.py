@@ -12,7 +12,8 @@ from carom.glossary import GLOSSARY
 
 if TYPE_CHECKING:
     from carom.cli.cases import Output
-    from carom.impacts import Impact
+    from carom.courses import Course
+    from carom.halfspace_impacts import BoundaryElements
 
 
 def _flag(name: str, example: str, of: str = "") -> Any:
@@ -23,9 +24,10 @@ def _flag(name: str, example: str, of: str = "") -> Any:
 
 Text = str | None
 OF_LOSSES = ("normal_restitution", "lost_energy")  # 1 and 0 without
-NOTES = {  # by whether there are losses
-    False: "  * angle between slip and traction in degrees, which the theory neglects",
-    True: "  * angle between slip and traction, which is known without losses only",
+NOTES = {
+    "exact": "  * angle between slip and x in degrees, which the theory neglects",
+    "lossy": "  * angle between slip and x, which is known without losses only",
+    "halfspace": "  * angle between slip and x in degrees",
 }
 FRAMES = 60  # of an animation
 
@@ -66,6 +68,19 @@ def impact_command(
             "or 'material': from the yield strengths."
         ),
     ] = None,
+    method: Annotated[
+        str,
+        typer.Option(
+            help="'exact': the theory; 'halfspace': the full contact in three dimensions, "
+            "by boundary elements in some ten seconds."
+        ),
+    ] = "exact",
+    elements: Annotated[
+        int | None, typer.Option(help="Boundary elements across the contact (default: 64).")
+    ] = None,
+    steps: Annotated[
+        int | None, typer.Option(help="Time steps of the boundary elements (default: 300).")
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
     plot: Annotated[Text, typer.Option(help="Store a figure: .png, .pdf or .svg.")] = None,
     animate: Annotated[
@@ -78,6 +93,8 @@ def impact_command(
     Example: carom impact --radius "5 mm" --material steel --friction 0.2 --speed 2 --angle "30 deg"
 
     A ball that loses energy: the same with --restitution 0.9, or --yield-velocity "0.1 m/s"
+
+    Slip in any direction, unlike materials coupled: the same with --method halfspace
 
     A case file with figures: carom impact examples/steel_ball.toml --plot hit.png --animate hit.gif
     """
@@ -110,12 +127,27 @@ def impact_command(
     content = merged(read_case(case, losses=True) if case else {}, flags)
     files = outputs(content)
     _check_outputs(files, elastic=normal_of(content) is None)
+    solver = _method(method, elements, steps)
     with announced():
-        hit = solve_case(content)
+        hit = solve_case(content, solver)
         stored = _store(hit, files)
     typer.echo(json.dumps(as_record(hit), indent=2) if as_json else as_table(hit))
     for path in stored:
         typer.echo(f"stored {path}", err=True)
+
+
+def _method(name: str, elements: int | None, steps: int | None) -> "str | BoundaryElements":
+    asked = {"elements": elements, "steps": steps}
+    given = {key: value for key, value in asked.items() if value is not None}
+    if not given:
+        return name
+    from carom.halfspace_impacts import BoundaryElements
+    from carom.quantities import refusal
+
+    if name != "halfspace":
+        key, value = next(iter(given.items()))
+        raise refusal(key, value, "only boundary elements have it; add --method halfspace")
+    return BoundaryElements(**given)
 
 
 def _check_outputs(files: "Output", *, elastic: bool) -> None:
@@ -134,7 +166,7 @@ def _check_outputs(files: "Output", *, elastic: bool) -> None:
         checked_animation(files.animation)
 
 
-def _store(hit: "Impact", files: "Output") -> list[Path]:
+def _store(hit: "Course", files: "Output") -> list[Path]:
     stored = []
     if files.data is not None:
         from carom.storage import save
@@ -150,7 +182,7 @@ def _store(hit: "Impact", files: "Output") -> list[Path]:
     return stored
 
 
-def as_record(hit: "Impact") -> dict[str, Any]:
+def as_record(hit: "Course") -> dict[str, Any]:
     """Return the result as what JSON can hold; what is not a number becomes null."""
     scalars = {name: _finite(value) for name, value in hit.scalars().items()}
     return {
@@ -175,13 +207,16 @@ def _finite(value: float) -> float | None:
     return value if abs(value) < float("inf") and not isnan(value) else None
 
 
-def as_table(hit: "Impact") -> str:
+def as_table(hit: "Course") -> str:
     """Return the result as text to read."""
     from carom.histories import RESULTS
     from carom.results import MARKS
 
-    scalars, loses = hit.scalars(), hit.normal is not None
+    scalars, method = hit.scalars(), hit.inputs().get("method", "exact")
+    note = NOTES["lossy" if hit.normal is not None else method]
+    loses = hit.normal is not None or (method != "exact" and hit.pair.dundurs_beta != 0.0)
     shown = ["chi", *(name for name in RESULTS if loses or name not in OF_LOSSES)]
+    shown += [name for name in ("psi_out_error", "energy_error") if name in scalars]
     if len(hit.pair.moving) == 1:
         shown.remove("spin2_out")
     lines = [f"  {GLOSSARY[name].meaning:58s} {_with_unit(name, scalars[name])}" for name in shown]
@@ -196,7 +231,16 @@ def as_table(hit: "Impact") -> str:
         f"  {MARKS[f.holds]} {f.name + ' = ' + format(f.value, '.3g'):34s} {f.verdict}"
         for f in hit.validity.findings
     ]
-    parts = ("Rebound", *lines, "Phases", head, *phases, NOTES[loses], "Validity", *findings)
+    parts = (
+        "Rebound",
+        *lines,
+        "Phases",
+        head,
+        *phases,
+        NOTES["lossy" if hit.normal is not None else method],
+        "Validity",
+        *findings,
+    )
     return "\n".join(parts)
 
 
