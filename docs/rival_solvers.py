@@ -11,10 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 import scipy.fft
+from numba import njit
+
 from carom.halfspace.compliance import Compliance
 from carom.halfspace.influence import Field, influence
 from carom.halfspace.traction import Discs, at_bound
-from numba import njit
 
 MEMORY = 10  # iterations over which the spectral gradient may rise
 FORCING = 0.1  # what conjugate gradients leave of the residual within ADMM
@@ -22,11 +23,15 @@ INNER = 50
 
 
 class Problem(NamedTuple):
-    """Displacements `given`, bounds of the tractions, and what displacement a traction causes."""
+    """Displacements `given`, bounds of the tractions, and what displacement a traction causes.
+
+    The largest eigenvalue of T, which some solvers want, is a present to them.
+    """
 
     compliance: Compliance
     given: Field
     bound: Field
+    eigenvalue: float
 
     @property
     def touching(self) -> Field:
@@ -106,7 +111,7 @@ def fast_gradient(problem: Problem, start: Field) -> Iterates:
     (O'Donoghue & Candes 2015, Found. Comput. Math. 15:715)."""
     traction = problem.project(start)
     moved = problem.compliance.tangential(traction)
-    length, pace = 1.0 / norm(problem), 1.0
+    length, pace = 1.0 / problem.eigenvalue, 1.0
     ahead, moved_ahead = traction, moved
     while True:
         yield traction, moved
@@ -124,7 +129,7 @@ def fast_gradient(problem: Problem, start: Field) -> Iterates:
 def proportioned(problem: Problem, start: Field) -> Iterates:
     """MPGP: conjugate gradients inside the discs, gradient projection for what is on their edge
     (Dostal & Kozubek 2012, Math. Program. 135:195)."""
-    length = 1.9 / norm(problem)
+    length = 1.9 / problem.eigenvalue
     traction = problem.project(start)
     moved, direction = problem.compliance.tangential(traction), None
     while True:
@@ -215,7 +220,7 @@ def splitting(problem: Problem, start: Field) -> Iterates:
     on_discs = problem.project(start)
     moved = compliance.tangential(on_discs)
     yield on_discs, moved
-    weight = sqrt(compliance.tangential_diagonal * norm(problem))
+    weight = sqrt(compliance.tangential_diagonal * problem.eigenvalue)
     multiplier = problem.slip(moved) / weight
     free, bent, inverse = on_discs, moved, Circulant(problem, weight)
     largest = float(problem.bound.max())
@@ -299,11 +304,10 @@ def sweep(matrix: Field, given: Field, bound: Field, values: Field) -> None:
         values[0, i], values[1, i] = less * x, less * y
 
 
-def norm(problem: Problem) -> float:
-    """Return the largest eigenvalue of T within the contact; its cost is not counted."""
-    before, vector, size = problem.compliance.transforms, np.ones_like(problem.given), 1.0
+def largest_eigenvalue(compliance: Compliance, bound: Field) -> float:
+    """Return that of T within the contact, a little more rather than less."""
+    vector, size = np.ones((2, *bound.shape)), 1.0
     for _ in range(30):
-        vector = problem.touching * problem.compliance.tangential(vector / size)
+        vector = (bound > 0.0) * compliance.tangential(vector / size)
         size = float(np.sqrt(np.sum(vector**2)))
-    problem.compliance.transforms = before
     return 1.02 * size

@@ -237,7 +237,7 @@ def as_table(hit: "Course") -> str:
         "Phases",
         head,
         *phases,
-        NOTES["lossy" if hit.normal is not None else method],
+        note,
         "Validity",
         *findings,
     )
