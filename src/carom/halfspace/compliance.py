@@ -35,28 +35,28 @@ class Compliance:
     [I/r + m x x/r^3], D = x/r^2, m = 2 (1/kappa - 1), K = beta/pi (Boussinesq, Cerruti; Johnson
     1985, sections 3.2, 3.6). Pressure in E* d_max/a_max, traction in friction times that, lengths
     along the surface in a_max, normal displacements in d_max, tangential ones in friction d_max.
-    `transforms` counts the real two-dimensional transforms of padded fields that were made.
+    `transforms` counts the real two-dimensional transforms of padded fields that were made,
+    `rough_transforms` those of fields without padding, by the preconditioners.
     """
 
     def __init__(self, size: int, spacing: float, materials: Materials) -> None:
         self.size, self.spacing, self.materials = size, spacing, materials
-        self.transforms = 0
+        self.transforms = self.rough_transforms = 0
         offsets = np.fft.fftfreq(2 * size, 1.0 / (2 * size))
         unit = influence(*np.meshgrid(offsets, offsets, indexing="ij"))
         scale, lateral = spacing / pi, materials.lateral
         normal = scale * (unit.xx + unit.yy)
         own = normal + scale * lateral * np.stack([unit.xx, unit.yy])
         cross, skew = scale * lateral * unit.xy, scale * materials.beta * np.stack([unit.x, unit.y])
-        self._normal, self._own, self._cross, self._skew = map(
-            self._forward, (normal, own, cross, skew)
-        )
+        even = [self._spectrum(kernel).real.copy() for kernel in (normal, own, cross)]
+        self._normal, self._own, self._cross = even
+        self._skew = self._spectrum(skew)
         self._normal_inverse = 1.0 / self._circulant(normal)
         straight, slanted = self._circulant(own), self._circulant(cross)
         determinant = straight[0] * straight[1] - slanted**2
         self._own_inverse, self._cross_inverse = straight[::-1] / determinant, slanted / determinant
         self.normal_diagonal = float(normal[0, 0])
         self.tangential_diagonal = float(own[0, 0, 0])
-        self.transforms = 0
 
     @property
     def couples(self) -> bool:
@@ -70,7 +70,9 @@ class Compliance:
     def tangential(self, traction: Field) -> Field:
         """Return the tangential displacement, along (x, y), under a traction alone."""
         loads = self._forward(traction)
-        return self._backward(self._own * loads + self._cross * loads[::-1])
+        moved = self._own * loads
+        moved += self._cross * loads[::-1]
+        return self._backward(moved)
 
     def normal_of_traction(self, traction: Field) -> Field:
         """Return the normal displacement under a traction: none for like materials."""
@@ -87,16 +89,28 @@ class Compliance:
 
     def roughly_pressure(self, displacement: Field) -> Field:
         """Return about the pressure under which the surface gives way so: a preconditioner."""
+        self.rough_transforms += 2
         spectrum = scipy.fft.rfft2(displacement)
         pressure: Field = scipy.fft.irfft2(self._normal_inverse * spectrum, displacement.shape)
         return pressure
 
     def roughly_traction(self, displacement: Field) -> Field:
         """Return about the traction under which the surface gives way so: a preconditioner."""
+        self.rough_transforms += 4
         spectrum = scipy.fft.rfft2(displacement)
         loads = self._own_inverse * spectrum - self._cross_inverse * spectrum[::-1]
         traction: Field = scipy.fft.irfft2(loads, displacement.shape[1:])
         return traction
+
+    def _spectrum(self, kernel: Field) -> Spectrum:
+        """Return the spectrum of a kernel, without the offsets of `size` that no two elements have.
+
+        They would spoil the symmetry by which spectra of even kernels are real.
+        """
+        used = np.ones((2 * self.size, 2 * self.size))
+        used[self.size] = used[:, self.size] = 0.0
+        spectrum: Spectrum = scipy.fft.rfft2(used * kernel)
+        return spectrum
 
     def _forward(self, field: Field) -> Spectrum:
         """Return the spectrum on the doubled grid; lines of padding are not transformed."""

@@ -20,7 +20,7 @@ class Tolerances(NamedTuple):
 
     normal: float = 1e-6
     tangential: float = 1e-6
-    exchange: float = 1e-6
+    exchange: float = 1e-5
     touch: float = 1e-3  # only to see which elements touch
 
 

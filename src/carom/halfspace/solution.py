@@ -15,7 +15,7 @@ from carom.halfspace.motion import DURATION, NORMAL, Motion, inertia, move
 from carom.halfspace.quasistatic import Patch, Step
 from carom.halfspace.stages import Stage, stages
 
-Progress = Callable[[float], object]
+Progress = Callable[[int], object]
 FAINT = 1e-6  # of the normal force: slip that pulls so little has no sign
 SNAPSHOTS = 60  # steps of an impact whose fields are kept, about
 
@@ -184,7 +184,7 @@ def solve(
 ) -> HalfspaceSolution:
     """Return the impact with psi_1 = psi, the motion at an angle `direction` to the grid.
 
-    `progress` is called after every step with how many of `resolution.steps` that makes, about one.
+    `progress` is called after every step with how many of `resolution.steps` it makes up for.
     """
     patch = Patch.across(resolution.elements, materials)
     along = np.array([cos(direction), sin(direction)])
@@ -199,11 +199,17 @@ def solve(
         if count % every == 0:
             snapshots.append(_snapshot(rows[-1], before, now))
         if progress is not None:
-            passed = min(now.time / DURATION, 1.0) - min(before.time / DURATION, 1.0)
-            progress(passed * resolution.steps)
+            progress(_steps_until(now, resolution) - _steps_until(before, resolution))
     return HalfspaceSolution(
         psi, chi, materials, resolution, np.array(rows), tuple(snapshots), patch
     )
+
+
+def _steps_until(now: Motion, resolution: Resolution) -> int:
+    """Return how many steps of equal length an instant is worth; all of them at the end."""
+    apart = now.approach < 0.0 and now.force == 0.0
+    passed = 1.0 if apart else min(now.time / DURATION, 1.0)
+    return round(passed * resolution.steps)
 
 
 def _snapshot(row: Entry, before: Motion, now: Motion) -> Snapshot:
