@@ -1,0 +1,71 @@
+"""`carom impact --method halfspace`, as a user would type it."""
+
+import json
+
+import pytest
+
+import carom
+from carom.cli import main
+
+BALL = ["impact", "--radius", "5 mm", "--material", "glass", "--friction", "0.2"]
+MOTION = ["--speed", "2", "--angle", "30 deg"]
+COARSE = ["--method", "halfspace", "--elements", "10", "--steps", "30"]
+
+
+@pytest.fixture
+def run(capsys, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+
+    def call(*arguments):
+        code = main(list(arguments))
+        caught = capsys.readouterr()
+        return code, caught.out, caught.err
+
+    return call
+
+
+def test_json_is_the_impact_of_the_library(run):
+    code, out, err = run(*BALL, *MOTION, *COARSE, "--json")
+    told = json.loads(out)
+    ball = carom.Sphere(radius="5 mm", material="glass")
+    pair = carom.Pair(ball, carom.HalfSpace(material="glass"), friction=0.2)
+    grid = carom.BoundaryElements(elements=10, steps=30)
+    hit = carom.impact(pair, speed=2.0, angle="30 deg", method=grid)
+    assert (code, err) == (0, "")
+    assert told["result"]["psi_out"] == hit.psi_out
+    assert told["result"]["psi_out_error"] == hit.psi_out_error
+    assert told["inputs"]["method"] == "halfspace"
+    assert told["phases"][0]["slip_angle_mean"] == hit.slip_angles[0].mean
+
+
+def test_the_table_tells_the_error_and_files_are_stored(run, tmp_path):
+    files = ["--plot", "hit.png", "--output", "hit.nc"]
+    code, out, err = run(*BALL, *MOTION, *COARSE, *files)
+    assert code == 0
+    assert "change of psi_2 from a grid half as fine" in out
+    assert "energy lost in the normal motion" not in out, "like materials lose none"
+    assert (tmp_path / "hit.png").stat().st_size > 20_000
+    assert carom.read(tmp_path / "hit.nc").slip_angle.dims == ("time",)
+    assert err.splitlines() == ["stored hit.nc", "stored hit.png"]
+
+
+def test_unlike_materials_show_what_the_normal_motion_loses(run):
+    code, out, _ = run(*BALL, *MOTION, *COARSE, "--second-material", "steel")
+    assert code == 0
+    assert "energy lost in the normal motion" in out
+
+
+@pytest.mark.parametrize(
+    ("flags", "said"),
+    [
+        (["--method", "fem"], "carom: method: 'fem' cannot be used; must be 'exact', "),
+        (["--elements", "32"], "carom: elements: 32 cannot be used; only boundary elements have"),
+        (["--method", "halfspace", "--steps", "5"], "carom: steps: 5 cannot be used; must be a"),
+        ([*COARSE, "--restitution", "0.9"], "carom: normal: KelvinVoigt(restitution=0.9"),
+    ],
+)
+def test_what_cannot_be_solved_takes_one_line(run, flags, said):
+    code, out, err = run(*BALL, *MOTION, *flags)
+    assert (code, out) == (2, "")
+    assert err.startswith(said)
+    assert len(err.splitlines()) == 1
