@@ -1,8 +1,9 @@
 """The full contact in three dimensions beside the theory: which way does the patch slip?
 
-The theory lets all points pull and slip along x. The full solution, boundary elements with Coulomb's
-law as a vector, turns traction and slip together. In the ring that slips the theory's slip is off
-x by up to arcsin(nu/(2 - nu)); the full one by a little less, and the rebound is hardly touched.
+The theory lets all points pull and slip along x; its slip then turns off x, most at the front of
+the ring that slips, by arcsin(nu/(2 - nu)). In the full solution, boundary elements with Coulomb's
+law as a vector, traction turns with slip: at the front slip starts along the traction that stuck
+there, along x, and it turns off further out. The rebound is hardly touched.
 Barber (1979), ZAMP 30:468, section 7; Kalker (1990), Three-Dimensional Elastic Bodies in Rolling
 Contact, chapter 4.
 """

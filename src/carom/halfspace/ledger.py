@@ -12,7 +12,7 @@ from carom.halfspace.traction import at_bound
 
 
 class Entry(NamedTuple):
-    """One instant of an impact, along the direction of the motion and across it.
+    """One instant of an impact, or all of them, along the direction of the motion and across it.
 
     Units as in `Compliance` and `Motion`; energies of the normal motion in E* a_max d_max^2, of the
     tangential motion in friction^2 times that. What is `lost` and the angles belong to the step
@@ -40,7 +40,7 @@ class Entry(NamedTuple):
     @property
     def stick_radius(self) -> float:
         """Radius of the circle of the area that sticks."""
-        return sqrt(1.0 - self.slip_share) * self.contact_radius
+        return (1.0 - self.slip_share) ** 0.5 * self.contact_radius
 
     @property
     def normal_force(self) -> float:

@@ -77,7 +77,7 @@ class HalfspaceSolution:
 
     def column(self, name: str) -> Field:
         """Return one quantity of `Entry` along the steps."""
-        values: Field = self.ledger[:, Entry._fields.index(name)]
+        values: Field = getattr(Entry(*self.ledger.T), name)
         return values
 
     @property
@@ -103,7 +103,7 @@ class HalfspaceSolution:
     @property
     def max_force(self) -> float:
         """Largest normal force, in that of Hertz."""
-        return 0.75 * float(self.column("force").max())
+        return float(self.column("normal_force").max())
 
     @property
     def max_radius(self) -> float:
@@ -151,12 +151,12 @@ class HalfspaceSolution:
             self.column("approach"),
             kappa * self.column("velocity"),
             kappa * self.column("displacement"),
-            0.5 * self.column("drag"),
-            np.sqrt(1.0 - self.column("slip_share")) * self.column("contact_radius"),
+            self.column("tangential_force"),
+            self.column("stick_radius"),
             self.column("contact_radius"),
             energy * self.column("tangential_stored"),
             energy * np.cumsum(self.column("lost")),
-            0.75 * self.column("force"),
+            self.column("normal_force"),
             2.0 * NORMAL * self.column("normal_stored"),
             np.zeros(len(self.ledger)),
             self.column("slip_angle"),
