@@ -43,9 +43,12 @@ class Problem(NamedTuple):
         return Discs(self.bound).project(traction)
 
     def inverse(self, displacement: Field) -> Field:
-        """Return about the traction that causes it: four transforms, of a quarter of the size."""
-        self.compliance.transforms += 1
+        """Return about the traction that causes it."""
         return self.compliance.roughly_traction(displacement)
+
+    def scaled(self, displacement: Field) -> Field:
+        """Return the traction that causes it if elements do not feel each other."""
+        return displacement / self.compliance.tangential_diagonal
 
     def slip(self, displacement: Field) -> Field:
         """Return what is not followed: the negative gradient."""
@@ -54,7 +57,6 @@ class Problem(NamedTuple):
 
 Iterates = Iterator[tuple[Field, Field] | None]
 Solver = Callable[[Problem, Field], Iterates]
-Inverse = Callable[[Field], Field]
 
 
 class Circulant:
@@ -77,8 +79,8 @@ class Circulant:
         self.own, self.cross = np.stack([yy, xx]) / (xx * yy - xy**2), -xy / (xx * yy - xy**2)
 
     def solve(self, loads: Field) -> Field:
-        """Return its inverse times loads: four transforms, of a quarter of the size."""
-        self.compliance.transforms += 1
+        """Return its inverse times loads."""
+        self.compliance.rough_transforms += 4
         spectrum = scipy.fft.rfft2(loads)
         turned = self.own * spectrum + self.cross * spectrum[::-1]
         return scipy.fft.irfft2(turned, loads.shape[1:])
@@ -164,19 +166,10 @@ def _room(traction: Field, direction: Field, bound: Field) -> float:
     return float(np.min((root - along)[moving] / square[moving], initial=np.inf))
 
 
-def face_gradients(problem: Problem, start: Field) -> Iterates:
+def face_gradients(problem: Problem, start: Field, circulant: bool) -> Iterates:
     """Nonlinear conjugate gradients along the discs, projected back, after TangCG
     (Zhao, Vollebregt & Oosterlee 2015, J. Comput. Phys. 288:86)."""
-    diagonal = problem.compliance.tangential_diagonal
-    return _face_gradients(problem, start, lambda loads: loads / diagonal)
-
-
-def face_gradients_fft(problem: Problem, start: Field) -> Iterates:
-    """The same with a circulant as preconditioner."""
-    return _face_gradients(problem, start, problem.inverse)
-
-
-def _face_gradients(problem: Problem, start: Field, inverse: Inverse) -> Iterates:
+    inverse = problem.inverse if circulant else problem.scaled
     diagonal, bound = problem.compliance.tangential_diagonal, problem.bound
     traction = problem.project(start)
     moved = problem.compliance.tangential(traction)
@@ -268,7 +261,8 @@ def _shifted(
 
 
 def gauss_seidel(problem: Problem, start: Field) -> Iterates:
-    """Element by element on the dense matrix, each exactly: ConvexGS (Vollebregt 2010, JOTA).
+    """Element by element on the dense matrix, each exactly: ConvexGS (Vollebregt 1995, J. Optim.
+    Theory Appl. 87:47).
 
     A sweep counts as one product with T.
     """

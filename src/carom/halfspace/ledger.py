@@ -40,7 +40,8 @@ class Entry(NamedTuple):
     @property
     def stick_radius(self) -> float:
         """Radius of the circle of the area that sticks."""
-        return (1.0 - self.slip_share) ** 0.5 * self.contact_radius
+        share: float = (1.0 - self.slip_share) ** 0.5
+        return share * self.contact_radius
 
     @property
     def normal_force(self) -> float:
