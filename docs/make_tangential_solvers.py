@@ -1,6 +1,6 @@
 """Fill docs/tangential_solvers.csv and its figure: what solving the tangential problem costs.
 
-python docs/make_tangential_solvers.py            all, about half an hour on one core
+python docs/make_tangential_solvers.py            all, a quarter of an hour on one core
 python docs/make_tangential_solvers.py --smoke    a few problems, seconds, nothing is stored
 
 Problems are steps of impacts as they occur, those first where most elements change between stick

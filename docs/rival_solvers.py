@@ -63,12 +63,12 @@ class Circulant:
     """The circulant next to T (T. Chan 1988, SIAM J. Sci. Stat. Comput. 9:766), plus a shift."""
 
     def __init__(self, problem: Problem, shift: float) -> None:
-        self.compliance, size = problem.compliance, problem.compliance.size
+        self.problem, compliance, size = problem, problem.compliance, problem.compliance.size
         offsets = np.fft.fftfreq(2 * size, 1.0 / (2 * size))
         unit = influence(*np.meshgrid(offsets, offsets, indexing="ij"))
         near = np.maximum(1.0 - np.abs(offsets) / size, 0.0)
-        weight = self.compliance.spacing / pi * np.outer(near, near)
-        lateral = self.compliance.materials.lateral
+        weight = compliance.spacing / pi * np.outer(near, near)
+        lateral = compliance.materials.lateral
 
         def symbol(kernel: Field) -> Field:
             return scipy.fft.rfft2((weight * kernel).reshape(2, size, 2, size).sum((0, 2))).real
@@ -80,7 +80,7 @@ class Circulant:
 
     def solve(self, loads: Field) -> Field:
         """Return its inverse times loads."""
-        self.compliance.rough_transforms += 4
+        self.problem.compliance.rough_transforms += 4
         spectrum = scipy.fft.rfft2(loads)
         turned = self.own * spectrum + self.cross * spectrum[::-1]
         return scipy.fft.irfft2(turned, loads.shape[1:])
@@ -90,7 +90,7 @@ def spectral_gradient(problem: Problem, start: Field) -> Iterates:
     """Birgin, Martinez & Raydan 2000, SIAM J. Optim. 10:1196: their second method."""
     traction = problem.project(start)
     moved = problem.compliance.tangential(traction)
-    length, energies = 1.0 / problem.compliance.tangential_diagonal, [np.inf]
+    length, energies = 1.0 / problem.compliance.tangential_diagonal, []
     while True:
         yield traction, moved
         slip = problem.slip(moved)
@@ -99,8 +99,8 @@ def spectral_gradient(problem: Problem, start: Field) -> Iterates:
         change = problem.project(traction + length * slip) - traction
         bent = problem.compliance.tangential(change)
         slope, curvature = float(np.sum(slip * change)), float(np.sum(change * bent))
-        step, worst = 1.0, max(e for e in energies if e < np.inf)
-        while energy - step * slope + 0.5 * step**2 * curvature > worst - 1e-4 * step * slope:
+        step, highest = 1.0, max(energies)
+        while energy - step * slope + 0.5 * step**2 * curvature > highest - 1e-4 * step * slope:
             step = min(0.5 * step, slope / curvature)
             if step < 1e-10:
                 return
@@ -216,18 +216,16 @@ def splitting(problem: Problem, start: Field) -> Iterates:
     weight = sqrt(compliance.tangential_diagonal * problem.eigenvalue)
     multiplier = problem.slip(moved) / weight
     free, bent, inverse = on_discs, moved, Circulant(problem, weight)
-    largest = float(problem.bound.max())
     while True:
         target = problem.given + weight * (on_discs - multiplier)
         residual = touching * (target - bent - weight * free)
-        wanted = FORCING * float(np.abs(residual).max())
-        free, bent = _shifted(problem, inverse, weight, free, bent, residual, wanted)
+        free, bent = _shifted(inverse, weight, free, bent, residual)
         relaxed = 1.6 * free - 0.6 * on_discs
         last, on_discs = on_discs, problem.project(relaxed + multiplier)
         multiplier = multiplier + relaxed - on_discs
         primal, dual = float(np.abs(free - on_discs).max()), float(np.abs(on_discs - last).max())
         dual *= weight / compliance.tangential_diagonal
-        near = max(primal, dual) <= 1e-7 * largest
+        near = max(primal, dual) <= 1e-7 * problem.bound.max()
         yield (on_discs, compliance.tangential(on_discs)) if near else None
         factor = 2.0 if primal > 10.0 * dual else 0.5 if dual > 10.0 * primal else 1.0
         if factor != 1.0:
@@ -236,16 +234,11 @@ def splitting(problem: Problem, start: Field) -> Iterates:
 
 
 def _shifted(
-    problem: Problem,
-    inverse: Circulant,
-    weight: float,
-    free: Field,
-    bent: Field,
-    residual: Field,
-    wanted: float,
+    inverse: Circulant, weight: float, free: Field, bent: Field, residual: Field
 ) -> tuple[Field, Field]:
     """Return the traction under T + weight, and T times it."""
-    direction, last = np.zeros_like(free), 0.0
+    problem, direction, last = inverse.problem, np.zeros_like(free), 0.0
+    wanted = FORCING * float(np.abs(residual).max())
     for _ in range(INNER):
         if np.abs(residual).max() <= wanted:
             break
@@ -267,9 +260,7 @@ def gauss_seidel(problem: Problem, start: Field) -> Iterates:
     A sweep counts as one product with T.
     """
     touching = problem.touching
-    rows, columns = np.nonzero(touching)
-    apart = rows[:, None] - rows, columns[:, None] - columns
-    unit = influence(*(one.astype(float) for one in apart))
+    unit = influence(*(1.0 * (line[:, None] - line) for line in np.nonzero(touching)))
     scale, lateral = problem.compliance.spacing / pi, problem.compliance.materials.lateral
     xx = scale * (unit.xx + unit.yy + lateral * unit.xx)
     yy = scale * (unit.xx + unit.yy + lateral * unit.yy)
