@@ -45,7 +45,7 @@ class Impact(Course):
     @property
     def validity(self) -> Validity:
         """How far the assumptions of the theory hold, as numbers with a verdict."""
-        return judge(self.pair, self.normal_speed, self.duration)
+        return judge(self.pair, self.normal_speed, self.duration, self.psi_in)
 
     @property
     def slip_angles(self) -> tuple[SlipAngle, ...]:

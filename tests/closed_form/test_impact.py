@@ -7,6 +7,7 @@ import pytest
 
 import carom
 from carom import Cup, HalfSpace, InputError, Material, Pair, Sphere
+from carom.validity import rebound_error
 
 STEEL = Material(young="210 GPa", poisson=0.3, density=7850)
 GLASS = Material(young="70 GPa", poisson=0.23, density=2500)
@@ -182,8 +183,23 @@ def test_validity_speaks_up():
     mixed = Pair(Sphere(radius="5 mm", material=GLASS), HalfSpace(material=STEEL), 0.2)
     judged = carom.impact(mixed, speed=1.0).validity
     assert [f.name for f in judged.findings if f.holds is False] == ["Dundurs beta"]
+    oblique = carom.impact(mixed, speed=1.0, angle="20 deg").validity
+    assert [f.name for f in oblique.findings if f.holds is False][1:] == ["error of psi_2"]
+    assert "method='halfspace'" in str(oblique)
     hard = carom.impact(Pair(Sphere(radius="5 mm", material="steel"), BALL, 0.2), speed=5.0)
     assert "yields" in str(hard.validity)
+
+
+def test_error_of_the_rebound():
+    """0.008 nu^2 for like materials; with coupling by hand; none in normal impacts, less beyond."""
+    assert rebound_error(0.7 / 0.85, 0.0, 0.2, 1.44, 1.0) == close(0.008 * 0.3**2)
+    coupled = 0.2 * 0.5**2 / 1.5 + 0.8 * 0.1**2
+    assert rebound_error(1.0, -0.1, 0.2, 1.44, -1.0) == close(coupled)
+    assert rebound_error(1.0, 0.1, 0.2, 1.44, 0.25) == close(0.5 * coupled)
+    assert rebound_error(1.0, 0.1, 0.2, 1.5, 6.0) == close(coupled / 4.0)
+    assert rebound_error(0.8, 0.1, 0.2, 1.44, 0.0) == 0.0
+    frictionless = carom.impact(Pair(BALL, HalfSpace(material="glass"), 0.0), speed=1, angle=0.5)
+    assert frictionless.validity.findings[-1].value == 0.0
 
 
 @pytest.mark.parametrize(
