@@ -1,0 +1,142 @@
+"""Loops and oblique loading of the elements against Mindlin & Deresiewicz (1953) at nu = 0.
+
+J. Appl. Mech. 20:327; kappa = 1. Displacements in friction d_max, forces over friction; at depth 1
+P = 4/3, and f = F/P follows u = U: f = 1 - (1 - u)^1.5 at first, after each reversal twice that of
+half the change of u.
+"""
+
+import numpy as np
+import pytest
+
+from carom.halfspace.compliance import Materials
+from carom.halfspace.quasistatic import Patch
+
+ELEMENTS = 24
+ERROR = 1.5e-3  # of f, as found for the first loading on this grid
+LIMIT = 4.0 / 3.0
+
+
+def first(u):
+    return 1.0 - (1.0 - np.abs(u)) ** 1.5
+
+
+def driven(shifts):
+    """Return the patch and its steps at depth 1."""
+    patch = Patch.across(ELEMENTS, Materials(1.0))
+    state, steps = patch.advance(patch.untouched(), 1.0, np.zeros(2)).state, []
+    for shift in shifts:
+        steps.append(patch.advance(state, 1.0, np.array([shift, 0.0])))
+        state = steps[-1].state
+    return patch, steps
+
+
+def share(step):
+    return step.state.traction[0].sum() / step.state.pressure.sum()
+
+
+@pytest.mark.parametrize("top", [0.3, 0.7])
+def test_down_and_up_again(top):
+    """Loaded, unloaded to the opposite and loaded anew: the loop closes where it began."""
+    down, up = np.linspace(top, -top, 9)[1:], np.linspace(-top, top, 9)[1:]
+    _, steps = driven([top, *down, *up])
+    found = np.array([share(step) for step in steps])
+    peak = first(top)
+    assert found[0] == pytest.approx(peak, abs=ERROR)
+    unloading = peak - 2.0 * first((top - down) / 2.0)
+    assert np.abs(found[1:9] - unloading).max() <= 2.0 * ERROR
+    assert found[8] == pytest.approx(-found[0], abs=1e-5)
+    assert np.abs(found[9:] + unloading).max() <= 2.0 * ERROR
+    assert found[16] == pytest.approx(found[0], abs=1e-5)
+    assert np.abs(steps[16].state.traction - steps[0].state.traction).max() <= 1e-5
+
+
+def test_traction_of_unloading():
+    """q = p(r) - 2 c' p(r/c') + c p(r/c) with changed sign: a ring of its own slips backwards."""
+    top, bottom = 0.7, 0.3
+    patch, steps = driven([top, bottom])
+    radii = np.hypot(patch.line[:, None], patch.line)
+
+    def circle(square):
+        return 2.0 / np.pi * np.sqrt(np.maximum(square - radii**2, 0.0))
+
+    c, back = 1.0 - top, 1.0 - (top - bottom) / 2.0  # squares of the stick radii
+    exact = circle(1.0) - circle(c) - 2.0 * (circle(1.0) - circle(back))
+    away = np.min([np.abs(radii - np.sqrt(edge)) for edge in (c, back, 1.0)], axis=0) > 0.12
+    off = np.abs(steps[1].state.traction[0] - exact)
+    assert np.count_nonzero(away & (radii < 1.0)) >= 120
+    assert off[away].max() <= 0.01
+    assert off.max() <= 0.06
+    assert steps[1].state.traction[0][np.abs(radii - 0.95) < 0.04].max() < 0.0
+    assert steps[1].state.traction[0][radii < 0.5].min() > 0.0
+
+
+@pytest.mark.parametrize("force", [0.5, 0.9])
+def test_energy_lost_in_a_loop(force):
+    """W = (18/5)(mu P)^2/(a G*) (1 - y)^3 (1 + 3 y + y^2)/6, y^3 = 1 - F/(mu P) (Johnson 7.4).
+
+    As the area of the loop, of order 1.5 in its steps (the compliance jumps at reversals), and as
+    the work of tractions on slip at every element, which steps do not matter to at nu = 0.
+    """
+    y = (1.0 - force) ** (1.0 / 3.0)
+    exact = 3.6 * LIMIT**2 * (1.0 - y) ** 3 * (1.0 + 3.0 * y + y**2) / 6.0
+    top, areas, slips = 1.0 - (1.0 - force) ** (2.0 / 3.0), [], []
+    for count in (10, 20):
+        down, up = np.linspace(top, -top, count + 1), np.linspace(-top, top, count + 1)
+        shifts = np.array([*down, *up[1:]])
+        patch, steps = driven(shifts)
+        drag = np.array([patch.element * step.state.traction[0].sum() for step in steps])
+        areas.append(float(np.trapezoid(drag, shifts)))
+        work = [patch.element * np.sum(step.state.traction * step.moved) for step in steps[1:]]
+        assert min(work) >= -1e-7
+        slips.append(sum(work))
+    extrapolated = areas[1] + (areas[1] - areas[0]) / (2.0**1.5 - 1.0)
+    assert abs(areas[1] - exact) < abs(areas[0] - exact)
+    assert extrapolated == pytest.approx(exact, rel=0.01)
+    assert slips == pytest.approx([exact, exact], rel=6e-3)
+
+
+@pytest.mark.parametrize("share_of_critical", [0.4, 0.97])
+def test_steep_loads_stick(share_of_critical):
+    """Motion of constant direction from first touch, kappa U/d below 1: q = (U/d) p, no slip.
+
+    Unloading along the same line retraces it. Elements that come to touch within a step make the
+    force err, by an amount that falls faster than the steps.
+    """
+    errors = []
+    for count in (6, 12, 24):
+        patch = Patch.across(ELEMENTS, Materials(1.0))
+        state, off = patch.untouched(), []
+        line = np.linspace(0.0, 1.0, count + 1)[1:]
+        for depth in (*line, *line[-2::-1]):
+            step = patch.advance(state, depth, np.array([share_of_critical * depth, 0.0]))
+            state = step.state
+            off.append(
+                patch.element * np.sum(state.traction[0] - share_of_critical * state.pressure)
+            )
+        errors.append(np.sqrt(np.mean(np.square(off))) / (share_of_critical * LIMIT))
+    assert errors[0] > errors[1] > errors[2]
+    assert errors[0] > 4.0 * errors[2]
+    assert errors[2] <= 6e-3
+
+
+def test_flat_loads_slide():
+    """At twice the critical direction everything slips, pressing and lifting: q = p.
+
+    But for elements that came to touch in the second half of a step.
+    """
+    patch = Patch.across(ELEMENTS, Materials(1.0))
+    state, radii = patch.untouched(), np.hypot(patch.line[:, None], patch.line)
+    for depth, shift in ((0.2, 0.4), (0.6, 1.2), (1.0, 2.0), (0.7, 2.1), (0.2, 2.3)):
+        before = state.depth
+        step = patch.advance(state, depth, np.array([shift, 0.0]))
+        state = step.state
+        bound = np.where(step.gripped, state.pressure, 0.0)
+        assert np.abs(state.traction[0] - bound).max() <= 1e-6
+        touches = state.pressure > 0.0
+        late = radii[touches & ~step.gripped]
+        if depth < before:
+            assert late.size == 0
+        else:
+            middle = np.sqrt(0.5 * (before + depth))
+            assert late.min() >= middle - 0.5 * patch.compliance.spacing
+            assert radii[step.gripped].max() <= middle + 0.5 * patch.compliance.spacing

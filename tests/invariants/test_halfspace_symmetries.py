@@ -1,0 +1,74 @@
+"""Impacts on a grid that mirror, turn or swap one another."""
+
+import numpy as np
+import pytest
+
+from carom.halfspace.compliance import Materials
+from carom.halfspace.motion import move
+from carom.halfspace.quasistatic import Patch
+
+LIKE = Materials(2.0 * (1.0 - 0.3) / (2.0 - 0.3))
+UNLIKE = Materials(0.8, 0.3, 0.5)
+
+
+def impact(psi, materials=LIKE, elements=16, steps=75):
+    """Return the instants of an impact."""
+    patch = Patch.across(elements, materials)
+    return list(move(patch, np.array(psi, dtype=float), 1.4412, steps))
+
+
+def rebound(*args):
+    """Return psi_2 as a vector, but for the factor kappa."""
+    return impact(*args)[-1].velocity
+
+
+@pytest.mark.parametrize(("materials", "elements", "steps"), [(LIKE, 16, 40), (UNLIKE, 8, 20)])
+def test_odd_in_psi(materials, elements, steps):
+    """Motion reversed is reversed throughout; for unlike materials as well."""
+    there = rebound((0.7, 0.2), materials, elements, steps)
+    back = rebound((-0.7, -0.2), materials, elements, steps)
+    assert np.abs(there + back).max() <= 1e-6
+    assert np.abs(there).min() > 1e-3
+
+
+def test_bodies_swapped():
+    """beta changes its sign: the same rebound, of the normal motion as well; without it another."""
+    one, other, none = (
+        impact((1.0, 0.0), Materials(0.8, beta, 0.5), 8, 20)[-1] for beta in (0.3, -0.3, 0.0)
+    )
+    assert np.abs(one.velocity - other.velocity).max() <= 1e-6
+    assert one.approach == pytest.approx(other.approach, abs=1e-6)
+    assert abs(one.velocity[0] - none.velocity[0]) > 1e-3
+    assert abs(one.approach - none.approach) > 1e-3
+
+
+@pytest.mark.parametrize("psi", [0.5, 1.5])
+def test_no_direction_is_special(psi):
+    """Motion at 45, 20 or 90 degrees to the grid: the same psi_2 within 5e-5, and none across."""
+    along = rebound((psi, 0.0))
+    assert abs(along[1]) <= 1e-12
+    for degrees, bound in ((45.0, 5e-5), (20.0, 5e-5), (90.0, 1e-9)):
+        angle = np.radians(degrees)
+        direction = np.array([np.cos(angle), np.sin(angle)])
+        found = rebound(psi * direction)
+        assert found @ direction == pytest.approx(along[0], abs=bound)
+        assert abs(found @ [-direction[1], direction[0]]) <= bound
+        if degrees == 45.0:
+            assert found[0] == pytest.approx(found[1], abs=1e-9)
+
+
+def test_mirror():
+    """Motion mirrored at an axis rebounds mirrored."""
+    one, other = (rebound((0.6, across), LIKE, 16, 40) for across in (0.4, -0.4))
+    assert one == pytest.approx(other * [1.0, -1.0], abs=1e-9)
+    assert abs(one[1]) > 1e-3
+
+
+def test_normal_motion_of_like_materials():
+    """Friction does not enter: Hertz's impact, of duration 2.9433, depth 1, force 4/3."""
+    found, others = (impact((psi, 0.0), LIKE, 20, 80) for psi in (1.0, 3.0))
+    assert found[-1].time == pytest.approx(2.94327518, rel=1e-3)
+    assert found[-1].approach == pytest.approx(-1.0, abs=1e-3)
+    assert max(now.step.state.depth for now in found) == pytest.approx(1.0, abs=1e-3)
+    assert max(now.force for now in found) == pytest.approx(4.0 / 3.0, rel=1e-3)
+    assert [now.force for now in others] == pytest.approx([now.force for now in found], rel=1e-12)
