@@ -78,7 +78,9 @@ def newton(problem: Problem, start: Field, circulant: bool) -> Iterates:
     inverse = problem.inverse if circulant else problem.scaled
     compliance = problem.compliance
     operator = Operator(compliance.tangential, inverse, compliance.tangential_diagonal)
-    yield minimise(operator, problem.given, Discs(problem.bound), start, TOLERANCE)
+    yield minimise(
+        operator, problem.given, Discs(problem.bound, float(problem.bound.max())), start, TOLERANCE
+    )
 
 
 SOLVERS: dict[str, Solver] = {

@@ -40,7 +40,7 @@ class Problem(NamedTuple):
 
     def project(self, traction: Field) -> Field:
         """Return the nearest traction on the discs."""
-        return Discs(self.bound).project(traction)
+        return Discs(self.bound, 1.0).project(traction)
 
     def inverse(self, displacement: Field) -> Field:
         """Return about the traction that causes it."""

@@ -251,8 +251,8 @@ def impact(
         What the normal motion loses energy to; by default nothing, the bodies are elastic.
     method : "exact", "halfspace" or BoundaryElements
         The theory, in which slip is parallel to x and unlike materials do not couple; or the full
-        contact in three dimensions, which assumes neither and takes some ten seconds, a few times
-        that for unlike materials. BoundaryElements says how finely.
+        contact in three dimensions, which assumes neither and takes ten seconds, a minute for
+        unlike materials. BoundaryElements says how finely.
     progress : bool, optional
         Whether the latter shows a bar; by default on a terminal.
 
@@ -260,6 +260,8 @@ def impact(
     ------
     InputError
         If a value is missing, given twice, out of range, or the bodies do not approach.
+    RuntimeError
+        If the solvers of the boundary elements fail; with friction times Dundurs' beta above 1.
 
     Examples
     --------

@@ -10,15 +10,13 @@ SMALL_CONTACT = 0.1  # a_max/R*: Hertz's parabolic gap against the sphere (Johns
 YIELD_PRESSURE = 1.60  # p_0/Y at first yield of a sphere, von Mises (Johnson 1985, 6.1)
 SLOW_CONTACT = 3.0  # contact time in transits of a wave through the sphere and back (Love 1927)
 WEAK_COUPLING = 0.01  # |Dundurs' beta|: what is left uncoupled is below a hundredth
-CLOSE_REBOUND = 0.01  # of psi_2 against the full contact in three dimensions
-LATERAL, RADIAL, COUPLED = 0.008, 0.2, 0.8  # of its bound, docs/halfspace_study.csv
+CLOSE_REBOUND = 0.01  # of psi_2, also against the full contact in three dimensions
+LATERAL, RADIAL, COUPLED = 0.008, 0.22, 0.8  # of its bound, docs/halfspace_study.csv
 
 
 def judge(pair: Pair, normal_speed: float, duration: float, psi: float) -> Validity:
     """Return the findings on an impact: small contact, no yield, slow contact, no coupling."""
-    error = 0.0
-    if isfinite(psi):
-        error = rebound_error(pair.kappa, pair.dundurs_beta, pair.friction, pair.chi, psi)
+    error = rebound_error(pair.kappa, pair.dundurs_beta, pair.friction, pair.chi, psi)
     uncoupled = (_coupling(pair.dundurs_beta), _close_rebound(error))
     return Validity((*judge_contact(pair, normal_speed, duration), *uncoupled))
 
@@ -91,17 +89,30 @@ def _coupling(beta: float) -> Finding:
 
 
 def rebound_error(kappa: float, beta: float, friction: float, chi: float, psi: float) -> float:
-    """Return how far psi_2 of the theory may be from that of the full contact, at most.
+    """Return how far psi_2 of the theory may be from that of the full contact.
 
-    [0.008 nu^2 + 0.2 rho^2/(1 + rho) + 0.8 beta^2] min(1, 2 |psi_1|)/(1 + e)^2 with nu of like
-    materials of the same kappa, rho = |beta|/mu, and e what |psi_1| exceeds 4 chi - 1 by: an
-    envelope of boundary element solutions with kappa from 2/3 to 1, |beta| up to 0.45, mu from 0.09
-    to 1 (docs/halfspace.md).
+    [0.008 nu^2 + 0.22 rho^2/(1 + rho) + 0.8 beta^2] min(1, 2 |psi_1|)/(1 + e)^2 with nu of like
+    materials of the same kappa, rho = |beta|/mu, and e what |psi_1| exceeds 4 chi - 1 by; 2 |psi_1|
+    at most, and nothing without friction. An envelope of boundary element solutions with kappa from
+    2/3 to 1, |beta| up to 0.45, mu from 0.09 to 1 (docs/halfspace.md); a guide beyond.
     """
+    if friction == 0.0 or not isfinite(psi):
+        return 0.0
     poisson, radial = 2.0 * (1.0 - kappa) / (2.0 - kappa), abs(beta) / friction
-    size = LATERAL * poisson**2 + RADIAL * radial**2 / (1.0 + radial) + COUPLED * beta**2
-    beyond = max(abs(psi) - max(4.0 * chi - 1.0, 1.0), 0.0)
-    return size * min(1.0, 2.0 * abs(psi)) / (1.0 + beyond) ** 2
+    turned = RADIAL * radial * abs(beta) / (friction + abs(beta))  # rho^2/(1 + rho)
+    size = LATERAL * poisson**2 + turned + COUPLED * beta**2
+    beyond = 1.0 + max(abs(psi) - max(4.0 * chi - 1.0, 1.0), 0.0)
+    return min(size * min(1.0, 2.0 * abs(psi)) / beyond / beyond, 2.0 * abs(psi))
+
+
+def judge_errors(psi_out: float, energy: float) -> tuple[Finding, ...]:
+    """Return the findings on what a grid and steps leave of psi_2 and of the energy."""
+    findings = []
+    for name, value in (("error of psi_2", psi_out), ("error of energy", energy)):
+        holds = value <= CLOSE_REBOUND
+        verdict = "grid and steps are fine enough" if holds else "take more elements and steps"
+        findings.append(Finding(name, value, CLOSE_REBOUND, holds, verdict))
+    return tuple(findings)
 
 
 def _close_rebound(error: float) -> Finding:

@@ -2,8 +2,9 @@
 
 The surfaces slip radially by what Hertz's pressure moves them, as a charge attracts (Gauss):
 (K/mu)(4/(3 r)) [a^3 - (a^2 - r^2)^1.5], K = beta/pi; per depth, a^2 = d, at w = (K/mu)(2/r)
-[a - sqrt(a^2 - r^2)]. With a tangential drift c per depth the traction is mu p along (c - w cos, - w
-sin), whatever came before, once beta/mu is large. Hence F, far below mu P where w exceeds c.
+[a - sqrt(a^2 - r^2)]. With a tangential drift c per depth the traction is mu p along
+(c - w cos, -w sin), whatever came before, once beta/mu is large. Hence F, far below mu P where w
+exceeds c.
 """
 
 import numpy as np

@@ -193,13 +193,15 @@ def test_validity_speaks_up():
 def test_error_of_the_rebound():
     """0.008 nu^2 for like materials; with coupling by hand; none in normal impacts, less beyond."""
     assert rebound_error(0.7 / 0.85, 0.0, 0.2, 1.44, 1.0) == close(0.008 * 0.3**2)
-    coupled = 0.2 * 0.5**2 / 1.5 + 0.8 * 0.1**2
+    coupled = 0.22 * 0.5**2 / 1.5 + 0.8 * 0.1**2
     assert rebound_error(1.0, -0.1, 0.2, 1.44, -1.0) == close(coupled)
     assert rebound_error(1.0, 0.1, 0.2, 1.44, 0.25) == close(0.5 * coupled)
     assert rebound_error(1.0, 0.1, 0.2, 1.5, 6.0) == close(coupled / 4.0)
     assert rebound_error(0.8, 0.1, 0.2, 1.44, 0.0) == 0.0
     frictionless = carom.impact(Pair(BALL, HalfSpace(material="glass"), 0.0), speed=1, angle=0.5)
     assert frictionless.validity.findings[-1].value == 0.0
+    assert rebound_error(1.0, 0.0, 0.0, 1.44, 0.0) == 0.0
+    assert rebound_error(1.0, 0.5, 1e-200, 1.44, 1e-3) == 2e-3
 
 
 @pytest.mark.parametrize(

@@ -29,6 +29,7 @@ NOTES = {
     "lossy": "  * angle between slip and x, which is known without losses only",
     "halfspace": "  * angle between slip and x in degrees",
 }
+METHODS = ("exact", "halfspace")
 FRAMES = 60  # of an animation
 
 
@@ -72,7 +73,7 @@ def impact_command(
         str,
         typer.Option(
             help="'exact': the theory; 'halfspace': the full contact in three dimensions, "
-            "by boundary elements in some ten seconds."
+            "by boundary elements in ten seconds, a minute for unlike materials."
         ),
     ] = "exact",
     elements: Annotated[
@@ -137,12 +138,15 @@ def impact_command(
 
 
 def _method(name: str, elements: int | None, steps: int | None) -> "str | BoundaryElements":
+    from carom.quantities import refusal
+
+    if name not in METHODS:
+        raise refusal("method", name, f"must be {' or '.join(METHODS)}")
     asked = {"elements": elements, "steps": steps}
     given = {key: value for key, value in asked.items() if value is not None}
     if not given:
         return name
     from carom.halfspace_impacts import BoundaryElements
-    from carom.quantities import refusal
 
     if name != "halfspace":
         key, value = next(iter(given.items()))

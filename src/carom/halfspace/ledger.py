@@ -12,7 +12,7 @@ from carom.halfspace.traction import at_bound
 
 
 class Entry(NamedTuple):
-    """One instant of an impact, or all of them, along the direction of the motion and across it.
+    """One instant of an impact, or all of them; `across` is along y, all else along x.
 
     Units as in `Compliance` and `Motion`; energies of the normal motion in E* a_max d_max^2, of the
     tangential motion in friction^2 times that. What is `lost` and the angles belong to the step
@@ -32,8 +32,8 @@ class Entry(NamedTuple):
     normal_stored: float
     tangential_stored: float
     lost: float  # to friction
-    lost_across: float  # of that, by slip across the direction
-    slip_angle: float  # between slip and the direction, averaged over the work of friction
+    lost_across: float  # of that, by slip across
+    slip_angle: float  # between slip and x, averaged over the work of friction
     slip_angle_max: float
     slip_drag: float  # what of the drag is that of slipping elements
 
@@ -54,33 +54,30 @@ class Entry(NamedTuple):
         return 0.5 * self.drag
 
 
-def entry(patch: Patch, before: Motion, now: Motion, direction: Field) -> Entry:
+def entry(patch: Patch, before: Motion, now: Motion) -> Entry:
     """Return what the step from one instant to the next comes to."""
     state, old = now.step.state, before.step.state
     moved, slips = now.step.moved, slipping(now.step)
     work = patch.element * 0.5 * (old.traction + state.traction) * moved
-    across = np.array([-direction[1], direction[0]])
-    lost_across = 0.5 * (_along(across, old.traction) + _along(across, state.traction))
-    lost_across *= _along(across, moved)
-    mean, largest = _angles(state.traction, moved, slips, direction)
+    mean, largest = _angles(state.traction[:, slips], moved[:, slips])
     return Entry(
         now.time,
         state.depth,
         now.approach,
-        float(state.displacement @ direction),
-        float(now.velocity @ direction),
-        float(now.velocity @ across),
+        float(state.displacement[0]),
+        float(now.velocity[0]),
+        float(now.velocity[1]),
         now.force,
-        float(now.drag @ direction),
+        float(now.drag[0]),
         _radius(patch, state.pressure > 0.0),
         _share(slips, now.step.gripped),
         0.5 * patch.element * float(np.sum(state.pressure * (state.depth - patch.gap))),
         0.5 * patch.element * float(np.sum(state.traction * state.yielded)),
         float(work.sum()),
-        patch.element * float(lost_across.sum()),
+        float(work[1].sum()),
         mean,
         largest,
-        patch.element * float(_along(direction, state.traction)[slips].sum()),
+        patch.element * float(state.traction[0, slips].sum()),
     )
 
 
@@ -89,28 +86,22 @@ def slipping(step: Step) -> Mask:
     return step.gripped & at_bound(step.state.traction, step.state.pressure)
 
 
-def _along(direction: Field, vectors: Field) -> Field:
-    return np.tensordot(direction, vectors, 1)
-
-
 def _radius(patch: Patch, elements: Mask) -> float:
     return sqrt(np.count_nonzero(elements) * patch.element / pi)
 
 
 def _share(part: Mask, whole: Mask) -> float:
-    return float(np.count_nonzero(part)) / max(int(np.count_nonzero(whole)), 1)
+    return float(np.count_nonzero(part)) / np.count_nonzero(whole) if whole.any() else 1.0
 
 
-def _angles(traction: Field, moved: Field, slips: Mask, direction: Field) -> tuple[float, float]:
-    """Return mean and largest angle of slip against a direction either way; zero without slip.
+def _angles(pulled: Field, slid: Field) -> tuple[float, float]:
+    """Return mean and largest angle against x of what slips; zero where nothing does.
 
     Slip is along the traction, whose direction is known better where slip is little.
     """
-    if not slips.any():
+    if not pulled.size:
         return 0.0, 0.0
-    slid, pulled = moved[:, slips], traction[:, slips]
     work = np.maximum(np.sum(slid * pulled, axis=0), 0.0)
-    straight = np.abs(_along(direction, pulled)) / np.hypot(*pulled)
-    angle = np.arccos(np.minimum(straight, 1.0))
-    mean = float(np.sum(angle * work) / np.sum(work)) if work.sum() > 0.0 else 0.0
+    angle = np.arctan2(np.abs(pulled[1]), np.abs(pulled[0]))
+    mean = float(np.sum(angle * work) / np.sum(work)) if work.any() else 0.0
     return mean, float(angle.max())

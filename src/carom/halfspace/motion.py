@@ -13,6 +13,7 @@ DURATION = 0.8 * sqrt(pi) * gamma(0.4) / gamma(0.9)  # of Hertz's impact, 2.9433
 NORMAL = 15.0 / 16.0  # d'' = -NORMAL P
 REACH = 1.0  # elements by which the edge may move in a step
 SLOWEST = 0.05  # of V_1: near the turning point the number of steps decides
+SHARE = 0.1  # of the time scale of the tangential motion on its springs
 
 
 class Motion(NamedTuple):
@@ -44,15 +45,17 @@ def move(patch: Patch, psi: Field, chi: float, steps: int) -> Iterator[Motion]:
     Verlet's method, of second order: half of the change of velocities, the path, the quasi-static
     contact at its end, the other half (Hairer, Lubich & Wanner 2003, Acta Numerica 12:399). Steps
     are a fraction of the duration of Hertz's impact, smaller where the edge of the contact moves
-    fast. The last one is cut where the bodies part.
+    fast, and a fraction of 1/omega, omega^2 = (15/4) chi, which decides where chi is large. The
+    last one is cut where the bodies part.
     """
     kappa = patch.compliance.materials.kappa
     response, spacing = inertia(chi, kappa), patch.compliance.spacing
+    longest = min(DURATION / steps, SHARE / sqrt(4.0 * NORMAL * chi))
     now = Motion(0.0, 1.0, psi / kappa, _apart(patch, np.zeros(2)), 0.0, np.zeros(2))
     yield now
     while True:
         state = now.step.state
-        length = min(DURATION / steps, _edge_limit(now, spacing))
+        length = min(longest, _edge_limit(now, spacing))
         approach = now.approach - 0.5 * length * response.normal * now.force
         velocity = now.velocity - 0.5 * length * response.tangential * now.drag
         depth = state.depth + length * approach

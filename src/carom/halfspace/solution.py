@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
-from math import cos, sin
+from math import ceil
 from typing import NamedTuple
 
 import numpy as np
@@ -82,7 +82,7 @@ class HalfspaceSolution:
 
     @property
     def psi_out(self) -> float:
-        """psi after the impact, along the direction of the motion before."""
+        """psi after the impact, along x."""
         return self.materials.kappa * float(self.column("velocity")[-1])
 
     @property
@@ -124,7 +124,7 @@ class HalfspaceSolution:
         return stages(self.column("time"), self.column("slip_share"), sign)
 
     def slip_angles(self, start: float, end: float) -> tuple[float, float]:
-        """Return largest and mean angle of slip against the direction between two times."""
+        """Return largest and mean angle of slip against x between two times."""
         time = self.column("time")
         within = (time > start) & (time <= end)
         work = np.maximum(self.column("lost")[within], 0.0)
@@ -179,23 +179,21 @@ def solve(
     materials: Materials,
     resolution: Resolution = STANDARD,
     *,
-    direction: float = 0.0,
     progress: Progress | None = None,
 ) -> HalfspaceSolution:
-    """Return the impact with psi_1 = psi, the motion at an angle `direction` to the grid.
+    """Return the impact with psi_1 = psi, the motion along x.
 
     `progress` is called after every step with how many of `resolution.steps` it makes up for.
     """
     patch = Patch.across(resolution.elements, materials)
-    along = np.array([cos(direction), sin(direction)])
     rows: list[Entry] = []
     snapshots: list[Snapshot] = []
-    every = max(resolution.steps // SNAPSHOTS, 1)
-    motions = move(patch, psi * along, chi, resolution.steps)
+    every = ceil(max(resolution) / SNAPSHOTS)
+    motions = move(patch, np.array([psi, 0.0]), chi, resolution.steps)
     for count, (before, now) in enumerate(pairwise(motions)):
         if not rows:
-            rows.append(entry(patch, before, before, along))
-        rows.append(entry(patch, before, now, along))
+            rows.append(entry(patch, before, before))
+        rows.append(entry(patch, before, now))
         if count % every == 0:
             snapshots.append(_snapshot(rows[-1], before, now))
         if progress is not None:

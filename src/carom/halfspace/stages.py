@@ -40,7 +40,7 @@ def stages(time: Field, slipping: Field, sign: Field) -> tuple[Stage, ...]:
         (kind, float(time[first]))
         for (kind, length), first in zip(runs, starts, strict=False)
         if time[first + length] - time[first] >= SHORTEST * time[-1]
-    ]
+    ] or [(kinds[0], 0.0)]
     kept = [next(group) for _, group in groupby(long, key=lambda item: item[0])]
     begins = [0.0, *(start for _, start in kept[1:])]
     ends = [*begins[1:], float(time[-1])]

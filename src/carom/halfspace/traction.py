@@ -13,6 +13,7 @@ class Discs(NamedTuple):
     """Tractions are at most friction times pressure, in any direction: |q| <= p."""
 
     bound: Field
+    scale: float  # what errors are measured by
 
     def project(self, load: Field) -> Field:
         """Return the nearest traction with |q| <= p."""
@@ -38,8 +39,8 @@ class Discs(NamedTuple):
         return Face(project, bend)
 
     def largest(self, load: Field) -> float:
-        """Return the largest bound."""
-        return float(self.bound.max())
+        """Return the scale of the tractions."""
+        return self.scale
 
 
 def at_bound(traction: Field, bound: Field) -> Mask:
@@ -55,8 +56,12 @@ def solve_traction(
 
     Of all such tractions it has the least energy (1/2) q.T q - given.q (Kalker 1990, section 4.2):
     where |q| < bound the surfaces give way by what is given, elsewhere given - T q is slip along q.
+    `tolerance` is a share of the largest bound, or of what would meet the displacement if that is
+    less.
     """
     operator = Operator(
         compliance.tangential, compliance.roughly_traction, compliance.tangential_diagonal
     )
-    return minimise(operator, given, Discs(bound), start, tolerance)
+    met = float(np.abs(given * (bound > 0.0)).max()) / compliance.tangential_diagonal
+    bounds = Discs(bound, min(float(bound.max()), met))
+    return minimise(operator, given, bounds, start, tolerance)
