@@ -78,6 +78,18 @@ class HalfspaceImpact(Course):
 
     SI units, signs as in `Impact`. Phases are as the grid shows them: short ones are left out, and
     where little slips they may alternate.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="alumina")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="soda-lime-glass"), friction=0.5)
+    >>> coarse = carom.BoundaryElements(elements=10, steps=30)
+    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg", method=coarse)
+    >>> hit.normal_restitution < 1.0  # what couples costs normal velocity
+    True
+    >>> hit.psi_out_error < 0.1
+    True
     """
 
     solution: HalfspaceSolution = field(repr=False)

@@ -17,7 +17,12 @@ def test_diagram_of_phases_is_drawn_from_the_table():
 
 
 @pytest.mark.parametrize(
-    "document", ["README.md", "CONTRIBUTING.md", "docs/architecture.md", "docs/laws.md"]
+    "document",
+    [
+        "README.md",
+        "CONTRIBUTING.md",
+        *(f"docs/{name}.md" for name in ("architecture", "laws", "halfspace", "halfspace_study")),
+    ],
 )
 def test_links_lead_somewhere(document):
     path = ROOT / document
