@@ -175,6 +175,13 @@ def test_what_cannot_be_solved_is_refused(change, said):
         carom.impact(speed=1.0, angle="20 deg", **arguments)
 
 
+def test_normal_and_tangential_contact_that_do_not_agree_are_told(monkeypatch):
+    """With too few exchanges, as with too strong a coupling: no result, and a reason."""
+    monkeypatch.setattr("carom.halfspace.quasistatic.EXCHANGES", 2)
+    with pytest.raises(RuntimeError, match=r"friction times Dundurs' beta is 0\.1"):
+        carom.impact(against_wall(STEEL, CORK, 0.2), speed=1.0, angle=0.3, method=TINY)
+
+
 @pytest.mark.parametrize("grid", [{"elements": 7}, {"elements": 16.0}, {"steps": 19}])
 def test_grids_that_are_too_coarse_are_refused(grid):
     with pytest.raises(carom.InputError, match=r"must be a whole number of at least"):
