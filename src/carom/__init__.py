@@ -24,9 +24,10 @@ if TYPE_CHECKING:
     from carom.dimensionless.phases import Status
     from carom.dimensionless.rebounds import rebound
     from carom.dimensionless.solution import Solution, solve
+    from carom.exact_impacts import Impact
     from carom.fitting import Fit, fit
     from carom.halfspace_impacts import BoundaryElements, HalfspaceImpact
-    from carom.impacts import Impact, impact
+    from carom.impacts import impact
     from carom.laws.dem import (
         EdemHertzMindlin,
         HardSphere,
@@ -84,7 +85,8 @@ _HOMES = {
     "carom.pairs": ("Pair",),
     "carom.quantities": ("InputError",),
     "carom.halfspace_impacts": ("BoundaryElements", "HalfspaceImpact"),
-    "carom.impacts": ("Impact", "impact"),
+    "carom.exact_impacts": ("Impact",),
+    "carom.impacts": ("impact",),
     "carom.loading": ("LoadPath", "load_path"),
     "carom.normals": ("ElasticPlastic", "KelvinVoigt"),
     "carom.observables": ("convert",),

@@ -41,9 +41,7 @@ def merged(case: Case, flags: Mapping[str, Any]) -> Case:
 
 def solve_case(case: Case, method: "str | BoundaryElements" = "exact") -> Course:
     """Solve the impact that a case describes."""
-    how: dict[str, Any] = {"normal": normal_of(case), "method": method}
-    hit: Course = impact(pair_of(case), **motion_of(case), **how)
-    return hit
+    return impact(pair_of(case), **motion_of(case), normal=normal_of(case), method=method)
 
 
 def outputs(case: Case) -> Output:

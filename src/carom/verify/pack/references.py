@@ -12,8 +12,9 @@ import numpy as np
 
 from carom.cases import motion_of, pair_of
 from carom.dimensionless.rebounds import rebound
+from carom.exact_impacts import Impact
 from carom.histories import inertia
-from carom.impacts import Impact, impact
+from carom.impacts import impact
 from carom.pairs import Pair
 from carom.verify.pack.frozen import (
     CASE,

@@ -10,7 +10,8 @@ import numpy as np
 
 from carom.bodies import describe
 from carom.cases import check_case, motion_of, pair_of, read_case
-from carom.impacts import Impact, impact
+from carom.exact_impacts import Impact
+from carom.impacts import impact
 from carom.pairs import Pair
 from carom.quantities import InputError, nearest, number, positive, refusal
 from carom.readings import Array, Results, in_units, read_table

@@ -7,7 +7,7 @@ import numpy as np
 
 from carom.dimensionless import hertz
 from carom.dimensionless.states import History
-from carom.impacts import Impact
+from carom.exact_impacts import Impact
 from carom.readings import Array
 from carom.verify.scoring.contact import Samples
 

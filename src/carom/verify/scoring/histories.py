@@ -4,7 +4,7 @@ from math import isfinite
 
 import numpy as np
 
-from carom.impacts import Impact
+from carom.exact_impacts import Impact
 from carom.quantities import InputError
 from carom.readings import Array, Results
 from carom.results import Finding
