@@ -5,6 +5,7 @@ that from nu = 0 at the same chi, psi_1 and grid, where the theory is exact.
 """
 
 import csv
+import sys
 from collections import defaultdict
 from pathlib import Path
 
@@ -95,3 +96,23 @@ def test_rows_are_those_of_the_code(rows, wanted):
     again = solve(row["psi_1"], row["chi"], materials, grid)
     assert again.psi_out == pytest.approx(row["psi_2"], abs=2e-5)
     assert again.restitution == pytest.approx(float(row["restitution"]), abs=1e-6)
+
+
+def test_the_page_tells_what_the_table_holds():
+    """Every row of the tables on docs/halfspace_study.md is computed from it."""
+    sys.path.insert(0, str(TABLE.parent))
+    import make_halfspace_figures as figures
+
+    page = (TABLE.parent / "halfspace_study.md").read_text(encoding="utf-8").splitlines()
+    like = [f"nu {nu:g}" for nu in figures.RATIOS]
+    tables = (
+        figures.table("like", like),
+        figures.table("control", like[1:]),
+        figures.table("pair", list(figures.PAIRS)),
+        figures.normal_table(),
+        figures.slip_table(),
+        figures.bound_table(),
+    )
+    lines = [line for table in tables for line in table]
+    assert len(lines) > 70
+    assert [line for line in lines if line not in page] == []
