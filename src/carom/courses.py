@@ -14,6 +14,7 @@ import numpy as np
 
 from carom.bodies import Value
 from carom.dimensionless.states import Phase, SlipAngle
+from carom.glossary import GLOSSARY
 from carom.histories import InTime, history_columns
 from carom.outcomes import Outcome
 from carom.quantities import counted, number, refusal
@@ -22,6 +23,21 @@ from carom.results import Validity, labelled
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
+
+
+SHOWN = (  # in a notebook
+    "psi_in",
+    "psi_out",
+    "rebound_speed",
+    "rebound_angle",
+    "spin_out",
+    "contact_restitution",
+    "normal_restitution",
+    "dissipated_energy",
+    "duration",
+    "max_force",
+    "max_radius",
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,6 +94,20 @@ class Course(Outcome):
             allowed = f"must lie within the contact, from 0 to {self.duration:.6g} s"
             raise refusal("time", time, allowed)
         return instant
+
+    @abstractmethod
+    def cite(self) -> str:
+        """Return what to cite for this result, as BibTeX."""
+
+    def _repr_html_(self) -> str:
+        """Return a table and a picture for a notebook."""
+        from carom.notebooks import card
+
+        numbers = self.scalars()
+        rows = {GLOSSARY[name].meaning: GLOSSARY[name].text(numbers[name]) for name in SHOWN}
+        phases = (f"{p.start:10.3e} to {p.end:.3e} s  {p.kind}" for p in self.phases)
+        notes = "\n".join([*phases, "", str(self.validity)])
+        return card("Oblique impact", rows, self.plot(), notes)
 
     def to_dataset(self) -> xr.Dataset:
         """Return all of the result as one dataset, with a history of 400 times."""

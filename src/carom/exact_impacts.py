@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.bodies import Value
+from carom.citations import IMPACT, bibtex
 from carom.contacts import Contact, contact_in_impact
 from carom.courses import Course
 from carom.dimensionless.lossy.solution import LossySolution
@@ -178,6 +179,21 @@ class Impact(Course):
     def radial(self, time: Value, n: int = 401) -> xr.Dataset:
         """Return pressure, traction and the memory g, q along a radius at a time in s."""
         return radial_fields(self.contact(time), counted("n", n, 2))
+
+    def cite(self) -> str:
+        """Return what to cite for this result, as BibTeX.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+        >>> [line for line in hit.cite().splitlines() if line.startswith("@")]
+        ['@software{carom,', '@article{barber1979,', '@article{maw1976,']
+        """
+        source = () if self.normal is None else (self.normal.source,)
+        return bibtex(*IMPACT, *source)
 
     def _phase_columns(self) -> dict[str, list[float]]:
         return {} if isinstance(self.solution, LossySolution) else super()._phase_columns()

@@ -1,5 +1,6 @@
 """The glossary: symbol, unit and meaning of every quantity; labels and attributes come from it."""
 
+from math import degrees, isnan
 from typing import NamedTuple
 
 
@@ -14,6 +15,18 @@ class Quantity(NamedTuple):
         """Return the label of an axis."""
         unit = "" if self.unit == "1" else f" ({self.unit})"
         return f"{self.meaning}, {self.symbol}{unit}"
+
+    def text(self, value: float) -> str:
+        """Return a value with its unit, to read; angles in degrees, a dash for what is no number.
+
+        >>> GLOSSARY["speed"].text(2.0), GLOSSARY["angle"].text(0.5)
+        ('2 m/s', '28.648 deg')
+        """
+        if isnan(value):
+            return "-"
+        if self.unit == "rad":
+            return f"{degrees(value):.5g} deg"
+        return f"{value:.6g}" + ("" if self.unit == "1" else f" {self.unit}")
 
 
 GLOSSARY = {

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.bodies import Value
+from carom.citations import ELEMENTS, bibtex
 from carom.courses import Course
 from carom.dimensionless.states import SlipAngle
 from carom.fields import OUTSIDE, SLIP, STICK, ZONES
@@ -138,6 +139,10 @@ class HalfspaceImpact(Course):
     def inputs(self) -> dict[str, Any]:
         """Return what the impact was made from, as plain numbers and words."""
         return super().inputs() | {"method": "halfspace", **self.solution.resolution._asdict()}
+
+    def cite(self) -> str:
+        """Return what to cite for this result, as BibTeX."""
+        return bibtex(*ELEMENTS)
 
     def fields(self, time: Value) -> xr.Dataset:
         """Return tractions, zones and slip velocities on the grid, at the kept step next to a time.

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom.bodies import describe
+from carom.citations import LOADS, bibtex
 from carom.contacts import Contact
 from carom.controls import Given, Steps, read_steps
 from carom.dimensionless import paths
@@ -97,6 +98,10 @@ class LoadPath:
         """
         more = read_steps(self.pair, normal_force, penetration, tangential_force, displacement)
         return _followed(self.pair, self._steps.followed_by(more))
+
+    def cite(self) -> str:
+        """Return what to cite for this result, as BibTeX."""
+        return bibtex(*LOADS)
 
     def contact(self, step: int = -1) -> Contact:
         """Return the contact after a step: what fields and stresses are made from.

@@ -30,6 +30,10 @@ class NormalLaw(Protocol):
     def scale_free(self) -> tuple[int, float]:
         """Return the same if it does not depend on bodies and speed, else raise InputError."""
 
+    @property
+    def source(self) -> str:
+        """The key of what to cite, in data/citations.bib."""
+
     def describe(self) -> dict[str, Any]:
         """Return the law as plain numbers and words."""
 
@@ -94,6 +98,11 @@ class KelvinVoigt:
             raise refusal("normal", self, "give a restitution, which needs no bodies and speed")
         return Loss.VISCOUS.value, float(_alphas(self.restitution))
 
+    @property
+    def source(self) -> str:
+        """The key of Kuwabara & Kono (1987) in data/citations.bib."""
+        return "kuwabara1987"
+
     def describe(self) -> dict[str, Any]:
         """Return what was given."""
         name = "loss_time" if self.restitution is None else "restitution"
@@ -152,6 +161,11 @@ class ElasticPlastic:
     def scale_free(self) -> tuple[int, float]:
         """Raise InputError: the loss depends on the speed."""
         raise refusal("normal", self, "it depends on the speed; use impact, or KelvinVoigt")
+
+    @property
+    def source(self) -> str:
+        """The key of Thornton (1997) in data/citations.bib."""
+        return "thornton1997"
 
     def describe(self) -> dict[str, Any]:
         """Return what was given."""

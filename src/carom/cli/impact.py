@@ -223,7 +223,9 @@ def as_table(hit: "Course") -> str:
     shown += [name for name in ("psi_out_error", "energy_error") if name in scalars]
     if len(hit.pair.moving) == 1:
         shown.remove("spin2_out")
-    lines = [f"  {GLOSSARY[name].meaning:58s} {_with_unit(name, scalars[name])}" for name in shown]
+    lines = [
+        f"  {GLOSSARY[name].meaning:58s} {GLOSSARY[name].text(scalars[name])}" for name in shown
+    ]
     phases = [
         f"  {_slip(p.kind, p.sign):14s}{p.start:12.4e} {p.end:12.4e}"
         f" {_in_degrees(angle.mean)} {_in_degrees(angle.largest)}   {p.cause}"
@@ -246,15 +248,6 @@ def as_table(hit: "Course") -> str:
         *findings,
     )
     return "\n".join(parts)
-
-
-def _with_unit(name: str, value: float) -> str:
-    if isnan(value):
-        return "-"
-    if GLOSSARY[name].unit == "rad":
-        return f"{degrees(value):.5g} deg"
-    unit = GLOSSARY[name].unit
-    return f"{value:.6g}" + ("" if unit == "1" else f" {unit}")
 
 
 def _in_degrees(angle: float) -> str:

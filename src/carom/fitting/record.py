@@ -195,6 +195,13 @@ class Fit:
             save_figure(figure, path)
         return figure
 
+    def _repr_html_(self) -> str:
+        """Return a table and a picture for a notebook."""
+        from carom.notebooks import card
+
+        rows = {name: str(estimate) for name, estimate in self.estimates.items()}
+        return card("Parameters from rebounds", rows, self.plot(), "\n".join(self.notes))
+
     def __str__(self) -> str:
         from carom.fitting.report import as_text
 

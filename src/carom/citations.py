@@ -1,0 +1,33 @@
+"""What to cite for a result, as BibTeX."""
+
+import re
+from functools import cache
+from importlib.resources import files
+
+from carom.results import carom_version
+
+IMPACT = ("carom", "barber1979", "maw1976")  # the theory of impacts
+LOADS = ("carom", "mindlin1953", "maw1976")
+ELEMENTS = ("carom", "kalker1990", "love1929")
+
+
+def bibtex(*keys: str) -> str:
+    """Return entries of data/citations.bib by key, in this order.
+
+    Examples
+    --------
+    >>> print(bibtex("maw1976").splitlines()[2])
+      author = {Maw, N. and Barber, J. R. and Fawcett, J. N.},
+    """
+    return "\n".join(_entries()[key] for key in keys)
+
+
+@cache
+def _entries() -> dict[str, str]:
+    text = (files("carom") / "data" / "citations.bib").read_text(encoding="utf-8")
+    entries = re.split(r"(?m)^(?=@)", text.replace("VERSION", carom_version()))[1:]
+    return {_key(entry): entry.rstrip() + "\n" for entry in entries}
+
+
+def _key(entry: str) -> str:
+    return entry[entry.index("{") + 1 : entry.index(",")]
