@@ -13,7 +13,7 @@ DURATION = 0.8 * sqrt(pi) * gamma(0.4) / gamma(0.9)  # of Hertz's impact, 2.9433
 NORMAL = 15.0 / 16.0  # d'' = -NORMAL P
 REACH = 1.0  # elements by which the edge may move in a step
 SLOWEST = 0.05  # of V_1: near the turning point the number of steps decides
-SHARE = 0.1  # of the time scale of the tangential motion on its springs
+SHARE = 0.5  # of the time scale of the tangential motion on its springs
 
 
 class Motion(NamedTuple):
