@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, overload
+from typing import TYPE_CHECKING, Literal, TypedDict, Unpack, overload
 
 from carom.approach import approach
 from carom.bodies import Sphere, Value
@@ -16,47 +16,43 @@ if TYPE_CHECKING:
     from carom.halfspace_impacts import BoundaryElements, HalfspaceImpact
 
 
+class Motion(TypedDict, total=False):
+    """How two bodies meet, by the names of `impact`."""
+
+    speed: Value | None
+    angle: Value | None
+    normal_speed: Value | None
+    tangential_speed: Value | None
+    spin: Value
+    spin2: Value
+
+
 @overload
 def impact(
     pair: Pair,
     *,
-    speed: Value | None = None,
-    angle: Value | None = None,
-    normal_speed: Value | None = None,
-    tangential_speed: Value | None = None,
-    spin: Value = 0.0,
-    spin2: Value = 0.0,
     normal: NormalLaw | None = None,
     method: Literal["exact"] = "exact",
     progress: bool | None = None,
+    **motion: Unpack[Motion],
 ) -> Impact: ...
 @overload
 def impact(
     pair: Pair,
     *,
-    speed: Value | None = None,
-    angle: Value | None = None,
-    normal_speed: Value | None = None,
-    tangential_speed: Value | None = None,
-    spin: Value = 0.0,
-    spin2: Value = 0.0,
     normal: None = None,
     method: Literal["halfspace"] | BoundaryElements,
     progress: bool | None = None,
+    **motion: Unpack[Motion],
 ) -> HalfspaceImpact: ...
 @overload
 def impact(
     pair: Pair,
     *,
-    speed: Value | None = None,
-    angle: Value | None = None,
-    normal_speed: Value | None = None,
-    tangential_speed: Value | None = None,
-    spin: Value = 0.0,
-    spin2: Value = 0.0,
     normal: NormalLaw | None = None,
     method: str | BoundaryElements,
     progress: bool | None = None,
+    **motion: Unpack[Motion],
 ) -> Impact | HalfspaceImpact: ...
 def impact(
     pair: Pair,

@@ -94,7 +94,7 @@ def rebound_error(kappa: float, beta: float, friction: float, chi: float, psi: f
     [0.008 nu^2 + 0.22 rho^2/(1 + rho) + 0.8 beta^2] min(1, 2 |psi_1|)/(1 + e)^2 with nu of like
     materials of the same kappa, rho = |beta|/mu, and e what |psi_1| exceeds 4 chi - 1 by; 2 |psi_1|
     at most, and nothing without friction. An envelope of boundary element solutions with kappa from
-    2/3 to 1, |beta| up to 0.45, mu from 0.09 to 1 (docs/halfspace.md); a guide beyond.
+    2/3 to 1, |beta| up to 0.45, mu from 0.02 to 1 (docs/halfspace_study.md); a guide beyond.
     """
     if friction == 0.0 or not isfinite(psi):
         return 0.0
