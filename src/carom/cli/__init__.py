@@ -5,6 +5,7 @@ import sys
 import typer
 
 from carom.cli.curve import curve_command
+from carom.cli.explore import explore_command
 from carom.cli.fit import fit_command
 from carom.cli.impact import impact_command
 from carom.cli.materials import materials_command
@@ -24,6 +25,7 @@ app.command("impact")(impact_command)
 app.command("curve")(curve_command)
 app.command("sweep")(sweep_command)
 app.command("fit")(fit_command)
+app.command("explore")(explore_command)
 app.command("materials")(materials_command)
 app.add_typer(verify_app)
 

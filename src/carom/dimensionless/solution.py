@@ -7,7 +7,7 @@ from typing import ClassVar, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from carom.dimensionless import dense, hertz, slip
+from carom.dimensionless import dense, hertz, slip, surface
 from carom.dimensionless.annuli import Memory, memory_at
 from carom.dimensionless.elastic import LINEAR, TOLERANCE
 from carom.dimensionless.lossy.normal import NormalLoss
@@ -82,10 +82,25 @@ class Solution:
         return float(np.copysign(min(1.0, abs(self.psi_in) / LINEAR), self.psi_in))
 
     def at(self, time: ArrayLike) -> History:
-        """Return the state at the given times, 0 <= time <= duration, one row for each.
+        """Return the state at the given times, one row for each.
 
-        The instant of a change belongs to the later phase. Raises ValueError for a time outside
-        the contact, or if the impact is not solved.
+        The instant of a change belongs to the later phase.
+
+        Parameters
+        ----------
+        time : array_like
+            In d_max/V_1, 0 to `duration`.
+
+        Raises
+        ------
+        ValueError
+            If a time is outside the contact, or the impact is not solved.
+
+        Examples
+        --------
+        >>> import carom
+        >>> carom.solve(0.5, 1.44).at([0.0, 1.0]).psi.round(4)
+        array([ 0.5   , -0.0419])
         """
         if self.status is not Status.SOLVED:
             raise ValueError(f"psi = {self.psi_in:g}, chi = {self.chi:g}: {self.status.message}")
@@ -110,23 +125,117 @@ class Solution:
         )
 
     def history(self, n: int = 200) -> History:
-        """Return the impact at n >= 2 times, evenly spaced from the first touch to the last."""
+        """Return the impact at evenly spaced times from the first touch to the last.
+
+        Parameters
+        ----------
+        n : int
+            How many times, 2 at least.
+
+        Raises
+        ------
+        ValueError
+            If there are fewer, or the impact is not solved.
+
+        Examples
+        --------
+        >>> import carom
+        >>> carom.solve(0.5, 1.44).history(3).penetration.round(9)
+        array([0., 1., 0.])
+        """
         if index(n) < 2:
             raise ValueError(f"n: {n} cannot be used; must be a whole number of at least 2")
         return self.at(np.linspace(0.0, self.duration, n))
 
     def memory(self, time: float) -> Memory:
-        """Return the memory of the contact at a time: g(s), q(s) and the annuli it consists of."""
+        """Return the memory of the contact at a time: g(s), q(s) and the annuli it consists of.
+
+        Parameters
+        ----------
+        time : float
+            In d_max/V_1, 0 to `duration`.
+
+        Raises
+        ------
+        ValueError
+            If the time is outside the contact, or the impact is not solved.
+
+        Examples
+        --------
+        >>> import carom
+        >>> memory = carom.solve(0.5, 1.44).memory(1.0)  # the whole contact sticks
+        >>> bool(abs(memory.g(0.0)) < 1.0)
+        True
+        """
         now = now_at(self.at(float(time)))
         return memory_at(self._record, self._times, self._moved, now, self.scale or 1.0)
 
     def phase_at(self, time: float) -> Phase:
-        """Return the phase at a time; the instant of a change belongs to the later one."""
+        """Return the phase at a time; the instant of a change belongs to the later one.
+
+        Parameters
+        ----------
+        time : float
+            In d_max/V_1, 0 to `duration`.
+
+        Examples
+        --------
+        >>> import carom
+        >>> carom.solve(0.5, 1.44).phase_at(1.0).kind
+        'stick'
+        """
         started = [phase for phase in self.phases if phase.start <= time]
         return started[-1]
 
+    def traction(self, time: float, radii: ArrayLike) -> Array:
+        """Return the traction at given radii at a time, over mu and the largest pressure.
+
+        In the plane of the contact, along x (Barber 1979, (6)).
+
+        Parameters
+        ----------
+        time : float
+            In d_max/V_1, 0 to `duration`.
+        radii : array_like
+            In units of sqrt(R* d_max).
+
+        Raises
+        ------
+        ValueError
+            If the time is outside the contact, or the impact is not solved.
+
+        Examples
+        --------
+        >>> import carom
+        >>> gross = carom.solve(9.0, 1.44)  # the traction is mu times the pressure
+        >>> gross.traction(0.5 * gross.duration, [0.0, 0.6]).round(6)
+        array([1. , 0.8])
+        """
+        places = np.ascontiguousarray(radii, dtype=np.float64).ravel()
+        out = np.empty((places.size, 5))
+        depth = float(self.at(float(time)).penetration[0])
+        surface.sample(self.memory(time).profile(), depth, places, out)
+        return out[:, 1]
+
     def slip_rate(self, time: float) -> float:
-        """Return psi - sigma v, the rate of slip far outside the stick zone; 0 in stick."""
+        """Return psi - sigma v, the rate of slip far outside the stick zone; 0 in stick.
+
+        Parameters
+        ----------
+        time : float
+            In d_max/V_1, 0 to `duration`.
+
+        Raises
+        ------
+        ValueError
+            If the time is outside the contact, or the impact is not solved.
+
+        Examples
+        --------
+        >>> import carom
+        >>> carom.solve(0.5, 1.44).slip_rate(1.0)
+        0.0
+        """
         sign = self.phase_at(time).sign
         now = now_at(self.at(float(time)))
         return now["psi"] - sign * abs(self.scale) * now["speed"] if sign else 0.0
@@ -136,6 +245,25 @@ class Solution:
 
         The columns are the radial functions w_0, w_2 of the slip, w_x = w_0 - lambda w_2
         cos 2 theta, w_y = -lambda w_2 sin 2 theta, in units of U; zero outside the contact.
+
+        Parameters
+        ----------
+        time : float
+            In d_max/V_1, 0 to `duration`.
+        radii : array_like, shape (n,)
+            In units of sqrt(R* d_max).
+
+        Raises
+        ------
+        ValueError
+            If the time is outside the contact, or the impact is not solved.
+
+        Examples
+        --------
+        >>> import carom
+        >>> carom.solve(0.5, 1.44).slid(1.0, [0.0, 0.5])  # the whole contact sticks
+        array([[0., 0.],
+               [0., 0.]])
         """
         now = now_at(self.at(float(time)))
         places = np.ascontiguousarray(radii, dtype=np.float64).ravel()
@@ -149,7 +277,19 @@ class Solution:
         """Return the angle between slip and traction in each phase, largest and mean, in rad.
 
         The theory lets every point slip along x. In a slip ring the lateral displacement turns the
-        slip by up to asin(lambda) at the front; in gross slip it is steady, by (30), and does not.
+        slip by up to asin(lambda) at the front; in gross slip it is steady, by Barber (1979), (30),
+        and does not.
+
+        Parameters
+        ----------
+        lateral_ratio : float
+            lambda, `Pair.lateral_ratio`; nu/(2 - nu) of equal materials.
+
+        Examples
+        --------
+        >>> import carom
+        >>> [round(angle.largest, 4) for angle in carom.solve(0.5, 1.44).slip_angles(0.3 / 1.7)]
+        [0.0, 0.1774, 0.0]
         """
         return tuple(self._slip_angle(phase, lateral_ratio) for phase in self.phases)
 

@@ -1,0 +1,37 @@
+"""`carom explore`: the page."""
+
+import json
+import webbrowser
+from typing import Annotated
+
+import typer
+
+
+def explore_command(
+    host: Annotated[
+        str, typer.Option(help="Address to listen at; the default answers this machine only.")
+    ] = "127.0.0.1",
+    port: Annotated[int, typer.Option(help="Port to listen at, 0 for any that is free.")] = 8050,
+    open_browser: Annotated[
+        bool, typer.Option("--open/--no-open", help="Whether to open a browser.")
+    ] = True,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the address as JSON.")] = False,
+) -> None:
+    """Explore impacts on a page in the browser: sliders, films, contact laws, fits; Ctrl-C ends it.
+
+    Example: carom explore
+
+    On a machine without a screen: carom explore --no-open --port 0
+    """
+    from carom.cli.compiling import announced
+    from carom.explorer import explorer
+
+    with announced():
+        page = explorer(host=host, port=port)
+    typer.echo(json.dumps({"url": page.url}) if as_json else f"{page.url}  (Ctrl-C ends it)")
+    if open_browser:
+        webbrowser.open(page.url)
+    try:
+        page.serve()
+    except KeyboardInterrupt:
+        typer.echo("", err=True)

@@ -1,0 +1,160 @@
+"""What happens when something on the page changes."""
+
+import json
+from typing import Any
+
+from dash import ClientsideFunction, Dash, Input, Output, State, ctx, html, no_update
+
+from carom.explorer import charts
+from carom.explorer.fits import fitted
+from carom.explorer.layout import CONTROLS, LARGEST_UPLOAD, SLIDERS
+from carom.explorer.overlays import exact_curve, law_curves
+from carom.explorer.scenes import Scene, scene_of
+from carom.explorer.uploads import fit_of, fit_of_upload
+from carom.explorer.views import View
+from carom.quantities import InputError
+
+DRAWN = (  # what a view is drawn into
+    ("scene", "data"),
+    ("query", "data"),
+    ("forces", "figure"),
+    ("energies", "figure"),
+    ("rebounds", "figure"),
+    ("results", "children"),
+    ("numbers", "hidden"),
+    ("motion", "hidden"),
+    ("bodies", "hidden"),
+    ("second_radius-field", "hidden"),
+    ("patch-png-item", "hidden"),
+)
+
+
+def connect(app: Dash) -> None:
+    """Let the controls of the page do what they say."""
+    _restore(app)
+    _gather(app)
+    _answer(app)
+    _measure(app)
+
+
+def _restore(app: Dash) -> None:
+    """Set the controls to what a link says, when the page opens or the browser goes back."""
+
+    @app.callback(
+        [Output(name, "value") for name in CONTROLS],
+        Output("link-notice", "children"),
+        Output("restored", "data"),
+        Input("url", "search"),
+    )
+    def restore(search: str | None) -> list[Any]:
+        view, wrong = View.with_complaints(search or "")
+        values = [getattr(view, name) for name in CONTROLS]
+        return [*map(_plain, values), "; ".join(map(str, wrong)), view.query()]
+
+
+def _plain(value: Any) -> Any:
+    return list(value) if isinstance(value, tuple) else value
+
+
+def _gather(app: Dash) -> None:
+    """Keep sliders and numbers equal, and gather all controls as the query of a link."""
+    for name in SLIDERS:
+        app.clientside_callback(
+            ClientsideFunction("controls", "follow"),
+            Output(name, "value", allow_duplicate=True),
+            Output(f"{name}-slider", "value"),
+            Input(name, "value"),
+            Input(f"{name}-slider", "value"),
+            prevent_initial_call=True,
+        )
+    app.clientside_callback(
+        f"(...values) => dash_clientside.controls.query({json.dumps(CONTROLS)}, values)",
+        Output("view", "data"),
+        [Input(name, "value") for name in CONTROLS],
+        prevent_initial_call=True,
+    )
+
+
+def _answer(app: Dash) -> None:
+    """Solve the impact of the view and draw it."""
+
+    @app.callback(
+        [Output(*part) for part in DRAWN],
+        Output("notice", "children"),
+        Output("link-notice", "children", allow_duplicate=True),
+        Input("view", "data"),
+        State("restored", "data"),
+        prevent_initial_call=True,
+    )
+    def answer(query: str | None, restored: str | None) -> list[Any]:
+        try:
+            view = View.of(query or "")
+            return [*_drawn(view), "", no_update if view.query() == restored else ""]
+        except InputError as error:
+            return [*[no_update for _ in DRAWN], str(error), no_update]
+
+    app.clientside_callback(
+        ClientsideFunction("carom", "show"), Input("scene", "data"), prevent_initial_call=True
+    )
+    app.clientside_callback(
+        ClientsideFunction("carom", "link"), Input("query", "data"), prevent_initial_call=True
+    )
+
+
+def _drawn(view: View) -> list[Any]:
+    """Return what goes into `DRAWN`."""
+    scene = scene_of(view)
+    laws = law_curves(scene, view.law)
+    return [
+        scene.moving(),
+        view.query(),
+        charts.forces(scene, laws),
+        charts.energies(scene),
+        charts.rebounds(scene, exact_curve(scene), laws),
+        _table(scene, laws),
+        not view.in_numbers,
+        view.in_numbers,
+        view.in_numbers,
+        view.against == "half-space",
+        view.in_numbers,
+    ]
+
+
+def _table(scene: Scene, laws: list[charts.LawCurve]) -> list[Any]:
+    rows = dict(scene.results)
+    for law in laws:
+        off = law.at - scene.psi_out
+        rows[f"ψ₂ by {law.label}"] = f"{law.at:.6g}, off by {off:+.3g}"
+    body = [html.Tr([html.Th(name, scope="row"), html.Td(text)]) for name, text in rows.items()]
+    table = html.Table(html.Tbody(body), className="carom-table")
+    return [table, html.Pre("\n".join(scene.findings))]
+
+
+def _measure(app: Dash) -> None:
+    """Fit measured rebounds: those that come along, or an uploaded file."""
+    app.clientside_callback(
+        f"(contents, name) => dash_clientside.controls.accept(contents, name, {LARGEST_UPLOAD})",
+        Output("file", "data"),
+        Output("fit-notice", "children"),
+        Input("upload", "contents"),
+        State("upload", "filename"),
+        prevent_initial_call=True,
+    )
+
+    @app.callback(
+        Output("fit", "children"),
+        Output("fit-notice", "children", allow_duplicate=True),
+        Input("data", "value"),
+        Input("file", "data"),
+        State("view", "data"),
+        running=[(Output("fit-progress", "children"), "fitting ...", "")],
+        prevent_initial_call=True,
+    )
+    def measure(data: str, file: dict[str, str] | None, query: str | None) -> list[Any]:
+        try:
+            if ctx.triggered_id == "file" and file is not None:
+                found = fit_of_upload(View.of(query or ""), file["contents"], file["name"])
+                return [fitted(found), f"{file['name']}: fitted. The link does not hold the file."]
+            return [fitted(fit_of(data)) if data else None, ""]
+        except InputError as error:
+            return [None, str(error)]

@@ -1,0 +1,91 @@
+"""The page as a web application: one server, no other host, never a traceback."""
+
+import logging
+from typing import Any
+
+from dash import Dash
+from dash import set_props as set_on_page
+from flask import Flask, Response
+from werkzeug.exceptions import HTTPException
+
+from carom.explorer.answers import connect
+from carom.explorer.downloads import add_downloads
+from carom.explorer.layout import LARGEST_UPLOAD, page
+from carom.quantities import InputError
+
+LARGEST_REQUEST = 2 * LARGEST_UPLOAD  # a file travels in more characters than it has
+OWN_HOST_ONLY = (
+    "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval'; "
+    "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
+    "object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
+)
+HEADERS = {
+    "Content-Security-Policy": OWN_HOST_ONLY,
+    "Referrer-Policy": "no-referrer",
+    "X-Content-Type-Options": "nosniff",
+}
+
+log = logging.getLogger(__name__)
+
+
+def new_app() -> Dash:
+    """Return the application, its server in `app.server`."""
+    server: Any = Flask(__name__)
+    server.config["MAX_CONTENT_LENGTH"] = LARGEST_REQUEST
+    app = Dash(
+        __name__,
+        server=server,
+        title="Carom explorer",
+        update_title="",
+        on_error=_told_on_page,
+        enable_mcp=False,
+        meta_tags=[{"name": "viewport", "content": "width=device-width, initial-scale=1"}],
+        index_string=INDEX,
+    )
+    app.layout = page
+    connect(app)
+    add_downloads(server)
+    server.register_error_handler(Exception, _one_line)
+    server.after_request(_guarded)
+    return app
+
+
+def _told_on_page(error: Exception) -> None:
+    log.error("%s: %s", type(error).__name__, error)
+    set_on_page("notice", {"children": f"failed, {type(error).__name__}: {error}"})
+
+
+def _one_line(error: Exception) -> Response:
+    """Return an error of a request as one line of text."""
+    if isinstance(error, InputError):
+        return _text(str(error), 400)
+    if isinstance(error, HTTPException):
+        return _text(f"{error.code}: {error.name}", error.code or 500)
+    log.error("%s: %s", type(error).__name__, error)
+    return _text(f"failed, {type(error).__name__}", 500)
+
+
+def _text(line: str, status: int) -> Response:
+    return Response(f"carom: {line}\n", status, content_type="text/plain; charset=utf-8")
+
+
+def _guarded(response: Response) -> Response:
+    response.headers.update(HEADERS)
+    return response
+
+
+INDEX = """<!DOCTYPE html>
+<html lang="en">
+  <head>
+    {%metas%}
+    <title>{%title%}</title>
+    {%favicon%}
+    {%css%}
+  </head>
+  <body>
+    {%app_entry%}
+    <noscript>This page computes and draws with JavaScript; switch it on.</noscript>
+    <footer>{%config%}{%scripts%}{%renderer%}</footer>
+  </body>
+</html>
+"""

@@ -1,0 +1,81 @@
+// The address bar, the link to copy and the downloads: all say what the page shows.
+window.Carom = window.Carom || {};
+
+Carom.link = (() => {
+  const OURS = ["time", "theme"]; // parts of the link that Dash does not know
+  const DOWNLOADS = "a.carom-download, .carom-downloads a";
+  const WAIT = 300; // ms between two changes: browsers refuse floods
+  const opened = new URLSearchParams(window.location.search);
+  let query = null; // what Dash says; null until it has
+  let waiting = 0;
+
+  // The query the page was opened with, without our own parts.
+  function asked() {
+    const rest = new URLSearchParams(opened);
+    OURS.forEach((name) => rest.delete(name));
+    return rest.toString();
+  }
+
+  function timeAsked() {
+    const text = opened.get("time");
+    return text === null || text.trim() === "" ? NaN : Number(text);
+  }
+
+  function whole() {
+    const parts = [query];
+    const time = Number(Carom.clock.now().toFixed(3));
+    if (time !== Carom.clock.START) parts.push(`time=${time}`);
+    if (Carom.theme.choice() !== "auto") parts.push(`theme=${Carom.theme.choice()}`);
+    return parts.filter(Boolean).join("&");
+  }
+
+  function write() {
+    window.clearTimeout(waiting);
+    waiting = 0;
+    if (query === null) return;
+    const words = whole();
+    const { origin, pathname, search } = window.location;
+    if (search !== `?${words}`) window.history.replaceState(null, "", `${pathname}?${words}`);
+    const field = document.getElementById("link");
+    if (field) field.value = `${origin}${pathname}?${words}`;
+    Carom.code.show(words);
+    document.querySelectorAll(DOWNLOADS).forEach((anchor) => {
+      const path = (anchor.dataset.path || anchor.getAttribute("href") || "").split("?")[0];
+      if (path) anchor.setAttribute("href", `${path}?${words}`);
+    });
+  }
+
+  // Write soon, not while the time runs.
+  function refresh() {
+    if (!waiting && !Carom.clock.isPlaying()) waiting = window.setTimeout(write, WAIT);
+  }
+
+  function put(given) {
+    query = String(given || "").replace(/^\?/, "");
+    write();
+  }
+
+  async function copy() {
+    write();
+    const field = document.getElementById("link");
+    field.focus();
+    field.select();
+    let done = false;
+    try {
+      await navigator.clipboard.writeText(field.value);
+      done = true;
+    } catch {
+      done = document.execCommand("copy"); // pages that are not "secure" have no clipboard
+    }
+    tell(done ? "Link copied" : "Press Ctrl+C to copy the link");
+  }
+
+  function tell(text) {
+    const place = document.getElementById("copied");
+    if (!place) return;
+    place.textContent = text;
+    window.setTimeout(() => place.textContent === text && (place.textContent = ""), 4000);
+  }
+
+  return { whole, DOWNLOADS, asked, timeAsked, put, refresh, write, copy };
+})();

@@ -1,0 +1,108 @@
+// What Dash sent last: the impact in time, and what it is at an instant.
+window.Carom = window.Carom || {};
+
+Carom.scene = (() => {
+  const ROUNDING = 1e-9;
+  const SIGNS = { 1: " +", 0: "", "-1": " −" };
+  let data = null;
+  let rubs = false; // whether there is friction
+
+  // The value of a series, evenly spaced between two ends, between its points.
+  function between(series, first, last, at) {
+    const place = ((at - first) / (last - first)) * (series.length - 1);
+    const low = Math.max(0, Math.min(series.length - 2, Math.floor(place)));
+    const part = Math.max(0, Math.min(1, place - low));
+    return series[low] * (1 - part) + series[low + 1] * part;
+  }
+
+  function phaseAt(share) {
+    if (share < 0 || share > 1) return null;
+    const found = data.phases.find((phase) => share < phase.end);
+    return found || data.phases[data.phases.length - 1];
+  }
+
+  // The stick zone within its phase: it may appear at once where the contact stops sliding.
+  function stickAt(share, phase, contact) {
+    if (phase.kind === "stick") return contact;
+    if (phase.kind === "gross slip") return 0;
+    const step = 1 / (data.stick.length - 1);
+    const low = Math.floor(share / step);
+    const inside = [low, low + 1].filter((row) => {
+      const at = row * step;
+      return at >= phase.start - ROUNDING && at <= phase.end + ROUNDING && row < data.stick.length;
+    });
+    const rows = inside.length ? inside : [low];
+    const found = rows.length === 2 ? between(data.stick, 0, 1, share) : data.stick[rows[0]];
+    return Math.min(found, contact);
+  }
+
+  // Traction from the centre to the edge; where it slips it is friction times the pressure.
+  function tractionAt(share, contact, stick, sign) {
+    const rows = data.tractions;
+    const place = share * (rows.length - 1);
+    const low = Math.min(rows.length - 2, Math.floor(place));
+    const part = place - low;
+    const count = rows[0].length;
+    return Array.from({ length: count }, (_, i) => {
+      const radius = (contact * i) / (count - 1);
+      if (rubs && sign && radius >= stick) return sign * Math.sqrt(contact ** 2 - radius ** 2);
+      return (rows[low][i] || 0) * (1 - part) + (rows[low + 1][i] || 0) * part;
+    });
+  }
+
+  // The tangential force as a share of friction times the largest normal force.
+  function forceOf(traction, contact) {
+    const step = contact / (traction.length - 1);
+    const sum = traction.reduce((total, value, i) => total + value * i * step, 0);
+    return sum * step * 3;
+  }
+
+  function at(share) {
+    const phase = phaseAt(share);
+    if (!phase) return { apart: true, phase: share < 0 ? "before" : "after" };
+    const contact = between(data.contact, 0, 1, share);
+    const stick = stickAt(share, phase, contact);
+    const traction = tractionAt(share, contact, stick, phase.sign);
+    return {
+      apart: false,
+      kind: phase.kind,
+      sign: phase.sign,
+      phase: phase.kind + SIGNS[phase.sign],
+      contact,
+      stick,
+      traction,
+      force: forceOf(traction, contact),
+    };
+  }
+
+  // The bodies at an instant, in radii of the first.
+  function bodiesAt(share) {
+    const { time, bodies } = data.stage;
+    const ends = [time[0], time[time.length - 1]];
+    return bodies.map((body) => ({
+      kind: body.kind,
+      radius: body.radius,
+      x: between(body.x, ...ends, share),
+      y: between(body.y, ...ends, share),
+      turn: between(body.turn, ...ends, share),
+    }));
+  }
+
+  function told(share) {
+    if (!data) return "";
+    const digits = Math.max(0, 2 - Math.floor(Math.log10(data.duration || 1)));
+    const value = (share * data.duration).toFixed(Math.min(digits, 12)).replace("-", "−");
+    return `${value} ${data.unit} · ${at(share).phase}`;
+  }
+
+  return {
+    put: (given) => {
+      data = given && given.phases && given.phases.length ? given : null;
+      rubs = Boolean(data) && data.tractions.some((row) => row.some(Boolean));
+    },
+    data: () => data,
+    at,
+    bodiesAt,
+    told,
+  };
+})();

@@ -1,0 +1,48 @@
+// Light or dark, by choice or as the system is; colours for what is drawn on a canvas.
+window.Carom = window.Carom || {};
+
+Carom.theme = (() => {
+  const CHOICES = ["auto", "light", "dark"];
+  const system = window.matchMedia("(prefers-color-scheme: dark)");
+  const asked = new URLSearchParams(window.location.search).get("theme");
+  const heard = [];
+  let choice = CHOICES.includes(asked) ? asked : "auto";
+  let colors = null;
+
+  const shown = () => (choice === "auto" ? (system.matches ? "dark" : "light") : choice);
+
+  function apply() {
+    document.documentElement.dataset.theme = shown();
+    colors = null;
+    label();
+    heard.forEach((hear) => hear(choice));
+  }
+
+  function label() {
+    const button = document.getElementById("theme");
+    const text = `Theme: ${choice}`;
+    if (button && button.textContent !== text) button.textContent = text;
+  }
+
+  // The value of a CSS variable, each read once per theme.
+  function color(name) {
+    if (!colors) colors = { style: getComputedStyle(document.documentElement), read: {} };
+    const { style, read } = colors;
+    return (read[name] = read[name] || style.getPropertyValue(`--${name}`).trim());
+  }
+
+  system.addEventListener("change", apply);
+  apply();
+
+  return {
+    next: () => {
+      choice = CHOICES[(CHOICES.indexOf(choice) + 1) % CHOICES.length];
+      apply();
+    },
+    choice: () => choice,
+    forget: () => (colors = null),
+    hear: (listener) => heard.push(listener),
+    color,
+    label,
+  };
+})();

@@ -1,0 +1,225 @@
+"""The charts of the page as plotly takes them: plain dictionaries, colours that suit any theme."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.curves import borders
+from carom.explorer.scenes import Scene
+from carom.explorer.stages import short
+
+Array = NDArray[np.float64]
+Figure = dict[str, Any]
+
+BLUE, VERMILION, ORANGE, GREEN, GREY = "#2b8cc4", "#d55e00", "#e69f00", "#009e73", "#8a8f98"
+LAW_COLORS = (VERMILION, GREEN, "#cc79a7", ORANGE, "#56b4e9", "#8d6fc1", "#b0793d")
+DASHES = ("dash", "dot", "dashdot", "longdash")
+PHASE_FILLS = {
+    ("stick", 0): "rgba(86, 180, 233, 0.22)",
+    ("slip", 1): "rgba(230, 159, 0, 0.20)",
+    ("slip", -1): "rgba(240, 200, 40, 0.28)",
+    ("gross slip", 1): "rgba(213, 94, 0, 0.20)",
+    ("gross slip", -1): "rgba(204, 121, 167, 0.24)",
+}
+REGIME_FILLS = (
+    ("stick", PHASE_FILLS["stick", 0]),
+    ("slide, stick", PHASE_FILLS["slip", 1]),
+    ("slide, slip", PHASE_FILLS["gross slip", 1]),
+    ("slide", "rgba(138, 143, 152, 0.16)"),
+)
+ENERGY_FILLS = {  # colour and pattern
+    "normal motion": ("#c9d3dd", ""),
+    "tangential motion": ("#8db9dc", "."),
+    "motion of the contact point": ("#8db9dc", "."),
+    "spin": (BLUE, ""),
+    "elastic, normal": ("#ecd9a4", "/"),
+    "elastic, tangential": (ORANGE, ""),
+    "lost to friction": ("#7d838b", "\\"),
+}
+SIGNS = {0: "", 1: " +", -1: " \N{MINUS SIGN}"}
+ROOM = 1.12  # of the shares of energy: above them the phases have their names
+NARROW = 0.07  # of the axis: a band below that goes without its name
+
+
+@dataclass(frozen=True, eq=False)
+class LawCurve:
+    """What a contact law gives: its rebounds, and its force in time, both as they are drawn."""
+
+    label: str
+    psi_in: Array
+    psi_out: Array
+    at: float  # psi_2 at the present psi_1
+    share: Array
+    force: Array
+
+
+def forces(scene: Scene, laws: Sequence[LawCurve] = ()) -> Figure:
+    """Return F_x between its limits against time, phases shaded."""
+    time = scene.share * scene.duration
+    name = f"force ({scene.force_unit})"
+    traces = [
+        line(time, scene.limit, "± µ F_z", GREY, "dash", 1.2, group="limit"),
+        line(time, -scene.limit, "± µ F_z", GREY, "dash", 1.2, group="limit", shown=False),
+        line(time, scene.force, "F_x", BLUE, "solid", 2.4),
+        *(
+            line(law.share * scene.duration, law.force, law.label, *_style(row))
+            for row, law in enumerate(laws)
+        ),
+    ]
+    return axes_of(traces, f"time ({scene.time_unit})", name, scene)
+
+
+def energies(scene: Scene) -> Figure:
+    """Return how the energy is shared in time, phases shaded."""
+    time = short(scene.share * scene.duration)
+    traces = [
+        {
+            "type": "scatter",
+            "mode": "lines",
+            "stackgroup": "energy",
+            "name": label,
+            "x": time,
+            "y": short(part),
+            "line": {"width": 0.8, "color": GREY},
+            "fillcolor": ENERGY_FILLS[label][0],
+            "fillpattern": {
+                "shape": ENERGY_FILLS[label][1],
+                "bgcolor": ENERGY_FILLS[label][0],
+                "fgcolor": "#5d646e",
+                "size": 6,
+            },
+            "hovertemplate": "%{y:.1%}",
+        }
+        for label, part in scene.energies.items()
+        if np.any(part > 0.0)
+    ]
+    figure = axes_of(traces, f"time ({scene.time_unit})", "share of energy", scene)
+    room = {"range": [0.0, ROOM], "tickformat": ".0%", "tickvals": [0.0, 0.25, 0.5, 0.75, 1.0]}
+    figure["layout"]["yaxis"] |= room
+    figure["layout"]["shapes"] += [_border(scene.duration * p.start) for p in scene.phases[1:]]
+    return figure
+
+
+def _border(time: float) -> Figure:
+    """Return the line of a change of phase over what hides the bands."""
+    place = {"x0": time, "x1": time, "y0": 0.0, "y1": 1.0, "xref": "x", "yref": "paper"}
+    return {"type": "line", **place, "line": {"width": 0.8, "color": "#5d646e", "dash": "dot"}}
+
+
+def rebounds(scene: Scene, curve: tuple[Array, Array], laws: Sequence[LawCurve] = ()) -> Figure:
+    """Return psi_2 against psi_1 with the bands of the regimes and the present point."""
+    psi, out = curve
+    traces = [
+        line(psi, out, "exact", BLUE, "solid", 2.4),
+        *(line(law.psi_in, law.psi_out, law.label, *_style(row)) for row, law in enumerate(laws)),
+        *(
+            _point(scene.psi_in, law.at, law.label, _style(row)[0], "x")
+            for row, law in enumerate(laws)
+        ),
+    ]
+    if np.isfinite(scene.psi_in):
+        traces.append(_point(scene.psi_in, scene.psi_out, "this impact", VERMILION, "circle"))
+    figure = axes_of(traces, "ψ₁ before", "ψ₂ after")
+    figure["layout"] |= _bands(_regimes(scene.chi, psi), float(psi[0]), float(psi[-1]))
+    figure["layout"]["xaxis"]["range"] = [float(psi[0]), float(psi[-1])]
+    return figure
+
+
+def _regimes(chi: float, psi: Array) -> Iterator[tuple[float, float, str, str]]:
+    ends = [0.0, *borders(chi), np.inf]
+    for (name, fill), low, high in zip(REGIME_FILLS, ends, ends[1:], strict=False):
+        for side in (-1.0, 1.0):
+            start, end = np.clip(sorted((side * low, side * high)), psi[0], psi[-1])
+            yield float(start), float(end), name, fill
+
+
+def line(
+    x: Array,
+    y: Array,
+    name: str,
+    color: str,
+    dash: str,
+    width: float = 1.6,
+    *,
+    group: str = "",
+    shown: bool = True,
+) -> Figure:
+    return {
+        "type": "scatter",
+        "mode": "lines",
+        "name": name,
+        "x": short(x),
+        "y": short(y),
+        "line": {"color": color, "dash": dash, "width": width},
+        "legendgroup": group,
+        "showlegend": shown,
+        "hovertemplate": "%{y:.4g}",
+    }
+
+
+def _point(x: float, y: float, name: str, color: str, symbol: str) -> Figure:
+    return {
+        "type": "scatter",
+        "mode": "markers",
+        "name": name,
+        "x": [x],
+        "y": [y],
+        "marker": {"color": color, "size": 11 if symbol == "circle" else 9, "symbol": symbol},
+        "showlegend": symbol == "circle",
+        "hovertemplate": "ψ₁ = %{x:.4g}<br>ψ₂ = %{y:.5g}",
+    }
+
+
+def _style(row: int) -> tuple[str, str]:
+    return LAW_COLORS[row % len(LAW_COLORS)], DASHES[row % len(DASHES)]
+
+
+def axes_of(traces: list[Figure], x: str, y: str, scene: Scene | None = None) -> Figure:
+    """Return a figure without colours of its own for paper, text and grid: the theme has them."""
+    axis = {"zeroline": False, "automargin": True, "ticks": "outside", "ticklen": 4}
+    layout: Figure = {
+        "xaxis": {**axis, "title": {"text": x, "standoff": 6}},
+        "yaxis": {**axis, "title": {"text": y, "standoff": 6}},
+        "margin": {"l": 52, "r": 10, "t": 8, "b": 40},
+        "paper_bgcolor": "rgba(0,0,0,0)",
+        "plot_bgcolor": "rgba(0,0,0,0)",
+        "hovermode": "x unified",
+        "legend": {"orientation": "h", "y": 1.02, "yanchor": "bottom", "x": 0.0},
+        "font": {"size": 12},
+        "uirevision": "same",  # a zoom outlives a change
+        "shapes": [],
+    }
+    if scene is not None:
+        layout |= _bands(_phases(scene), 0.0, scene.duration)
+        layout["xaxis"]["range"] = [0.0, scene.duration]
+    return {"data": traces, "layout": layout}
+
+
+def _phases(scene: Scene) -> Iterator[tuple[float, float, str, str]]:
+    for phase in scene.phases:
+        name = phase.kind + SIGNS[phase.sign]
+        fill = PHASE_FILLS[phase.kind, phase.sign]
+        yield phase.start * scene.duration, phase.end * scene.duration, name, fill
+
+
+def _bands(
+    bands: Iterable[tuple[float, float, str, str]], first: float, last: float
+) -> dict[str, Any]:
+    """Return shaded bands with their names, the names where there is room."""
+    shapes, names = [], []
+    for start, end, name, fill in bands:
+        if end <= start:
+            continue
+        place = {"xref": "x", "yref": "paper", "y0": 0.0, "y1": 1.0, "x0": start, "x1": end}
+        line = {"width": 0.6, "color": GREY}
+        shapes.append({"type": "rect", **place, "fillcolor": fill, "line": line, "layer": "below"})
+        if end - start > NARROW * (last - first):
+            at = {"x": 0.5 * (start + end), "y": 0.99, "xref": "x", "yref": "paper"}
+            turned = -90 if end - start < 2.5 * NARROW * (last - first) else 0
+            names.append(
+                {"text": name, **at, "showarrow": False, "yanchor": "top", "textangle": turned}
+            )
+    return {"shapes": shapes, "annotations": names}

@@ -1,0 +1,227 @@
+"""The page: what can be chosen on the left, what comes of it on the right."""
+
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
+from typing import Any
+
+from dash import dcc, html
+
+from carom.explorer.views import BODIES, CHOICES, KNOBS, LAWS, NUMBERS, View
+
+LABELS: Mapping[str, str] = MappingProxyType(
+    {
+        "radius": "Radius of the ball",
+        "material": "Material of the ball",
+        "against": "It strikes a",
+        "second_radius": "Radius of the second body",
+        "second_material": "Material of the second body",
+        "friction": "Friction, µ",
+        "speed": "Speed of approach, V",
+        "angle": "Incidence from the normal",
+        "spin": "Spin (positive: backspin)",
+        "psi": "ψ₁, dimensionless velocity before",
+        "chi": "χ, ratio of inertia to stiffness",
+        "law": "Contact laws laid over",
+        "data": "Measured rebounds that come along",
+    }
+)
+OF_BODIES = ("radius", "material", "against", "second_radius", "second_material")
+OF_MOTION = ("speed", "angle", "spin")
+OF_NUMBERS = ("psi", "chi")
+CONTROLS = ("given", *OF_BODIES, "friction", *OF_MOTION, *OF_NUMBERS, "law", "data")
+SLIDERS = tuple(name for name in CONTROLS if name in KNOBS and KNOBS[name].slider)
+FILES = MappingProxyType(
+    {
+        "history.csv": "History, CSV",
+        "history.nc": "History, NetCDF",
+        "history.png": "Histories, PNG",
+        "patch.png": "Contact, PNG",
+        "view.py": "Python",
+    }
+)
+PACES = (2, 5, 10, 30)  # seconds that a film takes
+CHART: Any = {"displaylogo": False, "responsive": True}
+LIVE: Any = {"aria-live": "polite"}
+LARGEST_UPLOAD = 1_000_000  # bytes
+
+
+def page() -> html.Div:
+    """Return the whole page, as it opens."""
+    return html.Div(
+        id="page",
+        children=[
+            dcc.Location(id="url", refresh=False),
+            dcc.Store(id="view"),
+            dcc.Store(id="scene"),
+            dcc.Store(id="query"),
+            dcc.Store(id="file"),
+            dcc.Store(id="restored"),
+            _head(),
+            html.Aside(className="carom-controls", children=_controls()),
+            html.Main(className="carom-panels", children=list(_panels())),
+        ],
+    )
+
+
+def _head() -> html.Header:
+    return html.Header(
+        className="carom-head",
+        children=[
+            html.H1("Carom"),
+            html.P("An elastic sphere strikes at an angle: how it leaves, and what happens inside"),
+            html.Div(
+                className="carom-link",
+                children=[
+                    html.Label("Link to this view", htmlFor="link"),
+                    dcc.Input(id="link", type="text", readOnly=True),
+                    html.Button("Copy", id="copy", type="button"),
+                    html.Button("Theme: auto", id="theme", type="button"),
+                ],
+            ),
+            html.P(id="link-notice", className="carom-notice", role="alert"),
+            html.P(id="notice", className="carom-notice", role="alert"),
+        ],
+    )
+
+
+def _controls() -> list[Any]:
+    opens = View()
+    given = {BODIES: "bodies", NUMBERS: "ψ₁ and χ"}
+    return [
+        html.Details(
+            open=True,
+            children=[
+                html.Summary("What strikes what"),
+                html.Fieldset(
+                    className="carom-field",
+                    children=[
+                        html.Legend("Given are"),
+                        dcc.RadioItems(
+                            id="given",
+                            options=[{"value": key, "label": text} for key, text in given.items()],
+                            value=opens.given,
+                            inline=True,
+                        ),
+                    ],
+                ),
+                html.Div(id="numbers", children=[_control(name, opens) for name in OF_NUMBERS]),
+                html.Div(id="motion", children=[_control(name, opens) for name in OF_MOTION]),
+                _control("friction", opens),
+                html.Div(id="bodies", children=[_control(name, opens) for name in OF_BODIES]),
+                html.Fieldset(
+                    className="carom-field carom-laws",
+                    children=[
+                        html.Legend(LABELS["law"]),
+                        dcc.Checklist(id="law", options=list(LAWS), value=list(opens.law)),
+                    ],
+                ),
+            ],
+        )
+    ]
+
+
+def _control(name: str, opens: View) -> html.Div:
+    """Return a labelled control: a choice, or a number with its slider."""
+    value = getattr(opens, name)
+    if name in CHOICES:
+        label = html.Label(LABELS[name], htmlFor=name)
+        return html.Div([label, _choice(name, CHOICES[name], value)], className="carom-field")
+    knob = KNOBS[name]
+    unit = f" ({knob.unit})" if knob.unit else ""
+    parts: list[Any] = [
+        html.Label(LABELS[name] + unit, htmlFor=name),
+        dcc.Input(id=name, type="number", value=value, min=knob.least, max=knob.most, step="any"),
+    ]
+    if knob.slider is not None:
+        low, high, step = knob.slider
+        parts.append(
+            dcc.Input(id=f"{name}-slider", type="range", value=value, min=low, max=high, step=step)
+        )
+    return html.Div(parts, className="carom-field", id=f"{name}-field")
+
+
+def _choice(name: str, known: Iterable[str], value: str) -> dcc.Dropdown:
+    options = [{"value": key, "label": key or "none"} for key in known]
+    return dcc.Dropdown(id=name, options=options, value=value, clearable=False)
+
+
+def _panels() -> Iterable[Any]:
+    yield _panel(
+        "The rebound",
+        html.Canvas(id="stage", **_described("The bodies before, during and after the contact")),
+        html.Div(
+            className="carom-clock",
+            children=[
+                html.Button("Play", id="play", type="button"),
+                html.Label("Time", htmlFor="time"),
+                dcc.Input(id="time", type="range", min=-0.6, max=1.6, step=0.002, value=0.5),
+                html.Output(id="clock"),
+                html.Label("Seconds a film", htmlFor="pace"),
+                dcc.Dropdown(
+                    id="pace",
+                    options=[{"value": pace, "label": f"{pace} s"} for pace in PACES],
+                    value=5,
+                    clearable=False,
+                    searchable=False,
+                ),
+            ],
+        ),
+    )
+    yield _panel(
+        "The contact from above",
+        html.Canvas(id="patch", **_described("Traction, stick and slip in the contact")),
+    )
+    yield _panel("ψ₂ against ψ₁", _chart("rebounds"))
+    yield _panel("Force", _chart("forces", "carom-history"))
+    yield _panel("Energy", _chart("energies", "carom-history"))
+    yield _panel("The result", html.Div(id="results", **LIVE))
+    yield _panel("Measured rebounds", *_measured())
+    yield _panel("Take it along", *_downloads())
+
+
+def _panel(title: str, *children: Any) -> html.Section:
+    return html.Section([html.H2(title), *children], className="carom-panel")
+
+
+def _described(text: str) -> dict[str, Any]:
+    return {"role": "img", "aria-label": text}
+
+
+def _chart(name: str, classes: str = "") -> html.Div:
+    graph = dcc.Graph(id=name, config=CHART, responsive=True, className="carom-chart")
+    return html.Div(graph, className=classes)
+
+
+def _measured() -> Iterable[Any]:
+    yield html.P(
+        "Friction, stiffness ratio and restitution from a table: one row an impact, e.g. with the "
+        "columns angle [deg] and contact_beta. The bodies are those chosen here, unless the file "
+        "tells."
+    )
+    yield _control("data", View())
+    yield dcc.Upload(
+        id="upload",
+        className="carom-drop",
+        accept=".csv,text/csv,text/plain",
+        children=html.Button("Choose or drop a CSV file", id="upload-button", type="button"),
+    )
+    yield html.P(id="fit-progress", role="status")
+    yield html.P(id="fit-notice", className="carom-notice", role="alert")
+    yield html.Div(id="fit")
+
+
+def _downloads() -> Iterable[Any]:
+    yield html.P("Every state of the page is the link above; these files tell the same state.")
+    yield html.Ul(
+        className="carom-downloads",
+        children=[
+            html.Li(_file(name, text), id=f"{name.replace('.', '-')}-item")
+            for name, text in FILES.items()
+        ],
+    )
+    yield html.Pre(id="code", className="carom-code", tabIndex="0")
+
+
+def _file(name: str, text: str) -> html.A:
+    where: dict[str, Any] = {"href": f"/{name}", "download": name}
+    return html.A(text, id=name.replace(".", "-"), className="carom-download", **where)

@@ -1,0 +1,79 @@
+"""Rebound curves of a view, the exact one and those of contact laws; remembered by bodies."""
+
+from collections.abc import Iterable
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.dimensionless.hertz import DURATION
+from carom.dimensionless.rebounds import rebound
+from carom.explorer.charts import LawCurve
+from carom.explorer.scenes import Scene, scene_of
+from carom.explorer.views import LAWS, NUMBERS, View
+from carom.laws.dem.base import ContactLaw, Law
+from carom.verify.catalogue import named
+
+Array = NDArray[np.float64]
+
+POINTS, POINTS_OF_LAWS = 241, 81
+BEYOND = 1.15  # of the present psi_1, that is shown
+STEPS = 400  # of a law's force in time
+KEPT = 256  # curves that are remembered
+DIGITS = 12  # of what a curve is remembered by
+
+
+def exact_curve(scene: Scene) -> tuple[Array, Array]:
+    """Return psi_1 and psi_2 of the exact curve, over the present point and all regimes."""
+    low, high = _span(scene)
+    psi = np.linspace(low, high, POINTS)
+    return psi, rebound(psi, scene.chi)
+
+
+def law_curves(scene: Scene, labels: Iterable[str]) -> list[LawCurve]:
+    """Return what the contact laws of these names give in the place of the exact one."""
+    return [_of_law(scene, label) for label in labels]
+
+
+def _of_law(scene: Scene, label: str) -> LawCurve:
+    law = named(label)[0].law
+    low, high = _span(scene)
+    grid = np.linspace(0.0, max(-low, high), POINTS_OF_LAWS)
+    half = _half(label, float(grid[-1]), round(scene.chi, DIGITS), round(scene.kappa, DIGITS))
+    psi, out = np.concatenate([-grid[:0:-1], grid]), np.concatenate([-half[:0:-1], half])
+    shown = (psi >= low) & (psi <= high)
+    at, share, force = float("nan"), np.array([]), np.array([])
+    if np.isfinite(scene.psi_in):
+        at = float(law.rebound(scene.psi_in, scene.chi, kappa=scene.kappa))
+        share, force = _in_time(law, scene)
+    return LawCurve(label, psi[shown], out[shown], at, share, force)
+
+
+def _in_time(law: Law, scene: Scene) -> tuple[Array, Array]:
+    """Return times as shares of the exact duration, and the force in the unit of the scene."""
+    if not isinstance(law, ContactLaw):
+        return np.array([]), np.array([])  # a hard sphere has no contact to follow
+    told = law.history(scene.psi_in, scene.chi, kappa=scene.kappa, steps=STEPS)
+    return told["time"] / DURATION, told["tangential_force"] * float(scene.limit.max())
+
+
+@lru_cache(maxsize=KEPT)
+def _half(label: str, most: float, chi: float, kappa: float) -> Array:
+    grid = np.linspace(0.0, most, POINTS_OF_LAWS)
+    return np.asarray(named(label)[0].law.rebound(grid, chi, kappa=kappa))
+
+
+def _span(scene: Scene) -> tuple[float, float]:
+    """Return the psi_1 between which curves are drawn: all regimes, and the present point."""
+    regimes = np.ceil(2.0 * max(4.0 * scene.chi, 1.5)) / 2.0
+    point = scene.psi_in if np.isfinite(scene.psi_in) else 0.0
+    reach = np.ceil(BEYOND * abs(point)) if abs(point) > regimes / BEYOND else regimes
+    return (-reach if point < 0.0 else 0.0), max(reach, regimes)
+
+
+def warm_up() -> None:
+    """Load or compile all that an answer needs, so that none has to wait for it."""
+    for view in (View(law=LAWS), View(given=NUMBERS)):
+        scene = scene_of(view)
+        exact_curve(scene)
+        law_curves(scene, view.law)

@@ -1,0 +1,206 @@
+"""What a view comes to: an impact solved, in the units in which the page draws it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.dimensionless.solution import Solution, solve
+from carom.dimensionless.states import Phase
+from carom.exact_impacts import Impact
+from carom.explorer.stages import Stage, short, stage_of_bodies, stage_of_numbers
+from carom.explorer.views import View
+from carom.glossary import GLOSSARY
+from carom.impacts import impact
+from carom.laws.dem.base import SOLID
+from carom.plots.impact import ENERGIES
+from carom.plots.style import prefixed
+from carom.results import MARKS
+
+Array = NDArray[np.float64]
+
+TIMES = 201  # of the histories
+INSTANTS, RADII = 61, 33  # at which tractions are drawn
+OF_BODIES = (
+    "psi_in",
+    "psi_out",
+    "rebound_angle",
+    "rebound_speed",
+    "spin_out",
+    "contact_restitution",
+    "tangential_restitution",
+    "dissipated_energy",
+    "duration",
+    "max_force",
+    "max_radius",
+)
+OF_CONTACT = {  # energies of the tangential motion alone
+    "kinetic": "motion of the contact point",
+    "stored": "elastic, tangential",
+    "dissipated": "lost to friction",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """An impact as the page draws it: histories along `share`, 0 at first touch, 1 at parting."""
+
+    psi_in: float
+    psi_out: float
+    chi: float
+    kappa: float
+    duration: float
+    time_unit: str
+    phases: tuple[Phase, ...]  # times as shares of the duration
+    share: Array
+    force: Array
+    limit: Array
+    force_unit: str
+    energies: Mapping[str, Array]  # as shares of all
+    contact: Array
+    stick: Array
+    tractions: Array
+    stage: Stage
+    results: Mapping[str, str]
+    findings: tuple[str, ...]
+
+    def moving(self) -> dict[str, Any]:
+        """Return what the page animates, as JSON can hold it."""
+        return {
+            "duration": self.duration,
+            "unit": self.time_unit,
+            "phases": [
+                {"kind": p.kind, "sign": p.sign, "start": p.start, "end": p.end}
+                for p in self.phases
+            ],
+            "time": short(self.share),
+            "contact": short(self.contact),
+            "stick": short(self.stick),
+            "tractions": [short(line) for line in self.tractions],
+            "stage": self.stage.moving(),
+        }
+
+
+def scene_of(view: View) -> Scene:
+    """Solve what a view asks for, or raise InputError."""
+    return _of_numbers(view) if view.in_numbers else _of_bodies(impact_of(view))
+
+
+def impact_of(view: View) -> Impact:
+    """Return the impact of the bodies of a view, or raise InputError."""
+    found: Impact = impact(view.pair, **view.motion)
+    return found
+
+
+def _of_bodies(hit: Impact) -> Scene:
+    history = hit.history(TIMES)
+    column = {str(name): history[name].values for name in history.variables}
+    unit, seconds = _scaled(hit.duration, "s")
+    force_unit, newtons = _scaled(hit.pair.friction * hit.max_force or hit.max_force, "N")
+    energies = {label: column[name] for name, (label, *_) in ENERGIES.items()}
+    whole = sum(energies.values())
+    solution = _elastic(hit)
+    return Scene(
+        psi_in=hit.psi_in,
+        psi_out=hit.psi_out,
+        chi=hit.pair.chi,
+        kappa=hit.pair.kappa,
+        duration=hit.duration * seconds,
+        time_unit=unit,
+        phases=_shares(hit.phases, hit.duration),
+        share=history["time"].values / hit.duration,
+        force=column["tangential_force"] * newtons,
+        limit=hit.pair.friction * column["normal_force"] * newtons,
+        force_unit=force_unit,
+        energies={label: part / whole for label, part in energies.items()},
+        contact=column["contact_radius"] / hit.max_radius,
+        stick=column["stick_radius"] / hit.max_radius,
+        tractions=_tractions(solution),
+        stage=stage_of_bodies(hit, column),
+        results={
+            GLOSSARY[name].meaning: _text(name, value)
+            for name, value in hit.scalars().items()
+            if name in OF_BODIES
+        },
+        findings=tuple(
+            f"{MARKS[finding.holds]} {finding.name} = {finding.value:.3g}: {finding.verdict}"
+            for finding in hit.validity.findings
+        ),
+    )
+
+
+def _of_numbers(view: View) -> Scene:
+    solution = solve(view.psi, view.chi)
+    history = solution.history(TIMES)
+    parts = (0.5 * history.psi**2, history.stored, history.dissipated)
+    whole = sum(parts) if view.psi else np.ones(TIMES)
+    return Scene(
+        psi_in=solution.psi_in,
+        psi_out=solution.psi_out,
+        chi=solution.chi,
+        kappa=SOLID * solution.chi,
+        duration=solution.duration,
+        time_unit="d_max/V₁",
+        phases=_shares(solution.phases, solution.duration),
+        share=history.time / solution.duration,
+        force=history.force,
+        limit=history.normal_force,
+        force_unit="µ F_max",
+        energies={
+            label: part / whole for label, part in zip(OF_CONTACT.values(), parts, strict=True)
+        },
+        contact=history.contact_radius,
+        stick=history.stick_radius,
+        tractions=_tractions(solution),
+        stage=stage_of_numbers(solution, history, view.friction),
+        results=_numbers(solution),
+        findings=(),
+    )
+
+
+def _numbers(solution: Solution) -> dict[str, str]:
+    psi, out = solution.psi_in, solution.psi_out
+    rows = {
+        GLOSSARY["psi_in"].meaning: f"{psi:.6g}",
+        GLOSSARY["psi_out"].meaning: f"{out:.6g}",
+        GLOSSARY["chi"].meaning: f"{solution.chi:.6g}",
+    }
+    if psi:
+        rows[GLOSSARY["contact_restitution"].meaning] = f"{out / psi:.6g}"
+    return rows
+
+
+def _elastic(hit: Impact) -> Solution:
+    assert isinstance(hit.solution, Solution)
+    return hit.solution
+
+
+def _tractions(solution: Solution) -> Array:
+    """Return the traction over mu and the largest pressure, from the centre to the edge."""
+    times = np.linspace(0.0, solution.duration, INSTANTS)
+    edges = solution.at(times).contact_radius
+    found = np.zeros((INSTANTS, RADII))
+    line = np.linspace(0.0, 1.0, RADII)
+    for row in range(1, INSTANTS - 1):
+        found[row] = solution.traction(times[row], edges[row] * line)
+    return found
+
+
+def _shares(phases: tuple[Phase, ...], duration: float) -> tuple[Phase, ...]:
+    return tuple(p._replace(start=p.start / duration, end=p.end / duration) for p in phases)
+
+
+def _text(name: str, value: float) -> str:
+    """Return a value of the glossary with its unit, prefixed so that it is easy to read."""
+    unit = GLOSSARY[name].unit
+    if unit in ("1", "rad"):
+        return GLOSSARY[name].text(value)
+    short_unit, scale = _scaled(value, unit)
+    return f"{value * scale:.5g} {short_unit}"
+
+
+def _scaled(value: float, unit: str) -> tuple[str, float]:
+    scale, text = prefixed(value, unit)
+    return text, scale

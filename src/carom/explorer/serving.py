@@ -1,0 +1,100 @@
+"""The page on a port of this machine."""
+
+import socket
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from carom.extras import extra
+from carom.quantities import InputError, refusal
+
+if TYPE_CHECKING:
+    from werkzeug.serving import BaseWSGIServer
+
+LOOPBACK = "127.0.0.1"
+PORT = 8050
+PORTS = 65535
+WAITING = 128  # requests that may queue
+
+
+@dataclass(frozen=True)
+class Explorer:
+    """The page, ready to be served at `url`."""
+
+    url: str
+    _server: "BaseWSGIServer" = field(repr=False)
+
+    def serve(self) -> None:
+        """Answer until `stop`, or an interrupt."""
+        try:
+            self._server.serve_forever()
+        finally:
+            self._server.server_close()
+
+    def stop(self) -> None:
+        """Let `serve`, which runs in another thread, return."""
+        self._server.shutdown()
+
+
+def explorer(*, host: str = LOOPBACK, port: int = PORT) -> Explorer:
+    """Return the page to explore impacts, bound to a port of this machine.
+
+    Parameters
+    ----------
+    host : str
+        Address to listen at; by default only this machine can ask.
+    port : int
+        Port to listen at, 0 for any that is free.
+
+    Raises
+    ------
+    InputError
+        If dash is not installed, the port is no port or taken, or the address is not one of this
+        machine.
+
+    Examples
+    --------
+    >>> from carom.explorer import explorer
+    >>> page = explorer(port=0)
+    >>> page.url.startswith("http://127.0.0.1:")
+    True
+    """
+    extra("dash", "the explorer", "explore")
+    if isinstance(port, bool) or not isinstance(port, int) or not 0 <= port <= PORTS:
+        allowed = f"must be a whole number from 0 to {PORTS}; 0 takes any that is free"
+        raise refusal("port", port, allowed)
+    with _bound(host, port) as listening:
+        from werkzeug.serving import make_server
+
+        from carom.explorer.app import new_app
+        from carom.explorer.overlays import warm_up
+        from carom.explorer.requests import Quiet
+
+        warm_up()
+        server = make_server(
+            host,
+            listening.getsockname()[1],
+            new_app().server,
+            threaded=True,
+            request_handler=Quiet,
+            fd=listening.fileno(),
+        )
+    shown = f"[{host}]" if ":" in host else host
+    return Explorer(f"http://{shown}:{server.port}/", server)
+
+
+def _bound(host: str, port: int) -> socket.socket:
+    """Return a socket that listens, or raise InputError."""
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    found = socket.socket(family, socket.SOCK_STREAM)
+    try:
+        found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        found.bind((host, port))
+        found.listen(WAITING)
+    except OSError as error:
+        found.close()
+        reason = error.strerror or str(error)
+        raise InputError(
+            f"port: {port} at {host!r} cannot be listened at, {reason.lower()}; "
+            "take another, or 0 for any that is free"
+        ) from None
+    return found

@@ -1,0 +1,166 @@
+"""What the page shows, as the words of a link: every state has one, and every link a state."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields
+from functools import cached_property
+from math import isfinite
+from types import MappingProxyType
+from typing import Any, NamedTuple, Self
+from urllib.parse import parse_qs, urlencode
+
+from carom.bodies import Cup, HalfSpace, Sphere, materials
+from carom.datasets import names as dataset_names
+from carom.pairs import Counterbody, Pair
+from carom.quantities import InputError, nearest, refusal
+from carom.verify.catalogue import CATALOGUE
+
+BODIES, NUMBERS = "bodies", "numbers"
+AGAINST = ("half-space", "sphere", "cup")
+LAWS = tuple(entry.label for entry in CATALOGUE)
+LONGEST = 4000  # characters of a link
+PAGE_ONLY = ("time", "theme")  # what the page alone keeps of a link
+
+
+class Knob(NamedTuple):
+    """A number on the page: its unit there, what is allowed, and what its slider spans."""
+
+    unit: str
+    least: float
+    most: float
+    slider: tuple[float, float, float] | None  # from, to, step
+
+    def read(self, name: str, text: Any) -> float:
+        """Return the number in a text, or raise InputError."""
+        try:
+            value = float(text)
+        except (TypeError, ValueError):
+            value = float("nan")
+        if not (isfinite(value) and self.least <= value <= self.most):
+            unit = f" {self.unit}" if self.unit else ""
+            allowed = f"must be a number from {self.least:g} to {self.most:g}{unit}"
+            raise refusal(name, "nothing" if text is None else text, allowed)
+        return value
+
+
+KNOBS: Mapping[str, Knob] = MappingProxyType(
+    {
+        "radius": Knob("mm", 1e-3, 1e4, None),
+        "second_radius": Knob("mm", 1e-3, 1e4, None),
+        "friction": Knob("", 0.0, 10.0, (0.0, 1.0, 0.005)),
+        "speed": Knob("m/s", 1e-4, 1e3, (0.05, 10.0, 0.05)),
+        "angle": Knob("deg", 0.0, 89.9, (0.0, 89.0, 0.25)),
+        "spin": Knob("rad/s", -1e6, 1e6, (-1000.0, 1000.0, 5.0)),
+        "psi": Knob("", -100.0, 100.0, (0.0, 10.0, 0.01)),
+        "chi": Knob("", 0.05, 10.0, (0.5, 3.0, 0.005)),
+    }
+)
+CHOICES: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "given": (BODIES, NUMBERS),
+        "material": tuple(materials()),
+        "against": AGAINST,
+        "second_material": tuple(materials()),
+        "data": ("", *dataset_names()),
+    }
+)
+
+
+@dataclass(frozen=True)
+class View:
+    """A state of the page: bodies and their motion, or psi_1 and chi, and what lies over them."""
+
+    given: str = BODIES
+    radius: float = 5.0
+    material: str = "steel"
+    against: str = "half-space"
+    second_radius: float = 10.0
+    second_material: str = "steel"
+    friction: float = 0.2
+    speed: float = 2.0
+    angle: float = 30.0
+    spin: float = 0.0
+    psi: float = 1.5
+    chi: float = 1.44
+    law: tuple[str, ...] = ()
+    data: str = ""
+
+    @classmethod
+    def of(cls, query: str) -> Self:
+        """Return the view of a link's query, or raise InputError for the first thing wrong."""
+        view, wrong = cls.with_complaints(query)
+        if wrong:
+            raise wrong[0]
+        return view
+
+    @classmethod
+    def with_complaints(cls, query: str) -> tuple[Self, list[InputError]]:
+        """Return the view of a link, defaults in place of what cannot be used, and what that is."""
+        if len(query) > LONGEST:
+            return cls(), [InputError(f"link: {len(query)} characters, at most {LONGEST} are read")]
+        found: dict[str, Any] = {}
+        wrong: list[InputError] = []
+        given = parse_qs(query.lstrip("?"), keep_blank_values=True)
+        for name, texts in given.items():
+            if name in PAGE_ONLY:
+                continue
+            try:
+                found[name] = _read(name, texts)
+            except InputError as error:
+                wrong.append(error)
+        return cls(**found), wrong
+
+    def query(self) -> str:
+        """Return the link's query: what differs from the page as it opens."""
+        changed = {
+            field.name: getattr(self, field.name)
+            for field in fields(self)
+            if getattr(self, field.name) != field.default
+        }
+        return urlencode({name: _text(value) for name, value in changed.items()}, doseq=True)
+
+    @property
+    def in_numbers(self) -> bool:
+        """Whether psi_1 and chi are given instead of bodies."""
+        return self.given == NUMBERS
+
+    @cached_property
+    def pair(self) -> Pair:
+        """The bodies; InputError if they do not fit."""
+        first = Sphere(radius=self.radius * 1e-3, material=self.material)
+        return Pair(first, self._second(), self.friction)
+
+    def _second(self) -> Counterbody:
+        if self.against == "half-space":
+            return HalfSpace(material=self.second_material)
+        body = Sphere if self.against == "sphere" else Cup
+        return body(radius=self.second_radius * 1e-3, material=self.second_material)
+
+    @property
+    def motion(self) -> dict[str, Any]:
+        """Speed, angle and spin as `carom.impact` takes them."""
+        return {"speed": self.speed, "angle": f"{self.angle!r} deg", "spin": self.spin}
+
+
+def _read(name: str, texts: list[str]) -> Any:
+    """Return what the words of a link say of one thing, or raise InputError."""
+    known = tuple(field.name for field in fields(View))
+    if name not in known:
+        raise InputError(f"{name}: unknown in a link; {nearest(name, known) or 'leave it out'}")
+    if name == "law":
+        return tuple(dict.fromkeys(_one_of(name, text, LAWS) for text in texts if text))
+    if name in KNOBS:
+        return KNOBS[name].read(name, texts[-1])
+    return _one_of(name, texts[-1], CHOICES[name])
+
+
+def _one_of(name: str, text: str, known: Iterable[str]) -> str:
+    if text not in known:
+        hint = nearest(text, known) or f"must be one of: {'; '.join(filter(None, known))}"
+        raise refusal(name, text, hint)
+    return text
+
+
+def _text(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return list(value)
+    return repr(value).removesuffix(".0") if isinstance(value, float) else value

@@ -1,0 +1,157 @@
+"""What the page of the explorer draws is what the library says, and a link holds all of it."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import carom
+
+pytest.importorskip("dash")
+
+from carom.explorer.overlays import exact_curve, law_curves
+from carom.explorer.scenes import impact_of, scene_of
+from carom.explorer.scripts import script
+from carom.explorer.views import CHOICES, KNOBS, LAWS, NUMBERS, View
+
+NUMBER = {name: st.floats(knob.least, knob.most) for name, knob in KNOBS.items()}
+WORD = {name: st.sampled_from(known) for name, known in CHOICES.items()}
+SOME_LAWS = st.lists(st.sampled_from(LAWS), unique=True, max_size=4).map(tuple)
+BODIES = [
+    View(),
+    View(angle=70.0, friction=0.1),
+    View(angle=10.0, spin=-900.0),
+    View(against="sphere", second_radius=7.5, second_material="soda-lime-glass", spin=300.0),
+    View(against="cup", second_radius=25.0, angle=55.0, friction=0.45),
+    View(friction=0.0),
+]
+NUMBERED = [View(given=NUMBERS, psi=psi, chi=chi) for psi, chi in ((0.5, 1.44), (-2.0, 0.4))]
+
+
+@given(st.builds(View, law=SOME_LAWS, **NUMBER, **WORD))
+@settings(max_examples=200, derandomize=True, deadline=None)
+def test_every_state_is_a_link_that_restores_it(view):
+    assert View.of("?" + view.query()) == view
+
+
+@pytest.mark.parametrize("name", KNOBS)
+def test_numbers_out_of_range_are_refused_by_name(name):
+    knob = KNOBS[name]
+    for text in ("", "nan", "inf", "x", "1e400", str(knob.most * 1.01), str(knob.least - 0.1)):
+        with pytest.raises(carom.InputError, match=rf"^{name}: .* must be a number from"):
+            View.of(f"{name}={text}")
+
+
+@pytest.mark.parametrize(
+    ("query", "says"),
+    [
+        ("material=stell", "did you mean 'steel'"),
+        ("law=mindlinn", "did you mean 'mindlin'"),
+        ("frction=1", "did you mean 'friction'"),
+        ("against=wall", "half-space; sphere; cup"),
+        ("psi=1&" * 1000, "at most"),
+    ],
+)
+def test_links_that_say_nonsense_are_refused_in_one_line(query, says):
+    view, wrong = View.with_complaints(query)
+    assert view == View()
+    assert says in str(wrong[0])
+    assert "\n" not in str(wrong[0])
+
+
+def test_what_a_link_says_right_is_kept_beside_what_it_says_wrong():
+    view, wrong = View.with_complaints("angle=40&friction=-1&material=brass&time=0.3&theme=dark")
+    assert (view.angle, view.friction, view.material) == (40.0, 0.2, "brass")
+    assert len(wrong) == 1
+
+
+@pytest.mark.parametrize("view", BODIES, ids=str)
+def test_scene_is_the_impact(view):
+    scene, hit = scene_of(view), impact_of(view)
+    again = carom.impact(view.pair, speed=2.0, angle=np.radians(view.angle), spin=view.spin)
+    np.testing.assert_allclose(scene.psi_out, again.psi_out, atol=1e-12)
+    if np.isfinite(hit.psi_in):
+        exact = carom.rebound(scene.psi_in, scene.chi)
+        np.testing.assert_allclose(scene.psi_out, exact, atol=1e-10 * max(1, abs(hit.psi_in)))
+    np.testing.assert_allclose(sum(scene.energies.values()), 1.0, atol=1e-10)
+    assert np.all(np.abs(scene.force) <= scene.limit * (1 + 1e-9) + 1e-12)
+    assert scene.phases[0].start == 0.0
+    assert scene.phases[-1].end == pytest.approx(1.0)
+    assert scene.contact.max() == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("view", [BODIES[0], BODIES[2], BODIES[3]], ids=str)
+def test_tractions_are_those_of_the_fields(view):
+    scene, hit = scene_of(view), impact_of(view)
+    for row, share in ((15, 0.25), (30, 0.5), (45, 0.75)):
+        radius = scene.contact[round(200 * share)] * hit.max_radius
+        places = np.linspace(0.0, radius, scene.tractions.shape[1])[:-1]
+        fields = hit.fields(share * hit.duration, points=np.column_stack([places, 0 * places]))
+        expected = fields.traction_x.values / (view.friction * hit.max_pressure)
+        np.testing.assert_allclose(scene.tractions[row][:-1], expected, atol=1e-9)
+
+
+@pytest.mark.parametrize("view", BODIES, ids=str)
+def test_balls_leave_as_the_impact_says(view):
+    """Directions and turns before and after; the mass centre of two free spheres stays."""
+    stage, hit = scene_of(view).stage, impact_of(view)
+    first, second = stage.bodies
+    across, up = first.x - second.x, first.y - second.y
+    for end, angle, sign in (
+        (slice(0, 5), np.radians(view.angle), -1),
+        (slice(-5, None), hit.rebound_angle, 1),
+    ):
+        slope = np.diff(across[end]) / (sign * np.diff(up[end]))
+        np.testing.assert_allclose(slope, np.tan(angle), rtol=1e-6, atol=1e-9)
+    rise = np.diff(up[-2:])[0] * view.radius * 1e-3 / hit.normal_speed  # s, magnified
+    turned = np.diff(first.turn[-2:])[0]
+    np.testing.assert_allclose(turned, hit.spin_out * rise, rtol=1e-6, atol=1e-9)
+    if view.against == "sphere":
+        heavier = view.pair.second.mass / view.pair.first.mass
+        np.testing.assert_allclose(first.x + heavier * second.x, 0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("view", NUMBERED, ids=str)
+def test_scene_of_numbers_is_the_solution(view):
+    scene = scene_of(view)
+    np.testing.assert_allclose(scene.psi_out, carom.rebound(view.psi, view.chi), atol=1e-10)
+    np.testing.assert_allclose(sum(scene.energies.values()), 1.0, atol=1e-10)
+    first = scene.stage.bodies[0]
+    kappa = 4.0 / 7.0 * view.chi
+    before = np.diff(first.x[:2]) / -np.diff(first.y[:2])
+    np.testing.assert_allclose(before, view.friction * view.psi / kappa, rtol=1e-6)
+
+
+@pytest.mark.parametrize("view", [BODIES[1], BODIES[2], NUMBERED[0]], ids=str)
+def test_curves_go_through_the_present_point(view):
+    scene = scene_of(view)
+    psi, out = exact_curve(scene)
+    np.testing.assert_allclose(out, carom.rebound(psi, scene.chi), atol=1e-12)
+    assert psi[0] <= scene.psi_in <= psi[-1]
+    for law in law_curves(scene, ["mindlin", "rigid Coulomb", "Walton & Braun"]):
+        entry = next(e for e in carom.verify.CATALOGUE if e.label == law.label)
+        expected = entry.law.rebound(scene.psi_in, scene.chi, kappa=scene.kappa)
+        np.testing.assert_allclose(law.at, expected, atol=1e-9)
+        near = np.interp(scene.psi_in, law.psi_in, law.psi_out)
+        np.testing.assert_allclose(near, expected, atol=0.02)
+        if law.force.size:
+            assert np.abs(law.force).max() <= scene.limit.max() * (1 + 1e-3)
+
+
+@pytest.mark.parametrize("view", [View(law=LAWS[:2], angle=41.5), NUMBERED[0]], ids=str)
+def test_lines_of_python_give_the_same(view, tmp_path):
+    scene = scene_of(view)
+    ran = subprocess.run(
+        [sys.executable, "-c", script(view, 0.6)],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert f"{scene.psi_out:.6f}"[:8] in ran.stdout
+    assert any(tmp_path.glob("*.png"))
+    for law in law_curves(scene, view.law):
+        assert f"{law.at:.6f}"[:8] in ran.stdout
