@@ -5,6 +5,8 @@ from typing import Any, TypeVar, cast
 
 import numba
 
+import carom.dimensionless._compiling  # noqa: F401 - tells who waits
+
 F = TypeVar("F", bound=Callable[..., Any])
 
 

@@ -72,9 +72,7 @@ def _head() -> html.Header:
             html.Div(
                 className="carom-link",
                 children=[
-                    html.Label("Link to this view", htmlFor="link"),
-                    dcc.Input(id="link", type="text", readOnly=True),
-                    html.Button("Copy", id="copy", type="button"),
+                    html.Div(id="link-box"),
                     html.Button("Theme: auto", id="theme", type="button"),
                 ],
             ),
@@ -89,6 +87,7 @@ def _controls() -> list[Any]:
     given = {BODIES: "bodies", NUMBERS: "ψ₁ and χ"}
     return [
         html.Details(
+            className="carom-fold",
             open=True,
             children=[
                 html.Summary("What strikes what"),
@@ -130,7 +129,7 @@ def _control(name: str, opens: View) -> html.Div:
     unit = f" ({knob.unit})" if knob.unit else ""
     parts: list[Any] = [
         html.Label(LABELS[name] + unit, htmlFor=name),
-        dcc.Input(id=name, type="number", value=value, min=knob.least, max=knob.most, step="any"),
+        dcc.Input(id=name, type="number", value=value, step="any"),
     ]
     if knob.slider is not None:
         low, high, step = knob.slider
@@ -153,16 +152,12 @@ def _panels() -> Iterable[Any]:
             className="carom-clock",
             children=[
                 html.Button("Play", id="play", type="button"),
-                html.Label("Time", htmlFor="time"),
-                dcc.Input(id="time", type="range", min=-0.6, max=1.6, step=0.002, value=0.5),
+                html.Div(id="time-box"),  # the page keeps time itself
                 html.Output(id="clock"),
                 html.Label("Seconds a film", htmlFor="pace"),
-                dcc.Dropdown(
+                html.Select(
                     id="pace",
-                    options=[{"value": pace, "label": f"{pace} s"} for pace in PACES],
-                    value=5,
-                    clearable=False,
-                    searchable=False,
+                    children=[html.Option(f"{pace} s", value=str(pace)) for pace in PACES],
                 ),
             ],
         ),

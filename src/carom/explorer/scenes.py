@@ -198,7 +198,7 @@ def _text(name: str, value: float) -> str:
     if unit in ("1", "rad"):
         return GLOSSARY[name].text(value)
     short_unit, scale = _scaled(value, unit)
-    return f"{value * scale:.5g} {short_unit}"
+    return f"{value * scale:.5g}\N{NO-BREAK SPACE}{short_unit}"
 
 
 def _scaled(value: float, unit: str) -> tuple[str, float]:

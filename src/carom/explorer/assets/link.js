@@ -7,6 +7,7 @@ Carom.link = (() => {
   const WAIT = 300; // ms between two changes: browsers refuse floods
   const opened = new URLSearchParams(window.location.search);
   let query = null; // what Dash says; null until it has
+  let paused = Carom.clock.START; // where the time last stood still
   let waiting = 0;
 
   // The query the page was opened with, without our own parts.
@@ -23,7 +24,8 @@ Carom.link = (() => {
 
   function whole() {
     const parts = [query];
-    const time = Number(Carom.clock.now().toFixed(3));
+    if (!Carom.clock.isPlaying()) paused = Carom.clock.now();
+    const time = Number(paused.toFixed(3));
     if (time !== Carom.clock.START) parts.push(`time=${time}`);
     if (Carom.theme.choice() !== "auto") parts.push(`theme=${Carom.theme.choice()}`);
     return parts.filter(Boolean).join("&");

@@ -24,12 +24,13 @@ Carom.page = (() => {
     const times = byId("time-box");
     if (times && !byId("time")) {
       const { FIRST: min, LAST: max, STEP: step } = Carom.clock;
-      const slider = make("input", times, { type: "range", id: "time" });
-      Object.assign(slider, { min, max, step, ariaLabel: "time" });
+      const slider = make("input", times, { type: "range", id: "time", min, max, step });
+      slider.setAttribute("aria-label", "time");
     }
     const links = byId("link-box");
     if (links && !byId("link")) {
-      make("input", links, { id: "link", type: "text", readOnly: true, ariaLabel: "link to this view" });
+      const field = make("input", links, { id: "link", type: "text", readOnly: true });
+      field.setAttribute("aria-label", "link to this view");
       make("button", links, { id: "copy", type: "button", textContent: "Copy link" });
       make("span", links, { id: "copied", role: "status", className: "carom-copied" });
     }
@@ -84,14 +85,14 @@ Carom.page = (() => {
     const [output, slider, button] = ["clock", "time", "play"].map(byId);
     if (output && output.textContent !== told) output.textContent = told;
     if (slider) slider.value = time;
-    if (slider) slider.setAttribute("aria-valuetext", told);
     const verb = Carom.clock.isPlaying() ? "Pause" : "Play";
     if (button && button.textContent !== verb) button.textContent = verb;
-    if (!Carom.clock.isPlaying()) describe(told);
+    if (!Carom.clock.isPlaying()) describe(told, slider);
   }
 
   // Pictures in words, for those who hear the page.
-  function describe(told) {
+  function describe(told, slider) {
+    if (slider) slider.setAttribute("aria-valuetext", told);
     const [stage, patch] = ["stage", "patch"].map(byId);
     if (stage) stage.setAttribute("aria-label", `The bodies at ${told}`);
     if (patch) patch.setAttribute("aria-label", `The contact from above at ${told}`);

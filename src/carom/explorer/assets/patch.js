@@ -167,8 +167,9 @@ Carom.patch = (() => {
       pen.stroke();
     }
     const words = { size: 11, base: "middle", color: color("ink") };
-    canvas.word(pen, "± µ p", map.x + map.unit + 8, line.middle - half + 4, { ...words, color: color("muted") });
-    canvas.word(pen, "q", map.x + map.unit + 8, line.middle, { ...words, color: color("accent") });
+    const beside = map.x + map.unit + 8;
+    canvas.word(pen, "± µ p", beside, line.middle - half + 4, { ...words, color: color("muted") });
+    canvas.word(pen, "q", beside, line.middle, { ...words, color: color("accent") });
     const y = line.top + line.height + 9;
     ["−1", "0", "1"].forEach((text, i) => {
       canvas.word(pen, text, map.x + (i - 1) * map.unit, y, { ...words, align: "center" });

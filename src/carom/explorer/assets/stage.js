@@ -9,25 +9,6 @@ Carom.stage = (() => {
   const FOOT = 24; // pixels for the words below
   const color = (name) => Carom.theme.color(name);
 
-  // Where the arrows of both velocities start and end, the longest of all as long as ARROW.
-  function arrows({ bodies }) {
-    const moving = bodies.filter((body) => body.kind === "sphere");
-    const all = moving.map(speeds);
-    const longest = most(all.flatMap((each) => [each.before, each.after].map((v) => Math.hypot(...v))));
-    if (!(longest > 0)) return [];
-    return moving.flatMap((body, row) => {
-      const last = body.x.length - 1;
-      const ends = [[body.x[0], body.y[0]], [body.x[last], body.y[last]]];
-      return ["before", "after"].map((when, i) => {
-        const [vx, vy] = all[row][when].map((v) => (v * ARROW) / longest);
-        const [x, y] = ends[i];
-        const [from, to] = i ? [[x, y], [x + vx, y + vy]] : [[x - vx, y - vy], [x, y]];
-        const length = Math.hypot(vx, vy);
-        return { when, from, to, tip: i ? to : from, length, first: body === bodies[0] };
-      });
-    });
-  }
-
   function enter(pen, seen) {
     pen.save();
     pen.transform(seen.unit, 0, 0, -seen.unit, seen.x, seen.y);
