@@ -1,4 +1,7 @@
-"""The patch through an impact as a film: contact, stick zone, slip and traction beside the force.
+"""The patch through an impact, a film
+===================================
+
+The patch through an impact as a film: contact, stick zone, slip and traction beside the force.
 
 The contact slides, grips, lets go from the edge inwards and slides back, while the traction in the
 middle still pushes the other way.

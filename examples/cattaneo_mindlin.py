@@ -1,4 +1,7 @@
-"""A sphere pressed on a plane and pushed sideways: the edge slips, the middle sticks.
+"""A growing tangential force: Cattaneo and Mindlin
+================================================
+
+A sphere pressed on a plane and pushed sideways: the edge slips, the middle sticks.
 
 At constant normal force a growing tangential force lets a ring slip from the edge inwards, to
 (1 - T/(mu P))^(1/3) of the radius; the displacement softens until the whole contact slides.

@@ -1,4 +1,7 @@
-"""The one number that tells bodies apart, chi, against Poisson's ratio and the shape of the ball.
+"""What chi is for balls, shells and cups
+======================================
+
+The one number that tells bodies apart, chi, against Poisson's ratio and the shape of the ball.
 
 It compares inertia and stiffness along the surface with those across it. Solid spheres lie between
 1.17 and 1.75; a thin shell has less; chi = 1/2, which would never slip, takes a flywheel of K >=

@@ -1,4 +1,7 @@
-"""Which contact law, which k_t/k_n and which time step: choosing a law for a DEM simulation.
+"""Choosing a contact law for DEM
+==============================
+
+Which contact law, which k_t/k_n and which time step: choosing a law for a DEM simulation.
 
 All laws are Coulomb's when the ball slides throughout; what they differ in is how a contact that
 grips gives back what its tangential spring has stored. Linear springs with k_t/k_n = kappa, that of

@@ -1,4 +1,7 @@
-"""How long the contact sticks: V_z/V_1 where stick begins and where |g| = 1 ends it.
+"""How long the contact sticks
+===========================
+
+How long the contact sticks: V_z/V_1 where stick begins and where abs(g) = 1 ends it.
 
 Below psi_1 = 1 stick lasts from the first touch; the thin lines are where gross slip gives way to
 stick, (34). It always ends before maximum penetration, V_z = 0, in slip against the first motion,

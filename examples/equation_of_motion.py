@@ -1,4 +1,7 @@
-"""The force that brakes the contact point, from the tractions and from its deceleration.
+"""The force that brakes the contact point
+=======================================
+
+The force that brakes the contact point, from the tractions and from its deceleration.
 
 While the contact sticks, F_x is the moment of g, (11) to (13), and the mass times the deceleration,
 (14). As printed, (14) ends on (1 - c b^5)^(1/2) g'(b), and the two sides part; without the root

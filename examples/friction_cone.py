@@ -1,4 +1,7 @@
-"""The path of the forces in the cone of friction: F_x against F_z through one impact.
+"""An impact in the cone of friction
+=================================
+
+The path of the forces in the cone of friction: F_x against F_z through one impact.
 
 Gross slip runs along the border of the cone, stick leaves it with the slope mu g(b), and slip on a
 ring leads across to the other border: friction brakes the ball first and then drives it.

@@ -1,4 +1,7 @@
-"""The full contact in three dimensions beside the theory: which way does the patch slip?
+"""The full contact in three dimensions
+====================================
+
+The full contact in three dimensions beside the theory: which way does the patch slip?
 
 The theory lets all points pull and slip along x; its slip then turns off x, most at the front of
 the ring that slips, by arcsin(nu/(2 - nu)). In the full solution, boundary elements with Coulomb's

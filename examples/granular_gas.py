@@ -1,4 +1,7 @@
-"""A million spheres that cool by friction alone: `python granular_gas.py --spheres 1000000`.
+"""A granular gas that cools by friction alone
+===========================================
+
+A million spheres that cool by friction alone: `python granular_gas.py --spheres 1000000`.
 
 Nothing is lost along the normal, e = 1, but slip takes its share of every collision. At first it
 sets the spheres spinning; then both temperatures fall as t^-2 in a constant ratio, for the way a
@@ -294,6 +297,6 @@ def count(text):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=main.__doc__)
     parser.add_argument("--spheres", type=count, default=20_000)
     print(main(spheres=parser.parse_args().spheres))

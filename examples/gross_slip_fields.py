@@ -1,4 +1,7 @@
-"""A patch that slides as a whole: traction mu p, and the dish it makes of the surface.
+"""A patch that slides as a whole
+==============================
+
+A patch that slides as a whole: traction mu p, and the dish it makes of the surface.
 
 u_x falls off from the centre, more slowly along the motion than across it; u_y has four lobes and
 does not change while the contact grows, so that all points slip exactly along x. The patch widens

@@ -1,4 +1,7 @@
-"""From gross slip into stick: slip stops everywhere at once where psi = V_z/V_1.
+"""From gross slip to stick
+========================
+
+From gross slip into stick: slip stops everywhere at once where psi = V_z/V_1.
 
 In the plane of both velocities gross slip is a straight line of slope 2 chi, (33); it meets psi =
 V_z/V_1, (32), at the speed (34). The stick that follows starts with a slope of g that (35) gives as

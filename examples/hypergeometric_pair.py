@@ -1,4 +1,7 @@
-"""The two solutions h_1 and h_2 of the stick phase, and what gross slip mixes of them.
+"""The two solutions of the stick phase
+====================================
+
+The two solutions h_1 and h_2 of the stick phase, and what gross slip mixes of them.
 
 From the first touch only h_1 counts, since h_2 rises like b^2; after gross slip g = 1 and its slope
 fix the shares of both. Each grows like (1 - x)^(-1/2). Thin: the series (21) cut after 5, 20 and

@@ -1,4 +1,7 @@
-"""A tangential force that swings at constant normal force: loops, and the energy each one costs.
+"""Loops of a swinging force
+=========================
+
+A tangential force that swings at constant normal force: loops, and the energy each one costs.
 
 The first push runs along Cattaneo and Mindlin's curve; every later swing is that curve doubled in
 both directions, so that the loop closes at once. The energy per cycle goes with the third power of

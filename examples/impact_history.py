@@ -1,4 +1,7 @@
-"""A steel ball strikes a steel plate at 30 degrees: force, velocities, radii, energy in time.
+"""One impact in time
+==================
+
+A steel ball strikes a steel plate at 30 degrees: force, velocities, radii, energy in time.
 
 It slides, sticks for a moment, slips from the edge inwards and slides back; friction first brakes
 it and then drives it. The energy of the tangential springs comes back in part; what is lost goes

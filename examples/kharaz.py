@@ -1,4 +1,7 @@
-"""Friction and restitution from published rebounds, and contact laws against the same points.
+"""Parameters from measured rebounds
+=================================
+
+Friction and restitution from published rebounds, and contact laws against the same points.
 
 5 mm alumina spheres strike soda-lime glass at 3.9 m/s, from grazing to nearly normal (Kharaz,
 Gorham & Salman 2001, Powder Technol. 120:281). `fit` takes friction, stiffness ratio and

@@ -1,4 +1,7 @@
-"""Impacts that lose energy: what restitution does to the rebound, and speed to restitution.
+"""Impacts that lose energy
+========================
+
+Impacts that lose energy: what restitution does to the rebound, and speed to restitution.
 
 Viscous spheres (Kelvin & Voigt) lose little in slow impacts, 1 - e ~ V^(1/5); metals that yield
 lose more the faster they strike, e ~ V^(-1/4) (Thornton 1997). Left: psi_2 against psi_1 for equal

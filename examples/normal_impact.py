@@ -1,4 +1,7 @@
-"""A steel ball strikes a steel plate at a right angle: force, radius, speed and pressure.
+"""The normal impact
+=================
+
+A steel ball strikes a steel plate at a right angle: force, radius, speed and pressure.
 
 The force rises and falls in 2.943 d_max/V_1, whatever the speed; the radius of the contact grows
 like a root at first, which makes V_z against b so flat at the touch: V_z = V_1 sqrt(1 - c b^5).

@@ -1,4 +1,7 @@
-"""A sphere pressed and pushed at once in a constant direction: below a critical angle it sticks.
+"""Loading in a constant direction
+===============================
+
+A sphere pressed and pushed at once in a constant direction: below a critical angle it sticks.
 
 Up to F_x = mu F_z, or U/d = mu/kappa, the whole contact sticks with g constant, and unloading goes
 back along the same line; beyond it the whole contact slides, and the way back differs. An impact

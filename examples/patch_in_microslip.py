@@ -1,4 +1,7 @@
-"""The patch from above while a ring slips: traction, stick zone and the direction of slip.
+"""The patch from above in microslip
+=================================
+
+The patch from above while a ring slips: traction, stick zone and the direction of slip.
 
 The theory lets all points slip along x. They nearly do: the lateral displacements, of the order of
 nu, turn the slip off x, most at the front of the ring, where the sine of the angle is

@@ -1,4 +1,7 @@
-"""How the rebound depends on the bodies: psi_2 against chi at psi_1 = 1.2, and at 0.3.
+"""The rebound against chi
+=======================
+
+How the rebound depends on the bodies: psi_2 against chi at psi_1 = 1.2, and at 0.3.
 
 At 1.2 the ball slides throughout while 4 chi - 1 <= 1.2, on a straight line; from there on it grips
 and is thrown back, more or less by turns: a heavier tangential spring makes more of an oscillation

@@ -1,4 +1,7 @@
-"""A real ball: 5 mm of alumina on glass at 3.9 m/s, calculated and measured.
+"""A real ball: measured and calculated
+====================================
+
+A real ball: 5 mm of alumina on glass at 3.9 m/s, calculated and measured.
 
 Where the ball slides throughout, from 4 chi - 1 on, friction takes the same from all: tan theta' =
 tan theta - 2 mu, omega = 5 mu V_1/R. Below it grips, and how much it is turned and thrown back is

@@ -1,4 +1,7 @@
-"""How a sphere rebounds: psi_2 against psi_1 for several chi.
+"""The rebound curve
+=================
+
+How a sphere rebounds: psi_2 against psi_1 for several chi.
 
 A ball that comes in at a low angle sticks and may go back where it came from; the curves dip to a
 corner and then rise along the straight lines psi_2 = psi_1 - 4 chi of sliding throughout. Marks

@@ -1,4 +1,7 @@
-"""Which phases follow which over psi_1 and chi: a map of all impacts.
+"""A map of all impacts
+====================
+
+Which phases follow which over psi_1 and chi: a map of all impacts.
 
 Below psi_1 = 1 the contact sticks from the first touch, beyond 4 chi - 1 it slides throughout.
 Between them lies what the ball does after it has gripped, and it is richer than the usual solid

@@ -1,8 +1,11 @@
-"""What a contact that sticks from the first touch lays down: g = psi_1 F(alpha, beta; 3/5; c b^5).
+"""What a contact that sticks lays down
+====================================
+
+What a contact that sticks from the first touch lays down: g = psi_1 F(alpha, beta; 3/5; c b^5).
 
 chi = 1/2 gives the constant g = psi_1; at chi = 4 F is a straight line in x; elsewhere F grows
 without bound towards maximum penetration, to either side in turns. Thick where the contact still
-sticks for psi_1 = 0.3, that is while |g| < 1. Circles: the memory of whole impacts.
+sticks for psi_1 = 0.3, that is while abs(g) < 1. Circles: the memory of whole impacts.
 Barber (1979), ZAMP 30:468, equations (15), (17)-(19), (21)-(27), (36), (37).
 """
 

@@ -1,4 +1,7 @@
-"""What one more ring of contact adds while the patch sticks: a punch, everywhere.
+"""One more ring of contact in stick
+=================================
+
+What one more ring of contact adds while the patch sticks: a punch, everywhere.
 
 Contact grows by db and with it the traction at every radius, in the shape of the traction under a
 rigid punch: g(b)/(b^2 - r^2)^(1/2). It moves the surface by the same amount everywhere within the

@@ -1,4 +1,7 @@
-"""The stress below a patch: Hertz's contact, a sliding one, and one in the middle of an impact.
+"""The stress below the surface
+============================
+
+The stress below a patch: Hertz's contact, a sliding one, and one in the middle of an impact.
 
 Without friction the largest shear lies 0.48 a deep; friction pulls the largest stress up and, from
 mu = 0.3 or so, to the surface, and stretches the surface behind the contact. In an impact the

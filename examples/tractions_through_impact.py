@@ -1,4 +1,7 @@
-"""The traction at six instants of one impact: gross slip, stick, slip from the edge, gross slip.
+"""The traction at six instants
+============================
+
+The traction at six instants of one impact: gross slip, stick, slip from the edge, gross slip.
 
 The ball first slides and drags the surface forward; while it sticks, new contact is laid down with
 ever less traction; then the edge slips backwards, the ring eats its way in and the traction in the

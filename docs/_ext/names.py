@@ -1,0 +1,153 @@
+"""Names in the text: those of the reference become links, all others must exist.
+
+`carom.rebound` leads to its page; `carom.dimensionless.stick` has none, but must be importable.
+"""
+
+import re
+from dataclasses import fields, is_dataclass
+from importlib import import_module
+from typing import Any
+
+from commands import commands
+from docutils import nodes
+from docutils.nodes import make_id
+from sphinx import addnodes
+from sphinx.application import Sphinx
+from sphinx.environment import BuildEnvironment
+from sphinx.util.logging import getLogger
+
+from carom.glossary import GLOSSARY
+
+NAME = re.compile(r"(carom(?:\.\w+)+)(\(.*\))?")
+COMMAND = re.compile(r"carom(?: verify)? [a-z]+")
+HOMES = {  # where public names are defined, and where they are offered
+    f"{home}.{name}": f"{package}.{name}"
+    for package in ("carom", "carom.verify")
+    for home, names in import_module(package)._HOMES.items()
+    for name in names
+}
+PAGE = "reference/commands"
+COMMANDS = {" ".join(("carom", *words)) for words in commands()}
+MARK = "carom_name"
+UNLINKED = nodes.reference | addnodes.pending_xref | nodes.title
+log = getLogger(__name__)
+
+
+def refer(app: Sphinx, document: nodes.document) -> None:
+    """Turn inline code that is a full name, or a command, into a reference."""
+    for code in list(document.findall(nodes.literal)):
+        name, command = NAME.fullmatch(code.astext()), COMMAND.match(code.astext())
+        if isinstance(code.parent, UNLINKED):
+            continue
+        if name:
+            to_page(code, offered(name[1]), app.env.docname)
+        elif command and command[0] in COMMANDS and app.env.docname != PAGE:
+            place = f"{app.builder.get_relative_uri(app.env.docname, PAGE)}#{make_id(command[0])}"
+            code.replace_self(nodes.reference("", "", code.deepcopy(), refuri=place, internal=True))
+    for link in list(document.findall(addnodes.pending_xref)):  # words of "array_like, shape (n,)"
+        if link["reftype"] == "class" and link["reftarget"].rpartition(".")[2].islower():
+            link.replace_self(link.children)
+
+
+def to_page(code: nodes.literal, name: str, page: str) -> None:
+    """Put a reference to what has a page in the reference around inline code."""
+    where = {"refdomain": "py", "reftype": "obj", "reftarget": name, "refdoc": page}
+    link = addnodes.pending_xref("", refwarn=False, refexplicit=True, **where)
+    link["py:module"] = link["py:class"] = None
+    link[MARK] = True
+    link.source, link.line = code.source, code.line
+    code.replace_self(link)
+    link += code
+
+
+def offered(name: str) -> str:
+    """Return a full name as it is offered to users, if it is.
+
+    >>> offered("carom.pairs.Pair.chi"), offered("carom.dimensionless.stick")
+    ('carom.Pair.chi', 'carom.dimensionless.stick')
+    """
+    parts = name.split(".")
+    for end in range(len(parts), 1, -1):
+        home = ".".join(parts[:end])
+        if home in HOMES:
+            return ".".join([HOMES[home], *parts[end:]])
+    return name
+
+
+def exists(name: str) -> bool:
+    """Return whether a dotted name leads to something.
+
+    >>> exists("carom.dimensionless.stick"), exists("carom.dimensionless.stuck")
+    (True, False)
+    """
+    parts = name.split(".")
+    for end in range(len(parts), 0, -1):
+        try:
+            thing: Any = import_module(".".join(parts[:end]))
+        except ImportError:
+            continue
+        return leads(thing, parts[end:])
+    return False
+
+
+def leads(thing: Any, parts: list[str]) -> bool:
+    """Return whether attributes lead on from a thing; fields of records count."""
+    for part in parts:
+        if not hasattr(thing, part):
+            return part in getattr(thing, "__annotations__", {})
+        thing = getattr(thing, part)
+    return True
+
+
+def check(
+    app: Sphinx, env: BuildEnvironment, node: addnodes.pending_xref, content: nodes.Element
+) -> nodes.Element | None:
+    """Leave a name without a page as it is, if there is such a thing."""
+    if MARK not in node:
+        return None
+    if not exists(node["reftarget"]):
+        log.warning("there is no %s", node["reftarget"], location=node)
+    return content
+
+
+def describe(app: Sphinx, what: str, name: str, thing: Any, options: Any, lines: list[str]) -> None:
+    """Let the glossary describe the fields of records that say nothing themselves."""
+    if what == "class" and is_dataclass(thing):
+        said = "\n".join(lines)
+        silent = [field.name for field in fields(thing) if f":param {field.name}" not in said]
+        lines += [f":ivar {field}: {meaning(field)}" for field in silent if field in GLOSSARY]
+    elif lines and lines[0].startswith("Alias for field"):
+        field = name.rpartition(".")[2]
+        lines[:] = [meaning(field)] if field in GLOSSARY else []
+
+
+def meaning(name: str) -> str:
+    """Return what the glossary says of a quantity, with its unit.
+
+    >>> meaning("spin")
+    'Spin of the first body, in rad/s.'
+    """
+    entry = GLOSSARY[name]
+    unit = "" if entry.unit == "1" else f", in {entry.unit}"
+    return f"{entry.meaning[0].upper()}{entry.meaning[1:]}{unit}."
+
+
+def escape_bars(
+    app: Sphinx, what: str, name: str, thing: Any, options: Any, lines: list[str]
+) -> None:
+    """Let |x| in a docstring be what it is, outside examples."""
+    example = False
+    for number, line in enumerate(lines):
+        example = bool(line.strip()) and (example or line.lstrip().startswith(">>>"))
+        if not example:
+            parts = line.split("`")
+            parts[::2] = [part.replace("|", r"\|") for part in parts[::2]]
+            lines[number] = "`".join(parts)
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    app.connect("doctree-read", refer)
+    app.connect("missing-reference", check)
+    app.connect("autodoc-process-docstring", describe, priority=900)  # after napoleon
+    app.connect("autodoc-process-docstring", escape_bars, priority=901)
+    return {"parallel_read_safe": True}

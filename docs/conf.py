@@ -1,0 +1,86 @@
+"""The manual: `sphinx-build -W --keep-going -b html docs docs/_build/html`."""
+
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).with_name("_ext")))
+
+
+from carom.results import carom_version
+
+project = "Carom"
+author = "The Carom developers"
+version = release = carom_version()
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.mathjax",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.viewcode",
+    "sphinx_gallery.gen_gallery",
+    "commands",
+    "contents",
+    "diagrams",
+    "names",
+    "schema",
+]
+templates_path = ["_templates"]
+exclude_patterns = ["_build", "_ext", "gallery/*.ipynb", "gallery/*.py"]
+default_role = "code"
+smartquotes = False  # "--json" is not a dash
+toc_object_entries_show_parents = "hide"
+
+myst_enable_extensions = ["amsmath", "colon_fence", "dollarmath"]
+myst_fence_as_directive = ["mermaid"]
+myst_heading_anchors = 3
+
+# MathJax as one file that comes with the pages: they ask no other host for anything.
+_mathjax = Path(find_spec("sphinx-mathjax-offline").origin).parent / "static/mathjax"
+mathjax_path = "tex-svg-full.js"
+mathjax3_config = {
+    "svg": {"mtextInheritFont": True},
+    "tex": {"packages": {"[-]": ["noundefined"]}},  # what is misspelt is an error
+}
+
+autodoc_typehints = "none"
+autodoc_preserve_defaults = True
+autodoc_member_order = "bysource"
+autosummary_generate = [str(page) for page in Path(__file__).parent.glob("reference/*.rst")]
+napoleon_google_docstring = False
+napoleon_use_ivar = True
+napoleon_use_rtype = False
+
+sphinx_gallery_conf = {
+    "examples_dirs": "../examples",
+    "gallery_dirs": "gallery",
+    "filename_pattern": r"\.py$",
+    "image_scrapers": ("pictures.take_picture",),
+    "reset_modules": ("pictures.give_file",),
+    "show_memory": False,
+    "download_all_examples": False,
+    "show_signature": False,
+    "within_subsection_order": "pictures.IndexOrder",
+    "nested_sections": False,
+    "write_computation_times": False,
+    "abort_on_example_error": True,
+}
+
+html_theme = "pydata_sphinx_theme"
+html_title = "Carom"
+html_static_path = ["_static", str(_mathjax / mathjax_path)]
+html_css_files = ["manual.css"]
+html_context = {"default_mode": "auto"}
+html_show_sourcelink = False
+html_copy_source = False
+html_theme_options = {
+    "logo": {"text": "Carom"},
+    "header_links_before_dropdown": 7,
+    "navbar_align": "left",
+    "show_toc_level": 2,
+    "footer_start": ["copyright"],
+    "footer_end": [],
+}
+html_sidebars = {page: [] for page in ("index", "tutorial", "laws", "architecture")}

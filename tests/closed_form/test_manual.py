@@ -1,0 +1,121 @@
+"""The manual names everything that is public: names, commands, examples, pages."""
+
+import ast
+import doctest
+import inspect
+import re
+import sys
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+import carom
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+sys.path.insert(0, str(DOCS / "_ext"))
+EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
+MODULES = {name for name in carom.__all__ if inspect.ismodule(getattr(carom, name))}
+APART = {"explore", "lammps", "liggghts", "yade"}  # they serve, or run a program of others
+
+
+def listed():
+    """Return every name in the tables of the reference, with the module that it is taken from."""
+    found = []
+    for page in DOCS.glob("reference/*.rst"):
+        module, table = "", False
+        for line in page.read_text(encoding="utf-8").splitlines():
+            if line.startswith(".. currentmodule:: "):
+                module = line.split()[-1]
+            table = line.startswith(".. autosummary::") or (table and line[:1] in ("", " "))
+            if table and re.fullmatch(r"   \w+", line):
+                found.append(f"{module}.{line.strip()}")
+    return found
+
+
+def public(module):
+    """Return the names that a module offers: its __all__, or what it defines without underscore."""
+    here = [
+        name
+        for name, value in vars(module).items()
+        if not name.startswith("_") and getattr(value, "__module__", "") == module.__name__
+    ]
+    return [f"{module.__name__}.{name}" for name in getattr(module, "__all__", here)]
+
+
+def test_reference_has_every_public_name_once():
+    names = [name for module in sorted(MODULES) for name in public(getattr(carom, module))]
+    names += [f"carom.{name}" for name in carom.__all__ if name not in MODULES]
+    assert sorted(listed()) == sorted(names)
+
+
+@pytest.mark.parametrize("script", EXAMPLES, ids=lambda script: script.stem)
+def test_example_has_a_title(script):
+    """The gallery shows it under the picture: short, underlined, and no other's."""
+    title, line, blank, *text = ast.get_docstring(
+        ast.parse(script.read_text(encoding="utf-8"))
+    ).splitlines()
+    assert line == "=" * len(title)
+    assert len(title) <= 50
+    assert (blank, bool(text)) == ("", True)
+
+
+def test_titles_of_examples_differ():
+    titles = [script.read_text(encoding="utf-8").partition("\n")[0] for script in EXAMPLES]
+    assert len(set(titles)) == len(titles) > 20
+
+
+def test_every_page_is_in_a_section():
+    from sections import missing
+
+    made = ("_build", "_templates", "gallery", "api")
+    pages = {
+        str(path.relative_to(DOCS).with_suffix(""))
+        for path in (*DOCS.rglob("*.md"), *DOCS.rglob("*.rst"))
+        if not set(made) & set(path.relative_to(DOCS).parts)
+    }
+    assert len(pages) > 20
+    assert missing(pages) == set()
+
+
+def test_sections_put_numbered_pages_in_their_order(tmp_path):
+    from sections import entries
+
+    heads = {"theory/b": "# 2 Two", "theory/a": "# 10 Ten", "theory/c": "# Errata", "phases": "# 1"}
+    pages = {}
+    for page, head in heads.items():
+        pages[page] = tmp_path / page.replace("/", "_")
+        pages[page].write_text(head, encoding="utf-8")
+    assert entries("theory", pages) == ["/theory/b", "/theory/a", "/theory/c", "/phases"]
+
+
+@pytest.mark.parametrize("extension", ["contents", "names", "samples"])
+def test_examples_in_the_extensions_hold(extension):
+    if extension in ("contents", "names"):
+        pytest.importorskip("sphinx", reason="with the extra [docs]")
+    found = doctest.testmod(import_module(extension))
+    assert (found.failed, found.attempted > 0) == (0, True)
+
+
+def test_page_of_json_has_every_command_that_prints_it():
+    from samples import COMMANDS, help_of
+    from typer.main import get_command
+
+    from carom.cli import app
+
+    def commands(group, path=()):
+        for name, command in group.commands.items():
+            if hasattr(command, "commands"):
+                yield from commands(command, (*path, name))
+            else:
+                yield (*path, name)
+
+    printing = {
+        " ".join(words) for words in commands(get_command(app)) if "--json" in help_of(words)
+    }
+    shown = {
+        word for word in printing for line in COMMANDS if f"{line} ".startswith(f"carom {word} ")
+    }
+    assert {word for word in printing - shown if word.split()[-1] not in APART} == set()
+    assert len(shown) == len(COMMANDS)
