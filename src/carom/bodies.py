@@ -130,6 +130,11 @@ def materials() -> dict[str, Material]:
 def material(name: str) -> Material:
     """Return a material of the catalogue by its name or an alias; "rigid" does not deform.
 
+    Parameters
+    ----------
+    name : str
+        As `materials` has it, or an alias of it such as "glass".
+
     Raises
     ------
     InputError
@@ -154,7 +159,24 @@ def material(name: str) -> Material:
 
 
 def material_sources(name: str) -> dict[str, str]:
-    """Return the source of each value of a material of the catalogue."""
+    """Return the source of each value of a material of the catalogue.
+
+    Parameters
+    ----------
+    name : str
+        As `material` takes it.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name.
+
+    Examples
+    --------
+    >>> import carom
+    >>> sorted(carom.material_sources("steel"))
+    ['density', 'poisson', 'yield_strength', 'young']
+    """
     return dict(_catalogue().get(material(name).name or "", {}).get("sources", {}))
 
 
@@ -169,8 +191,20 @@ class Sphere:
 
     M = (4/3) pi (R^3 - R_i^3) rho, K^2 = (2/5) (R^5 - R_i^5)/(R^3 - R_i^3).
 
-    Raises InputError for sizes that are not positive, a hole as large as the sphere, both ways of
-    giving the inertia at once, or a material without density.
+    Parameters
+    ----------
+    radius : float or str
+        R in m.
+    material : Material or str
+        With a density; or the name of one of the catalogue.
+    gyration_radius, inner_radius : float or str, optional
+        K or R_i in m, not both.
+
+    Raises
+    ------
+    InputError
+        If a size is not positive, the hole as large as the sphere, the inertia given in both ways,
+        or the material without density.
 
     Examples
     --------
@@ -233,7 +267,24 @@ class Sphere:
 
 @dataclass(frozen=True, init=False)
 class HalfSpace:
-    """A flat body that does not move as a whole."""
+    """A flat body that does not move as a whole.
+
+    Parameters
+    ----------
+    material : Material or str
+        What it is made of; or the name of a material of the catalogue.
+
+    Raises
+    ------
+    InputError
+        If there is no material of that name.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.HalfSpace(material="rigid").material.is_rigid
+    True
+    """
 
     material: Material
 
@@ -248,7 +299,28 @@ class HalfSpace:
 
 @dataclass(frozen=True, init=False)
 class Cup:
-    """A spherical cup, fixed, in which a smaller sphere strikes."""
+    """A spherical cup, fixed, in which a smaller sphere strikes.
+
+    Parameters
+    ----------
+    radius : float or str
+        In m, larger than that of the sphere.
+    material : Material or str
+        What it is made of; or the name of a material of the catalogue.
+
+    Raises
+    ------
+    InputError
+        If the radius is not positive, or there is no material of that name.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.Cup(radius="10 mm", material="steel"), friction=0.2)
+    >>> round(pair.effective_radius * 1e3, 9)
+    10.0
+    """
 
     radius: float
     material: Material

@@ -9,6 +9,9 @@ from carom.results import carom_version
 IMPACT = ("carom", "barber1979", "maw1976")  # the theory of impacts
 LOADS = ("carom", "mindlin1953", "maw1976")
 ELEMENTS = ("carom", "kalker1990", "love1929")
+FITS = (*IMPACT, "newville2014")
+SAMPLES = ("foremanmackey2013",)
+VISCOUS = "kuwabara1987"
 
 
 def bibtex(*keys: str) -> str:
@@ -20,6 +23,20 @@ def bibtex(*keys: str) -> str:
       author = {Maw, N. and Barber, J. R. and Fawcett, J. N.},
     """
     return "\n".join(_entries()[key] for key in keys)
+
+
+def with_doi(doi: str) -> str:
+    """Return the entry of a publication by its DOI; of one that is not known the DOI alone.
+
+    Examples
+    --------
+    >>> print(with_doi("10.1000/182"), end="")
+    @misc{data,
+      doi = {10.1000/182},
+    }
+    """
+    known = (entry for entry in _entries().values() if f"doi = {{{doi}}}" in entry)
+    return next(known, f"@misc{{data,\n  doi = {{{doi}}},\n}}\n")
 
 
 @cache

@@ -14,7 +14,13 @@ Array = NDArray[np.float64]
 
 
 class Obliquity(NamedTuple):
-    """Angles from the normal, in rad: of the force, and of the motion of the bodies."""
+    """Angles from the normal, in rad: of the force, and of the motion of the bodies.
+
+    Examples
+    --------
+    >>> Obliquity(force=0.1974, displacement=0.2383).force
+    0.1974
+    """
 
     force: float
     displacement: float
@@ -23,7 +29,8 @@ class Obliquity(NamedTuple):
 def cattaneo_mindlin(pair: Pair, normal_force: ArrayLike, tangential_force: ArrayLike) -> Array:
     """Return the displacement in m under a tangential force that grows at constant normal force.
 
-    U = (3 mu P/(4 a G*)) (1 - (1 - T/(mu P))^(2/3)), a the contact radius; odd in T.
+    U = (3 mu P/(4 a G*)) (1 - (1 - T/(mu P))^(2/3)), a the contact radius; odd in T (Cattaneo
+    1938, Mindlin 1949; Johnson, Contact Mechanics, 1985, section 7.2).
 
     Parameters
     ----------
@@ -36,8 +43,6 @@ def cattaneo_mindlin(pair: Pair, normal_force: ArrayLike, tangential_force: Arra
     ------
     InputError
         If P is not positive, |T| above mu P, or there is no friction.
-
-    Source: Cattaneo (1938), Mindlin (1949); Johnson, Contact Mechanics (1985), section 7.2.
 
     Examples
     --------
@@ -59,7 +64,8 @@ def loop_energy(pair: Pair, normal_force: ArrayLike, amplitude: ArrayLike) -> Ar
     """Return the energy in J lost per cycle of a tangential force between -T and T at constant P.
 
     W = (18 mu^2 P^2/(5 a G*)) (1 - (1 - t)^(5/3) - (5/6) t (1 + (1 - t)^(2/3))), t = T/(mu P); with
-    y = (1 - t)^(1/3) the bracket is (1 - y)^3 (1 + 3 y + y^2)/6, which is how it is computed.
+    y = (1 - t)^(1/3) the bracket is (1 - y)^3 (1 + 3 y + y^2)/6, which is how it is computed
+    (Mindlin & Deresiewicz 1953, J. Appl. Mech. 20:327; Johnson 1985, section 7.4).
 
     Parameters
     ----------
@@ -72,8 +78,6 @@ def loop_energy(pair: Pair, normal_force: ArrayLike, amplitude: ArrayLike) -> Ar
     ------
     InputError
         If P is not positive, T not between 0 and mu P, or there is no friction.
-
-    Source: Mindlin & Deresiewicz (1953), J. Appl. Mech. 20:327; Johnson (1985), section 7.4.
 
     Examples
     --------
@@ -100,9 +104,18 @@ def critical_obliquity(pair: Pair) -> Obliquity:
     """Return the obliquity up to which a load of constant direction, from first touch, slips not.
 
     F_x/P = mu of the force, U/d = mu/kappa of the motion: then the whole contact sticks, and
-    unloading along the same line retraces the loading. Beyond it the whole contact slides.
+    unloading along the same line retraces the loading. Beyond it the whole contact slides
+    (Mindlin & Deresiewicz 1953, J. Appl. Mech. 20:327; Johnson 1985, section 7.3).
 
-    Source: Mindlin & Deresiewicz (1953), J. Appl. Mech. 20:327; Johnson (1985), section 7.3.
+    Parameters
+    ----------
+    pair : Pair
+        The bodies and their friction.
+
+    Raises
+    ------
+    InputError
+        If the pair is none.
 
     Examples
     --------

@@ -73,6 +73,30 @@ class Course(Outcome):
 
         The times are evenly spaced from the first touch to the last; maximum compression of elastic
         bodies is in the middle, at half of `duration`.
+
+        Parameters
+        ----------
+        n : int
+            How many times, 2 at least.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along `time` in s; the attributes of each variable tell its unit and meaning.
+
+        Raises
+        ------
+        InputError
+            If there are fewer than 2.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> history = carom.impact(pair, speed=2.0, angle="30 deg").history(5)
+        >>> history.normal_force.units, history.normal_force.shape
+        ('N', (5,))
         """
         columns = self._columns(counted("n", n, 2))
         return labelled(columns, self.scalars(), self.phases, self.inputs(), self._phase_columns())
@@ -99,6 +123,11 @@ class Course(Outcome):
     def cite(self) -> str:
         """Return what to cite for this result, as BibTeX."""
 
+    def __str__(self) -> str:
+        from carom.reports import impact_text
+
+        return impact_text(self)
+
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
         from carom.notebooks import card
@@ -114,7 +143,26 @@ class Course(Outcome):
         return self.history(400)
 
     def plot(self, path: str | Path | None = None) -> Figure:
-        """Draw the impact; with a path, store the figure there."""
+        """Draw forces, velocities, radii and energies against time.
+
+        Parameters
+        ----------
+        path : str or Path, optional
+            Where the figure is stored, too: .png, .pdf or .svg.
+
+        Raises
+        ------
+        InputError
+            If the name ends otherwise or the file cannot be written.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> len(carom.impact(pair, speed=2.0, angle="30 deg").plot().axes)
+        4
+        """
         from carom.plots import plot_impact, save_figure
 
         figure = plot_impact(self.to_dataset())
@@ -123,17 +171,45 @@ class Course(Outcome):
         return figure
 
     def animate(
-        self, path: str | Path, frames: int = 60, progress: Callable[[], None] | None = None
+        self,
+        path: str | Path,
+        frames: int = 60,
+        progress: bool | Callable[[], object] | None = None,
     ) -> Path:
         """Store an animation of the contact through the impact as .gif, or .mp4 with ffmpeg.
 
-        `progress` is called after every frame. Raises InputError if the file cannot be written.
+        Parameters
+        ----------
+        path : str or Path
+            The file, which is replaced whole or not at all.
+        frames : int
+            Number of instants, evenly spaced; 12 are shown a second.
+        progress : bool or callable, optional
+            Whether a bar is shown after two seconds, by default in a notebook and on a terminal;
+            or what is called after every frame.
+
+        Raises
+        ------
+        InputError
+            If the name ends otherwise, ffmpeg is missing, or the file cannot be written.
+
+        Examples
+        --------
+        >>> import carom, tempfile
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     hit.animate(f"{folder}/hit.gif", frames=2).name
+        'hit.gif'
         """
-        from carom.plots import animate
+        from carom.plots.animation import animate, drawing
 
         count = counted("frames", frames, 1)
         times = (np.arange(count) + 0.5) / count * self.duration
-        return animate(self.history(), map(self._picture, times), path, progress=progress)
+        with drawing(count, progress) as advance:
+            pictures = map(self._picture, times)
+            return animate(self.history(), pictures, path, progress=lambda: advance(1))
 
     @abstractmethod
     def _picture(self, time: float) -> xr.Dataset:

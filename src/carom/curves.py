@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from carom.dimensionless.lossy.normal import NormalLoss
 from carom.dimensionless.phases import Status
 from carom.dimensionless.rebounds import rebound
 from carom.dimensionless.solution import solve
+from carom.progress import Progress, advancing
 from carom.results import labelled_dataset
 
 if TYPE_CHECKING:
@@ -48,6 +49,7 @@ def curve(
 ) -> xr.Dataset:
     """Return psi_2 and restitutions against psi_1, one row per chi, as a labelled dataset.
 
+    psi_2 is exact (Maw, Barber & Fawcett 1976; Barber 1979).
     e_c = psi_2/psi_1 is that of the contact point; e_t = 1 - (2/7)(1 - e_c) that of the centre of a
     solid sphere without spin. At psi_1 = 0 both are limits.
 
@@ -104,12 +106,10 @@ def _border(chis: Iterable[float]) -> dict[str, Any]:
     return {"border": (("chi", "regime_border"), [borders(chi) for chi in chis], meaning)}
 
 
-def regime_map(
-    psi: ArrayLike, chi: ArrayLike, *, progress: Callable[[int, int], object] | None = None
-) -> xr.Dataset:
+def regime_map(psi: ArrayLike, chi: ArrayLike, *, progress: Progress = None) -> xr.Dataset:
     """Return which phases follow which for every psi_1 and chi, as a labelled dataset.
 
-    Bodies are elastic here.
+    Bodies are elastic here, phases those of the exact impact (Maw, Barber & Fawcett 1976).
     `sequence` (chi, psi_in) is the place of the sequence in `sequence_name`, the commonest first,
     or -1 where an impact is not resolved. Beyond psi_1 = 4 chi - 1 the contact slips throughout.
 
@@ -117,8 +117,9 @@ def regime_map(
     ----------
     psi, chi : array_like
         Values along either axis; chi positive.
-    progress : callable, optional
-        Called with the rows of chi done so far and their number.
+    progress : bool or callable, optional
+        Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
+        what is called with the rows of chi done so far and their number.
 
     Raises
     ------
@@ -135,10 +136,10 @@ def regime_map(
     """
     chis, incoming = positive_line("chi", chi), finite_line("psi", psi)
     rows = []
-    for done, value in enumerate(chis, start=1):
-        rows.append([_sequence(float(speed), float(value)) for speed in incoming])
-        if progress is not None:
-            progress(done, len(chis))
+    with advancing("map of regimes", len(chis), progress, unit="rows") as advance:
+        for value in chis:
+            rows.append([_sequence(float(speed), float(value)) for speed in incoming])
+            advance(1)
     names = [name for name, _ in Counter(chain(*rows)).most_common() if name]
     places = {name: place for place, name in enumerate(names)} | {"": -1}
     codes = np.array([[places[name] for name in row] for row in rows], dtype=np.int16)

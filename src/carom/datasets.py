@@ -37,7 +37,21 @@ def names() -> tuple[str, ...]:
 def path(name: str) -> Path:
     """Return the file of a dataset, for `carom fit` and for any program that reads CSV.
 
-    Raises InputError if there is none of that name; the message offers the nearest.
+    Parameters
+    ----------
+    name : str
+        One of `names()`.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name; the message offers the nearest.
+
+    Examples
+    --------
+    >>> from carom import datasets
+    >>> datasets.path("kharaz2001").name
+    'kharaz2001.csv'
     """
     if name not in names():
         hint = nearest(str(name), names()) or f"there are {', '.join(names())}"
@@ -47,6 +61,16 @@ def path(name: str) -> Path:
 
 def table(name: str) -> Results:
     """Return the columns of a dataset in SI units, NaN where nothing was measured.
+
+    Parameters
+    ----------
+    name : str
+        One of `names()`.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name; the message offers the nearest.
 
     Examples
     --------

@@ -36,6 +36,15 @@ class Impact(Course):
 
     SI units. Tangential speeds are those of the first body relative to the second, positive spin
     adds to the tangential speed of the contact point: V_x = v_t + R spin + R_2 spin2.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg", spin="100 rad/s")
+    >>> round(hit.contact_velocity, 3), round(hit.contact_velocity_out, 3)  # V_x in m/s
+    (1.5, -0.623)
     """
 
     solution: Solution | LossySolution = field(repr=False)
@@ -58,9 +67,26 @@ class Impact(Course):
         return self.solution.slip_angles(self.pair.lateral_ratio)
 
     def contact(self, time: Value) -> Contact:
-        """Return the contact at a time since the first touch: what fields and stresses come from.
+        """Return the contact at a time: what fields and stresses come from.
 
-        Raises InputError for a time outside the contact, or if the normal motion loses energy.
+        Parameters
+        ----------
+        time : float or str
+            Time since the first touch in s, 0 to `duration`.
+
+        Raises
+        ------
+        InputError
+            If the time is outside the contact, or the normal motion loses energy.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+        >>> round(hit.contact(0.5 * hit.duration).penetration, 12)  # of the largest
+        1.0
         """
         if isinstance(self.solution, LossySolution):
             raise InputError(
@@ -82,11 +108,12 @@ class Impact(Course):
     ) -> xr.Dataset:
         """Return tractions, zones, displacements and slip at the surface at a time.
 
-        Pressure and traction are Barber's (1) and (6); the displacements, of both surfaces together
-        and caused by the tractions, are superposed from those of punches, u_x = u_0 + lambda u_2
-        cos 2 theta, u_y = lambda u_2 sin 2 theta, lambda = nu/(2 - nu) for equal materials, which
-        is (29) in gross slip: displacement of the second surface against the first. Slip is that of
-        the first body on the second since the points met: U less what the surfaces gave way.
+        Pressure and traction are (1) and (6) of Barber (1979). The displacements, of both surfaces
+        together and caused by the tractions, are superposed from those of punches, u_x = u_0 +
+        lambda u_2 cos 2 theta, u_y = lambda u_2 sin 2 theta, lambda = nu/(2 - nu) for equal
+        materials, which is (29) in gross slip: displacement of the second surface against the
+        first. Slip is that of the first body on the second since the points met: U less what the
+        surfaces gave way.
 
         Parameters
         ----------
@@ -177,7 +204,36 @@ class Impact(Course):
         return stress_dataset(self.contact(time), x=x, z=z, points=points, body=body)
 
     def radial(self, time: Value, n: int = 401) -> xr.Dataset:
-        """Return pressure, traction and the memory g, q along a radius at a time in s."""
+        """Return pressure, traction and the memory g, q along a radius at a time.
+
+        Parameters
+        ----------
+        time : float or str
+            Time since the first touch in s, 0 to `duration`.
+        n : int
+            How many distances from the centre.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along `distance` in m: pressure, friction_limit, traction_x, memory_g, memory_q,
+            memory_limit, zone.
+
+        Raises
+        ------
+        InputError
+            If the time is outside the contact, or n below 2.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+        >>> along = hit.radial(0.5 * hit.duration, n=11)
+        >>> bool((abs(along.traction_x) <= 1.000001 * along.friction_limit).all())
+        True
+        """
         return radial_fields(self.contact(time), counted("n", n, 2))
 
     def cite(self) -> str:

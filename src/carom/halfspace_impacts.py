@@ -17,7 +17,7 @@ from carom.halfspace.ledger import Entry, slipping
 from carom.halfspace.solution import HalfspaceSolution, Resolution, solve
 from carom.histories import Tangential
 from carom.pairs import Pair
-from carom.progress import progress_bar
+from carom.progress import Progress, advancing
 from carom.quantities import InputError, counted, refusal
 from carom.results import Validity, labelled_dataset
 from carom.validity import judge_contact, judge_errors
@@ -233,7 +233,7 @@ def solve_by_elements(
     normal_speed: float,
     motion: Tangential,
     method: BoundaryElements,
-    progress: bool | None,
+    progress: Progress,
 ) -> HalfspaceImpact:
     """Return an impact solved by boundary elements, on two grids; see `carom.impact`."""
     if pair.friction == 0.0:
@@ -250,8 +250,7 @@ def solve_by_elements(
     materials = Materials(pair.kappa, pair.dundurs_beta, pair.friction)
     fine = Resolution(method.elements, method.steps)
     coarse = fine.half
-    with progress_bar("steps", fine.steps + coarse.steps, 0, progress) as bar:
-        found = [
-            solve(psi, pair.chi, materials, grid, progress=bar.update) for grid in (coarse, fine)
-        ]
+    total = fine.steps + coarse.steps
+    with advancing("boundary elements", total, progress, unit="steps") as advance:
+        found = [solve(psi, pair.chi, materials, grid, progress=advance) for grid in (coarse, fine)]
     return HalfspaceImpact(pair, normal_speed, *motion, found[1], coarse_psi_out=found[0].psi_out)

@@ -10,6 +10,7 @@ from carom.exact_impacts import Impact, solve_exactly
 from carom.histories import Tangential
 from carom.normals import NormalLaw
 from carom.pairs import Pair, representable
+from carom.progress import Progress
 from carom.quantities import InputError, finite, refusal
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def impact(
     *,
     normal: NormalLaw | None = None,
     method: Literal["exact"] = "exact",
-    progress: bool | None = None,
+    progress: Progress = None,
     **motion: Unpack[Motion],
 ) -> Impact: ...
 @overload
@@ -42,7 +43,7 @@ def impact(
     *,
     normal: None = None,
     method: Literal["halfspace"] | BoundaryElements,
-    progress: bool | None = None,
+    progress: Progress = None,
     **motion: Unpack[Motion],
 ) -> HalfspaceImpact: ...
 @overload
@@ -51,7 +52,7 @@ def impact(
     *,
     normal: NormalLaw | None = None,
     method: str | BoundaryElements,
-    progress: bool | None = None,
+    progress: Progress = None,
     **motion: Unpack[Motion],
 ) -> Impact | HalfspaceImpact: ...
 def impact(
@@ -65,7 +66,7 @@ def impact(
     spin2: Value = 0.0,
     normal: NormalLaw | None = None,
     method: str | BoundaryElements = "exact",
-    progress: bool | None = None,
+    progress: Progress = None,
 ) -> Impact | HalfspaceImpact:
     """Solve one oblique impact of two bodies: exactly, within the theory, or by boundary elements.
 
@@ -88,8 +89,9 @@ def impact(
         The theory, in which slip is parallel to x and unlike materials do not couple; or the full
         contact in three dimensions, which assumes neither and takes ten seconds, a minute for
         unlike materials. BoundaryElements says how finely.
-    progress : bool, optional
-        Whether the latter shows a bar; by default on a terminal.
+    progress : bool or callable, optional
+        Whether the latter shows a bar, by default in a notebook and on a terminal; or what is
+        called with the steps done and their number.
 
     Raises
     ------
@@ -128,7 +130,7 @@ def _by_elements(
     motion: Tangential,
     method: str | BoundaryElements,
     normal: NormalLaw | None,
-    progress: bool | None,
+    progress: Progress,
 ) -> HalfspaceImpact:
     from carom.halfspace_impacts import BoundaryElements, solve_by_elements
 

@@ -17,6 +17,7 @@ from carom.controls import Given, Steps, read_steps
 from carom.dimensionless import paths
 from carom.dimensionless.strata import SLOPE, profile_of
 from carom.fields import radial_fields, surface_fields
+from carom.glossary import GLOSSARY
 from carom.pairs import ContactScales, Pair
 from carom.quantities import counted, refusal
 from carom.results import labelled_dataset
@@ -81,9 +82,19 @@ class LoadPath:
         tangential_force: Given = None,
         displacement: Given = None,
     ) -> LoadPath:
-        """Return the path continued, in the same or another control; arguments as `load_path`.
+        """Return the path continued, in the same or another control.
 
         The whole path is followed anew: many steps are better given at once than one by one.
+
+        Parameters
+        ----------
+        normal_force, penetration, tangential_force, displacement : array_like, float or str
+            As of `load_path`, from where the path ends.
+
+        Raises
+        ------
+        InputError
+            As `load_path`.
 
         Examples
         --------
@@ -100,13 +111,40 @@ class LoadPath:
         return _followed(self.pair, self._steps.followed_by(more))
 
     def cite(self) -> str:
-        """Return what to cite for this result, as BibTeX."""
+        """Return what to cite for this result, as BibTeX.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
+        >>> "Mindlin, R. D. and Deresiewicz, H." in path.cite()
+        True
+        """
         return bibtex(*LOADS)
 
     def contact(self, step: int = -1) -> Contact:
         """Return the contact after a step: what fields and stresses are made from.
 
-        Raises InputError if there is no such step, or the bodies are apart then.
+        Parameters
+        ----------
+        step : int
+            Its number, or from the end if negative.
+
+        Raises
+        ------
+        InputError
+            If there is no such step, or the bodies are apart then.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
+        >>> path.contact().attributes["phase_kind"]
+        'slip'
         """
         k = self._step(step)
         d, u = self.penetration[: k + 1], self.displacement[: k + 1]
@@ -135,7 +173,31 @@ class LoadPath:
         *,
         points: ArrayLike | None = None,
     ) -> xr.Dataset:
-        """Return tractions, zones, displacements and slip after a step, as `Impact.fields`."""
+        """Return tractions, zones, displacements and slip after a step, as `Impact.fields`.
+
+        Parameters
+        ----------
+        step : int
+            Its number, or from the end if negative.
+        x, y : array_like, shapes (nx,) and (ny,)
+            Positions in m of a grid around the centre of the contact.
+        points : array_like, shape (n, 2)
+            Points (x, y) in m, instead of a grid.
+
+        Raises
+        ------
+        InputError
+            If there is no such step, the bodies are apart then, or positions have another shape.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
+        >>> round(float(path.fields(points=[[0.0, 0.0]]).pressure[0]) / 1e9, 2)  # in GPa
+        1.01
+        """
         return surface_fields(self.contact(step), x, y, points=points)
 
     def stress(
@@ -147,12 +209,70 @@ class LoadPath:
         points: ArrayLike | None = None,
         body: str = "second",
     ) -> xr.Dataset:
-        """Return the stress below the surface of one body after a step, as `Impact.stress`."""
+        """Return the stress below the surface of one body after a step, as `Impact.stress`.
+
+        Parameters
+        ----------
+        step : int
+            Its number, or from the end if negative.
+        x, z : array_like, shapes (nx,) and (nz,)
+            Positions in m of a grid in the plane y = 0, z the depth.
+        points : array_like, shape (n, 3)
+            Points (x, y, z) in m, instead of a grid.
+        body : str
+            "first" or "second".
+
+        Raises
+        ------
+        InputError
+            If there is no such step, the bodies are apart then, positions have another shape, or
+            the body is rigid.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
+        >>> bool(path.stress(points=[[0.0, 0.0, 0.0]]).sigma_zz[0] < 0.0)  # pressed
+        True
+        """
         return stress_dataset(self.contact(step), x=x, z=z, points=points, body=body)
 
     def radial(self, step: int = -1, n: int = 401) -> xr.Dataset:
-        """Return pressure, traction and the memory g, q along a radius after a step."""
+        """Return pressure, traction and the memory g, q along a radius after a step.
+
+        Parameters
+        ----------
+        step : int
+            Its number, or from the end if negative.
+        n : int
+            How many distances from the centre.
+
+        Raises
+        ------
+        InputError
+            If there is no such step, the bodies are apart then, or n is below 2.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
+        >>> path.radial(n=11).sizes["distance"]
+        11
+        """
         return radial_fields(self.contact(step), counted("n", n, 2))
+
+    def _repr_html_(self) -> str:
+        """Return a table and a picture for a notebook."""
+        from carom.notebooks import card
+        from carom.plots import plot_cone
+
+        rows = {GLOSSARY[name].meaning: _span(name, getattr(self, name)) for name in COLUMNS}
+        figure = plot_cone(self.to_dataset()) if len(self) > 1 else None
+        return card(f"Load path of {len(self)} steps", rows, figure)
 
     def to_dataset(self) -> xr.Dataset:
         """Return the path as a dataset along `step`, which `carom.storage.save` can store."""
@@ -176,6 +296,11 @@ class LoadPath:
         except (TypeError, IndexError):
             allowed = f"must be a whole number from 0 to {n - 1}, or negative, from the end"
             raise refusal("step", step, allowed) from None
+
+
+def _span(name: str, values: Array) -> str:
+    low, high = (GLOSSARY[name].text(float(end)) for end in (values.min(), values.max()))
+    return low if low == high else f"{low} to {high}"
 
 
 def _state(stack: Array) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from carom.bodies import Value
+from carom.citations import VISCOUS
 from carom.dimensionless.lossy.normal import Loss
 from carom.dimensionless.lossy.stages import viscous_loss
 from carom.elementwise import sqrt
@@ -101,7 +102,7 @@ class KelvinVoigt:
     @property
     def source(self) -> str:
         """The key of Kuwabara & Kono (1987) in data/citations.bib."""
-        return "kuwabara1987"
+        return VISCOUS
 
     def describe(self) -> dict[str, Any]:
         """Return what was given."""

@@ -12,10 +12,16 @@ if TYPE_CHECKING:
 DPI = 80
 
 
-def card(title: str, rows: Mapping[str, str], figure: "Figure", notes: str = "") -> str:
-    """Return HTML with a table of named texts beside a picture, and lines of text below."""
+def card(
+    title: str, rows: Mapping[str, str], figure: "Figure | None" = None, notes: str = ""
+) -> str:
+    """Return HTML with a table of named texts, beside a picture if any, and lines of text below.
+
+    Colours are those of the notebook; the picture brings its own, light ground.
+    """
     cells = "".join(
-        f"<tr><th style='text-align:left'>{escape(name)}</th><td>{escape(text)}</td></tr>"
+        f"<tr><th style='text-align:left;padding-right:1em'>{escape(name.replace('$', ''))}</th>"
+        f"<td style='text-align:left'>{escape(text)}</td></tr>"
         for name, text in rows.items()
     )
     below = f"<pre style='margin:0.5em 0'>{escape(notes)}</pre>" if notes else ""
@@ -23,8 +29,16 @@ def card(title: str, rows: Mapping[str, str], figure: "Figure", notes: str = "")
         f"<div><strong>{escape(title)}</strong>"
         "<div style='display:flex;flex-wrap:wrap;gap:1em;align-items:center'>"
         f"<table style='font-size:90%'>{cells}</table>"
-        f"<img alt='{escape(title)}' src='data:image/png;base64,{_png(figure)}'></div>{below}</div>"
+        f"{_image(title, figure)}</div>{below}</div>"
     )
+
+
+def _image(title: str, figure: "Figure | None") -> str:
+    if figure is None:
+        return ""
+    style = "max-width:100%;background:white"
+    data = f"data:image/png;base64,{_png(figure)}"
+    return f"<img alt='{escape(title)}' style='{style}' src='{data}'>"
 
 
 def _png(figure: "Figure") -> str:

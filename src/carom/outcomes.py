@@ -41,12 +41,12 @@ class Outcome:
 
     @cached_property
     def psi_in(self) -> float:
-        """kappa V_x/(mu V_1) before; infinite without friction."""
+        """Dimensionless velocity kappa V_x/(mu V_1) before; infinite without friction."""
         return self.pair.psi(self.contact_velocity, self.normal_speed)
 
     @cached_property
     def psi_out(self) -> float:
-        """kappa V_x/(mu V_1) after; infinite without friction."""
+        """Dimensionless velocity kappa V_x/(mu V_1) after; infinite without friction."""
         return where(isfinite(self.psi_in), self.solution.psi_out, self.psi_in)
 
     @property

@@ -45,11 +45,22 @@ class Pair:
     """Two bodies that meet: a sphere, and a sphere, half-space or cup; with their friction.
 
     1/E* = sum (1 - nu^2)/E, 1/G* = sum (2 - nu)/(4 G), 1/R* = sum of curvatures, 1/m_n = sum 1/M,
-    1/m_t = sum (1/M)(1 + R^2/K^2), kappa = G*/E*, chi = (kappa/2)(m_n/m_t). For equal materials chi
-    is Barber's (16).
+    1/m_t = sum (1/M)(1 + R^2/K^2), kappa = G*/E*, chi = (kappa/2)(m_n/m_t) (Johnson 1985, sections
+    4.2 and 7.2). For equal materials chi is that of Barber (1979), (16).
 
-    Raises InputError for a negative friction, a sphere that does not fit its cup, or two rigid
-    materials.
+    Parameters
+    ----------
+    first : Sphere
+        The body that moves.
+    second : Sphere, HalfSpace or Cup
+        The other one; a half-space and a cup stay where they are.
+    friction : float or str
+        Coefficient mu, not negative.
+
+    Raises
+    ------
+    InputError
+        If the friction is negative, a sphere does not fit its cup, or both materials are rigid.
 
     Examples
     --------
@@ -138,7 +149,21 @@ class Pair:
         return lateral * self.effective_shear_modulus
 
     def contact_scales(self, length: float) -> ContactScales:
-        """Return the scales of a contact of this penetration (Hertz 1882; Johnson 1985, 4.2)."""
+        """Return the scales of a contact of one penetration (Hertz 1882; Johnson 1985, 4.2).
+
+        Parameters
+        ----------
+        length : float
+            Penetration in m.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> round(pair.contact_scales(2e-6).radius * 1e6, 6)  # of the contact, in um
+        100.0
+        """
         force = 4.0 / 3.0 * self.effective_modulus * sqrt(self.effective_radius) * length**1.5
         return ContactScales(
             length=length,
@@ -150,7 +175,21 @@ class Pair:
         )
 
     def scales(self, normal_speed: float) -> Scales:
-        """Return the scales of an impact at this normal speed (Johnson 1985, 11.4)."""
+        """Return the scales of an impact at one normal speed (Hertz 1882; Johnson 1985, 11.4).
+
+        Parameters
+        ----------
+        normal_speed : float
+            V_1 in m/s, positive.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> round(pair.scales(1.0).length * 1e6, 2)  # d_max in um
+        11.74
+        """
         stiffness = self.effective_modulus * sqrt(self.effective_radius)
         length = (15.0 * self.normal_mass * normal_speed**2 / (16.0 * stiffness)) ** 0.4
         return Scales(
@@ -161,7 +200,23 @@ class Pair:
         )
 
     def psi(self, contact_velocity: float, normal_speed: float) -> float:
-        """Return kappa V_x/(mu V_1), infinite without friction."""
+        """Return kappa V_x/(mu V_1), infinite without friction.
+
+        Parameters
+        ----------
+        contact_velocity : float
+            V_x in m/s.
+        normal_speed : float
+            V_1 in m/s, positive.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> round(pair.psi(0.5, 1.0), 4)
+        2.0588
+        """
         ratio = quotient(self.kappa * contact_velocity, self.friction * normal_speed)
         return where(contact_velocity == 0.0, 0.0, ratio)
 

@@ -15,6 +15,7 @@ from carom.quantities import InputError, refusal
 ALIASES = {"psi_1": "psi_in", "psi_2": "psi_out", "angle_deg": "angle [deg]"}
 SPELLINGS = {name: alias for alias, name in ALIASES.items()}
 CASE = "# case:"  # begins a comment that holds the bodies as JSON
+KEPT = ("case", "doi")  # attributes of a dataset that are comments of a file
 COMMENT = re.compile(r"#\s*([A-Za-z]\w*)\s*:\s*(.*)")
 HEAD = re.compile(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*")
 PLAIN = ("", "-", "1")  # units of what has none
@@ -67,7 +68,7 @@ def read_table(source: Any) -> Table:
     if isinstance(source, str | Path):
         table = _read_csv(Path(source))
     elif hasattr(source, "data_vars"):
-        comments = {"case": source.attrs["case"]} if "case" in source.attrs else {}
+        comments = {name: source.attrs[name] for name in KEPT if name in source.attrs}
         table = _rows(_columns(_of_dataset(source)), comments)
     elif hasattr(source, "items"):  # a data frame, too
         table = _rows(_columns(source), {})

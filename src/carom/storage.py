@@ -35,6 +35,13 @@ def save(result: "xr.Dataset | Result", path: str | Path) -> Path:
     A file that is there is replaced whole or not at all. CSV is one table, with everything else in
     comments before it: `pandas.read_csv(path, comment="#")` reads it, too.
 
+    Parameters
+    ----------
+    result : xarray.Dataset or a result
+        A dataset, or what has a `to_dataset()`: an Impact, a Fit, a Ranking.
+    path : str or Path
+        A name that ends in .nc or .csv.
+
     Raises
     ------
     InputError

@@ -235,7 +235,7 @@ def commands(of=app, path=""):
 
 
 def test_all_commands_are_found():
-    known = "impact curve fit sweep materials verify laws lammps liggghts yade pack score tune"
+    known = "impact curve fit sweep explore materials verify laws lammps liggghts yade pack score tune"
     assert {command.split()[-1] for command in commands()} == set(known.split())
 
 

@@ -56,4 +56,4 @@ def test_who_waits_for_compilers_is_told_once(tmp_path):
         check=True,
     )
     assert ran.stderr.count("compiling") == 1
-    assert ran.stdout.split() == ["1.0", "0.0"]
+    assert [float(text) for text in ran.stdout.split()] == [1.0, 0.0]

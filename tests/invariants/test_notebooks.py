@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 import carom
-from carom.citations import ELEMENTS, IMPACT, LOADS, bibtex
+from carom.citations import ELEMENTS, FITS, IMPACT, LOADS, SAMPLES, VISCOUS, bibtex
 from carom.notebooks import card
 
 BALL = carom.Sphere(radius="5 mm", material="steel")
@@ -77,6 +77,68 @@ def test_fits_are_a_table_and_a_picture():
     assert told.tags.count("img") == 1
 
 
+def told(result):
+    """Return the table of a result, and its HTML."""
+    html = result._repr_html_()
+    cells = Balanced(html).cells
+    return dict(zip(cells[::2], cells[1::2], strict=True)), html
+
+
+def test_load_paths_are_a_table_and_a_picture():
+    path = carom.load_path(PAIR, normal_force=[1.0, 10.0], tangential_force=[0.0, 1.5])
+    rows, html = told(path)
+    assert rows["normal force"] == "1 N to 10 N"
+    assert rows["tangential force, positive against V_x"] == "0 N to 1.5 N"
+    assert picture(html).std() > 10.0
+    one = carom.load_path(PAIR, normal_force=1.0, tangential_force=0.0)
+    assert "<img" not in one._repr_html_(), "a single step is no line"
+
+
+def test_rankings_are_a_table_and_a_picture():
+    laws = [carom.LinearSpring(), carom.HardSphere()]
+    ranking = carom.verify.rank(laws, psi=[1.0, 2.0])
+    rows, html = told(ranking)
+    worst = {one.entry.label: one.max_error for one in ranking.standings}
+    assert {name: float(text.split()[0]) for name, text in rows.items()} == pytest.approx(
+        worst, abs=5e-4
+    )
+    assert picture(html).std() > 10.0
+
+
+def test_tunings_are_a_table():
+    rows, html = told(carom.verify.tune([carom.HardSphere(), carom.ThorntonLaw()], chi=1.44))
+    assert next(iter(rows)) == "Thornton, incremental"
+    assert "tangential_restitution 0.36" in rows["hard sphere"]
+    assert "<img" not in html
+
+
+@pytest.mark.parametrize(("error", "verdict"), [(0.0, "PASS"), (0.1, "FAIL")])
+def test_scores_are_a_verdict_a_table_and_a_picture(error, verdict):
+    psi = np.array([0.5, 1.0, 2.0])
+    results = {"psi_1": psi, "psi_2": carom.rebound(psi, 1.44) - error}
+    rows, html = told(carom.verify.score(results, chi=1.44))
+    assert f"<strong>{verdict}: max |error in psi_2| = {error:.4g} " in html
+    assert float(rows["all"]) == pytest.approx(error)
+    assert picture(html).std() > 10.0
+
+
+def test_collisions_are_counted():
+    velocity = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 0.0, 2.0], [0.0, 0.0, np.nan]]
+    rows, html = told(carom.collide(PAIR, velocity1=velocity, normal=[0.0, 0.0, 1.0]))
+    assert rows["collided"] == "2"
+    assert rows["left alone: the bodies do not approach"] == "1"
+    assert "4 collisions" in html
+
+
+def test_cards_are_readable_on_any_ground():
+    """Text has the colours of the notebook; pictures are black on white."""
+    html = carom.impact(PAIR, **MOTION)._repr_html_()
+    assert not re.search(r"(?<!-)color:", html)
+    shown = picture(html)
+    edges = (shown[0], shown[-1], shown[:, 0], shown[:, -1])
+    assert all(np.all(edge == 255) for edge in edges)
+
+
 def test_text_is_escaped():
     from matplotlib.figure import Figure
 
@@ -98,10 +160,48 @@ def test_what_was_used_is_cited():
     path = carom.load_path(PAIR, penetration=[1e-6], displacement=[0.0])
     assert "mindlin1953" in entries(path.cite())
     assert "kalker1990" in entries(carom.impact(PAIR, **MOTION, method=TINY).cite())
+    assert entries(carom.ReboundLaw(1.44).cite()) == list(IMPACT)
+    table = {"psi_1": [0.5, 1.0, 2.0], "psi_2": [0.0, 0.0, 0.0]}
+    assert entries(carom.verify.score(table, chi=1.44).cite()) == list(IMPACT)
+
+
+@pytest.mark.parametrize("name", carom.datasets.names())
+@pytest.mark.parametrize("get", [carom.datasets.load, carom.datasets.path])
+def test_the_data_of_a_fit_are_cited(name, get):
+    """As file and as dataset; the entry has the DOI that the data tell."""
+    fit = carom.fit(get(name), fixed={"restitution": 1.0})
+    assert entries(fit.cite()) == [*FITS, "kharaz2001"]
+    assert carom.datasets.load(name).doi in fit.cite()
+    assert entries(fit.cite(posterior=True))[4:] == [*SAMPLES, "kharaz2001"]
+
+
+def test_fits_cite_losses_and_data_of_ones_own(tmp_path):
+    angles = [10.0, 20.0, 40.0, 60.0, 75.0]
+    hits = [
+        carom.impact(
+            PAIR, speed=2.0, angle=f"{angle} deg", normal=carom.KelvinVoigt(restitution=0.9)
+        )
+        for angle in angles
+    ]
+    rows = [
+        f"{angle},{hit.contact_restitution},{hit.normal_restitution}"
+        for angle, hit in zip(angles, hits, strict=True)
+    ]
+    file = tmp_path / "own.csv"
+    head = "angle [deg],contact_restitution,normal_restitution"
+    file.write_text("\n".join(["# doi: 10.1000/182", head, *rows]))
+    text = carom.fit(file, pair=PAIR).cite()
+    assert entries(text) == [*FITS, "kuwabara1987", "data"]
+    assert "doi = {10.1000/182}" in text
+    mapping = dict(
+        zip(head.split(","), np.array([r.split(",") for r in rows], float).T, strict=True)
+    )
+    assert entries(carom.fit(mapping, pair=PAIR).cite()) == [*FITS, "kuwabara1987"]
 
 
 @pytest.mark.parametrize(
-    "key", sorted({*IMPACT, *LOADS, *ELEMENTS, "thornton1997", "kuwabara1987"})
+    "key",
+    sorted({*IMPACT, *LOADS, *ELEMENTS, *FITS, *SAMPLES, "thornton1997", VISCOUS, "kharaz2001"}),
 )
 def test_every_entry_is_complete(key):
     text = bibtex(key)

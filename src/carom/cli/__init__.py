@@ -4,6 +4,7 @@ import sys
 
 import typer
 
+from carom.cli import interpreting
 from carom.cli.curve import curve_command
 from carom.cli.explore import explore_command
 from carom.cli.fit import fit_command
@@ -64,5 +65,6 @@ def _refuse(message: str) -> int:
 
 
 def run() -> None:
-    """Run a command from the shell."""
+    """Run a command from the shell, in a process of its own."""
+    interpreting.allowed = True
     sys.exit(main())

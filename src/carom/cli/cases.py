@@ -4,11 +4,10 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from carom.cases import LOSSES, OUTPUT, Case, motion_of, normal_of, pair_of
-from carom.courses import Course
-from carom.impacts import impact
 from carom.quantities import refusal
 
 if TYPE_CHECKING:
+    from carom.courses import Course
     from carom.halfspace_impacts import BoundaryElements
 
 
@@ -39,8 +38,10 @@ def merged(case: Case, flags: Mapping[str, Any]) -> Case:
     return result
 
 
-def solve_case(case: Case, method: "str | BoundaryElements" = "exact") -> Course:
+def solve_case(case: Case, method: "str | BoundaryElements" = "exact") -> "Course":
     """Solve the impact that a case describes."""
+    from carom.impacts import impact
+
     return impact(pair_of(case), **motion_of(case), normal=normal_of(case), method=method)
 
 

@@ -50,7 +50,6 @@ def curve_command(
         return
     import numpy as np
 
-    from carom.cli.compiling import announced
     from carom.curves import curve
     from carom.quantities import finite, positive, refusal
     from carom.storage import FIGURES, TABLES, checked_output, save
@@ -65,15 +64,14 @@ def curve_command(
         raise refusal("to", last, f"must be above --from, {first:g}")
     if not points.isdecimal() or int(points) < 2:
         raise refusal("points", points, "must be a whole number of at least 2, e.g. 401")
-    with announced():
-        psi = np.linspace(first, last, int(points))
-        dataset = curve(values, psi, normal=_normal(restitution))
-        if output is not None:
-            typer.echo(f"stored {save(dataset, output)}", err=True)
-        if plot is not None:
-            from carom.plots import plot_curve, save_figure
+    psi = np.linspace(first, last, int(points))
+    dataset = curve(values, psi, normal=_normal(restitution))
+    if output is not None:
+        typer.echo(f"stored {save(dataset, output)}", err=True)
+    if plot is not None:
+        from carom.plots import plot_curve, save_figure
 
-            typer.echo(f"stored {save_figure(plot_curve(dataset), plot)}", err=True)
+        typer.echo(f"stored {save_figure(plot_curve(dataset), plot)}", err=True)
     typer.echo(json.dumps(_record(dataset), indent=2) if as_json else _table(dataset))
 
 
@@ -91,7 +89,6 @@ def _export(
     others: dict[str, Any],
 ) -> None:
     """Print or store a header that holds the rebound at each chi."""
-    from carom.cli.compiling import announced
     from carom.laws.exact import ReboundLaw
     from carom.laws.header import c_header
     from carom.quantities import InputError, positive, refusal
@@ -103,9 +100,8 @@ def _export(
     if unused is not None:
         raise InputError(f"{unused}: is of no use with --export; leave one of them out")
     target = None if output is None else checked_output(output, HEADERS)
-    with announced():
-        normal = _normal(restitution)
-        text = c_header([ReboundLaw(positive("chi", value), normal=normal) for value in chi])
+    normal = _normal(restitution)
+    text = c_header([ReboundLaw(positive("chi", value), normal=normal) for value in chi])
     if target is None:
         typer.echo(text, nl=False)
         return

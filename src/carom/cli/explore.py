@@ -23,11 +23,9 @@ def explore_command(
 
     On a machine without a screen: carom explore --no-open --port 0
     """
-    from carom.cli.compiling import announced
     from carom.explorer import explorer
 
-    with announced():
-        page = explorer(host=host, port=port)
+    page = explorer(host=host, port=port)
     typer.echo(json.dumps({"url": page.url}) if as_json else f"{page.url}  (Ctrl-C ends it)")
     if open_browser:
         webbrowser.open(page.url)

@@ -66,7 +66,6 @@ def fit_command(
 
     Own data: carom fit rebounds.csv --case ball.toml --fix restitution=0.98 --advice 5
     """
-    from carom.cli.compiling import announced
     from carom.cli.files import refuse_same
     from carom.fitting import fit
     from carom.quantities import refusal
@@ -81,22 +80,21 @@ def fit_command(
     for path, endings in allowed:
         if path is not None:
             checked_output(path, endings)
-    with announced():
-        found = fit(
-            source,
-            pair=_pair(case),
-            vary=None if vary is None else [name.strip() for name in vary.split(",")],
-            fixed=_fixed(fix or []),
-            robust=not squares,
-            confidence=_number(confidence),
-        )
-        if output is not None:
-            typer.echo(f"stored {save(found, output)}", err=True)
-        if plot is not None:
-            found.plot(plot)
-            typer.echo(f"stored {plot}", err=True)
-        if posterior is not None:
-            typer.echo(f"stored {_sampled(found, posterior, steps, seed)}", err=True)
+    found = fit(
+        source,
+        pair=_pair(case),
+        vary=None if vary is None else [name.strip() for name in vary.split(",")],
+        fixed=_fixed(fix or []),
+        robust=not squares,
+        confidence=_number(confidence),
+    )
+    if output is not None:
+        typer.echo(f"stored {save(found, output)}", err=True)
+    if plot is not None:
+        found.plot(plot)
+        typer.echo(f"stored {plot}", err=True)
+    if posterior is not None:
+        typer.echo(f"stored {_sampled(found, posterior, steps, seed)}", err=True)
     advised = None if advice is None else found.advice(advice, about)
     if as_json:
         extra = {} if advised is None else {"advice": advised.to_dict()}
@@ -144,11 +142,9 @@ def _number(text: str) -> float:
 
 def _sampled(found: "Fit", target: str, steps: int, seed: int) -> Path:
     """Store samples of the posterior, or a corner plot of them, and return the file."""
-    from carom.cli.progress import bar
     from carom.storage import FIGURES, save
 
-    with bar("posterior") as progress:
-        samples = found.posterior(steps, seed, progress=progress)
+    samples = found.posterior(steps, seed)
     if not samples.attrs["converged"]:
         time = samples.attrs["autocorrelation_time"]
         typer.echo(

@@ -1,8 +1,6 @@
 """`carom impact`: one impact from flags or a case file."""
 
 import json
-import sys
-from math import degrees, isnan
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -23,12 +21,6 @@ def _flag(name: str, example: str, of: str = "") -> Any:
 
 
 Text = str | None
-OF_LOSSES = ("normal_restitution", "lost_energy")  # 1 and 0 without
-NOTES = {
-    "exact": "  * angle between slip and x in degrees, which the theory neglects",
-    "lossy": "  * angle between slip and x, which is known without losses only",
-    "halfspace": "  * angle between slip and x in degrees",
-}
 METHODS = ("exact", "halfspace")
 FRAMES = 60  # of an animation
 
@@ -101,7 +93,7 @@ def impact_command(
     """
     from carom.cases import normal_of, read_case
     from carom.cli.cases import merged, outputs, solve_case
-    from carom.cli.compiling import announced
+    from carom.cli.interpreting import interpret
 
     flags = {
         "first.radius": radius,
@@ -127,12 +119,15 @@ def impact_command(
     }
     content = merged(read_case(case, losses=True) if case else {}, flags)
     files = outputs(content)
+    if files.animation is None:
+        interpret()
     _check_outputs(files, elastic=normal_of(content) is None)
     solver = _method(method, elements, steps)
-    with announced():
-        hit = solve_case(content, solver)
-        stored = _store(hit, files)
-    typer.echo(json.dumps(as_record(hit), indent=2) if as_json else as_table(hit))
+    from carom.reports import impact_record
+
+    hit = solve_case(content, solver)
+    stored = _store(hit, files)
+    typer.echo(json.dumps(impact_record(hit), indent=2) if as_json else str(hit))
     for path in stored:
         typer.echo(f"stored {path}", err=True)
 
@@ -180,79 +175,6 @@ def _store(hit: "Course", files: "Output") -> list[Path]:
         hit.plot(files.plot)
         stored.append(Path(files.plot))
     if files.animation is not None:
-        with typer.progressbar(length=FRAMES, label="animation", file=sys.stderr) as bar:
-            hit.animate(files.animation, FRAMES, progress=lambda: bar.update(1))
+        hit.animate(files.animation, FRAMES)
         stored.append(Path(files.animation))
     return stored
-
-
-def as_record(hit: "Course") -> dict[str, Any]:
-    """Return the result as what JSON can hold; what is not a number becomes null."""
-    scalars = {name: _finite(value) for name, value in hit.scalars().items()}
-    return {
-        "inputs": hit.inputs(),
-        "result": scalars,
-        "phases": [
-            {
-                **phase._asdict(),
-                "slip_angle_max": _finite(angle.largest),
-                "slip_angle_mean": _finite(angle.mean),
-            }
-            for phase, angle in zip(hit.phases, hit.slip_angles, strict=True)
-        ],
-        "validity": [
-            {**finding._asdict(), "value": _finite(finding.value)}
-            for finding in hit.validity.findings
-        ],
-    }
-
-
-def _finite(value: float) -> float | None:
-    return value if abs(value) < float("inf") and not isnan(value) else None
-
-
-def as_table(hit: "Course") -> str:
-    """Return the result as text to read."""
-    from carom.histories import RESULTS
-    from carom.results import MARKS
-
-    scalars, method = hit.scalars(), hit.inputs().get("method", "exact")
-    note = NOTES["lossy" if hit.normal is not None else method]
-    loses = hit.normal is not None or (method != "exact" and hit.pair.dundurs_beta != 0.0)
-    shown = ["chi", *(name for name in RESULTS if loses or name not in OF_LOSSES)]
-    shown += [name for name in ("psi_out_error", "energy_error") if name in scalars]
-    if len(hit.pair.moving) == 1:
-        shown.remove("spin2_out")
-    lines = [
-        f"  {GLOSSARY[name].meaning:58s} {GLOSSARY[name].text(scalars[name])}" for name in shown
-    ]
-    phases = [
-        f"  {_slip(p.kind, p.sign):14s}{p.start:12.4e} {p.end:12.4e}"
-        f" {_in_degrees(angle.mean)} {_in_degrees(angle.largest)}   {p.cause}"
-        for p, angle in zip(hit.phases, hit.slip_angles, strict=True)
-    ]
-    columns = f"{'from (s)':>12s} {'to (s)':>12s} {'mean*':>9s} {'max*':>9s}"
-    head = f"  {'':14s}{columns}   ended by"
-    findings = [
-        f"  {MARKS[f.holds]} {f.name + ' = ' + format(f.value, '.3g'):34s} {f.verdict}"
-        for f in hit.validity.findings
-    ]
-    parts = (
-        "Rebound",
-        *lines,
-        "Phases",
-        head,
-        *phases,
-        note,
-        "Validity",
-        *findings,
-    )
-    return "\n".join(parts)
-
-
-def _in_degrees(angle: float) -> str:
-    return "-".rjust(9) if isnan(angle) else f"{degrees(angle):9.2f}"
-
-
-def _slip(kind: str, sign: int) -> str:
-    return kind if sign == 0 else f"{kind} {'+' if sign > 0 else '-'}"

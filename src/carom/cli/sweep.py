@@ -42,7 +42,6 @@ def sweep_command(
     One that may be killed: carom sweep examples/sweep.toml --store sweep.zarr --resume
     """
     from carom.cases import read_case
-    from carom.cli.compiling import announced
     from carom.storage import TABLES, checked_output, save
     from carom.sweeps import sweep
     from carom.sweeps.plans import plan
@@ -53,7 +52,7 @@ def sweep_command(
     if file is not None:
         checked_output(file, TABLES)
     design, outputs = plan(content, case)
-    with announced(), _stopping():
+    with _stopping():
         dataset = sweep(
             content,
             design,

@@ -3,6 +3,8 @@
 from enum import IntEnum
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from carom.bodies import Sphere
 from carom.pairs import Counterbody, Pair
 
@@ -55,6 +57,15 @@ class Collisions(NamedTuple):
     """Velocities and spins after collisions, as arrays like those before; SI units.
 
     `status`, one for each pair, holds values of `CollisionStatus`: 0 where the bodies collided.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.0)
+    >>> hit = carom.collide(pair, velocity1=[[1.0, 0.0, -2.0]], normal=[0.0, 0.0, -1.0])
+    >>> hit.velocity1, hit.status
+    (array([[1., 0., 2.]]), array([0], dtype=int8))
     """
 
     velocity1: Any
@@ -62,6 +73,19 @@ class Collisions(NamedTuple):
     velocity2: Any
     spin2: Any
     status: Any
+
+    def _repr_html_(self) -> str:
+        """Return a table for a notebook."""
+        from carom.notebooks import card
+
+        rows = _counted(self.status)
+        return card(f"{sum(rows.values()):,} collisions", {k: f"{n:,}" for k, n in rows.items()})
+
+
+def _counted(status: Any) -> dict[str, int]:
+    """Return how many pairs came out how, in words; arrays of any library."""
+    values, counts = np.unique(np.asarray(status), return_counts=True)
+    return {MESSAGES[CollisionStatus(int(v))]: int(n) for v, n in zip(values, counts, strict=True)}
 
 
 def inertia_of(pair: Pair) -> Inertia:

@@ -88,7 +88,13 @@ NEXT = _table()
 
 
 class Status(IntEnum):
-    """How a run ended; its `message` says so in words."""
+    """How a run ended; its `message` says so in words.
+
+    Examples
+    --------
+    >>> Status(0).message
+    'solved'
+    """
 
     SOLVED = 0
     PSI_NOT_FINITE = 1

@@ -127,7 +127,7 @@ def _table(scene: Scene, laws: list[charts.LawCurve]) -> list[Any]:
         rows[f"ψ₂ by {law.label}"] = f"{law.at:.6g}, off by {off:+.3g}"
     body = [html.Tr([html.Th(name, scope="row"), html.Td(text)]) for name, text in rows.items()]
     table = html.Table(html.Tbody(body), className="carom-table")
-    return [table, html.Pre("\n".join(scene.findings))]
+    return [table, html.Pre(scene.findings)]
 
 
 def _measure(app: Dash) -> None:

@@ -5,7 +5,7 @@ from typing import Any
 
 from dash import Dash
 from dash import set_props as set_on_page
-from flask import Flask, Response
+from flask import Flask, Response, abort, request
 from werkzeug.exceptions import HTTPException
 
 from carom.explorer.answers import connect
@@ -24,6 +24,8 @@ HEADERS = {
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
 }
+
+UPDATES, ANY_OTHER = "/_dash-update-component", "/<path:path>"  # of dash
 
 log = logging.getLogger(__name__)
 
@@ -46,6 +48,7 @@ def new_app() -> Dash:
     connect(app)
     add_downloads(server)
     server.register_error_handler(Exception, _one_line)
+    server.before_request(_known)
     server.after_request(_guarded)
     return app
 
@@ -55,12 +58,20 @@ def _told_on_page(error: Exception) -> None:
     set_on_page("notice", {"children": f"failed, {type(error).__name__}: {error}"})
 
 
+def _known() -> None:
+    """Refuse addresses that dash would answer with the page."""
+    if request.url_rule is not None and request.url_rule.rule == ANY_OTHER:
+        abort(404)
+
+
 def _one_line(error: Exception) -> Response:
     """Return an error of a request as one line of text."""
     if isinstance(error, InputError):
         return _text(str(error), 400)
     if isinstance(error, HTTPException):
         return _text(f"{error.code}: {error.name}", error.code or 500)
+    if request.path == UPDATES:  # what callbacks raise is told on the page
+        return _text("400: this is no request of the page", 400)
     log.error("%s: %s", type(error).__name__, error)
     return _text(f"failed, {type(error).__name__}", 500)
 

@@ -40,6 +40,7 @@ ENERGY_FILLS = {  # colour and pattern
     "lost to friction": ("#7d838b", "\\"),
 }
 SIGNS = {0: "", 1: " +", -1: " \N{MINUS SIGN}"}
+HEADROOM = 1.25  # of the forces: above them the phases have their names
 ROOM = 1.12  # of the shares of energy: above them the phases have their names
 NARROW = 0.07  # of the axis: a band below that goes without its name
 
@@ -69,7 +70,15 @@ def forces(scene: Scene, laws: Sequence[LawCurve] = ()) -> Figure:
             for row, law in enumerate(laws)
         ),
     ]
-    return axes_of(traces, f"time ({scene.time_unit})", name, scene)
+    figure = axes_of(traces, f"time ({scene.time_unit})", name, scene)
+    most = max(1e-9, *(float(np.abs(part).max(initial=0.0)) for part in _drawn(scene, laws)))
+    figure["layout"]["yaxis"]["range"] = [-1.1 * most, HEADROOM * most]
+    return figure
+
+
+def _drawn(scene: Scene, laws: Sequence[LawCurve]) -> Iterator[Array]:
+    yield scene.limit
+    yield from (law.force for law in laws)
 
 
 def energies(scene: Scene) -> Figure:
@@ -181,8 +190,8 @@ def axes_of(traces: list[Figure], x: str, y: str, scene: Scene | None = None) ->
     """Return a figure without colours of its own for paper, text and grid: the theme has them."""
     axis = {"zeroline": False, "automargin": True, "ticks": "outside", "ticklen": 4}
     layout: Figure = {
-        "xaxis": {**axis, "title": {"text": x, "standoff": 6}},
-        "yaxis": {**axis, "title": {"text": y, "standoff": 6}},
+        "xaxis": {**axis, "title": {"text": x}},
+        "yaxis": {**axis, "title": {"text": y}},
         "margin": {"l": 52, "r": 10, "t": 8, "b": 40},
         "paper_bgcolor": "rgba(0,0,0,0)",
         "plot_bgcolor": "rgba(0,0,0,0)",

@@ -17,7 +17,6 @@ from carom.impacts import impact
 from carom.laws.dem.base import SOLID
 from carom.plots.impact import ENERGIES
 from carom.plots.style import prefixed
-from carom.results import MARKS
 
 Array = NDArray[np.float64]
 
@@ -64,7 +63,7 @@ class Scene:
     tractions: Array
     stage: Stage
     results: Mapping[str, str]
-    findings: tuple[str, ...]
+    findings: str
 
     def moving(self) -> dict[str, Any]:
         """Return what the page animates, as JSON can hold it."""
@@ -124,10 +123,7 @@ def _of_bodies(hit: Impact) -> Scene:
             for name, value in hit.scalars().items()
             if name in OF_BODIES
         },
-        findings=tuple(
-            f"{MARKS[finding.holds]} {finding.name} = {finding.value:.3g}: {finding.verdict}"
-            for finding in hit.validity.findings
-        ),
+        findings=str(hit.validity),
     )
 
 
@@ -156,7 +152,7 @@ def _of_numbers(view: View) -> Scene:
         tractions=_tractions(solution),
         stage=stage_of_numbers(solution, history, view.friction),
         results=_numbers(solution),
-        findings=(),
+        findings="",
     )
 
 

@@ -38,7 +38,9 @@ class Knob(NamedTuple):
         if not (isfinite(value) and self.least <= value <= self.most):
             unit = f" {self.unit}" if self.unit else ""
             allowed = f"must be a number from {self.least:g} to {self.most:g}{unit}"
-            raise refusal(name, "nothing" if text is None else text, allowed)
+            raise (
+                refusal(name, text, allowed) if text else InputError(f"{name}: missing; {allowed}")
+            )
         return value
 
 

@@ -5,12 +5,13 @@ from typing import Any
 
 from carom.fitting.assembly import assembled
 from carom.fitting.errors import SoftL1, Squares
+from carom.fitting.estimates import Estimate
 from carom.fitting.identifiability import settle
 from carom.fitting.laws import EXACT
 from carom.fitting.model import Model
 from carom.fitting.options import check_count, checked_confidence, read_options
 from carom.fitting.problem import read_problem
-from carom.fitting.record import Estimate, Fit
+from carom.fitting.record import Fit
 from carom.pairs import Pair
 
 __all__ = ["Estimate", "Fit", "fit"]
@@ -28,10 +29,10 @@ def fit(
     """Return friction, stiffness ratio and restitution from measured rebounds, with intervals.
 
     V_n' = e V_n, V_x' = mu V_n psi_2(psi_1; chi, e)/kappa with psi_1 = kappa V_x/(mu V_n) and
-    chi = (kappa/2)(m_n/m_t), J_t = m_t (V_x - V_x'); what e < 1 loses is as in `KelvinVoigt`. The
-    sum of losses of the residuals in standard deviations is least; an interval ends where it has
-    risen by a quantile of chi squared (or F, where errors come from the scatter), all other
-    parameters following (profile likelihood).
+    chi = (kappa/2)(m_n/m_t), J_t = m_t (V_x - V_x'), psi_2 that of Maw, Barber & Fawcett (1976);
+    what e < 1 loses is as in `KelvinVoigt`. The sum of losses of the residuals in standard
+    deviations is least; an interval ends where it has risen by a quantile of chi squared (or F,
+    where errors come from the scatter), all other parameters following (profile likelihood).
 
     Parameters
     ----------

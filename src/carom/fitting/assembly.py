@@ -7,12 +7,13 @@ from math import nan
 import numpy as np
 
 from carom.curves import REGIMES
+from carom.fitting.estimates import LIMITS, Estimate
 from carom.fitting.estimation import Best, estimate
 from carom.fitting.identifiability import Settled, reason, row_regimes
 from carom.fitting.intervals import Profile, profile
 from carom.fitting.laws import half_ratio
 from carom.fitting.quantiles import rise_of
-from carom.fitting.record import LIMITS, Estimate, Fit
+from carom.fitting.record import Fit
 from carom.fitting.report import notes
 
 TRIES = 4  # better fits that the search for the ends may meet

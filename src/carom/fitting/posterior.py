@@ -1,6 +1,5 @@
 """Samples of the posterior by an ensemble of walkers, those of emcee."""
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -8,6 +7,7 @@ from numpy.typing import NDArray
 
 from carom.extras import extra
 from carom.fitting.laws import half_ratio
+from carom.progress import Progress, advancing
 from carom.quantities import counted
 from carom.results import labelled_dataset
 
@@ -28,7 +28,7 @@ def sample(
     fit: "Fit",
     steps: int = 1000,
     seed: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: Progress = None,
 ) -> "xr.Dataset":
     """Return samples of the parameters that the data determine, as a dataset along `sample`.
 
@@ -59,10 +59,10 @@ def sample(
     sampler = emcee.EnsembleSampler(len(start), free, log_probability, vectorize=True, moves=moves)
     sampler.random_state = np.random.RandomState(generator.integers(2**31)).get_state()
     state = start
-    for done in range(0, count, CHUNK):
-        state = sampler.run_mcmc(state, min(CHUNK, count - done))
-        if progress is not None:
-            progress(min(done + CHUNK, count), count)
+    with advancing("posterior", count, progress, unit="steps") as advance:
+        for done in range(0, count, CHUNK):
+            state = sampler.run_mcmc(state, min(CHUNK, count - done))
+            advance(min(CHUNK, count - done))
     chain = sampler.get_chain(discard=int(BURN * count), flat=True)
     times = sampler.get_autocorr_time(tol=0)
     return _dataset(fit, chain, times, count, seed)

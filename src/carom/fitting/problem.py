@@ -27,7 +27,8 @@ STEEPEST = np.radians(89.9)
 class Problem:
     """Measured rebounds in SI units: `measured` and `errors` have the shape (rows, responses).
 
-    NaN stands for what was not measured, and for errors that are not known.
+    NaN stands for what was not measured, and for errors that are not known; `doi` is that of the
+    publication, if the data tell it.
     """
 
     pair: Pair
@@ -38,6 +39,7 @@ class Problem:
     errors: Array
     rows: Results
     ignored: tuple[str, ...] = ()
+    doi: str = ""
 
     @property
     def present(self) -> Mask:
@@ -126,6 +128,7 @@ def read_problem(data: Any, pair: Pair | None) -> Problem:
         errors=np.stack([_errors(rows, name) for name in responses], axis=-1),
         rows=rows,
         ignored=ignored,
+        doi=table.comments.get("doi", ""),
     )
     check_responses(problem.rows, problem.motion, problem.contact_velocity)
     return problem

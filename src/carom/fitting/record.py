@@ -1,14 +1,17 @@
 """The result of a fit."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import floor, inf, isfinite, isnan, log10, nan
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from carom.citations import FITS, SAMPLES, VISCOUS, bibtex, with_doi
+from carom.fitting.estimates import Estimate
 from carom.fitting.estimation import Best
 from carom.pairs import Pair
+from carom.progress import Progress
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -16,71 +19,6 @@ if TYPE_CHECKING:
 
     from carom.fitting.advice import Advice
     from carom.fitting.comparison import Comparison
-
-LIMITS = {  # what a parameter can be at all
-    "friction": (0.0, inf),
-    "kappa": (0.0, inf),
-    "chi": (0.0, inf),
-    "restitution": (0.0, 1.0),
-    "tangential_restitution": (-1.0, 1.0),
-    "spin_offset": (-inf, inf),
-}
-UNITS = {"spin_offset": "rad/s"}
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """A parameter: its value, the ends of its interval, and why there is none if so.
-
-    An end that the data leave open is that of what is possible: 0, 1, infinity. An undetermined
-    parameter has NaN as ends, a reason, and as value what was assumed; one that was not varied has
-    NaN as ends and no reason.
-    """
-
-    name: str
-    value: float
-    low: float = nan
-    high: float = nan
-    reason: str = ""
-
-    @property
-    def determined(self) -> bool:
-        """Whether there is an interval, be it with an open end."""
-        return not isnan(self.low)
-
-    @property
-    def open(self) -> bool:
-        """Whether an end is open."""
-        lowest, highest = LIMITS[self.name]
-        return self.determined and (self.low == lowest or self.high == highest)
-
-    def __str__(self) -> str:
-        lowest, highest = LIMITS[self.name]
-        unit = f" {UNITS[self.name]}" if self.name in UNITS else ""
-        if self.reason:
-            return f"not determined: {self.reason}"
-        if not self.determined:
-            return f"{self.value:.4g}{unit}, held"
-        if self.low == lowest:
-            return f"{self.value:.4g}{unit}, at most {self.high:.4g}{unit}"
-        if self.high == highest:
-            return f"{self.value:.4g}{unit}, at least {self.low:.4g}{unit}"
-        digits = significant(self.value, self.high - self.low)
-        low, value, high = (f"{each:.{digits}g}" for each in (self.low, self.value, self.high))
-        return f"{value}{unit} ({low} to {high})"
-
-
-def significant(value: float, width: float) -> int:
-    """Return how many digits of a value to show, two of the width of its interval.
-
-    Examples
-    --------
-    >>> significant(0.0921, 0.0014), significant(-3.0, 40.0)
-    (3, 2)
-    """
-    if not (isfinite(width) and width > 0.0 and value):
-        return 4
-    return max(2, min(8, 2 + floor(log10(abs(value))) - floor(log10(width))))
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,7 +89,32 @@ class Fit:
         return compare(self.best)
 
     def advice(self, n: int = 5, parameter: str | None = None) -> "Advice":
-        """Return which incidences to measure next, n of them, and what that would give."""
+        """Return which incidences to measure next, and what that would give.
+
+        c-optimal design (Atkinson, Donev & Tobias 2007, chapter 10): one more impact at an angle
+        adds its expected information.
+
+        Parameters
+        ----------
+        n : int
+            How many measurements.
+        parameter : str, optional
+            What is to be known better, by default what is known least: friction, kappa, chi,
+            restitution or spin_offset.
+
+        Raises
+        ------
+        InputError
+            If the parameter was not to be fitted, or n is below 1.
+
+        Examples
+        --------
+        >>> import carom
+        >>> found = carom.fit(carom.datasets.load("kharaz2001"))
+        >>> advised = found.advice(3, "friction")
+        >>> len(advised.places), advised.shorter < 1.0
+        (3, True)
+        """
         from carom.fitting.advice import advise
 
         return advise(self, n, parameter)
@@ -160,9 +123,38 @@ class Fit:
         self,
         steps: int = 1000,
         seed: int | None = None,
-        progress: Callable[[int, int], object] | None = None,
+        progress: Progress = None,
     ) -> "xr.Dataset":
-        """Return samples of the posterior by emcee; `progress` is told steps done and to do."""
+        """Return samples of the posterior of what the data determine, along `sample`.
+
+        Walkers move by differential evolution (ter Braak 2006) in emcee (Foreman-Mackey et al.
+        2013). The likelihood is exp(-loss/(2 lambda)) with the loss and its spread lambda of the
+        fit, the prior even in log friction, log kappa, restitution and spin offset within their
+        ranges.
+
+        Parameters
+        ----------
+        steps : int
+            Steps of the walkers, 100 at least, of which a quarter is left out.
+        seed : int, optional
+            Of the random numbers; the same seed gives the same samples.
+        progress : bool or callable, optional
+            Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
+            what is called with the steps done and their number.
+
+        Raises
+        ------
+        InputError
+            If there are too few steps, or emcee is not installed.
+
+        Examples
+        --------
+        >>> import carom
+        >>> found = carom.fit(carom.datasets.load("kharaz2001"))
+        >>> samples = found.posterior(100, seed=1)
+        >>> bool(abs(samples.friction.mean() - found.friction.value) < 0.01)
+        True
+        """
         from carom.fitting.posterior import sample
 
         return sample(self, steps, seed, progress)
@@ -185,8 +177,45 @@ class Fit:
             "comparison": self.comparison.to_dict(),
         }
 
+    def cite(self, *, posterior: bool = False) -> str:
+        """Return what to cite for this result, and for the data if they tell a DOI, as BibTeX.
+
+        Parameters
+        ----------
+        posterior : bool
+            Whether `posterior` was used, too.
+
+        Examples
+        --------
+        >>> import carom
+        >>> found = carom.fit(carom.datasets.load("kharaz2001"), fixed={"restitution": 1.0})
+        >>> [line for line in found.cite().splitlines() if line.startswith("@")][-2:]
+        ['@software{newville2014,', '@article{kharaz2001,']
+        """
+        lossy = (VISCOUS,) if self.restitution.value < 1.0 else ()
+        keys = (*FITS, *lossy, *(SAMPLES if posterior else ()))
+        doi = self.best.model.problem.doi
+        return "\n".join([bibtex(*keys), *([with_doi(doi)] if doi else [])])
+
     def plot(self, path: str | Path | None = None) -> "Figure":
-        """Draw data, curves and residuals; with a path, store the figure there."""
+        """Draw data, curves and residuals.
+
+        Parameters
+        ----------
+        path : str or Path, optional
+            Where the figure is stored, too: .png, .pdf or .svg.
+
+        Raises
+        ------
+        InputError
+            If the name ends otherwise or the file cannot be written.
+
+        Examples
+        --------
+        >>> import carom
+        >>> len(carom.fit(carom.datasets.load("kharaz2001")).plot().axes) > 1
+        True
+        """
         from carom.plots.fits import plot_fit
         from carom.plots.style import save_figure
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
+from carom.citations import IMPACT, VISCOUS, bibtex
 from carom.dimensionless import hertz
 from carom.dimensionless.chebyshev import Panels
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
@@ -95,6 +96,22 @@ class ReboundLaw:
         """Return tangential impulse over friction times normal impulse, (psi_1 - psi_2)/S.
 
         S = 2 chi (1 + e). It is 1 in gross slip throughout; mu (1 + e) m_n V_1 makes it N s.
+
+        Parameters
+        ----------
+        psi : array of any library that follows the array API standard
+            psi_1.
+
+        Raises
+        ------
+        InputError
+            If it is no array of numbers.
+
+        Examples
+        --------
+        >>> import carom
+        >>> carom.ReboundLaw(1.44).impulse([0.5, 6.0]).round(3)
+        array([0.079, 1.   ])
         """
         bound = self._rule.sliding
         return applied(lambda incoming, xp: lost(incoming, self._rule, xp) / bound, "psi", psi)
@@ -103,6 +120,22 @@ class ReboundLaw:
         """Return the energy that friction takes, psi_1^2 - psi_2^2.
 
         (m_t/2)(mu V_1/kappa)^2 makes it J.
+
+        Parameters
+        ----------
+        psi : array of any library that follows the array API standard
+            psi_1.
+
+        Raises
+        ------
+        InputError
+            If it is no array of numbers.
+
+        Examples
+        --------
+        >>> import carom
+        >>> carom.ReboundLaw(1.44).dissipation([0.5, 6.0]).round(3)
+        array([ 0.248, 35.942])
         """
 
         def energy(incoming: Any, xp: Any) -> Any:
@@ -153,6 +186,10 @@ class ReboundLaw:
         shifts = np.append(-(high + low) / (high - low), 0.0)
         return frozen(Rule(self.restitution, 1.0, *reach, self.edges, slopes, shifts, powers))
 
+    def cite(self) -> str:
+        """Return what to cite for this law, as BibTeX."""
+        return bibtex(*IMPACT, *((VISCOUS,) if self.restitution < 1.0 else ()))
+
     def to_dict(self) -> dict[str, Any]:
         """Return the table as plain numbers and lists, for JSON; `from_dict` takes it back."""
         return {
@@ -164,7 +201,25 @@ class ReboundLaw:
 
     @classmethod
     def from_dict(cls, table: Mapping[str, Any]) -> Self:
-        """Return the law of a stored table, to the last bit, without solving an impact."""
+        """Return the law of a stored table, to the last bit, without solving an impact.
+
+        Parameters
+        ----------
+        table : mapping
+            What `to_dict` returned, e.g. read back from JSON.
+
+        Raises
+        ------
+        InputError
+            If it is not the whole table of a law.
+
+        Examples
+        --------
+        >>> import carom
+        >>> law = carom.ReboundLaw(1.44)
+        >>> carom.ReboundLaw.from_dict(law.to_dict())(0.5) == law(0.5)
+        True
+        """
         try:
             edges, rows = (np.array(table[name], float) for name in ("edges", "coefficients"))
             chi = positive("chi", table["chi"])

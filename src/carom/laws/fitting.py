@@ -21,7 +21,20 @@ POINTS = 2001
 
 @dataclass(frozen=True)
 class WaltonFit:
-    """Walton's law fitted to the exact one, and the error in psi_2 that remains over the span."""
+    """Walton's law fitted to the exact one, and the error in psi_2 that remains over the span.
+
+    `law` is the fitted `WaltonLaw`, `rms_error` and `max_error` those of psi_2, `span` the largest
+    psi_1 that counts; made by `fit_walton`.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> fit = carom.fit_walton(pair)
+    >>> round(fit.law.friction, 3), round(fit.max_error, 2), round(fit.span, 2)
+    (0.199, 0.35, 5.76)
+    """
 
     law: WaltonLaw
     rms_error: float

@@ -11,6 +11,7 @@ from carom.dimensionless._jit import kernel
 from carom.dimensionless.elastic import solved
 from carom.dimensionless.patches import Patches, fitted_patches, value_at
 from carom.dimensionless.rebounds import warn_of_unsolved
+from carom.progress import advancing
 from carom.quantities import InputError, positive, refusal
 
 Array = NDArray[np.float64]
@@ -72,7 +73,13 @@ class MixtureLaw:
         if not 0.5 <= self.low < self.high:
             raise refusal("chi", (low, high), "must be a range that begins at 0.5 or above")
         whole = (SMALLEST, 3.0, self.low, self.high)
-        self.patches = fitted_patches(_scaled_loss, whole, (1.0, 2.0), TOLERANCE, singular=1.0)
+        with advancing("table of rebounds", None, unit="impacts") as advance:
+
+            def loss(place: Array, chi: Array) -> Array:
+                advance(place.size)
+                return _scaled_loss(place, chi)
+
+            self.patches = fitted_patches(loss, whole, (1.0, 2.0), TOLERANCE, singular=1.0)
 
     def __call__(self, psi: ArrayLike, chi: ArrayLike, *, return_status: bool = False) -> Any:
         """Return psi_2, broadcast; what lies outside the range of chi comes from `rebound`.

@@ -17,6 +17,7 @@ from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.phases import Status
 from carom.laws.rules import DEGREE
 from carom.normals import KelvinVoigt
+from carom.progress import advancing
 from carom.quantities import refusal
 
 Array = NDArray[np.float64]
@@ -26,7 +27,6 @@ SMALLEST, LOSSY_SMALLEST = 1e-6, 1e-3  # psi_1: below, r is that of the first pa
 TOLERANCE = 4e-10  # of the tail of a series; the error stays below 1e-9
 LOSSY_TOLERANCE = 1e-7
 FAR, END = 1e4, 1e12  # psi_1/S: beyond, what is lacking is taken for c/psi_1; for nothing
-PATIENCE = 2.0  # seconds before a bar tells how many impacts are solved
 
 
 class Reach(NamedTuple):
@@ -60,27 +60,28 @@ def borders(chi: float, restitution: float) -> list[float]:
 def elastic_panels(chi: float) -> Panels:
     """Return the table of r = psi_2/psi_1 between the regime borders."""
 
-    def ratio(psi: Array) -> tuple[Array, Branches]:
-        outgoing, status, sequence = solved(psi, np.full(psi.size, chi))
-        _refuse_unsolved(chi, status)
-        return outgoing / psi, sequence
+    with advancing("table of rebounds", None, unit="impacts") as advance:
 
-    return fitted(ratio, borders(chi, 1.0), DEGREE, TOLERANCE, singular=(1.0,))
+        def ratio(psi: Array) -> tuple[Array, Branches]:
+            outgoing, status, sequence = solved(psi, np.full(psi.size, chi))
+            _refuse_unsolved(chi, status)
+            advance(psi.size)
+            return outgoing / psi, sequence
+
+        return fitted(ratio, borders(chi, 1.0), DEGREE, TOLERANCE, singular=(1.0,))
 
 
 def lossy_panels(chi: float, restitution: float) -> Panels:
     """Return the table of r at one e, found by its error alone; a bar tells of it after 2 s."""
-    from tqdm import tqdm
-
     reach, ends = reach_of(chi, restitution), borders(chi, restitution)
     loss, parameter = KelvinVoigt(restitution=restitution).scale_free()
-    with tqdm(desc="table of rebounds", unit=" impacts", delay=PATIENCE, disable=None) as bar:
+    with advancing("table of rebounds", None, unit="impacts") as advance:
 
         def outgoing(psi: Array) -> Array:
             known = np.full(psi.size, chi), loss, np.full(psi.size, parameter)
             found = lossy_rebounds(psi, *known)
             _refuse_unsolved(chi, found.status)
-            bar.update(psi.size)
+            advance(psi.size)
             return found.psi_out
 
         far = FAR * reach.sliding

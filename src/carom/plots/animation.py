@@ -2,8 +2,8 @@
 
 import shutil
 import subprocess
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
+from collections.abc import Callable, Iterable, Iterator, Sized
+from contextlib import AbstractContextManager, suppress
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -30,13 +30,14 @@ from carom.plots.style import (
     prefixed,
     scaled,
 )
+from carom.progress import Advance, advancing
 from carom.quantities import InputError, refusal
 from carom.storage import ANIMATIONS, checked_output, replace_whole
 
 if TYPE_CHECKING:
     import xarray as xr
 
-Progress = Callable[[], object]
+Progress = bool | Callable[[], object] | None
 
 RATE = 12  # frames a second
 RESOLUTION = {".gif": 110, ".mp4": 200}  # in dots per inch
@@ -48,7 +49,7 @@ def animate(
     history: "xr.Dataset",
     frames: Iterable["xr.Dataset"],
     path: str | Path,
-    progress: Progress | None = None,
+    progress: Progress = None,
 ) -> Path:
     """Store a film of the contact patch beside the history of the tangential force.
 
@@ -62,8 +63,9 @@ def animate(
         The fields on a grid at the instants of the film, in order; they are drawn as they come.
     path : str or Path
         A name that ends in .gif, or in .mp4 where ffmpeg is installed.
-    progress : callable, optional
-        Called after every frame.
+    progress : bool or callable, optional
+        Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
+        what is called after every frame.
 
     Raises
     ------
@@ -86,16 +88,40 @@ def animate(
     """
     target = checked_animation(path)
     ending = target.suffix.lower()
-    pictures = _pictures(history, frames, RESOLUTION[ending], progress)
-    first = next(pictures, None)
-    if first is None:
-        raise InputError("frames: an animation needs the fields of one instant or more")
-    write = _write_gif if ending == ".gif" else _write_mp4
-    return replace_whole(target, lambda where: write(where, chain([first], pictures)))
+    with drawing(len(frames) if isinstance(frames, Sized) else None, progress) as advance:
+        pictures = _pictures(history, frames, RESOLUTION[ending], advance)
+        first = next(pictures, None)
+        if first is None:
+            raise InputError("frames: an animation needs the fields of one instant or more")
+        write = _write_gif if ending == ".gif" else _write_mp4
+        return replace_whole(target, lambda where: write(where, chain([first], pictures)))
+
+
+def drawing(total: int | None, progress: Progress) -> AbstractContextManager[Advance]:
+    """Return the context in which frames are drawn, and told or shown one by one."""
+    told = (lambda *_: progress()) if callable(progress) else progress
+    return advancing("animation", total, told, unit="frames")
 
 
 def checked_animation(path: str | Path) -> Path:
-    """Return the path of an animation, or raise InputError if it cannot be made."""
+    """Return the path of an animation, if it can be made.
+
+    Parameters
+    ----------
+    path : str or Path
+        A name that ends in .gif, or in .mp4.
+
+    Raises
+    ------
+    InputError
+        If it ends otherwise, cannot be written, or ffmpeg is missing for .mp4.
+
+    Examples
+    --------
+    >>> from carom.plots import checked_animation
+    >>> checked_animation("hit.gif").name
+    'hit.gif'
+    """
     target = checked_output(path, ANIMATIONS)
     if target.suffix.lower() == ".mp4" and shutil.which("ffmpeg") is None:
         raise refusal("output file", str(path), "ffmpeg is not found; install it, or use .gif")
@@ -106,14 +132,13 @@ def _pictures(
     history: "xr.Dataset",
     frames: Iterable["xr.Dataset"],
     resolution: int,
-    progress: Progress | None,
+    advance: Advance,
 ) -> Iterator[Image.Image]:
     """Yield the frames of the film as they are drawn."""
     film = _Film(history, resolution)
     for fields in frames:
         yield film.picture(fields)
-        if progress is not None:
-            progress()
+        advance(1)
 
 
 class _Film:

@@ -46,6 +46,16 @@ def plot_cone(dataset: "xr.Dataset") -> Figure:
 
     The parts of an impact are marked by phase; arrows point on in time.
 
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        What `Impact.history` or `LoadPath.to_dataset` returns.
+
+    Raises
+    ------
+    InputError
+        If the dataset is another one.
+
     Examples
     --------
     >>> import carom

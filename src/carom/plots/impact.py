@@ -52,6 +52,16 @@ def plot_impact(dataset: "xr.Dataset") -> Figure:
     The histories of `Impact.history` and `Impact.to_dataset`, also read back from a file, in the
     width of two columns. Bands tell the phases; their hatch leans with the sign of slip.
 
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        What `Impact.history` returns.
+
+    Raises
+    ------
+    InputError
+        If the dataset is another one.
+
     Examples
     --------
     >>> import carom
@@ -74,13 +84,53 @@ def plot_impact(dataset: "xr.Dataset") -> Figure:
 
 @draws(HISTORY, *FORCES, along="time")
 def plot_forces(dataset: "xr.Dataset") -> Figure:
-    """Draw the tangential force between its limits, mu F_z, against time, in one column."""
+    """Draw the tangential force between its limits, mu F_z, against time, in one column.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        What `Impact.history` returns.
+
+    Raises
+    ------
+    InputError
+        If the dataset is another one.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+    >>> len(carom.plots.plot_forces(hit.history(50)).axes)
+    1
+    """
     return _single(dataset, forces_panel)
 
 
 @draws(HISTORY, *RADII, along="time")
 def plot_radii(dataset: "xr.Dataset") -> Figure:
-    """Draw the radii of the contact and of its stick zone against time, in one column."""
+    """Draw the radii of the contact and of its stick zone against time, in one column.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        What `Impact.history` returns.
+
+    Raises
+    ------
+    InputError
+        If the dataset is another one.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+    >>> len(carom.plots.plot_radii(hit.history(50)).axes)
+    1
+    """
     return _single(dataset, radii_panel)
 
 

@@ -68,6 +68,11 @@ def plot_laws(dataset: "xr.Dataset") -> Figure:
     dataset : xarray.Dataset
         What `carom.verify.rank(...).to_dataset()` returns.
 
+    Raises
+    ------
+    InputError
+        If the dataset is another one.
+
     Examples
     --------
     >>> import carom

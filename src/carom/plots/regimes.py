@@ -56,6 +56,16 @@ def plot_curve(dataset: "xr.Dataset") -> Figure:
     Of a single chi the regimes are bands, told by how the impact begins; of several, marks on the
     lines are the borders. Curves of impacts with losses have none.
 
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        What `carom.curve` returns.
+
+    Raises
+    ------
+    InputError
+        If the dataset is another one.
+
     Examples
     --------
     >>> import carom
@@ -133,6 +143,11 @@ def plot_regime_map(dataset: "xr.Dataset") -> Figure:
     ----------
     dataset : xarray.Dataset
         What `carom.curves.regime_map` returns.
+
+    Raises
+    ------
+    InputError
+        If the dataset is another one.
 
     Examples
     --------

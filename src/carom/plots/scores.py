@@ -44,6 +44,16 @@ def plot_score(dataset: "xr.Dataset") -> Figure:
     A rebound curve or velocities: psi_2 against psi_1, the regimes as bands. A history: forces and
     their errors against time, the phases of the exact impact as bands.
 
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        What `carom.verify.score(...).to_dataset()` returns.
+
+    Raises
+    ------
+    InputError
+        If the dataset is another one.
+
     Examples
     --------
     >>> import carom

@@ -1,5 +1,6 @@
 """What all figures share: sizes, fonts, colours and hatches, labels with units, storing."""
 
+import logging
 import textwrap
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -156,9 +157,29 @@ def new_figure(
 def save_figure(figure: Figure, path: str | Path) -> Path:
     """Store a figure as .png, .pdf or .svg; one that is there is replaced whole or not at all.
 
-    Raises InputError if the name ends otherwise or the file cannot be written.
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        What a function of this module or a result's `plot()` returns.
+    path : str or Path
+        A name that ends in .png, .pdf or .svg.
+
+    Raises
+    ------
+    InputError
+        If the name ends otherwise or the file cannot be written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import carom
+    >>> figure = carom.plots.plot_curve(carom.curve(1.44, [0.0, 1.0, 6.0]))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     carom.plots.save_figure(figure, folder + "/curve.png").name
+    'curve.png'
     """
     target = checked_output(path, FIGURES)
+    logging.getLogger("fontTools").setLevel(logging.ERROR)  # it doubts the dates of fonts
     with style():
         return replace_whole(target, lambda where: figure.savefig(where, dpi=DPI))
 

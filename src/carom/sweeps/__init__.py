@@ -13,6 +13,7 @@ from carom.quantities import InputError
 if TYPE_CHECKING:
     import xarray as xr
 
+    from carom.progress import Progress
     from carom.sweeps.blocks import Box, Values
     from carom.sweeps.designs import Design
     from carom.sweeps.evaluation import Problem
@@ -30,7 +31,7 @@ def sweep(
     resume: bool = False,
     scheduler: str | None = None,
     workers: int | None = None,
-    progress: bool | None = None,
+    progress: Progress = None,
 ) -> xr.Dataset:
     """Return many impacts as one dataset: those of a design, each with a status that explains it.
 
@@ -55,8 +56,9 @@ def sweep(
         the same versions of carom, numpy and numba.
     workers : int, optional
         Threads of this process, by default one for each core.
-    progress : bool, optional
-        Show a bar on stderr once two seconds have passed; by default if that is a terminal.
+    progress : bool or callable, optional
+        Whether a bar is shown once two seconds have passed, by default in a notebook and on a
+        terminal; or what is called with the points done and their number.
 
     Returns
     -------
@@ -92,17 +94,17 @@ def sweep(
 
 
 def _fill(
-    record: Record, total: int, results: Iterable[tuple[Box, Values]], progress: bool | None
+    record: Record, total: int, results: Iterable[tuple[Box, Values]], progress: Progress
 ) -> None:
     """Write blocks as they come, and show how far it is."""
-    from carom.progress import progress_bar
+    from carom.progress import advancing
     from carom.sweeps.blocks import points
 
     left = sum(points(box) for box in record.todo)
-    with progress_bar("points", total, total - left, progress) as bar:
+    with advancing("sweep", total, progress, unit="points", done=total - left) as advance:
         for box, values in results:
             record.write(box, values)
-            bar.update(points(box))
+            advance(points(box))
 
 
 def _record(

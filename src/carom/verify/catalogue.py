@@ -20,7 +20,24 @@ from carom.quantities import nearest, refusal
 
 
 class Entry(NamedTuple):
-    """A law with its parameters, and who uses it so."""
+    """A law with its parameters, and who uses it so.
+
+    Parameters
+    ----------
+    label : str
+        What it is called in tables.
+    law : Law
+        A contact law, e.g. `carom.LinearSpring()`.
+    used_by : str
+        Programs, in a few words.
+
+    Examples
+    --------
+    >>> import carom
+    >>> stiff = carom.verify.Entry("stiff", carom.LinearSpring(1.0), "nobody")
+    >>> carom.verify.rank([stiff], psi=[1.0]).standings[0].entry.label
+    'stiff'
+    """
 
     label: str
     law: Law

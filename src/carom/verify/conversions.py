@@ -40,6 +40,13 @@ def stiffnesses(pair: Pair, normal_speed: float | str) -> Stiffnesses:
     k_n = (4/5) P_max/d_max (the energy of the impact presses it to d_max, as LIGGGHTS's hooke has
     it), or k_n = m_n (pi/t_c)^2; k_t/k_n = kappa = G*/E* (Mindlin 1949).
 
+    Parameters
+    ----------
+    pair : Pair
+        The bodies.
+    normal_speed : float or str
+        V_1 in m/s, positive.
+
     Raises
     ------
     InputError
@@ -70,11 +77,19 @@ def stiffnesses(pair: Pair, normal_speed: float | str) -> Stiffnesses:
 
 
 def poisson_from_kappa(kappa: float) -> float:
-    """Return Poisson's ratio of equal materials: kappa = 2 (1 - nu)/(2 - nu), solved for nu.
+    """Return Poisson's ratio of equal materials: kappa = 2 (1 - nu)/(2 - nu) (Mindlin 1949) for nu.
 
     Above 1/2 there is no elastic material: kappa is from 2/3 to 4/3.
 
-    Raises InputError unless kappa is positive and below 2.
+    Parameters
+    ----------
+    kappa : float
+        G*/E*, positive and below 2.
+
+    Raises
+    ------
+    InputError
+        If it is out of range.
 
     Examples
     --------
@@ -103,6 +118,13 @@ def damping(restitution: float, convention: str = "critical") -> float:
     & Elliott 2011); lammps tsuji: alpha of Tsuji et al. (1992); thornton: of a contact that ends
     when its force does (Thornton, Cummins & Cleary 2013, (B6), (B7)).
 
+    Parameters
+    ----------
+    restitution : float
+        e, above 0 and at most 1.
+    convention : str
+        "critical", "lammps tsuji" or "thornton".
+
     Raises
     ------
     InputError
@@ -123,6 +145,13 @@ def damping(restitution: float, convention: str = "critical") -> float:
 
 def restitution(value: float, convention: str = "critical") -> float:
     """Return the restitution that a code's damping is meant for: the inverse of `damping`.
+
+    Parameters
+    ----------
+    value : float
+        The damping, not negative.
+    convention : str
+        As of `damping`.
 
     Raises
     ------
@@ -177,7 +206,10 @@ def recipes(
     spring, mindlin : LinearSpring, LammpsMindlin
         Tangential stiffnesses, e.g. those that `tune` has found; by default those of the bodies.
 
-    Raises InputError as `stiffnesses` and `damping`.
+    Raises
+    ------
+    InputError
+        If `stiffnesses` or `damping` refuses a value.
 
     Examples
     --------

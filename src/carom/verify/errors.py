@@ -137,6 +137,17 @@ def force_error(law: Law, psi: float, chi: float, *, kappa: float | None = None)
     (F_x - F_x,exact)/(mu P_max), both forces at the same part of their own contact's duration, as a
     linear contact lasts longer than Hertz's. NaN for a law without a duration.
 
+    Parameters
+    ----------
+    law : Law
+        A contact law, e.g. `carom.LinearSpring()`.
+    psi : float
+        Incidence psi_1.
+    chi : float
+        (kappa/2)(m_n/m_t), positive.
+    kappa : float, optional
+        G*/E*; by default that of solid spheres, 4 chi/7.
+
     Raises
     ------
     InputError

@@ -1,7 +1,7 @@
 """A DEM program on the bench: its impacts against the exact answer, law by law."""
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -14,6 +14,7 @@ from carom.cases import case_of
 from carom.dimensionless.rebounds import rebound
 from carom.laws.dem import ContactLaw, Law
 from carom.pairs import Pair
+from carom.progress import Progress, advancing
 from carom.quantities import InputError, refusal
 from carom.readings import CASE
 from carom.verify.catalogue import CATALOGUE, Entry, as_entry
@@ -103,7 +104,7 @@ def bench(
     psi: ArrayLike = INCIDENCES,
     steps: int = STEPS,
     time_limit: float = 120.0,
-    progress: Callable[[int, int], object] | None = None,
+    progress: Progress = None,
 ) -> Bench:
     """Return how far a DEM program is from the exact impact with each law that it has.
 
@@ -121,8 +122,9 @@ def bench(
         Time steps per duration of Hertz's contact.
     time_limit : float
         Seconds for each run of the program.
-    progress : callable, optional
-        Called with the laws done so far and their number.
+    progress : bool or callable, optional
+        Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
+        what is called with the laws done so far and their number.
 
     Raises
     ------
@@ -143,28 +145,28 @@ def bench(
     slow = (OVERLAP * bodies.effective_radius / bodies.scales(1.0).length) ** 1.25
     speed = psis * bodies.scales(slow).tangential_speed
     version, measured, outcomes = "", [], {}
-    for done, entry in enumerate(known, start=1):
-        assert isinstance(entry.law, ContactLaw)
-        experiment = Experiment(
-            pair=bodies,
-            law=entry.law,
-            normal_speed=slow,
-            tangential_speed=tuple(speed.tolist()),
-            steps=steps,
-        )
-        try:
-            found = run(engine, experiment, time_limit=time_limit)
-        except EngineError as error:
-            measured.append(Measured(entry, *(np.nan,) * 5, str(error)))
-            if isinstance(error, EngineKilled):
-                measured += [Measured(e, *(np.nan,) * 5, "not run") for e in known[done:]]
-                break
-        else:
-            version = found.version
-            outcomes[entry.label] = (experiment, found.outcomes)
-            measured.append(_measured(entry, experiment, found.outcomes, found.seconds))
-        if progress is not None:
-            progress(done, len(known))
+    with advancing(engine.name, len(known), progress, unit="laws") as advance:
+        for done, entry in enumerate(known, start=1):
+            assert isinstance(entry.law, ContactLaw)
+            experiment = Experiment(
+                pair=bodies,
+                law=entry.law,
+                normal_speed=slow,
+                tangential_speed=tuple(speed.tolist()),
+                steps=steps,
+            )
+            try:
+                found = run(engine, experiment, time_limit=time_limit)
+            except EngineError as error:
+                measured.append(Measured(entry, *(np.nan,) * 5, str(error)))
+                if isinstance(error, EngineKilled):
+                    measured += [Measured(e, *(np.nan,) * 5, "not run") for e in known[done:]]
+                    break
+            else:
+                version = found.version
+                outcomes[entry.label] = (experiment, found.outcomes)
+                measured.append(_measured(entry, experiment, found.outcomes, found.seconds))
+            advance(1)
     ordered = sorted(measured, key=lambda one: (one.failure is not None, one.max_error))
     return Bench(
         engine.name, version, bodies, tuple(psis.tolist()), steps, tuple(ordered), outcomes

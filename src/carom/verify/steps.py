@@ -34,6 +34,19 @@ def step_error(
     max |psi_2(steps) - psi_2(converged)|; the time step is t_c/steps, t_c the duration of Hertz's
     contact.
 
+    Parameters
+    ----------
+    law : Law
+        A contact law, e.g. `carom.LinearSpring()`.
+    steps : int
+        Time steps per t_c, 10 at least.
+    psi : array_like
+        Incidences psi_1.
+    chi : float
+        (kappa/2)(m_n/m_t), positive.
+    kappa : float, optional
+        G*/E*; by default that of solid spheres, 4 chi/7.
+
     Raises
     ------
     InputError
@@ -64,6 +77,19 @@ def advised_steps(
 
     The error of twice as many steps must be within it, too; numbers are tried in steps of sqrt 2.
     None if two million do not suffice, or the law has no limit.
+
+    Parameters
+    ----------
+    law : Law
+        A contact law, e.g. `carom.LinearSpring()`.
+    allowed : float
+        Largest |error in psi_2| that the steps may cause.
+    psi : array_like
+        Incidences psi_1.
+    chi : float
+        (kappa/2)(m_n/m_t), positive.
+    kappa : float, optional
+        G*/E*; by default that of solid spheres, 4 chi/7.
 
     Raises
     ------

@@ -21,6 +21,7 @@ from carom.laws.dem import (
     WaltonBraunLaw,
     YadeMindlin,
 )
+from carom.progress import Progress, advancing
 from carom.quantities import positive, refusal
 from carom.verify.errors import as_law, exact_rebound, incidences, solid_kappa
 from carom.verify.steps import Step, advised_steps
@@ -73,7 +74,18 @@ class Advice(NamedTuple):
 
 @dataclass(frozen=True)
 class Tuning:
-    """Laws as close to the exact rebound as they get, the best first; made by `tune`."""
+    """Laws as close to the exact rebound as they get, the best first; made by `tune`.
+
+    `span` holds the first and the last psi_1, `advice` a law each: its parameter, its value, the
+    errors in psi_2 before and after, and a time step.
+
+    Examples
+    --------
+    >>> import carom
+    >>> found = carom.verify.tune([carom.HardSphere(), carom.LinearSpring()], chi=1.4412)
+    >>> [round(one.max_error, 2) for one in found.advice]
+    [0.07, 0.3]
+    """
 
     chi: float
     kappa: float
@@ -81,8 +93,28 @@ class Tuning:
     advice: tuple[Advice, ...]
 
     def best(self, kind: type[AnyLaw]) -> AnyLaw | None:
-        """Return the law of a kind that comes closest, if there is one."""
+        """Return the law of a kind that comes closest, or None if there is none of that kind.
+
+        Parameters
+        ----------
+        kind : type
+            A class of laws, e.g. `carom.LinearSpring`.
+
+        Examples
+        --------
+        >>> import carom
+        >>> tuning = carom.verify.tune([carom.HardSphere()], chi=1.4412)
+        >>> round(tuning.best(carom.HardSphere).tangential_restitution, 2)
+        0.36
+        """
         return next((one.law for one in self.advice if isinstance(one.law, kind)), None)
+
+    def _repr_html_(self) -> str:
+        """Return a table for a notebook."""
+        from carom.notebooks import card
+
+        rows = {called(one.law): _told(one) for one in self.advice}
+        return card(f"Closest to the exact psi_2 at chi = {self.chi:g}", rows)
 
     def as_record(self) -> dict[str, Any]:
         """Return the advice as what JSON can hold."""
@@ -114,13 +146,13 @@ class Tuning:
 
 
 def tune(
-    laws: Sequence[Law] = TUNED,
+    laws: Law | Sequence[Law] = TUNED,
     *,
     chi: float,
     kappa: float | None = None,
     psi: ArrayLike | None = None,
     measure: str = "max",
-    progress: Callable[[int, int], object] | None = None,
+    progress: Progress = None,
 ) -> Tuning:
     """Return the parameters with which contact laws come closest to the exact rebound.
 
@@ -130,7 +162,7 @@ def tune(
 
     Parameters
     ----------
-    laws : sequence of Law
+    laws : Law or sequence of Law
         Laws of impact; all but the tuned parameter is kept.
     chi : float
         (kappa/2)(m_n/m_t), positive.
@@ -140,8 +172,9 @@ def tune(
         Incidences psi_1, by default 60 of them up to 4 chi, beyond which all impacts slide.
     measure : str
         "max" or "rms".
-    progress : callable, optional
-        Called with the laws done so far and their number.
+    progress : bool or callable, optional
+        Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
+        what is called with the laws done so far and their number.
 
     Raises
     ------
@@ -162,10 +195,11 @@ def tune(
         raise refusal("measure", measure, f"must be {' or '.join(MEASURES)}")
     exact = exact_rebound(psis, ratio)
     advice = []
-    for done, law in enumerate(laws, start=1):
-        advice.append(_advice(as_law(law), psis, exact, ratio, own, measure))
-        if progress is not None:
-            progress(done, len(laws))
+    laws = [laws] if isinstance(laws, Law) else laws
+    with advancing("tuning", len(laws), progress, unit="laws") as advance:
+        for law in laws:
+            advice.append(_advice(as_law(law), psis, exact, ratio, own, measure))
+            advance(1)
     errors = [getattr(one, f"{measure}_error") for one in advice]
     ordered = [advice[i] for i in np.argsort(errors, kind="stable")]  # NaN last
     return Tuning(ratio, own, (float(psis.min()), float(psis.max())), tuple(ordered))
@@ -242,6 +276,13 @@ def _record(one: Advice) -> dict[str, Any]:
         "steps": one.step.steps if one.step else None,
         "step_error": one.step.error if one.step else None,
     }
+
+
+def _told(one: Advice) -> str:
+    error = f"|error in psi_2| {one.max_error:.3f}"
+    if one.value is None:
+        return error
+    return f"{one.parameter} {one.value:.4g}: {error}, {one.before:.3f} before"
 
 
 def _stepped(step: Step | None) -> str:

@@ -89,8 +89,6 @@ def _run(
     as_json: bool,
 ) -> None:
     from carom.cases import pair_of, read_case
-    from carom.cli.compiling import announced
-    from carom.cli.progress import bar
     from carom.quantities import InputError, positive
     from carom.storage import checked_output
     from carom.verify.catalogue import named
@@ -100,15 +98,13 @@ def _run(
         checked_output(output, (".csv",))
         if law is None:
             raise InputError("output: needs one --law, e.g. --law mindlin: results are of one")
-    with announced(), bar(engine.name) as progress:
-        found = bench(
-            engine,
-            named(law),
-            pair=None if case is None else pair_of(read_case(case)),
-            steps=steps,
-            time_limit=positive("time_limit", time_limit),
-            progress=progress,
-        )
+    found = bench(
+        engine,
+        named(law),
+        pair=None if case is None else pair_of(read_case(case)),
+        steps=steps,
+        time_limit=positive("time_limit", time_limit),
+    )
     if output is not None and not found.failed:
         _store(found, output)
     typer.echo(json.dumps(found.as_record(), indent=2) if as_json else str(found))

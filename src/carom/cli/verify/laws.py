@@ -38,9 +38,7 @@ def laws_command(
 
     One law for all solid spheres: carom verify laws --law mindlin --map mindlin.png
     """
-    from carom.cli.compiling import announced
     from carom.cli.files import refuse_same
-    from carom.cli.progress import bar
     from carom.quantities import InputError, finite, positive
     from carom.storage import FIGURES, TABLES, checked_output, save
     from carom.verify.catalogue import named
@@ -57,10 +55,7 @@ def laws_command(
             checked_output(path, endings)
     incidences = INCIDENCES if not psi else tuple(finite("psi_in", value) for value in psi)
     ratio = None if kappa is None else positive("kappa", kappa)
-    with announced(), bar("laws") as progress:
-        ranking = rank(
-            named(law), chi=positive("chi", chi), kappa=ratio, psi=incidences, progress=progress
-        )
+    ranking = rank(named(law), chi=positive("chi", chi), kappa=ratio, psi=incidences)
     if output is not None:
         typer.echo(f"stored {save(ranking, output)}", err=True)
     if plot is not None:

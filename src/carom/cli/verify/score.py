@@ -40,7 +40,6 @@ def score_command(
 
     Velocities or forces: carom verify score results.csv --case examples/steel_ball.toml
     """
-    from carom.cli.compiling import announced
     from carom.cli.files import refuse_same
     from carom.storage import FIGURES, TABLES, checked_output, save
     from carom.verify.scoring import score
@@ -49,13 +48,12 @@ def score_command(
     for path, endings in ((plot, FIGURES), (output, TABLES)):
         if path is not None:
             checked_output(path, endings)
-    with announced():
-        result = score(results, case=case, chi=chi, tolerance=tolerance)
-        if output is not None:
-            typer.echo(f"stored {save(result, output)}", err=True)
-        if plot is not None:
-            result.plot(plot)
-            typer.echo(f"stored {plot}", err=True)
+    result = score(results, case=case, chi=chi, tolerance=tolerance)
+    if output is not None:
+        typer.echo(f"stored {save(result, output)}", err=True)
+    if plot is not None:
+        result.plot(plot)
+        typer.echo(f"stored {plot}", err=True)
     typer.echo(json.dumps(result.as_record(), indent=2) if as_json else str(result))
     if not result.passed:
         raise typer.Exit(1)

@@ -42,20 +42,16 @@ def tune_command(
 
     Without bodies: carom verify tune --chi 1.4412
     """
-    from carom.cli.compiling import announced
-    from carom.cli.progress import bar
     from carom.verify.setting import setting_of
     from carom.verify.tuning import tune
 
     setting = setting_of(case, chi, kappa, start, stop, restitution)
-    with announced(), bar("laws") as progress:
-        tuning = tune(
-            chi=setting.chi,
-            kappa=setting.kappa,
-            psi=setting.psi,
-            measure=measure,
-            progress=progress,
-        )
+    tuning = tune(
+        chi=setting.chi,
+        kappa=setting.kappa,
+        psi=setting.psi,
+        measure=measure,
+    )
     given = {"normal_speed": setting.normal_speed, "duration": setting.duration}
     record = tuning.as_record() | {"inputs": _inputs(setting, tuning)} | given
     typer.echo(json.dumps(record, indent=2) if as_json else _text(tuning, record))

@@ -6,7 +6,7 @@ window.dash_clientside.controls = {
     names.forEach((name, place) => {
       const value = values[place];
       if (Array.isArray(value)) value.forEach((each) => found.append(name, each));
-      else found.append(name, value ?? "");
+      else found.append(name, Number.isNaN(value) ? "" : (value ?? ""));
     });
     return found.toString();
   },
@@ -16,7 +16,7 @@ window.dash_clientside.controls = {
     const same = window.dash_clientside.no_update;
     const moved = window.dash_clientside.callback_context.triggered_id ?? "";
     if (String(moved).endsWith("-slider")) return [Number(slider), same];
-    return [same, number ?? same];
+    return [same, Number.isFinite(number) ? number : same];
   },
 
   accept(contents, name, largest) {

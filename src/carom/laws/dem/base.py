@@ -119,9 +119,26 @@ class ContactLaw(Law):
     ) -> dict[str, Array]:
         """Return what happens in equal time steps, in the units of Hertz's impact.
 
-        Columns: time, penetration, normal_velocity, psi, normal_force, tangential_force.
+        Parameters
+        ----------
+        psi : float
+            psi_1 = kappa V_x/(mu V_1) before.
+        chi : float
+            (kappa/2)(m_n/m_t), positive.
+        kappa : float, optional
+            G*/E*, by default that of solid spheres, 4 chi/7.
+        steps : int
+            Equal time steps that the elastic impact takes, as the codes do it.
 
-        Raises InputError if a value is out of range, or the bodies do not part.
+        Returns
+        -------
+        dict
+            Arrays by name: time, penetration, normal_velocity, psi, normal_force, tangential_force.
+
+        Raises
+        ------
+        InputError
+            If a value is out of range, or the bodies do not part.
 
         Examples
         --------

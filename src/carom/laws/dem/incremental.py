@@ -39,7 +39,8 @@ class WaltonBraunLaw(ContactLaw):
     """Walton & Braun's law: a normal spring that unloads stiffer, a tangential one that softens.
 
     F_n = K_1 d while loading, K_1/e^2 (d - d_p) while unloading; dT = K_0 (1 - (T - T*)/(mu N -
-    T*))^(1/3) dU, T* the last turning point, mirrored for dU < 0 and in proportion to N.
+    T*))^(1/3) dU, T* the last turning point, mirrored for dU < 0 and in proportion to N (Walton &
+    Braun 1986, J. Rheol. 30:949).
 
     Parameters
     ----------

@@ -150,6 +150,16 @@ class LiggghtsHertz(ContactLaw):
 class EdemHertzMindlin(LiggghtsHertz):
     """EDEM, Hertz-Mindlin (no slip): F_t = k_t(a) U and dampings as LIGGGHTS, their sum limited.
 
+    Parameters
+    ----------
+    restitution : float
+        e, above 0 and at most 1, which sets the damping.
+
+    Raises
+    ------
+    InputError
+        If it is out of range.
+
     Examples
     --------
     >>> import carom

@@ -129,7 +129,8 @@ class HertzLinearHistory(ContactLaw):
 class StrongeLaw(ContactLaw):
     """Bilinear compliance: a normal spring that unloads stiffer, a linear tangential one beside it.
 
-    F_n = k_n d while loading, k_n/e^2 (d - d_p) while unloading; F_t = k_t U, |F_t| <= mu F_n.
+    F_n = k_n d while loading, k_n/e^2 (d - d_p) while unloading; F_t = k_t U, |F_t| <= mu F_n
+    (Stronge 2000, Impact Mechanics, chapter 5).
 
     Parameters
     ----------

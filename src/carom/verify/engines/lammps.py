@@ -32,6 +32,11 @@ class Lammps(Program):
     psi_2 (measured up to psi_1 = 6 at mu = 0.2): let spheres meet slowly. The release of 29
     Sep 2021 lacks damping by coeff_restitution.
 
+    Parameters
+    ----------
+    path : str or Path, optional
+        The executable.
+
     Examples
     --------
     >>> import carom

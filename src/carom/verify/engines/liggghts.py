@@ -69,6 +69,11 @@ class Liggghts(Program):
     The contact point of LIGGGHTS lies at R - d/2 from the centre, which costs a few d/R of psi_2:
     impacts at low speed are the sharper test. It asks for a restitution above 0.05.
 
+    Parameters
+    ----------
+    path : str or Path, optional
+        The executable, by default the one on the PATH.
+
     Examples
     --------
     >>> from carom.laws.dem import LammpsMindlin, LiggghtsHertz

@@ -102,6 +102,11 @@ class Yade(Program):
     HertzWithLinearShear with nonLin = 1 is the same law; with nonLin = 0, its default, k_t does not
     follow from the contact at all. MindlinDeresiewitz never sets a shear force: psi_2 = psi_1.
 
+    Parameters
+    ----------
+    path : str or Path, optional
+        The executable, by default the one on the PATH.
+
     Examples
     --------
     >>> from carom.laws.dem import LammpsMindlin, YadeMindlin

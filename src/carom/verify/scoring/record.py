@@ -6,7 +6,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from carom.results import Finding
+from carom.citations import IMPACT, bibtex
+from carom.results import MARKS, Finding
 from carom.verify.scoring.forces import Forces
 from carom.verify.scoring.points import Group, Points
 
@@ -21,6 +22,14 @@ class Score:
 
     Results pass if no psi_2 is off by more than the tolerance, and every finding of the audit
     holds; all are in units of psi, forces in those of the largest, mu P_max and P_max.
+
+    Examples
+    --------
+    >>> import carom
+    >>> psi = [0.5, 1.0, 2.0]
+    >>> score = carom.verify.score({"psi_1": psi, "psi_2": carom.rebound(psi, 1.44)}, chi=1.44)
+    >>> score.passed, score.max_error
+    (True, 0.0)
     """
 
     kind: str
@@ -78,6 +87,19 @@ class Score:
 
         return as_record(self)
 
+    def _repr_html_(self) -> str:
+        """Return a table and a picture for a notebook."""
+        from carom.notebooks import card
+        from carom.verify.scoring.report import verdict
+
+        rows = {group.name: f"{group.max_error:.3g}" for group in (self.overall, *self.groups)}
+        findings = "\n".join(f"{MARKS[f.holds]} {f.name} = {f.value:.3g}" for f in self.audit)
+        return card(verdict(self), rows, self.plot(), findings)
+
+    def cite(self) -> str:
+        """Return what to cite for the exact answer, as BibTeX."""
+        return bibtex(*IMPACT)
+
     def to_dataset(self) -> "xr.Dataset":
         """Return the score as one dataset: points along `point`, a history along `time`."""
         from carom.verify.scoring.datasets import score_dataset
@@ -85,7 +107,26 @@ class Score:
         return score_dataset(self)
 
     def plot(self, path: str | Path | None = None) -> "Figure":
-        """Draw the results, the exact answer and the errors; with a path, store the figure."""
+        """Draw the results, the exact answer and the errors.
+
+        Parameters
+        ----------
+        path : str or Path, optional
+            Where the figure is stored, too: .png, .pdf or .svg.
+
+        Raises
+        ------
+        InputError
+            If the name ends otherwise or the file cannot be written.
+
+        Examples
+        --------
+        >>> import carom
+        >>> psi = [0.5, 1.0, 2.0]
+        >>> score = carom.verify.score({"psi_1": psi, "psi_2": carom.rebound(psi, 1.44)}, chi=1.44)
+        >>> len(score.plot().axes)
+        2
+        """
         from carom.plots.scores import plot_score
         from carom.plots.style import save_figure
 

@@ -1,0 +1,109 @@
+"""How long the page of `carom explore` waits for an answer, over random moves of its sliders.
+
+python benchmarks/explorer.py            medians and 95 % of each kind of view
+python benchmarks/explorer.py --smoke    a quick pass through the same code
+"""
+
+import argparse
+import http.client
+import json
+import threading
+import time
+from urllib.parse import urlencode, urlsplit
+
+import numpy as np
+
+from carom.explorer import explorer
+
+SEED = 20261122
+LAWS = ("mindlin", "YADE Mindlin", "Walton & Braun")
+BODIES = {"given": "bodies", "material": "steel", "against": "half-space", "radius": 5.0}
+NUMBERS = {"given": "numbers"}
+KINDS = {
+    "bodies": (BODIES, (), False),
+    "three laws, other bodies each time": (BODIES, LAWS, True),
+    "three laws, the same bodies": (BODIES, LAWS, False),
+    "numbers": (NUMBERS, (), False),
+}
+
+
+class Page:
+    """What the browser sends when a control moves, on one connection."""
+
+    def __init__(self, url: str) -> None:
+        self._line = http.client.HTTPConnection(urlsplit(url).netloc)
+        view = [{"id": "view", "property": "data"}]
+        known = json.loads(self._ask("GET", "/_dash-dependencies"))
+        self._output = next(
+            each["output"]
+            for each in known
+            if each["inputs"] == view and "results" in each["output"]
+        )
+
+    def answer(self, query: str) -> bytes:
+        """Return the answer to a view."""
+        names = self._output.strip(".").split("...")
+        outputs = [
+            dict(zip(("id", "property"), name.rsplit(".", 1), strict=True)) for name in names
+        ]
+        asked = {
+            "output": self._output,
+            "outputs": [{**each, "property": each["property"].split("@")[0]} for each in outputs],
+            "inputs": [{"id": "view", "property": "data", "value": query}],
+            "changedPropIds": ["view.data"],
+        }
+        found = self._ask("POST", "/_dash-update-component", json.dumps(asked))
+        assert b"scene" in found, found
+        return found
+
+    def _ask(self, method: str, path: str, body: str | None = None) -> bytes:
+        self._line.request(method, path, body, {"Content-Type": "application/json"})
+        answer = self._line.getresponse()
+        content = answer.read()
+        assert answer.status == 200, content
+        return content
+
+
+def moved(start: dict, laws: tuple[str, ...], bodies: bool, random: np.random.Generator) -> str:
+    """Return the query of a view with its sliders somewhere."""
+    sliders = {
+        "angle": round(random.uniform(0.0, 89.0), 2),
+        "speed": round(random.uniform(0.05, 10.0), 2),
+        "spin": round(random.uniform(-1000.0, 1000.0)),
+        "friction": round(random.uniform(0.05, 1.0), 3),
+        "psi": round(random.uniform(0.0, 10.0), 2),
+        "chi": round(random.uniform(0.5, 3.0), 3),
+    }
+    if bodies:
+        sliders |= {"against": "sphere", "second_radius": round(random.uniform(1.0, 50.0), 3)}
+        sliders |= {"second_material": random.choice(["brass", "pmma", "alumina", "rubber"])}
+    return urlencode([*(start | sliders).items(), *(("law", law) for law in laws)])
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--smoke", action="store_true", help="only to see that it runs")
+    moves = 5 if parser.parse_args().smoke else 200
+    served = explorer(port=0)
+    serving = threading.Thread(target=served.serve)
+    serving.start()
+    try:
+        page, random = Page(served.url), np.random.default_rng(SEED)
+        for kind, (start, laws, bodies) in KINDS.items():
+            times, sizes = [], []
+            for _ in range(moves):
+                query = moved(start, laws, bodies, random)
+                begin = time.perf_counter()
+                sizes.append(len(page.answer(query)))
+                times.append(1e3 * (time.perf_counter() - begin))
+            middle, most = np.percentile(times, [50, 95])
+            size = np.mean(sizes) / 1e3
+            print(f"{kind:36s} {middle:6.1f} ms, 95 % within {most:6.1f} ms; {size:5.0f} kB")
+    finally:
+        served.stop()
+        serving.join()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,74 @@
+"""A fitted parameter: value, interval, or why there is none."""
+
+from dataclasses import dataclass
+from math import floor, inf, isfinite, isnan, log10, nan
+
+LIMITS = {  # what a parameter can be at all
+    "friction": (0.0, inf),
+    "kappa": (0.0, inf),
+    "chi": (0.0, inf),
+    "restitution": (0.0, 1.0),
+    "tangential_restitution": (-1.0, 1.0),
+    "spin_offset": (-inf, inf),
+}
+UNITS = {"spin_offset": "rad/s"}
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A parameter: its value, the ends of its interval, and why there is none if so.
+
+    An end that the data leave open is that of what is possible: 0, 1, infinity. An undetermined
+    parameter has NaN as ends, a reason, and as value what was assumed; one that was not varied has
+    NaN as ends and no reason.
+
+    Examples
+    --------
+    >>> str(Estimate("friction", 0.0921, 0.0914, 0.0928))
+    '0.0921 (0.0914 to 0.0928)'
+    """
+
+    name: str
+    value: float
+    low: float = nan
+    high: float = nan
+    reason: str = ""
+
+    @property
+    def determined(self) -> bool:
+        """Whether there is an interval, be it with an open end."""
+        return not isnan(self.low)
+
+    @property
+    def open(self) -> bool:
+        """Whether an end is open."""
+        lowest, highest = LIMITS[self.name]
+        return self.determined and (self.low == lowest or self.high == highest)
+
+    def __str__(self) -> str:
+        lowest, highest = LIMITS[self.name]
+        unit = f" {UNITS[self.name]}" if self.name in UNITS else ""
+        if self.reason:
+            return f"not determined: {self.reason}"
+        if not self.determined:
+            return f"{self.value:.4g}{unit}, held"
+        if self.low == lowest:
+            return f"{self.value:.4g}{unit}, at most {self.high:.4g}{unit}"
+        if self.high == highest:
+            return f"{self.value:.4g}{unit}, at least {self.low:.4g}{unit}"
+        digits = significant(self.value, self.high - self.low)
+        low, value, high = (f"{each:.{digits}g}" for each in (self.low, self.value, self.high))
+        return f"{value}{unit} ({low} to {high})"
+
+
+def significant(value: float, width: float) -> int:
+    """Return how many digits of a value to show, two of the width of its interval.
+
+    Examples
+    --------
+    >>> significant(0.0921, 0.0014), significant(-3.0, 40.0)
+    (3, 2)
+    """
+    if not (isfinite(width) and width > 0.0 and value):
+        return 4
+    return max(2, min(8, 2 + floor(log10(abs(value))) - floor(log10(width))))

@@ -1,0 +1,120 @@
+"""The page for everyone: by keys alone, heard, on a small screen, in the dark, from one host."""
+
+import pytest
+
+pytestmark = pytest.mark.browser
+CONTROLS = (
+    *("link", "copy", "theme", "play", "time", "pace", "upload-button"),
+    *("angle", "speed", "spin", "friction", "radius", "material", "against", "second_material"),
+    *("angle-slider", "speed-slider", "spin-slider", "friction-slider", "data"),
+    *("history-csv", "history-nc", "history-png", "patch-png", "view-py"),
+)
+FOCUSED = """() => {
+  const at = document.activeElement;
+  const near = [at, at.parentElement, at.parentElement && at.parentElement.parentElement];
+  const marked = near.some(each => each && (style => style.outlineStyle !== 'none'
+    && parseFloat(style.outlineWidth) >= 1)(getComputedStyle(each)));
+  const inside = at.closest('.dash-dropdown-wrapper');
+  const button = inside && inside.querySelector('button');
+  return { id: at.id || (button && button.id) || at.name || at.innerText || at.className,
+    tag: at.tagName, marked };
+}"""
+CONTRASTS = """() => {
+  const parse = text => text.match(/[\\d.]+/g).map(Number);
+  const light = rgb => rgb.slice(0, 3).map(v => v / 255)
+    .map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+    .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+  const ground = at => { for (; at; at = at.parentElement) {
+    const found = parse(getComputedStyle(at).backgroundColor);
+    if (found.length === 3 || found[3] > 0.99) return found; } return [255, 255, 255]; };
+  const words = at => [...at.childNodes].some(n => n.nodeType === 3 && n.textContent.trim());
+  return [...document.querySelectorAll('#page *')]
+    .filter(at => at.checkVisibility() && words(at) && !at.closest('svg'))
+    .map(at => { const [a, b] = [light(parse(getComputedStyle(at).color)), light(ground(at))];
+      return { text: at.textContent.trim().slice(0, 30),
+        ratio: (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05) }; });
+}"""
+
+
+def test_every_control_is_reached_by_tab_and_seen(visit):
+    seen, reached = visit(), {}
+    for _ in range(150):
+        seen.page.keyboard.press("Tab")
+        at = seen.page.evaluate(FOCUSED)
+        if at["tag"] == "BODY":
+            break
+        reached[at["id"]] = at["marked"]
+    assert [name for name in CONTROLS if name not in reached] == []
+    assert [name for name, marked in reached.items() if not marked] == []
+
+
+@pytest.mark.parametrize("query", ["", "?given=numbers&against=sphere&data=kharaz2001"])
+def test_every_control_has_a_name(visit, query):
+    """As the browser tells a screen reader."""
+    seen = visit(query)
+    asked = seen.page.context.new_cdp_session(seen.page)
+    nodes = asked.send("Accessibility.getFullAXTree")["nodes"]
+    roles = ("button", "slider", "textbox", "spinbutton", "combobox", "link", "radio", "checkbox")
+    found = [node for node in nodes if node.get("role", {}).get("value") in roles]
+    assert len(found) >= 30
+    nameless = [node["role"]["value"] for node in found if not node["name"]["value"].strip()]
+    assert nameless == []
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_words_stand_out(visit, theme):
+    seen = visit(f"?theme={theme}&angle=95&data=kharaz2001")
+    seen.until(lambda: "friction" in seen.page.inner_text("#fit"))
+    found = seen.page.evaluate(CONTRASTS)
+    assert len(found) > 50
+    assert [each for each in found if each["ratio"] < 4.5] == []
+
+
+def test_dark_and_light(visit):
+    """As the system is, as the link says, and as the button says: auto, light, dark in turn."""
+    body = "getComputedStyle(document.body).backgroundColor"
+    grounds = {scheme: visit(scheme=scheme).page.evaluate(body) for scheme in ("light", "dark")}
+    assert grounds["light"] != grounds["dark"]
+    seen = visit("?theme=dark")
+    assert seen.page.evaluate(body) == grounds["dark"]
+    drawn = seen.pixels("stage")
+    for choice, ground in (("auto", "light"), ("light", "light"), ("dark", "dark")):
+        seen.page.click("#theme")
+        seen.until(lambda choice=choice: choice in seen.page.inner_text("#theme"))
+        assert seen.page.evaluate(body) == grounds[ground]
+        seen.until(lambda same=ground == "dark": (seen.pixels("stage") == drawn) == same)
+    text = "getComputedStyle(document.querySelector('#forces .xtitle')).fill"
+    assert seen.page.evaluate(text) == seen.page.evaluate("getComputedStyle(document.body).color")
+
+
+@pytest.mark.parametrize("width", [400, 1280])
+def test_nothing_is_wider_than_the_screen(visit, width):
+    query = "?data=kharaz2001&law=mindlin&law=Walton+%26+Braun&against=sphere&angle=53.75"
+    seen = visit(query, width=width)
+    seen.until(lambda: "friction" in seen.page.inner_text("#fit"))
+    assert seen.page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def test_a_small_screen_can_be_used(visit):
+    seen = visit(width=400)
+    if not seen.page.is_visible("#angle"):
+        seen.page.locator(".carom-controls summary").first.click()
+    slider = seen.page.locator("#angle-slider")
+    slider.scroll_into_view_if_needed()
+    box = slider.bounding_box()
+    assert box["width"] > 150
+    assert box["height"] >= 20
+    before = seen.result("angle of rebound of the centres, from the normal")
+    seen.page.mouse.click(box["x"] + 0.75 * box["width"], box["y"] + 0.5 * box["height"])
+    seen.linked("angle=")
+    row = "angle of rebound of the centres, from the normal"
+    seen.until(lambda: seen.result(row) != before)
+    for name in ("stage", "patch", "forces", "rebounds"):
+        assert seen.page.locator(f"#{name}").bounding_box()["width"] > 300
+
+
+def test_the_header_forbids_other_hosts(visit):
+    policy = visit().response.headers["content-security-policy"]
+    assert "default-src 'self'" in policy
+    assert "*" not in policy
+    assert "http" not in policy

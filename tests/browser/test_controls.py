@@ -1,0 +1,107 @@
+"""What is set on the page is what the library solves."""
+
+import pytest
+
+import carom
+from carom.glossary import GLOSSARY
+
+pytestmark = pytest.mark.browser
+AFTER, BEFORE = GLOSSARY["psi_out"].meaning, GLOSSARY["psi_in"].meaning
+
+
+def steel(friction=0.2, **motion):
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=friction)
+    return carom.impact(pair, **({"speed": 2.0, "angle": "30 deg"} | motion))
+
+
+def shows(seen, hit):
+    """The table and the present point of the chart tell this impact."""
+    assert seen.number(BEFORE) == pytest.approx(hit.psi_in, rel=1e-5)
+    assert seen.number(AFTER) == pytest.approx(hit.psi_out, rel=1e-5)
+    point = seen.traces("rebounds")["this impact", "markers"]
+    assert point["x"] == pytest.approx([hit.psi_in], rel=1e-5)
+    assert point["y"] == pytest.approx([hit.psi_out], rel=1e-5)
+    return True
+
+
+def test_the_page_as_it_opens(visit):
+    seen, chi = visit(), steel().pair.chi
+    assert shows(seen, steel())
+    assert seen.link() == ""
+    assert seen.page.inner_text("#notice") == ""
+    exact = seen.traces("rebounds")["exact", "lines"]
+    assert len(exact["x"]) > 200
+    assert exact["y"] == pytest.approx(list(carom.rebound(exact["x"], chi)), abs=2e-5)
+
+
+def test_sliders_moved_by_keys(visit):
+    seen = visit()
+    motion, words = {"angle": 30.0, "friction": 0.2, "speed": 2.0, "spin": 0.0}, {}
+    moves = {"angle": (0.25, 3), "friction": (0.005, -2), "speed": (0.05, 2), "spin": (5.0, -4)}
+    for name, (step, presses) in moves.items():
+        seen.page.focus(f"#{name}-slider")
+        for _ in range(abs(presses)):
+            seen.page.keyboard.press("ArrowRight" if presses > 0 else "ArrowLeft")
+        motion[name] += step * presses
+        words[name] = f"{name}={motion[name]:g}"
+        seen.linked(words[name])
+        assert float(seen.page.input_value(f"#{name}")) == pytest.approx(motion[name])
+        hit = steel(**motion | {"angle": f"{motion['angle']} deg"})
+        seen.until(lambda hit=hit: shows(seen, hit))
+    assert sorted(seen.link().split("&")) == sorted(words.values())
+
+
+def test_numbers_typed_move_their_sliders(visit):
+    seen = visit()
+    seen.page.fill("#angle", "47.3")
+    seen.until(lambda: shows(seen, steel(angle="47.3 deg")))
+    assert float(seen.page.input_value("#angle-slider")) == pytest.approx(47.25)
+    assert float(seen.page.input_value("#angle")) == 47.3
+    seen.page.fill("#speed", "25")  # more than the slider has
+    seen.until(lambda: shows(seen, steel(angle="47.3 deg", speed=25.0)))
+    assert float(seen.page.input_value("#speed-slider")) == 10.0
+    assert float(seen.page.input_value("#speed")) == 25.0
+
+
+def test_numbers_that_cannot_be_are_told_in_a_line(visit):
+    seen = visit()
+    for name, typed, right in (
+        ("angle", "95", "30"),
+        ("friction", "-1", "0.2"),
+        ("radius", "", "5"),
+    ):
+        seen.page.fill(f"#{name}", typed)
+        notice = seen.until(lambda: seen.page.inner_text("#notice"))
+        assert notice.startswith(f"{name}: ")
+        assert "must be a number from" in notice
+        assert "\n" not in notice
+        assert shows(seen, steel())
+        seen.page.fill(f"#{name}", right)
+        seen.until(lambda: seen.page.inner_text("#notice") == "")
+
+
+def test_bodies_chosen_from_lists(visit):
+    seen = visit()
+    assert seen.page.is_hidden("#second_radius")
+    seen.choose("material", "brass")
+    seen.choose("against", "sphere")
+    seen.page.fill("#second_radius", "8")
+    seen.choose("second_material", "pmma")
+    first = carom.Sphere(radius="5 mm", material="brass")
+    second = carom.Sphere(radius="8 mm", material="pmma")
+    hit = carom.impact(carom.Pair(first, second, 0.2), speed=2.0, angle="30 deg")
+    seen.until(lambda: shows(seen, hit))
+
+
+def test_numbers_instead_of_bodies(visit):
+    seen = visit()
+    seen.page.get_by_role("radio", name="ψ₁ and χ").check(force=True)
+    seen.until(lambda: seen.page.is_visible("#psi"))
+    assert seen.page.is_hidden("#speed")
+    seen.page.focus("#chi-slider")
+    seen.page.keyboard.press("ArrowRight")
+    seen.linked("chi=1.445")
+    solved = carom.solve(1.5, 1.445)
+    seen.until(lambda: seen.number(AFTER) == pytest.approx(solved.psi_out, rel=1e-5))
+    assert seen.result(AFTER) != f"{carom.solve(1.5, 1.44).psi_out:.6g}"

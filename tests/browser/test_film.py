@@ -1,0 +1,166 @@
+"""The animation: a clock that runs and stops, pictures that follow it, a patch as the library's."""
+
+import json
+import re
+from urllib.parse import parse_qsl
+
+import numpy as np
+import pytest
+
+import carom
+
+pytestmark = pytest.mark.browser
+HIT = carom.impact(
+    carom.Pair(
+        carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), 0.2
+    ),
+    speed=2.0,
+    angle="30 deg",
+)
+MICROSECOND = 1e6
+
+
+def share(seen):
+    return float(seen.page.input_value("#time"))
+
+
+def told(seen):
+    """The time on the clock in µs, and the phase."""
+    number, _, phase = seen.page.inner_text("#clock").partition(" µs · ")
+    return float(number.replace("\N{MINUS SIGN}", "-")), phase.replace("\N{MINUS SIGN}", "-")
+
+
+def test_play_and_pause_by_keys(visit):
+    seen = visit("?time=0.1")
+    still = {name: seen.pixels(name) for name in ("stage", "patch")}
+    assert seen.page.get_by_role("button", name="Play", exact=True).count() == 1
+    seen.page.focus("#play")
+    seen.page.keyboard.press("Enter")
+    seen.until(lambda: seen.page.inner_text("#play") == "Pause")
+    seen.until(lambda: share(seen) > 0.3)
+    seen.page.keyboard.press("Space")
+    seen.until(lambda: seen.page.inner_text("#play") == "Play")
+    stopped = share(seen)
+    moved = {name: seen.pixels(name) for name in still}
+    assert all(moved[name] != still[name] for name in still)
+    seen.page.wait_for_timeout(400)
+    assert share(seen) == stopped
+    assert {name: seen.pixels(name) for name in still} == moved
+    linked = seen.until(lambda: dict(parse_qsl(seen.link())).get("time") != "0.1" and seen.link())
+    assert float(dict(parse_qsl(linked))["time"]) == pytest.approx(stopped, abs=0.0011)
+
+
+def test_the_pace_is_as_chosen(visit):
+    """The whole takes the seconds that are told: 2.2 durations in 10 s is 0.22 a second."""
+    seen = visit("?time=-0.6")
+    seen.choose("pace", "10 s")
+    seen.page.click("#play")
+    words = (
+        "() => new Promise(done => { const slider = document.getElementById('time');"
+        " const [at, when] = [Number(slider.value), performance.now()];"
+        " setTimeout(() => done(1000 * (Number(slider.value) - at) / (performance.now() - when)),"
+        " 1500); })"
+    )
+    assert seen.page.evaluate(words) == pytest.approx(0.22, rel=0.15)
+
+
+def test_the_clock_tells_time_and_phase(visit):
+    seen = visit()
+    for phase in HIT.phases:
+        middle = 0.5 * (phase.start + phase.end)
+        words = f"Carom.clock.set({middle / HIT.duration!r})"
+        seen.page.evaluate(words)
+        time = pytest.approx(middle * MICROSECOND, abs=0.051)
+        sign = {0: "", 1: " +", -1: " -"}[phase.sign]
+        seen.until(lambda time=time, name=phase.kind + sign: told(seen) == (time, name))
+    seen.page.focus("#time")
+    seen.page.keyboard.press("End")
+    seen.until(lambda: told(seen) == (pytest.approx(1.6 * HIT.duration * 1e6, abs=0.051), "after"))
+    seen.page.keyboard.press("Home")
+    seen.until(lambda: told(seen)[1] == "before")
+
+
+def test_the_cursor_stands_at_the_time_in_both_charts(visit):
+    """Where the line stands between the ticks of the time axis is the time."""
+    seen = visit("?time=0.8")
+    words = (
+        "id => { const chart = document.getElementById(id);"
+        " const middle = part => { const box = part.getBoundingClientRect();"
+        " return box.left + box.width / 2; };"
+        " const ticks = [...chart.querySelectorAll('.xtick text')];"
+        " const cursor = chart.closest('section').querySelector('.carom-cursor');"
+        " return [ticks.map(t => [Number(t.textContent), middle(t)]), middle(cursor)]; }"
+    )
+    for chart in ("forces", "energies"):
+        for at in (0.8, 0.2):
+            seen.page.evaluate(f"Carom.clock.set({at})")
+            seen.page.wait_for_timeout(100)
+            ticks, cursor = seen.page.evaluate(words, chart)
+            slope, offset = np.polyfit(*np.array(ticks).T[::-1], 1)
+            expected = at * HIT.duration * MICROSECOND
+            assert slope * cursor + offset == pytest.approx(expected, abs=2.0 * slope)
+
+
+def test_pointing_at_a_chart_sets_the_time(visit):
+    seen = visit()
+    box = seen.page.locator("#forces .nsewdrag").bounding_box()
+    seen.page.mouse.move(box["x"] + 0.25 * box["width"], box["y"] + 0.5 * box["height"])
+    seen.until(lambda: share(seen) == pytest.approx(0.25, abs=0.01))
+
+
+def test_forces_drawn_are_those_of_the_history(visit):
+    history = HIT.history(201)
+    seen = visit()
+    drawn = seen.traces("forces")["F_x", "lines"]
+    assert np.array(drawn["x"]) == pytest.approx(history["time"].values * 1e6, abs=1e-4)
+    force = history["tangential_force"].values
+    assert np.array(drawn["y"]) == pytest.approx(force, abs=1e-4 * np.abs(force).max())
+
+
+def test_the_zones_at_a_time(visit):
+    """Stick radius, contact radius and traction are the history's and the fields' of the time."""
+    seen = visit()
+    history = HIT.history(201)
+    for row in (30, 86, 100, 120, 140, 160):
+        at = seen.page.evaluate(f"Carom.scene.at({row / 200})")
+        for name in ("contact", "stick"):
+            radius = float(history[f"{name}_radius"][row]) / HIT.max_radius
+            assert at[name] == pytest.approx(radius, abs=2e-4), (name, row)
+        time = row / 200 * HIT.duration
+        edge = at["contact"] * HIT.max_radius
+        points = np.column_stack([np.linspace(0.0, edge, 33), np.zeros(33)])
+        field = HIT.fields(time, points=points)
+        expected = field["traction_x"].values / (HIT.pair.friction * HIT.max_pressure)
+        assert np.array(at["traction"]) == pytest.approx(expected, abs=0.03), row
+
+
+def test_a_circle_of_stick_is_drawn(visit):
+    """In pixels: the stick circle against the edge of the contact, by their own colours."""
+    seen = visit("?time=0.8&theme=light")
+    words = (
+        "() => { const canvas = document.getElementById('patch');"
+        " const style = getComputedStyle(document.documentElement);"
+        " const { width, height } = canvas;"
+        " const colors = ['stick', 'ink'].map(name => style.getPropertyValue(`--${name}`).trim());"
+        " return JSON.stringify({ width, height, colors,"
+        " data: Array.from(canvas.getContext('2d').getImageData(0, 0, width, height).data) }); }"
+    )
+    picture = json.loads(seen.page.evaluate(words))
+    pixels = np.array(picture["data"]).reshape(picture["height"], picture["width"], 4)
+    ink = {}
+    for name, color in zip(("stick", "ink"), picture["colors"], strict=True):
+        rgb = [int(part, 16) for part in re.findall("..", color.lstrip("#"))]
+        ink[name] = np.abs(pixels[..., :3] - rgb).max(axis=-1) < 8
+        ink[name] &= pixels[..., 3] > 200
+    rows, columns = np.nonzero(ink["stick"])
+    middle = 0.5 * (columns.min() + columns.max())
+    radius = 0.5 * (columns.max() - columns.min() + 1) - 1.25
+    centre = rows.min() + 1.25 + radius
+    edge = centre - np.nonzero(ink["ink"][:, round(middle)])[0].min() - 0.75
+    history = HIT.history(201).isel(time=160)
+    expected = float(history["stick_radius"] / history["contact_radius"])
+    assert 0.2 < expected < 0.9
+    assert radius / edge == pytest.approx(expected, abs=0.03)
+    slip = round(centre), round(middle + 0.5 * (radius + edge))
+    stick = round(centre - 0.5 * radius), round(middle)
+    assert np.abs(pixels[slip][:3] - pixels[stick][:3]).max() > 30

@@ -1,0 +1,153 @@
+"""A link restores the page; nonsense in one is told in a line and leaves the page as it opens."""
+
+from urllib.parse import parse_qsl, urlencode, urlsplit
+
+import pytest
+
+import carom
+from carom.glossary import GLOSSARY
+from carom.verify.catalogue import named
+
+pytestmark = pytest.mark.browser
+AFTER, BEFORE = GLOSSARY["psi_out"].meaning, GLOSSARY["psi_in"].meaning
+LAWS = ("mindlin", "YADE Mindlin", "Walton & Braun")
+BODIES = {
+    "radius": "3.5",
+    "material": "brass",
+    "against": "sphere",
+    "second_radius": "7.25",
+    "second_material": "pmma",
+    "friction": "0.345",
+    "speed": "1.35",
+    "angle": "52.25",
+    "spin": "-240",
+}
+DATA = carom.datasets.names()[0]
+
+
+def hit_of(given):
+    first = carom.Sphere(radius=f"{given['radius']} mm", material=given["material"])
+    radius = f"{given['second_radius']} mm"
+    second = carom.Sphere(radius=radius, material=given["second_material"])
+    pair = carom.Pair(first, second, float(given["friction"]))
+    angle = f"{given['angle']} deg"
+    return carom.impact(pair, speed=float(given["speed"]), angle=angle, spin=float(given["spin"]))
+
+
+def controls(seen):
+    """What the controls say, lists by their words."""
+    words = (
+        "names => Object.fromEntries(names.map(name => {"
+        " const at = document.getElementById(name);"
+        " return [name, at.tagName === 'INPUT' ? at.value : at.innerText.trim()]; }))"
+    )
+    return seen.page.evaluate(words, list(BODIES))
+
+
+def checked(seen):
+    words = "[...document.querySelectorAll('#law input:checked')].map(each => each.value)"
+    return seen.page.evaluate(words)
+
+
+def test_a_link_restores_everything_in_a_fresh_browser(visit):
+    words = [*BODIES.items(), *(("law", law) for law in LAWS), ("data", DATA)]
+    query = urlencode([*words, ("time", "0.25"), ("theme", "dark")])
+    seen, hit = visit(f"?{query}", fresh=True), hit_of(BODIES)
+    assert controls(seen) == BODIES
+    assert checked(seen) == list(LAWS)
+    assert seen.number(BEFORE) == pytest.approx(hit.psi_in, rel=1e-5)
+    assert seen.number(AFTER) == pytest.approx(hit.psi_out, rel=1e-5)
+    assert float(seen.page.input_value("#time")) == pytest.approx(0.25)
+    assert seen.page.evaluate("document.documentElement.dataset.theme") == "dark"
+    moment = 0.25 * hit.duration * 1e6
+    assert float(seen.page.inner_text("#clock").split()[0]) == pytest.approx(moment, abs=0.051)
+    chart = seen.traces("rebounds")
+    assert {name for name, _ in chart} == {"exact", "this impact", *LAWS}
+    seen.until(lambda: "friction" in seen.page.inner_text("#fit"))
+    assert sorted(parse_qsl(seen.link())) == sorted(parse_qsl(query))
+    assert urlsplit(seen.page.url).query == seen.link()
+    assert seen.page.inner_text("#notice") == ""
+
+
+def test_a_link_of_numbers(visit):
+    seen = visit("?given=numbers&psi=-3.5&chi=1.2&law=mindlin")
+    assert seen.number(AFTER) == pytest.approx(carom.solve(-3.5, 1.2).psi_out, rel=1e-5)
+    assert seen.page.input_value("#psi") == "-3.5"
+    assert seen.page.input_value("#chi") == "1.2"
+    assert seen.page.is_hidden("#radius")
+    assert seen.page.is_checked("#given input[value=numbers]")
+    point = seen.traces("rebounds")["mindlin", "markers"]
+    law = named("mindlin")[0].law.rebound(-3.5, 1.2, kappa=2.0 / 7.0 * 1.2)
+    assert point["y"] == pytest.approx([float(law)], rel=1e-9)
+
+
+def test_the_link_that_is_told_opens_the_same_page(visit):
+    seen = visit()
+    seen.page.fill("#angle", "61.5")
+    seen.page.get_by_role("checkbox", name="mindlin", exact=True).check(force=True)
+    seen.page.focus("#time")
+    for _ in range(5):
+        seen.page.keyboard.press("ArrowLeft")
+    seen.page.click("#theme")
+    seen.until(lambda: {"angle", "law", "time", "theme"} == set(dict(parse_qsl(seen.link()))))
+    again = visit(f"?{seen.link()}", fresh=True)
+    for part in ("#results", "#clock", "#theme"):
+        assert again.page.inner_text(part) == seen.page.inner_text(part)
+    assert again.link() == seen.link()
+    assert checked(again) == ["mindlin"]
+    assert again.pixels("patch") == seen.pixels("patch")
+
+
+def test_back_and_forward(visit):
+    """Each link visited in turn is restored when the browser goes back, and forward again."""
+    seen = visit("?angle=20")
+    seen.page.goto(f"{seen.address}?angle=70")
+    for going, angle in (("go_back", 20.0), ("go_forward", 70.0)):
+        getattr(seen.page, going)()
+        default = hit_of(BODIES | {"angle": angle}).pair  # the bodies do not matter to the control
+        assert default.friction == 0.345
+        seen.until(lambda angle=angle: float(seen.page.input_value("#angle")) == angle)
+        seen.linked(f"angle={angle:g}")
+
+
+NONSENSE = {
+    "angle=ninety": "angle: ",
+    "radius=-5": "radius: ",
+    "material=unobtainium": "material: ",
+    "law=nobody": "law: ",
+    "colour=red": "colour: ",
+    "angle=1e400&friction=nan": "angle: ",
+    "data=/etc/passwd": "data: ",
+    "angle=" + "9" * 5000: "link: ",
+}
+
+
+def told(seen, beginning):
+    """The page as it opens, below one line that begins so."""
+    notice = seen.until(lambda: seen.page.inner_text("#notice"))
+    assert notice.startswith(beginning)
+    assert "\n" not in notice
+    assert seen.page.input_value("#angle") == "30"
+    assert seen.number(BEFORE) == pytest.approx(2.37732, rel=1e-5)
+    return True
+
+
+def test_nonsense_in_a_link(visit):
+    for query in ("angle=ninety", "%ff%00=%fe&&=&=3"):
+        seen = visit(f"?{query}")
+        assert told(seen, NONSENSE.get(query, ""))
+        seen.page.wait_for_timeout(500)
+        assert told(seen, NONSENSE.get(query, ""))  # and it stays
+    for query, beginning in NONSENSE.items():
+        words = (
+            "query => { history.pushState({}, '', query); dispatchEvent(new Event('popstate')); }"
+        )
+        seen.page.evaluate(words, f"?{query}")
+        seen.until(lambda beginning=beginning: told(seen, beginning))
+
+
+def test_nonsense_beside_sense_keeps_the_sense(visit):
+    seen = visit("?angle=50&law=nobody&time=soon&theme=pink")
+    assert seen.page.input_value("#angle") == "50"
+    assert seen.page.input_value("#time") == "0.5"
+    assert seen.until(lambda: seen.page.inner_text("#notice")).startswith("law: ")

@@ -1,0 +1,102 @@
+"""`carom explore` as a user starts and ends it; its refusals. No browser is needed."""
+
+import json
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import urllib.error
+import urllib.request
+
+import pytest
+
+pytest.importorskip("dash", reason="the explorer needs dash: pip install 'carom[explore]'")
+
+from carom import InputError
+from carom.cli import main
+from carom.explorer import explorer
+
+COMMAND = [sys.executable, "-c", "from carom.cli import run; run()", "explore", "--no-open"]
+
+
+@pytest.fixture(scope="module")
+def page():
+    found = explorer(port=0)
+    serving = threading.Thread(target=found.serve)
+    serving.start()
+    yield found
+    found.stop()
+    serving.join(timeout=10)
+
+
+@pytest.mark.parametrize(
+    ("flags", "words"),
+    [
+        (["--port", "99999"], "port: 99999 cannot be used; must be a whole number from 0 to 65535"),
+        (["--port", "-1"], "port: -1 cannot be used"),
+        (["--host", "203.0.113.7", "--port", "0"], "'203.0.113.7' cannot be listened at"),
+        (["--host", "no such host", "--port", "0"], "'no such host' cannot be listened at"),
+        (["--host", "", "--port", "0"], "host"),
+    ],
+)
+def test_refusals(capsys, flags, words):
+    assert main(["explore", "--no-open", *flags]) == 2
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert words in told.err
+    assert told.err.count("\n") == 1
+
+
+def test_a_port_that_is_taken(capsys):
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        assert main(["explore", "--no-open", "--port", str(port)]) == 2
+    told = capsys.readouterr()
+    assert f"port: {port}" in told.err
+    assert "take another" in told.err
+    assert told.err.count("\n") == 1
+
+
+@pytest.mark.parametrize("port", [True, "8050", 80.5, None])
+def test_ports_that_are_none(port):
+    with pytest.raises(InputError, match="port: .* whole number from 0 to 65535"):
+        explorer(port=port)
+
+
+def test_only_this_machine_is_answered(page):
+    """Nothing listens at the port on an address of this machine that others know it by."""
+    port = int(page.url.rstrip("/").rpartition(":")[2])
+    assert page.url == f"http://127.0.0.1:{port}/"
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as other:
+        other.settimeout(2.0)
+        assert other.connect_ex(("127.0.0.2", port)) != 0
+    with urllib.request.urlopen(page.url, timeout=10) as answer:
+        assert answer.status == 200
+        policy = answer.headers["Content-Security-Policy"]
+    assert "default-src 'self'" in policy
+    assert "http" not in policy
+
+
+def test_an_unknown_path_is_told_in_a_line(page):
+    for path in ("nowhere", "nowhere/at/all", "history.exe", "assets/none.js"):
+        with pytest.raises(urllib.error.HTTPError) as error:
+            urllib.request.urlopen(f"{page.url}{path}", timeout=10)
+        with error.value as answer:
+            assert answer.code == 404
+            assert answer.read() == b"carom: 404: Not Found\n"
+
+
+def test_it_tells_its_address_and_an_interrupt_ends_it():
+    arguments = [*COMMAND, "--port", "0", "--json"]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen(arguments, text=True, **pipes) as server:
+        url = json.loads(server.stdout.readline())["url"]
+        with urllib.request.urlopen(url, timeout=10) as answer:
+            assert b"Carom" in answer.read()
+        server.send_signal(signal.SIGINT)
+        _, told = server.communicate(timeout=20)
+    assert server.returncode == 0
+    assert "Traceback" not in told
+    with pytest.raises(urllib.error.URLError):
+        urllib.request.urlopen(url, timeout=2)

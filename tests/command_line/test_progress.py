@@ -1,0 +1,230 @@
+"""How far long work is, as a terminal, a pipe or a dumb terminal gets it, byte by byte."""
+
+import fcntl
+import json
+import os
+import pty
+import re
+import struct
+import subprocess
+import sys
+import termios
+
+import pytest
+
+from carom.progress import Place, advancing, place
+from carom.quantities import InputError
+
+LONG = """
+import sys, time, rich.progress
+import carom.progress
+from carom.progress import advancing
+carom.progress.PATIENCE = {patience}
+with advancing("impacts", 30, unit="steps") as advance:
+    for step in range(30):
+        advance(1)
+        time.sleep(0.02)
+        {more}
+print("done", file=sys.stderr)
+"""
+CONTROL = re.compile(r"\x1b\[([?\d;]*)([A-Za-z])")
+
+
+def on_terminal(code, *, columns=100, typed=None, **environment):
+    """Run a script with a terminal as stderr; return what it got, what stdout got, the status."""
+    own, theirs = pty.openpty()
+    fcntl.ioctl(own, termios.TIOCSWINSZ, struct.pack("HHHH", 30, columns, 0, 0))
+    told = {name: os.environ[name] for name in os.environ if name not in ("COLUMNS", "LINES")}
+    process = subprocess.Popen(
+        [sys.executable, "-c", code],
+        stdin=theirs,
+        stdout=subprocess.PIPE,
+        stderr=theirs,
+        env=told | {"TERM": "xterm-256color"} | environment,
+        start_new_session=True,
+        preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0),
+    )
+    os.close(theirs)
+    got = b""
+    while True:
+        try:
+            data = os.read(own, 65536)
+        except OSError:  # the other end is closed
+            break
+        got += data
+        if typed and b"left" in got:
+            os.write(own, typed)
+            typed = None
+    os.close(own)
+    stdout, _ = process.communicate(timeout=20)
+    return got.decode(), stdout.decode(), process.returncode
+
+
+def screen(text, columns=100):
+    """Return the lines a terminal shows in the end, and whether it shows the cursor."""
+    lines, row, column, cursor = [""], 0, 0, True
+    place = 0
+    while place < len(text):
+        control = CONTROL.match(text, place)
+        if control:
+            argument, letter = control.groups()
+            if letter == "K":
+                assert argument == "2"
+                lines[row] = ""
+            elif letter == "A":
+                row -= int(argument or 1)
+            elif argument == "?25":
+                cursor = letter == "h"
+            else:
+                assert letter == "m", control.group()
+            place = control.end()
+            continue
+        letter = text[place]
+        place += 1
+        if letter == "\r":
+            column = 0
+        elif letter == "\n":
+            row += 1
+            lines += [""] * (row == len(lines))
+        else:
+            lines[row] = lines[row][:column].ljust(column) + letter + lines[row][column + 1 :]
+            column += 1
+            assert column <= columns, "a line that wraps cannot be erased"
+    return [line.rstrip() for line in lines], cursor
+
+
+def test_a_bar_comes_and_goes():
+    """It shows what is done and what is left of it, and leaves a clean line and the cursor."""
+    got, _, status = on_terminal(LONG.format(patience=0.2, more=""))
+    assert status == 0
+    shown = [
+        int(count) for count in re.findall(r"impacts .* (\d+)/30 steps", got.replace("\r", "\n"))
+    ]
+    assert shown[0] > 5, "it takes its time to appear"
+    assert shown == sorted(shown)
+    assert shown[-1] == 30
+    assert re.search(r"0:00:0\d.* left", got)
+    assert screen(got) == (["done", ""], True)
+
+
+def test_short_work_shows_nothing():
+    got, _, _ = on_terminal(LONG.format(patience=20.0, more=""))
+    assert got == "done\r\n"
+
+
+def test_work_with_few_steps_is_seen():
+    """The bar does not wait for the end of the first step."""
+    code = "import time, carom.progress as p\np.PATIENCE = 0.1\n"
+    code += "with p.advancing('laws', 2):\n    time.sleep(0.6)"
+    got, _, _ = on_terminal(code)
+    assert "0/2" in got
+
+
+def test_unknown_amounts_are_counted():
+    code = LONG.format(patience=0.2, more="").replace("30, unit", "None, unit")
+    got, _, _ = on_terminal(code)
+    assert re.search(r"impacts 30 steps", CONTROL.sub("", got))
+    assert screen(got) == (["done", ""], True)
+
+
+def test_an_interrupt_leaves_the_terminal_as_it_was():
+    got, _, status = on_terminal(LONG.format(patience=0.1, more=""), typed=b"\x03")
+    lines, cursor = screen(got)
+    assert status != 0
+    assert cursor
+    assert lines[0] in (
+        "Traceback (most recent call last):",
+        "^CTraceback (most recent call last):",
+    )
+    assert "KeyboardInterrupt" in lines
+    assert not [line for line in lines if "steps" in line]
+
+
+def test_an_error_leaves_the_terminal_as_it_was():
+    more = "if step == 15: raise RuntimeError('no')"
+    got, _, status = on_terminal(LONG.format(patience=0.1, more=more))
+    lines, cursor = screen(got)
+    assert status == 1
+    assert "16/30" in got
+    assert (lines[0], lines[-2], cursor) == (
+        "Traceback (most recent call last):",
+        "RuntimeError: no",
+        True,
+    )
+
+
+def test_a_killed_process_leaves_the_cursor():
+    code = LONG.format(patience=0.1, more="if step == 20: os.kill(os.getpid(), 9)")
+    got, _, status = on_terminal("import os\n" + code)
+    assert status == -9
+    assert screen(got)[1]
+
+
+def test_redirected_output_gets_all_and_only_what_is_printed():
+    """As with `carom ... --json > file`, while stderr is the terminal."""
+    more = "print(step)"
+    got, stdout, _ = on_terminal(LONG.format(patience=0.1, more=more))
+    assert stdout.split() == [str(step) for step in range(30)]
+    assert "30/30" in got
+
+
+def test_a_narrow_terminal_is_not_overrun():
+    got, _, _ = on_terminal(LONG.format(patience=0.1, more=""), columns=40)
+    assert screen(got, 40) == (["done", ""], True)
+    assert "impacts" in got
+
+
+def test_a_dumb_terminal_gets_no_control_sequences():
+    got, _, _ = on_terminal(LONG.format(patience=0.1, more=""), TERM="dumb")
+    assert "30.0/30.0" in got
+    assert "\x1b" not in got
+
+
+def test_work_within_work_has_no_bar_of_its_own():
+    code = "import time, carom.progress as p\np.PATIENCE = 0.1\n"
+    code += "with p.advancing('outer', 2):\n    with p.advancing('inner', 3) as advance:\n"
+    code += "        advance(1); time.sleep(0.6); advance(2)\n"
+    code += "with p.advancing('after', 2):\n    time.sleep(0.6)"
+    got, _, _ = on_terminal(code)
+    assert "outer" in got
+    assert "inner" not in got
+    assert "after" in got
+
+
+def test_a_pipe_gets_nothing_unless_asked():
+    for progress, seen in (("None", False), ("False", False), ("True", True)):
+        code = LONG.format(patience=0.1, more="").replace("30, unit", f"30, {progress}, unit")
+        told = {"FORCE_COLOR": "1", **os.environ}
+        run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=told)
+        assert ("30.0/30.0" in run.stderr) is seen, progress
+        assert run.stderr.endswith("done\n")
+        assert run.stdout == ""
+
+
+def test_a_command_shows_how_far_it_is():
+    """`carom verify laws` prints its table to a file, and its bar on the terminal."""
+    code = "import carom.progress as p, sys\np.PATIENCE = 0.0\nfrom carom.cli import main\n"
+    code += "sys.exit(main(['verify', 'laws', '--psi', '1', '--json']))"
+    got, stdout, status = on_terminal(code)
+    laws = len(json.loads(stdout)["laws"])
+    assert f"{laws}/{laws} laws" in got
+    assert status == 0
+    assert screen(got)[1]
+
+
+def test_a_callable_is_told():
+    calls = []
+    with advancing("impacts", 5, lambda *said: calls.append(said), done=1) as advance:
+        advance(2)
+        advance(2)
+    assert calls == [(3, 5), (5, 5)]
+
+
+def test_what_is_no_answer_is_refused():
+    with pytest.raises(InputError, match=r"^progress: 'yes' cannot be used; must be True, False"):
+        advancing("impacts", 5, "yes")
+
+
+def test_without_stderr_nothing_is_shown(monkeypatch):
+    monkeypatch.setattr(sys, "stderr", None)
+    assert place(None) is Place.NOWHERE

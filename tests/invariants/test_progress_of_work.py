@@ -1,0 +1,132 @@
+"""All that takes long tells how far it is, in the same way."""
+
+import numpy as np
+import pytest
+
+import carom
+from carom.plots import animate
+from carom.progress import Place
+
+BALL = carom.Sphere(radius="5 mm", material="steel")
+PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
+MOTION = {"speed": 2.0, "angle": "30 deg"}
+CASE = {"first": {"radius": "5 mm", "material": "steel"}, "speed": "2 m/s"}
+LAWS = [carom.LinearSpring(), carom.WaltonBraunLaw()]
+
+
+def by_elements(folder, progress):
+    coarse = carom.BoundaryElements(elements=8, steps=20)
+    carom.impact(PAIR, **MOTION, method=coarse, progress=progress)
+
+
+def swept(folder, progress):
+    carom.sweep(
+        CASE, carom.Grid({"angle": [0.1, 0.2], "friction": [0.1, 0.2, 0.3]}), progress=progress
+    )
+
+
+def stored(folder, progress):
+    """A sweep that goes on counts what was done before."""
+    grid = carom.Grid({"angle": [0.1, 0.2], "friction": [0.1, 0.2, 0.3]})
+    carom.sweep(CASE, grid, store=folder / "sweep.zarr", progress=False)
+    carom.sweep(CASE, grid, store=folder / "sweep.zarr", resume=True, progress=progress)
+
+
+def posterior(folder, progress):
+    fit = carom.fit(carom.datasets.load("kharaz2001"))
+    fit.posterior(120, seed=1, progress=progress)
+
+
+def ranked(folder, progress):
+    carom.verify.rank(LAWS, psi=[1.0], progress=progress)
+
+
+def tuned(folder, progress):
+    carom.verify.tune(LAWS, chi=1.44, psi=[1.0], progress=progress)
+
+
+def mapped(folder, progress):
+    carom.regime_map([0.5, 2.0], [1.0, 1.44, 2.0], progress=progress)
+
+
+def animated(folder, progress):
+    carom.impact(PAIR, **MOTION).animate(folder / "hit.gif", frames=3, progress=progress)
+
+
+def drawn(folder, progress):
+    hit = carom.impact(PAIR, **MOTION)
+    frames = [hit.fields(part * hit.duration) for part in (0.2, 0.5)]
+    animate(hit.history(40), frames, folder / "hit.gif", progress=progress)
+
+
+LONG = [
+    (by_elements, "boundary elements", 30),
+    (swept, "sweep", 6),
+    (posterior, "posterior", 120),
+    (ranked, "ranking", 2),
+    (tuned, "tuning", 2),
+    (mapped, "map of regimes", 3),
+    (animated, "animation", 3),
+    (drawn, "animation", 2),
+]
+
+
+@pytest.fixture
+def _at_once(monkeypatch):
+    monkeypatch.setattr("carom.progress.PATIENCE", 0.0)
+
+
+@pytest.mark.usefixtures("_at_once")
+@pytest.mark.parametrize(("work", "name", "total"), LONG)
+def test_a_bar_is_shown_on_request_only(work, name, total, tmp_path, capsys):
+    work(tmp_path, None)
+    assert capsys.readouterr().err == ""
+    work(tmp_path, True)
+    shown = capsys.readouterr()
+    assert name in shown.err
+    digits = f"{total:#.3g}".rstrip(".")
+    assert f"{digits}/{digits}" in shown.err
+    assert shown.out == ""
+
+
+@pytest.mark.parametrize(("work", "name", "total"), LONG[:6])
+def test_a_callable_is_told_what_is_done_and_of_how_many(work, name, total, tmp_path):
+    told = []
+    work(tmp_path, lambda done, whole: told.append((done, whole)))
+    done = [count for count, _ in told]
+    assert done == sorted(done)
+    assert told[-1] == (total, total)
+    assert {whole for _, whole in told} == {total}
+
+
+@pytest.mark.parametrize(("work", "name", "total"), LONG[6:])
+def test_a_callable_is_called_for_every_frame(work, name, total, tmp_path):
+    told = []
+    work(tmp_path, lambda: told.append(1))
+    assert len(told) == total
+
+
+@pytest.mark.usefixtures("_at_once")
+def test_a_sweep_that_goes_on_counts_from_what_is_stored(tmp_path, capsys):
+    stored(tmp_path, True)
+    assert "6.00/6.00" in capsys.readouterr().err
+
+
+@pytest.mark.usefixtures("_at_once")
+def test_a_table_with_losses_counts_its_impacts(monkeypatch, capsys):
+    """How many there will be is not known; what is shown is what `lossy_rebounds` got."""
+    import carom.laws.panels as panels
+
+    solved = []
+    genuine = panels.lossy_rebounds
+
+    def counted(psi, *known):
+        solved.append(np.size(psi))
+        return genuine(psi, *known)
+
+    monkeypatch.setattr(panels, "lossy_rebounds", counted)
+    monkeypatch.setattr("carom.progress.place", lambda progress: Place.TEXT)
+    carom.ReboundLaw(1.0, normal=carom.KelvinVoigt(restitution=0.8))
+    shown = capsys.readouterr().err
+    assert "table of rebounds" in shown
+    assert f"{sum(solved)} impacts" in shown
