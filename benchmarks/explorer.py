@@ -32,24 +32,19 @@ class Page:
 
     def __init__(self, url: str) -> None:
         self._line = http.client.HTTPConnection(urlsplit(url).netloc)
-        view = [{"id": "view", "property": "data"}]
         known = json.loads(self._ask("GET", "/_dash-dependencies"))
-        self._output = next(
-            each["output"]
-            for each in known
-            if each["inputs"] == view and "results" in each["output"]
-        )
+        self._known = next(each for each in known if "results.children" in each["output"])
 
     def answer(self, query: str) -> bytes:
         """Return the answer to a view."""
-        names = self._output.strip(".").split("...")
-        outputs = [
-            dict(zip(("id", "property"), name.rsplit(".", 1), strict=True)) for name in names
-        ]
+        names = self._known["output"].strip(".").split("...")
         asked = {
-            "output": self._output,
-            "outputs": [{**each, "property": each["property"].split("@")[0]} for each in outputs],
-            "inputs": [{"id": "view", "property": "data", "value": query}],
+            "output": self._known["output"],
+            "outputs": [
+                dict(zip(("id", "property"), name.rsplit(".", 1), strict=True)) for name in names
+            ],
+            "inputs": [{**each, "value": query} for each in self._known["inputs"]],
+            "state": [{**each, "value": ""} for each in self._known["state"]],
             "changedPropIds": ["view.data"],
         }
         found = self._ask("POST", "/_dash-update-component", json.dumps(asked))

@@ -75,6 +75,10 @@ class Visit:
         """Return the number that a row of the results begins with."""
         return float(re.match(r"[-+\d.eE]+", self.result(name).replace("\N{MINUS SIGN}", "-"))[0])
 
+    def notice(self):
+        """Return what the page complains of."""
+        return self.page.locator(".carom-head [role=alert]").filter(has_text=re.compile(".")).all_inner_texts()
+
     def traces(self, chart):
         """Return the traces of a chart by their names, as plotly drew them."""
         words = (

@@ -29,7 +29,7 @@ def test_the_page_as_it_opens(visit):
     seen, chi = visit(), steel().pair.chi
     assert shows(seen, steel())
     assert seen.link() == ""
-    assert seen.page.inner_text("#notice") == ""
+    assert seen.notice() == ""
     exact = seen.traces("rebounds")["exact", "lines"]
     assert len(exact["x"]) > 200
     assert exact["y"] == pytest.approx(list(carom.rebound(exact["x"], chi)), abs=2e-5)
@@ -72,13 +72,13 @@ def test_numbers_that_cannot_be_are_told_in_a_line(visit):
         ("radius", "", "5"),
     ):
         seen.page.fill(f"#{name}", typed)
-        notice = seen.until(lambda: seen.page.inner_text("#notice"))
+        notice = seen.until(lambda: seen.notice())
         assert notice.startswith(f"{name}: ")
         assert "must be a number from" in notice
         assert "\n" not in notice
         assert shows(seen, steel())
         seen.page.fill(f"#{name}", right)
-        seen.until(lambda: seen.page.inner_text("#notice") == "")
+        seen.until(lambda: seen.notice() == "")
 
 
 def test_bodies_chosen_from_lists(visit):

@@ -66,7 +66,7 @@ def test_a_link_restores_everything_in_a_fresh_browser(visit):
     seen.until(lambda: "friction" in seen.page.inner_text("#fit"))
     assert sorted(parse_qsl(seen.link())) == sorted(parse_qsl(query))
     assert urlsplit(seen.page.url).query == seen.link()
-    assert seen.page.inner_text("#notice") == ""
+    assert seen.notice() == ""
 
 
 def test_a_link_of_numbers(visit):
@@ -124,7 +124,7 @@ NONSENSE = {
 
 def told(seen, beginning):
     """The page as it opens, below one line that begins so."""
-    notice = seen.until(lambda: seen.page.inner_text("#notice"))
+    notice = seen.until(lambda: seen.notice())
     assert notice.startswith(beginning)
     assert "\n" not in notice
     assert seen.page.input_value("#angle") == "30"
@@ -150,4 +150,4 @@ def test_nonsense_beside_sense_keeps_the_sense(visit):
     seen = visit("?angle=50&law=nobody&time=soon&theme=pink")
     assert seen.page.input_value("#angle") == "50"
     assert seen.page.input_value("#time") == "0.5"
-    assert seen.until(lambda: seen.page.inner_text("#notice")).startswith("law: ")
+    assert seen.until(lambda: seen.notice()).startswith("law: ")

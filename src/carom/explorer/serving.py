@@ -28,11 +28,15 @@ class Explorer:
         try:
             self._server.serve_forever()
         finally:
-            self._server.server_close()
+            self.close()
 
     def stop(self) -> None:
         """Let `serve`, which runs in another thread, return."""
         self._server.shutdown()
+
+    def close(self) -> None:
+        """Give the port back, of a page that is not served."""
+        self._server.server_close()
 
 
 def explorer(*, host: str = LOOPBACK, port: int = PORT) -> Explorer:
@@ -57,6 +61,7 @@ def explorer(*, host: str = LOOPBACK, port: int = PORT) -> Explorer:
     >>> page = explorer(port=0)
     >>> page.url.startswith("http://127.0.0.1:")
     True
+    >>> page.close()
     """
     extra("dash", "the explorer", "explore")
     if isinstance(port, bool) or not isinstance(port, int) or not 0 <= port <= PORTS:
