@@ -79,7 +79,7 @@ def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--smoke", action="store_true", help="only to see that it runs")
-    moves = 5 if parser.parse_args().smoke else 200
+    moves = 5 if parser.parse_args().smoke else 60
     served = explorer(port=0)
     serving = threading.Thread(target=served.serve)
     serving.start()

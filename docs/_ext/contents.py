@@ -59,7 +59,7 @@ def lead_to_gallery(app: Sphinx, document: nodes.document) -> None:
         if link["reftype"] == "myst" and link["refdomain"] == "doc":
             target = Path(f"{link['reftarget']}.md")
             if target.is_absolute() and target.is_file():
-                follow(link, relpath(target, app.env.doc2path(app.env.docname) + "/.."))
+                follow(link, relpath(target, Path(app.env.doc2path(app.env.docname)).parent))
 
 
 def follow(link: nodes.Element, target: str) -> None:

@@ -76,8 +76,9 @@ class Visit:
         return float(re.match(r"[-+\d.eE]+", self.result(name).replace("\N{MINUS SIGN}", "-"))[0])
 
     def notice(self):
-        """Return what the page complains of."""
-        return self.page.locator(".carom-head [role=alert]").filter(has_text=re.compile(".")).all_inner_texts()
+        """Return what the page complains of, empty if of nothing."""
+        lines = self.page.locator(".carom-head [role=alert]").all_inner_texts()
+        return "; ".join(filter(None, lines))
 
     def traces(self, chart):
         """Return the traces of a chart by their names, as plotly drew them."""

@@ -153,7 +153,7 @@ def test_uploads_are_fitted_or_refused_in_a_line(visit):
         words = seen.page.inner_text("#fit")
         line = next(line for line in words.splitlines() if line.strip().startswith("friction"))
         assert float(line.split()[1]) == pytest.approx(FRICTION, rel=0.02), line
-    assert seen.page.inner_text("#notice") == ""
+    assert seen.notice() == ""
 
 
 def post(address, content, kind="application/json"):

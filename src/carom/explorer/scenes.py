@@ -95,7 +95,7 @@ def impact_of(view: View) -> Impact:
 
 def _of_bodies(hit: Impact) -> Scene:
     history = hit.history(TIMES)
-    column = {str(name): history[name].values for name in history.variables}
+    column = {str(name): line.values for name, line in history.variables.items()}
     unit, seconds = _scaled(hit.duration, "s")
     force_unit, newtons = _scaled(hit.pair.friction * hit.max_force or hit.max_force, "N")
     energies = {label: column[name] for name, (label, *_) in ENERGIES.items()}

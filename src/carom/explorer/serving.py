@@ -67,6 +67,8 @@ def explorer(*, host: str = LOOPBACK, port: int = PORT) -> Explorer:
     if isinstance(port, bool) or not isinstance(port, int) or not 0 <= port <= PORTS:
         allowed = f"must be a whole number from 0 to {PORTS}; 0 takes any that is free"
         raise refusal("port", port, allowed)
+    if not host:
+        raise refusal("host", host, "must be an address, e.g. 127.0.0.1; 0.0.0.0 is every one")
     with _bound(host, port) as listening:
         from werkzeug.serving import make_server
 

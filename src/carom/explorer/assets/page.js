@@ -49,6 +49,7 @@ Carom.page = (() => {
     build();
     fold();
     Carom.theme.label();
+    Carom.access.name();
     Carom.cursor.watch();
     for (const id of ["stage", "patch"]) {
       const canvas = byId(id);
