@@ -77,12 +77,15 @@ def impact(
     ----------
     pair : Pair
         The bodies and their friction.
-    speed, angle : float or str
-        Speed of approach of the centres and its angle from the normal; a bare angle is in radians.
+    speed : float or str
+        Speed of approach of the centres, in m/s.
+    angle : float or str
+        Its angle from the normal; a bare number is in radians.
     normal_speed, tangential_speed : float or str
         The same as components, instead of speed and angle; relative, of the first to the second.
     spin, spin2 : float or str
-        Spin of either body; positive spin adds to the tangential speed of the contact point.
+        Spin of the first body, and of the second if it is a sphere, in rad/s; positive spin adds
+        to the tangential speed of the contact point.
     normal : KelvinVoigt or ElasticPlastic, optional
         What the normal motion loses energy to; by default nothing, the bodies are elastic.
     method : "exact", "halfspace" or BoundaryElements
@@ -90,8 +93,14 @@ def impact(
         contact in three dimensions, which assumes neither and takes ten seconds, a minute for
         unlike materials. BoundaryElements says how finely.
     progress : bool or callable, optional
-        Whether the latter shows a bar, by default in a notebook and on a terminal; or what is
-        called with the steps done and their number.
+        Whether the boundary elements show a bar, by default in a notebook and on a terminal; or
+        what is called with the steps done and their number.
+
+    Returns
+    -------
+    Impact or HalfspaceImpact
+        The rebound (psi_out, rebound_angle, spin_out, restitutions, energies), the phases, and what
+        gives the rest: history, fields, validity, plot, animate, to_dataset, cite.
 
     Raises
     ------

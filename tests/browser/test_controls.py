@@ -6,7 +6,7 @@ import carom
 from carom.glossary import GLOSSARY
 
 pytestmark = pytest.mark.browser
-AFTER, BEFORE = GLOSSARY["psi_out"].meaning, GLOSSARY["psi_in"].meaning
+AFTER, BEFORE = f"ψ₂, {GLOSSARY['psi_out'].meaning}", f"ψ₁, {GLOSSARY['psi_in'].meaning}"
 
 
 def steel(friction=0.2, **motion):

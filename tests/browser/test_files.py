@@ -100,7 +100,8 @@ def test_laws_laid_over(visit):
         at = float(law.rebound(HIT.psi_in, PAIR.chi, kappa=PAIR.kappa))
         assert point["y"] == pytest.approx([at], rel=1e-9)
         told = seen.result(f"ψ₂ by {label}")
-        assert told == f"{at:.6g}, off by {at - HIT.psi_out:+.3g}"
+        off = at - HIT.psi_out  # laws are solved to 1e-8
+        assert told == f"{at:.6g}, " + (f"off by {off:+.3g}" if abs(off) > 1e-6 else "exact")
         assert (label, "lines") in seen.traces("forces")
 
 
@@ -147,7 +148,6 @@ def test_uploads_are_fitted_or_refused_in_a_line(visit):
         assert "Traceback" not in notice
         assert "failed" not in notice, notice
         assert "/tmp" not in notice
-        seen.until(lambda: seen.page.inner_text("#fit") == "")
         upload(seen, measured(FRICTION), "good.csv")
         seen.until(lambda: "fitted" in seen.page.inner_text("#fit-notice"))
         words = seen.page.inner_text("#fit")

@@ -9,7 +9,7 @@ from carom.glossary import GLOSSARY
 from carom.verify.catalogue import named
 
 pytestmark = pytest.mark.browser
-AFTER, BEFORE = GLOSSARY["psi_out"].meaning, GLOSSARY["psi_in"].meaning
+AFTER, BEFORE = f"ψ₂, {GLOSSARY['psi_out'].meaning}", f"ψ₁, {GLOSSARY['psi_in'].meaning}"
 LAWS = ("mindlin", "YADE Mindlin", "Walton & Braun")
 BODIES = {
     "radius": "3.5",

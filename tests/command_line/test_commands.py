@@ -235,8 +235,10 @@ def commands(of=app, path=""):
 
 
 def test_all_commands_are_found():
-    known = "impact curve fit sweep explore materials verify laws lammps liggghts yade pack score tune"
-    assert {command.split()[-1] for command in commands()} == set(known.split())
+    known = "impact curve fit sweep explore materials verify"
+    of_verify = "laws lammps liggghts yade pack score tune"
+    found = {command.split()[-1] for command in commands()}
+    assert found == {*known.split(), *of_verify.split()}
 
 
 @pytest.mark.parametrize("command", list(commands()))

@@ -91,7 +91,8 @@ def test_an_unknown_path_is_told_in_a_line(page):
 def test_it_tells_its_address_and_an_interrupt_ends_it():
     arguments = [*COMMAND, "--port", "0", "--json"]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    with subprocess.Popen(arguments, text=True, **pipes) as server:
+    hears = lambda: signal.signal(signal.SIGINT, signal.default_int_handler)  # noqa: E731
+    with subprocess.Popen(arguments, text=True, preexec_fn=hears, **pipes) as server:
         url = json.loads(server.stdout.readline())["url"]
         with urllib.request.urlopen(url, timeout=10) as answer:
             assert b"Carom" in answer.read()

@@ -23,9 +23,9 @@ event.register("numba:compile", Told())
 
 @pytest.mark.parametrize("loss", LOSS)
 def test_one_impact_needs_no_compiler_and_gives_the_compiled_number(loss, tmp_path):
+    flags = [*BALL, "--angle", "30 deg", "--json", *LOSS[loss]]
     ran = subprocess.run(
-        [sys.executable, "-c", f"import sys{LISTEN}{START}", "impact", *BALL]
-        + ["--angle", "30 deg", "--json", *LOSS[loss]],
+        [sys.executable, "-c", f"import sys{LISTEN}{START}", "impact", *flags],
         env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)},
         capture_output=True,
         text=True,

@@ -28,7 +28,9 @@ BODIES = [
     View(against="cup", second_radius=25.0, angle=55.0, friction=0.45),
     View(friction=0.0),
 ]
-NUMBERED = [View(given=NUMBERS, psi=psi, chi=chi) for psi, chi in ((0.5, 1.44), (-2.0, 0.4))]
+NUMBERED = [
+    View(given=NUMBERS, psi=psi, chi=chi) for psi, chi in ((0.5, 1.44), (-2.0, 0.4), (9.0, 1.2))
+]
 
 
 @given(st.builds(View, law=SOME_LAWS, **NUMBER, **WORD))
@@ -68,6 +70,16 @@ def test_what_a_link_says_right_is_kept_beside_what_it_says_wrong():
     assert len(wrong) == 1
 
 
+def assert_coulomb(scene):
+    """The force keeps within its limit, and is at it in gross slip, with the sign of the slip."""
+    assert np.all(np.abs(scene.force) <= scene.limit * (1 + 1e-9) + 1e-12)
+    for phase in scene.phases:
+        inside = (scene.share > phase.start) & (scene.share < phase.end)
+        if phase.kind == "gross slip":
+            expected = phase.sign * scene.limit[inside]
+            np.testing.assert_allclose(scene.force[inside], expected, rtol=1e-9)
+
+
 @pytest.mark.parametrize("view", BODIES, ids=str)
 def test_scene_is_the_impact(view):
     scene, hit = scene_of(view), impact_of(view)
@@ -77,7 +89,7 @@ def test_scene_is_the_impact(view):
         exact = carom.rebound(scene.psi_in, scene.chi)
         np.testing.assert_allclose(scene.psi_out, exact, atol=1e-10 * max(1, abs(hit.psi_in)))
     np.testing.assert_allclose(sum(scene.energies.values()), 1.0, atol=1e-10)
-    assert np.all(np.abs(scene.force) <= scene.limit * (1 + 1e-9) + 1e-12)
+    assert_coulomb(scene)
     assert scene.phases[0].start == 0.0
     assert scene.phases[-1].end == pytest.approx(1.0)
     assert scene.contact.max() == pytest.approx(1.0)
@@ -94,24 +106,44 @@ def test_tractions_are_those_of_the_fields(view):
         np.testing.assert_allclose(scene.tractions[row][:-1], expected, atol=1e-9)
 
 
+def seen_from_second(view, stage):
+    """Return how far apart the surfaces are drawn, and the path along the second's surface."""
+    first, second = stage.bodies
+    x, y = first.x - second.x, first.y - second.y
+    if view.against == "half-space" or view.in_numbers:
+        return y - 1.0, x
+    away, sign = np.hypot(x, y), 1.0 if view.against == "sphere" else -1.0
+    reach = second.radius + sign
+    return sign * (away - reach), reach * np.arctan2(x, sign * y)
+
+
+@pytest.mark.parametrize("view", [*BODIES, *NUMBERED], ids=str)
+def test_bodies_overlap_while_they_touch_and_only_then(view):
+    stage = scene_of(view).stage
+    apart, _ = seen_from_second(view, stage)
+    within = (stage.time > 1e-9) & (stage.time < 1.0 - 1e-9)
+    assert np.all(apart[within] < 0.0)
+    assert np.all(apart[~within] >= -1e-9)
+    assert apart.min() < -1e-4
+
+
 @pytest.mark.parametrize("view", BODIES, ids=str)
 def test_balls_leave_as_the_impact_says(view):
     """Directions and turns before and after; the mass centre of two free spheres stays."""
     stage, hit = scene_of(view).stage, impact_of(view)
     first, second = stage.bodies
-    across, up = first.x - second.x, first.y - second.y
-    for end, angle, sign in (
-        (slice(0, 5), np.radians(view.angle), -1),
-        (slice(-5, None), hit.rebound_angle, 1),
-    ):
-        slope = np.diff(across[end]) / (sign * np.diff(up[end]))
-        np.testing.assert_allclose(slope, np.tan(angle), rtol=1e-6, atol=1e-9)
-    rise = np.diff(up[-2:])[0] * view.radius * 1e-3 / hit.normal_speed  # s, magnified
+    apart, along = seen_from_second(view, stage)
+    angle = np.radians(view.angle)
+    for end, leaves, sign in ((slice(0, 5), angle, -1), (slice(-5, None), hit.rebound_angle, 1)):
+        slope = np.diff(along[end]) / (sign * np.diff(apart[end]))
+        np.testing.assert_allclose(slope, np.tan(leaves), rtol=1e-6, atol=1e-9)
+    rise = np.diff(apart[-2:])[0] * view.radius * 1e-3 / hit.normal_speed  # s, magnified
     turned = np.diff(first.turn[-2:])[0]
     np.testing.assert_allclose(turned, hit.spin_out * rise, rtol=1e-6, atol=1e-9)
     if view.against == "sphere":
         heavier = view.pair.second.mass / view.pair.first.mass
-        np.testing.assert_allclose(first.x + heavier * second.x, 0.0, atol=1e-12)
+        centre = np.array([first.x + heavier * second.x, first.y + heavier * second.y])
+        np.testing.assert_allclose(np.ptp(centre, axis=1), 0.0, atol=1e-12)
 
 
 @pytest.mark.parametrize("view", NUMBERED, ids=str)
@@ -119,13 +151,14 @@ def test_scene_of_numbers_is_the_solution(view):
     scene = scene_of(view)
     np.testing.assert_allclose(scene.psi_out, carom.rebound(view.psi, view.chi), atol=1e-10)
     np.testing.assert_allclose(sum(scene.energies.values()), 1.0, atol=1e-10)
+    assert_coulomb(scene)
     first = scene.stage.bodies[0]
     kappa = 4.0 / 7.0 * view.chi
     before = np.diff(first.x[:2]) / -np.diff(first.y[:2])
     np.testing.assert_allclose(before, view.friction * view.psi / kappa, rtol=1e-6)
 
 
-@pytest.mark.parametrize("view", [BODIES[1], BODIES[2], NUMBERED[0]], ids=str)
+@pytest.mark.parametrize("view", [BODIES[0], BODIES[2], NUMBERED[0]], ids=str)
 def test_curves_go_through_the_present_point(view):
     scene = scene_of(view)
     psi, out = exact_curve(scene)
@@ -135,8 +168,9 @@ def test_curves_go_through_the_present_point(view):
         entry = next(e for e in carom.verify.CATALOGUE if e.label == law.label)
         expected = entry.law.rebound(scene.psi_in, scene.chi, kappa=scene.kappa)
         np.testing.assert_allclose(law.at, expected, atol=1e-9)
-        near = np.interp(scene.psi_in, law.psi_in, law.psi_out)
-        np.testing.assert_allclose(near, expected, atol=0.02)
+        if law.psi_in[0] <= scene.psi_in <= law.psi_in[-1]:  # drawn as far as the regimes go
+            near = np.interp(scene.psi_in, law.psi_in, law.psi_out)
+            np.testing.assert_allclose(near, expected, atol=0.02)
         if law.force.size:
             assert np.abs(law.force).max() <= scene.limit.max() * (1 + 1e-3)
 

@@ -2,6 +2,7 @@
 
 import json
 import webbrowser
+from contextlib import suppress
 from typing import Annotated
 
 import typer
@@ -29,7 +30,5 @@ def explore_command(
     typer.echo(json.dumps({"url": page.url}) if as_json else f"{page.url}  (Ctrl-C ends it)")
     if open_browser:
         webbrowser.open(page.url)
-    try:
+    with suppress(KeyboardInterrupt):
         page.serve()
-    except KeyboardInterrupt:
-        typer.echo("", err=True)

@@ -1,6 +1,7 @@
 """A word to who waits while kernels are compiled, which happens once after installation."""
 
 import sys
+from pathlib import Path
 from time import monotonic
 from typing import Any
 
@@ -14,26 +15,30 @@ class Teller(event.Listener):
     """Says so once, on a terminal or in a notebook, when kernels of this package take long."""
 
     def __init__(self) -> None:
-        self.since: float | None = None
+        self.begun: list[float] = []
+        self.spent = 0.0
         self.said = False
 
     def on_start(self, happened: Any) -> None:
-        """Note the first kernel, and speak up at one that is later than one would wait."""
-        if self.said or not happened.data["dispatcher"].py_func.__module__.startswith("carom."):
-            return
-        now = monotonic()
-        self.since = now if self.since is None else self.since
-        if now - self.since > PATIENCE and is_watched():
+        """Speak up when compiling has taken longer than one would wait."""
+        self.begun.append(monotonic())
+        own = happened.data["dispatcher"].py_func.__module__.startswith("carom.")
+        waited = self.spent + self.begun[-1] - self.begun[0]
+        if own and not self.said and waited > PATIENCE and is_watched():
             print(MESSAGE, file=sys.stderr, flush=True)
             self.said = True
 
     def on_end(self, happened: Any) -> None:
-        """Do nothing."""
+        """Add the time of a kernel with all that it called."""
+        begun = self.begun.pop()
+        if not self.begun:
+            self.spent += monotonic() - begun
 
 
 def is_watched() -> bool:
-    """Return whether somebody sees what is written to stderr."""
-    return "ipykernel" in sys.modules or bool(sys.stderr and sys.stderr.isatty())
+    """Return whether somebody waits: in a notebook, on a terminal, or for a command."""
+    told = "ipykernel" in sys.modules or Path(sys.argv[0]).stem == "carom"
+    return told or bool(sys.stderr and sys.stderr.isatty())
 
 
 event.register("numba:compile", Teller())

@@ -1,19 +1,25 @@
 """What happens when something on the page changes."""
 
 import json
+import logging
+from math import isfinite
 from typing import Any
 
 from dash import ClientsideFunction, Dash, Input, Output, State, ctx, html, no_update
 
 from carom.explorer import charts
 from carom.explorer.fits import fitted
-from carom.explorer.layout import CONTROLS, LARGEST_UPLOAD, SLIDERS
-from carom.explorer.overlays import exact_curve, law_curves
+from carom.explorer.layout import CONTROLS, SLIDERS
+from carom.explorer.overlays import LawCurve, exact_curve, law_curves
 from carom.explorer.scenes import Scene, scene_of
-from carom.explorer.uploads import fit_of, fit_of_upload
+from carom.explorer.uploads import LARGEST_UPLOAD, fit_of, fit_of_upload, shown_name
 from carom.explorer.views import View
 from carom.quantities import InputError
+from carom.results import MARKS
 
+log = logging.getLogger(__name__)
+
+EQUAL = 1e-6  # laws are solved to 1e-8
 DRAWN = (  # what a view is drawn into
     ("scene", "data"),
     ("query", "data"),
@@ -26,6 +32,7 @@ DRAWN = (  # what a view is drawn into
     ("bodies", "hidden"),
     ("second_radius-field", "hidden"),
     ("patch-png-item", "hidden"),
+    ("history-png-item", "hidden"),
 )
 
 
@@ -117,17 +124,33 @@ def _drawn(view: View) -> list[Any]:
         view.in_numbers,
         view.against == "half-space",
         view.in_numbers,
+        view.in_numbers,
     ]
 
 
-def _table(scene: Scene, laws: list[charts.LawCurve]) -> list[Any]:
+def _table(scene: Scene, laws: list[LawCurve]) -> list[Any]:
     rows = dict(scene.results)
     for law in laws:
-        off = law.at - scene.psi_out
-        rows[f"ψ₂ by {law.label}"] = f"{law.at:.6g}, off by {off:+.3g}"
+        if isfinite(law.at):
+            rows[f"ψ₂ by {law.label}"] = f"{law.at:.6g}, {_off(law.at - scene.psi_out)}"
     body = [html.Tr([html.Th(name, scope="row"), html.Td(text)]) for name, text in rows.items()]
     table = html.Table(html.Tbody(body), className="carom-table")
-    return [table, html.Pre(scene.findings)]
+    return [table, *_findings(scene)]
+
+
+def _findings(scene: Scene) -> list[Any]:
+    """Return the findings, those first and marked in which the theory does not hold."""
+    lines = scene.findings.splitlines()
+    wrong = [line for line in lines if line.startswith(MARKS[False])]
+    right = [line for line in lines if line not in wrong]
+    return [
+        html.P("\n".join(wrong), className="carom-caution") if wrong else None,
+        html.Pre("\n".join(right)),
+    ]
+
+
+def _off(error: float) -> str:
+    return f"off by {error:+.3g}" if abs(error) > EQUAL else "exact"
 
 
 def _measure(app: Dash) -> None:
@@ -154,7 +177,11 @@ def _measure(app: Dash) -> None:
         try:
             if ctx.triggered_id == "file" and file is not None:
                 found = fit_of_upload(View.of(query or ""), file["contents"], file["name"])
-                return [fitted(found), f"{file['name']}: fitted. The link does not hold the file."]
+                said = f"{shown_name(file['name'])}: fitted, the link does not hold the file"
+                return [fitted(found), said]
             return [fitted(fit_of(data)) if data else None, ""]
         except InputError as error:
             return [None, str(error)]
+        except Exception as error:  # not a word of the page's own notice, which is the impact's
+            log.exception("fit")
+            return [None, f"failed, {type(error).__name__}"]

@@ -10,7 +10,8 @@ from werkzeug.exceptions import HTTPException
 
 from carom.explorer.answers import connect
 from carom.explorer.downloads import add_downloads
-from carom.explorer.layout import LARGEST_UPLOAD, page
+from carom.explorer.layout import page
+from carom.explorer.uploads import LARGEST_UPLOAD
 from carom.quantities import InputError
 
 LARGEST_REQUEST = 2 * LARGEST_UPLOAD  # a file travels in more characters than it has
@@ -25,15 +26,20 @@ HEADERS = {
     "X-Content-Type-Options": "nosniff",
 }
 
-UPDATES, ANY_OTHER = "/_dash-update-component", "/<path:path>"  # of dash
+UPDATES, PARTS, ANY_OTHER = (  # of dash
+    "/_dash-update-component",
+    "/_dash-component-suites/",
+    "/<path:path>",
+)
 
 log = logging.getLogger(__name__)
 
 
-def new_app() -> Dash:
-    """Return the application, its server in `app.server`."""
+def new_app(hosts: list[str] | None = None) -> Dash:
+    """Return the application, which answers to these names of hosts only, None for all."""
     server: Any = Flask(__name__)
     server.config["MAX_CONTENT_LENGTH"] = LARGEST_REQUEST
+    server.config["TRUSTED_HOSTS"] = hosts
     app = Dash(
         __name__,
         server=server,
@@ -48,17 +54,17 @@ def new_app() -> Dash:
     connect(app)
     add_downloads(server)
     server.register_error_handler(Exception, _one_line)
-    server.before_request(_known)
+    server.before_request(_refuse_unknown)
     server.after_request(_guarded)
     return app
 
 
 def _told_on_page(error: Exception) -> None:
     log.error("%s: %s", type(error).__name__, error)
-    set_on_page("notice", {"children": f"failed, {type(error).__name__}: {error}"})
+    set_on_page("notice", {"children": f"failed, {type(error).__name__}"})
 
 
-def _known() -> None:
+def _refuse_unknown() -> None:
     """Refuse addresses that dash would answer with the page."""
     if request.url_rule is not None and request.url_rule.rule == ANY_OTHER:
         abort(404)
@@ -70,9 +76,11 @@ def _one_line(error: Exception) -> Response:
         return _text(str(error), 400)
     if isinstance(error, HTTPException):
         return _text(f"{error.code}: {error.name}", error.code or 500)
+    log.error("%s: %s", type(error).__name__, error)
     if request.path == UPDATES:  # what callbacks raise is told on the page
         return _text("400: this is no request of the page", 400)
-    log.error("%s: %s", type(error).__name__, error)
+    if request.path.startswith(PARTS):
+        return _text("404: Not Found", 404)
     return _text(f"failed, {type(error).__name__}", 500)
 
 

@@ -1,20 +1,22 @@
 """The charts of the page as plotly takes them: plain dictionaries, colours that suit any theme."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carom.curves import borders
-from carom.explorer.scenes import Scene
+from carom.explorer.overlays import LawCurve
+from carom.explorer.scenes import OF_CONTACT, Scene
 from carom.explorer.stages import short
+from carom.plots.impact import ENERGIES
 
 Array = NDArray[np.float64]
 Figure = dict[str, Any]
 
 BLUE, VERMILION, ORANGE, GREEN, GREY = "#2b8cc4", "#d55e00", "#e69f00", "#009e73", "#8a8f98"
+CHART: Any = {"displayModeBar": False, "responsive": True}
 LAW_COLORS = (VERMILION, GREEN, "#cc79a7", ORANGE, "#56b4e9", "#8d6fc1", "#b0793d")
 DASHES = ("dash", "dot", "dashdot", "longdash")
 PHASE_FILLS = {
@@ -31,38 +33,27 @@ REGIME_FILLS = (
     ("slide", "rgba(138, 143, 152, 0.16)"),
 )
 ENERGY_FILLS = {  # colour and pattern
-    "normal motion": ("#c9d3dd", ""),
-    "tangential motion": ("#8db9dc", "."),
-    "motion of the contact point": ("#8db9dc", "."),
-    "spin": (BLUE, ""),
-    "elastic, normal": ("#ecd9a4", "/"),
-    "elastic, tangential": (ORANGE, ""),
-    "lost to friction": ("#7d838b", "\\"),
+    "normal_kinetic_energy": ("#c9d3dd", ""),
+    "tangential_kinetic_energy": ("#8db9dc", "."),
+    "contact_kinetic_energy": ("#8db9dc", "."),
+    "spin_kinetic_energy": (BLUE, ""),
+    "normal_elastic_energy": ("#ecd9a4", "/"),
+    "tangential_elastic_energy": (ORANGE, ""),
+    "frictional_work": ("#7d838b", "\\"),
 }
+ENERGY_NAMES = {name: label for name, (label, *_) in ENERGIES.items()} | OF_CONTACT
 SIGNS = {0: "", 1: " +", -1: " \N{MINUS SIGN}"}
 HEADROOM = 1.25  # of the forces: above them the phases have their names
 ROOM = 1.12  # of the shares of energy: above them the phases have their names
 NARROW = 0.07  # of the axis: a band below that goes without its name
 
 
-@dataclass(frozen=True, eq=False)
-class LawCurve:
-    """What a contact law gives: its rebounds, and its force in time, both as they are drawn."""
-
-    label: str
-    psi_in: Array
-    psi_out: Array
-    at: float  # psi_2 at the present psi_1
-    share: Array
-    force: Array
-
-
 def forces(scene: Scene, laws: Sequence[LawCurve] = ()) -> Figure:
     """Return F_x between its limits against time, phases shaded."""
     time = scene.share * scene.duration
-    name = f"force ({scene.force_unit})"
+    name = f"friction on the second body, F_x ({scene.force_unit})"
     traces = [
-        line(time, scene.limit, "± µ F_z", GREY, "dash", 1.2, group="limit"),
+        line(time, scene.limit, "± µ F_z, exact", GREY, "dash", 1.2, group="limit"),
         line(time, -scene.limit, "± µ F_z", GREY, "dash", 1.2, group="limit", shown=False),
         line(time, scene.force, "F_x", BLUE, "solid", 2.4),
         *(
@@ -73,6 +64,8 @@ def forces(scene: Scene, laws: Sequence[LawCurve] = ()) -> Figure:
     figure = axes_of(traces, f"time ({scene.time_unit})", name, scene)
     most = max(1e-9, *(float(np.abs(part).max(initial=0.0)) for part in _drawn(scene, laws)))
     figure["layout"]["yaxis"]["range"] = [-1.1 * most, HEADROOM * most]
+    longest = max([1.0, *(float(law.share.max(initial=0.0)) for law in laws)])
+    figure["layout"]["xaxis"]["range"] = [0.0, longest * scene.duration]
     return figure
 
 
@@ -89,20 +82,20 @@ def energies(scene: Scene) -> Figure:
             "type": "scatter",
             "mode": "lines",
             "stackgroup": "energy",
-            "name": label,
+            "name": ENERGY_NAMES[name],
             "x": time,
             "y": short(part),
             "line": {"width": 0.8, "color": GREY},
-            "fillcolor": ENERGY_FILLS[label][0],
+            "fillcolor": ENERGY_FILLS[name][0],
             "fillpattern": {
-                "shape": ENERGY_FILLS[label][1],
-                "bgcolor": ENERGY_FILLS[label][0],
+                "shape": ENERGY_FILLS[name][1],
+                "bgcolor": ENERGY_FILLS[name][0],
                 "fgcolor": "#5d646e",
                 "size": 6,
             },
             "hovertemplate": "%{y:.1%}",
         }
-        for label, part in scene.energies.items()
+        for name, part in scene.energies.items()
         if np.any(part > 0.0)
     ]
     figure = axes_of(traces, f"time ({scene.time_unit})", "share of energy", scene)
@@ -127,6 +120,7 @@ def rebounds(scene: Scene, curve: tuple[Array, Array], laws: Sequence[LawCurve] 
         *(
             _point(scene.psi_in, law.at, law.label, _style(row)[0], "x")
             for row, law in enumerate(laws)
+            if np.isfinite(law.at)
         ),
     ]
     if np.isfinite(scene.psi_in):
@@ -156,6 +150,7 @@ def line(
     group: str = "",
     shown: bool = True,
 ) -> Figure:
+    """Return a line."""
     return {
         "type": "scatter",
         "mode": "lines",

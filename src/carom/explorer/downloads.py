@@ -1,7 +1,7 @@
 """Files of a view: histories, pictures, and the lines of Python, each at an address of its own."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import fields
+from math import isfinite
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from threading import Lock
@@ -9,13 +9,13 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 from urllib.parse import parse_qs
 
-import numpy as np
 from flask import Flask, Response, request
 
 from carom.curves import curve
 from carom.dimensionless.solution import solve
-from carom.dimensionless.states import History
-from carom.explorer.scenes import TIMES, impact_of
+from carom.exact_impacts import Impact
+from carom.explorer.overlays import exact_curve
+from carom.explorer.scenes import TIMES, impact_of, scene_of
 from carom.explorer.scripts import script
 from carom.explorer.views import View
 from carom.plots import plot_curve, plot_impact, plot_patch, save_figure
@@ -34,7 +34,20 @@ KINDS = MappingProxyType(
         ".py": "text/x-python; charset=utf-8",
     }
 )
-POINTS = 241  # of a curve
+MEANINGS = {  # of the columns of `Solution.history`
+    "penetration": "penetration, in d_max",
+    "speed": "normal speed of approach, in V_1",
+    "psi": "velocity of the contact point, in mu V_1/kappa",
+    "displacement": "tangential displacement, in mu d_max/kappa",
+    "force": "(2/3) F_x/(mu P_max)",
+    "stick_radius": "radius of the stick zone, in the largest of the contact",
+    "contact_radius": "radius of the contact, in its largest",
+    "stored": "tangential elastic energy; that of motion is psi^2/2",
+    "dissipated": "work of friction, as above",
+    "normal_force": "F_z/P_max",
+    "normal_stored": "normal elastic energy, in that of the impact",
+    "normal_lost": "what the normal motion lost, as above",
+}
 
 _drawing = Lock()  # matplotlib's settings are those of the whole process
 
@@ -62,9 +75,12 @@ def _time(query: str) -> float:
     """Return the time in a link, within the contact, as a share of its duration."""
     text = parse_qs(query).get("time", ["0.5"])[-1]
     try:
-        return min(max(float(text), 0.0), 1.0)
+        share = float(text)
     except ValueError:
-        raise refusal("time", text, "must be a share of the duration, e.g. 0.5") from None
+        share = float("nan")
+    if not isfinite(share):
+        raise refusal("time", text, "must be a share of the duration, e.g. 0.5")
+    return min(max(share, 0.0), 1.0)
 
 
 def _history(view: View, _: float, file: Path) -> None:
@@ -75,21 +91,29 @@ def _history(view: View, _: float, file: Path) -> None:
 
 
 def _picture(view: View, _: float, file: Path) -> None:
+    history = _hit(view).history(TIMES)
     with _drawing:
-        if view.in_numbers:
-            most = max(4.0 * view.chi, abs(view.psi))
-            figure = plot_curve(curve(view.chi, np.linspace(0.0, most, POINTS)))
-        else:
-            figure = plot_impact(impact_of(view).history(TIMES))
-        save_figure(figure, file)
+        save_figure(plot_impact(history), file)
+
+
+def _curve(view: View, _: float, file: Path) -> None:
+    scene = scene_of(view)
+    dataset = curve(scene.chi, exact_curve(scene)[0])
+    with _drawing:
+        save_figure(plot_curve(dataset), file)
 
 
 def _patch(view: View, time: float, file: Path) -> None:
-    if view.in_numbers:
-        raise InputError("patch.png: fields have units; choose bodies instead of psi_1 and chi")
-    hit = impact_of(view)
+    hit = _hit(view)
+    fields_then = hit.fields(time * hit.duration)
     with _drawing:
-        save_figure(plot_patch(hit.fields(time * hit.duration)), file)
+        save_figure(plot_patch(fields_then), file)
+
+
+def _hit(view: View) -> Impact:
+    if view.in_numbers:
+        raise InputError("given: this has units; choose bodies instead of psi_1 and chi")
+    return impact_of(view)
 
 
 def _lines(view: View, time: float, file: Path) -> None:
@@ -101,6 +125,7 @@ WRITERS: Mapping[str, Callable[[View, float, Path], None]] = MappingProxyType(
         "history.csv": _history,
         "history.nc": _history,
         "history.png": _picture,
+        "curve.png": _curve,
         "patch.png": _patch,
         "view.py": _lines,
     }
@@ -112,10 +137,10 @@ def dimensionless_history(view: View) -> "xr.Dataset":
     solution = solve(view.psi, view.chi)
     history = solution.history(TIMES)
     columns = {
-        field.name: ("time", getattr(history, field.name), {"long_name": field.name, "units": "1"})
-        for field in fields(History)
+        name: ("time", getattr(history, name), {"long_name": meaning, "units": "1"})
+        for name, meaning in MEANINGS.items()
     }
-    time = columns.pop("time")
+    time = ("time", history.time, {"long_name": "time, in d_max/V_1", "units": "1"})
     numbers = {"psi_in": view.psi, "chi": view.chi, "psi_out": solution.psi_out}
     title = {"title": "oblique impact, in the units of carom.solve"}
     return labelled_dataset({**columns, **numbers}, {"time": time}, title)

@@ -5,8 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from dash import dcc, html
 
-from carom.explorer.charts import BLUE, GREY, VERMILION, Figure, axes_of, line
-from carom.explorer.layout import CHART
+from carom.explorer.charts import BLUE, CHART, GREY, VERMILION, Figure, axes_of, line
 from carom.explorer.stages import short
 from carom.fitting import Fit
 from carom.glossary import GLOSSARY
@@ -15,7 +14,7 @@ from carom.plots.style import prefixed
 if TYPE_CHECKING:
     import xarray as xr
 
-LAWS = {
+LINES = {
     "exact": (BLUE, "solid", 2.2),
     "Walton": ("#009e73", "dot", 1.4),
     "rigid Coulomb": (GREY, "dash", 1.4),
@@ -43,12 +42,11 @@ def _chart(one: "xr.Dataset", name: str) -> Figure:
     scale, unit = _scale(name, one["measured"].values)
     along = np.degrees(one["curve_incidence"].values)
     traces: list[Figure] = [
-        line(along, scale * one["curve_expected"].sel(law=law).values, str(law), *LAWS[str(law)])
+        line(along, scale * one["curve_expected"].sel(law=law).values, str(law), *LINES[str(law)])
         for law in one["law"].values
     ]
     traces.append(_points(one, scale))
-    words = GLOSSARY[name].meaning if name in GLOSSARY else name.replace("_", " ")
-    text = words.split(",")[0] + (f" ({unit})" if unit != "1" else "")
+    text = name.replace("_", " ") + (f" ({unit})" if unit != "1" else "")
     return axes_of(traces, "incidence of the contact point (deg)", text)
 
 

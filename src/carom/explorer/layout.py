@@ -6,6 +6,7 @@ from typing import Any
 
 from dash import dcc, html
 
+from carom.explorer.charts import CHART
 from carom.explorer.views import BODIES, CHOICES, KNOBS, LAWS, NUMBERS, View
 
 LABELS: Mapping[str, str] = MappingProxyType(
@@ -35,14 +36,13 @@ FILES = MappingProxyType(
         "history.csv": "History, CSV",
         "history.nc": "History, NetCDF",
         "history.png": "Histories, PNG",
+        "curve.png": "Rebound curve, PNG",
         "patch.png": "Contact, PNG",
         "view.py": "Python",
     }
 )
 PACES = (2, 5, 10, 30)  # seconds that a film takes
-CHART: Any = {"displaylogo": False, "responsive": True}
 LIVE: Any = {"aria-live": "polite"}
-LARGEST_UPLOAD = 1_000_000  # bytes
 
 
 def page() -> html.Div:
@@ -190,8 +190,8 @@ def _chart(name: str, classes: str = "") -> html.Div:
 def _measured() -> Iterable[Any]:
     yield html.P(
         "Friction, stiffness ratio and restitution from a table: one row an impact, e.g. with the "
-        "columns angle [deg] and contact_beta. The bodies are those chosen here, unless the file "
-        "tells."
+        "columns angle [deg] and contact_restitution, as in the result above, or spin_out. The "
+        "bodies are those chosen here, unless the file tells."
     )
     yield _control("data", View())
     yield dcc.Upload(

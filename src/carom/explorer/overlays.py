@@ -1,6 +1,7 @@
 """Rebound curves of a view, the exact one and those of contact laws; remembered by bodies."""
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -8,19 +9,29 @@ from numpy.typing import NDArray
 
 from carom.dimensionless.hertz import DURATION
 from carom.dimensionless.rebounds import rebound
-from carom.explorer.charts import LawCurve
-from carom.explorer.scenes import Scene, scene_of
-from carom.explorer.views import LAWS, NUMBERS, View
+from carom.explorer.scenes import Scene
 from carom.laws.dem.base import ContactLaw, Law
 from carom.verify.catalogue import named
 
 Array = NDArray[np.float64]
 
-POINTS, POINTS_OF_LAWS = 241, 81
+POINTS, POINTS_OF_LAWS = 241, 61
 BEYOND = 1.15  # of the present psi_1, that is shown
 STEPS = 400  # of a law's force in time
 KEPT = 256  # curves that are remembered
 DIGITS = 12  # of what a curve is remembered by
+
+
+@dataclass(frozen=True, eq=False)
+class LawCurve:
+    """What a contact law gives: its rebounds, and its force in time, both as they are drawn."""
+
+    label: str
+    psi_in: Array
+    psi_out: Array
+    at: float  # psi_2 at the present psi_1
+    share: Array
+    force: Array
 
 
 def exact_curve(scene: Scene) -> tuple[Array, Array]:
@@ -38,8 +49,8 @@ def law_curves(scene: Scene, labels: Iterable[str]) -> list[LawCurve]:
 def _of_law(scene: Scene, label: str) -> LawCurve:
     law = named(label)[0].law
     low, high = _span(scene)
-    grid = np.linspace(0.0, max(-low, high), POINTS_OF_LAWS)
-    half = _half(label, float(grid[-1]), round(scene.chi, DIGITS), round(scene.kappa, DIGITS))
+    grid = np.linspace(0.0, _regimes(scene.chi), POINTS_OF_LAWS)
+    half = _half(label, round(scene.chi, DIGITS), round(scene.kappa, DIGITS))
     psi, out = np.concatenate([-grid[:0:-1], grid]), np.concatenate([-half[:0:-1], half])
     shown = (psi >= low) & (psi <= high)
     at, share, force = float("nan"), np.array([]), np.array([])
@@ -58,22 +69,20 @@ def _in_time(law: Law, scene: Scene) -> tuple[Array, Array]:
 
 
 @lru_cache(maxsize=KEPT)
-def _half(label: str, most: float, chi: float, kappa: float) -> Array:
-    grid = np.linspace(0.0, most, POINTS_OF_LAWS)
+def _half(label: str, chi: float, kappa: float) -> Array:
+    """Return psi_2 of a law over the regimes; beyond them every law slides."""
+    grid = np.linspace(0.0, _regimes(chi), POINTS_OF_LAWS)
     return np.asarray(named(label)[0].law.rebound(grid, chi, kappa=kappa))
+
+
+def _regimes(chi: float) -> float:
+    """Return a psi_1 beyond all regimes."""
+    return float(np.ceil(2.0 * max(4.0 * chi, 1.5)) / 2.0)
 
 
 def _span(scene: Scene) -> tuple[float, float]:
     """Return the psi_1 between which curves are drawn: all regimes, and the present point."""
-    regimes = np.ceil(2.0 * max(4.0 * scene.chi, 1.5)) / 2.0
+    regimes = _regimes(scene.chi)
     point = scene.psi_in if np.isfinite(scene.psi_in) else 0.0
     reach = np.ceil(BEYOND * abs(point)) if abs(point) > regimes / BEYOND else regimes
     return (-reach if point < 0.0 else 0.0), max(reach, regimes)
-
-
-def warm_up() -> None:
-    """Load or compile all that an answer needs, so that none has to wait for it."""
-    for view in (View(law=LAWS), View(given=NUMBERS)):
-        scene = scene_of(view)
-        exact_curve(scene)
-        law_curves(scene, view.law)

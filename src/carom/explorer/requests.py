@@ -9,6 +9,7 @@ class Quiet(WSGIRequestHandler):
     """A handler that keeps connections open and tells of errors only."""
 
     protocol_version = "HTTP/1.1"
+    timeout = 60  # seconds that an idle connection is kept
 
     def log_request(self, code: Any = "-", size: Any = "-") -> None:
         """Say nothing."""

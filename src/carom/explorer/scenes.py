@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,8 @@ Array = NDArray[np.float64]
 TIMES = 201  # of the histories
 INSTANTS, RADII = 61, 33  # at which tractions are drawn
 OF_BODIES = (
+    "chi",
+    "kappa",
     "psi_in",
     "psi_out",
     "rebound_angle",
@@ -35,10 +38,11 @@ OF_BODIES = (
     "max_force",
     "max_radius",
 )
+LETTERS = {"chi": "χ", "kappa": "κ", "psi_in": "ψ₁", "psi_out": "ψ₂"}
 OF_CONTACT = {  # energies of the tangential motion alone
-    "kinetic": "motion of the contact point",
-    "stored": "elastic, tangential",
-    "dissipated": "lost to friction",
+    "contact_kinetic_energy": "motion of the contact point",
+    "tangential_elastic_energy": "elastic, tangential",
+    "frictional_work": "lost to friction",
 }
 
 
@@ -98,7 +102,7 @@ def _of_bodies(hit: Impact) -> Scene:
     column = {str(name): line.values for name, line in history.variables.items()}
     unit, seconds = _scaled(hit.duration, "s")
     force_unit, newtons = _scaled(hit.pair.friction * hit.max_force or hit.max_force, "N")
-    energies = {label: column[name] for name, (label, *_) in ENERGIES.items()}
+    energies = {name: column[name] for name in ENERGIES}
     whole = sum(energies.values())
     solution = _elastic(hit)
     return Scene(
@@ -113,16 +117,12 @@ def _of_bodies(hit: Impact) -> Scene:
         force=column["tangential_force"] * newtons,
         limit=hit.pair.friction * column["normal_force"] * newtons,
         force_unit=force_unit,
-        energies={label: part / whole for label, part in energies.items()},
+        energies={name: part / whole for name, part in energies.items()},
         contact=column["contact_radius"] / hit.max_radius,
         stick=column["stick_radius"] / hit.max_radius,
         tractions=_tractions(solution),
         stage=stage_of_bodies(hit, column),
-        results={
-            GLOSSARY[name].meaning: _text(name, value)
-            for name, value in hit.scalars().items()
-            if name in OF_BODIES
-        },
+        results={_named(name): _text(name, hit.scalars()[name]) for name in OF_BODIES},
         findings=str(hit.validity),
     )
 
@@ -131,7 +131,7 @@ def _of_numbers(view: View) -> Scene:
     solution = solve(view.psi, view.chi)
     history = solution.history(TIMES)
     parts = (0.5 * history.psi**2, history.stored, history.dissipated)
-    whole = sum(parts) if view.psi else np.ones(TIMES)
+    whole = sum(parts) if parts[0][0] > 0.0 else np.ones(TIMES)
     return Scene(
         psi_in=solution.psi_in,
         psi_out=solution.psi_out,
@@ -141,12 +141,10 @@ def _of_numbers(view: View) -> Scene:
         time_unit="d_max/V₁",
         phases=_shares(solution.phases, solution.duration),
         share=history.time / solution.duration,
-        force=history.force,
+        force=1.5 * history.force,  # Q = (2/3) F_x/(mu P_max)
         limit=history.normal_force,
         force_unit="µ F_max",
-        energies={
-            label: part / whole for label, part in zip(OF_CONTACT.values(), parts, strict=True)
-        },
+        energies={name: part / whole for name, part in zip(OF_CONTACT, parts, strict=True)},
         contact=history.contact_radius,
         stick=history.stick_radius,
         tractions=_tractions(solution),
@@ -159,12 +157,12 @@ def _of_numbers(view: View) -> Scene:
 def _numbers(solution: Solution) -> dict[str, str]:
     psi, out = solution.psi_in, solution.psi_out
     rows = {
-        GLOSSARY["psi_in"].meaning: f"{psi:.6g}",
-        GLOSSARY["psi_out"].meaning: f"{out:.6g}",
-        GLOSSARY["chi"].meaning: f"{solution.chi:.6g}",
+        _named("psi_in"): f"{psi:.6g}",
+        _named("psi_out"): f"{out:.6g}",
+        _named("chi"): f"{solution.chi:.6g}",
     }
     if psi:
-        rows[GLOSSARY["contact_restitution"].meaning] = f"{out / psi:.6g}"
+        rows[_named("contact_restitution")] = f"{out / psi:.6g}"
     return rows
 
 
@@ -188,9 +186,17 @@ def _shares(phases: tuple[Phase, ...], duration: float) -> tuple[Phase, ...]:
     return tuple(p._replace(start=p.start / duration, end=p.end / duration) for p in phases)
 
 
+def _named(name: str) -> str:
+    """Return what a number is called, after its letter if the page speaks of it by that."""
+    letter = LETTERS.get(name)
+    return f"{letter}, {GLOSSARY[name].meaning}" if letter else GLOSSARY[name].meaning
+
+
 def _text(name: str, value: float) -> str:
     """Return a value of the glossary with its unit, prefixed so that it is easy to read."""
     unit = GLOSSARY[name].unit
+    if not isfinite(value):
+        return "none: it slides freely"
     if unit in ("1", "rad"):
         return GLOSSARY[name].text(value)
     short_unit, scale = _scaled(value, unit)

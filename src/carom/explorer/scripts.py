@@ -8,7 +8,7 @@ import carom
 pair = carom.Pair({first}, {second}, friction={friction!r})
 hit = carom.impact(pair, speed={speed!r}, angle="{angle!r} deg", spin={spin!r})
 print(hit.psi_in, hit.psi_out, hit.rebound_angle, hit.spin_out)
-carom.save(hit.history(), "history.csv")  # or .nc
+carom.save(hit.history(201), "history.csv")  # or .nc
 hit.plot("history.png")
 patch = hit.fields({time!r} * hit.duration)
 carom.plots.save_figure(carom.plots.plot_patch(patch), "patch.png")

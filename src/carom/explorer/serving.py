@@ -2,6 +2,7 @@
 
 import socket
 from dataclasses import dataclass, field
+from errno import EADDRNOTAVAIL
 from typing import TYPE_CHECKING
 
 from carom.extras import extra
@@ -11,6 +12,7 @@ if TYPE_CHECKING:
     from werkzeug.serving import BaseWSGIServer
 
 LOOPBACK = "127.0.0.1"
+OWN_NAMES = [LOOPBACK, "localhost", "::1", "[::1]"]
 PORT = 8050
 PORTS = 65535
 WAITING = 128  # requests that may queue
@@ -73,19 +75,19 @@ def explorer(*, host: str = LOOPBACK, port: int = PORT) -> Explorer:
         from werkzeug.serving import make_server
 
         from carom.explorer.app import new_app
-        from carom.explorer.overlays import warm_up
         from carom.explorer.requests import Quiet
+        from carom.explorer.warming import warm_up
 
         warm_up()
         server = make_server(
             host,
             listening.getsockname()[1],
-            new_app().server,
+            new_app(OWN_NAMES if host in OWN_NAMES else None).server,
             threaded=True,
             request_handler=Quiet,
             fd=listening.fileno(),
         )
-    shown = f"[{host}]" if ":" in host else host
+    shown = {"0.0.0.0": LOOPBACK, "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)
     return Explorer(f"http://{shown}:{server.port}/", server)
 
 
@@ -99,6 +101,9 @@ def _bound(host: str, port: int) -> socket.socket:
         found.listen(WAITING)
     except OSError as error:
         found.close()
+        if isinstance(error, socket.gaierror) or error.errno == EADDRNOTAVAIL:
+            allowed = "is no address of this machine; 127.0.0.1 is, and 0.0.0.0 is every one"
+            raise refusal("host", host, allowed) from None
         reason = error.strerror or str(error)
         raise InputError(
             f"port: {port} at {host!r} cannot be listened at, {reason.lower()}; "

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.bodies import Cup, Sphere
+from carom.curves import SOLID_SPHERE
 from carom.dimensionless.solution import Solution
 from carom.dimensionless.states import History
 from carom.exact_impacts import Impact
@@ -17,7 +18,8 @@ Array = NDArray[np.float64]
 
 BEFORE = AFTER = 0.6  # of the contact's duration that is shown besides
 DEEPEST, WIDEST = 0.3, 6.0  # radii that the bodies may approach, and travel sideways
-SOLID_SPHERE = 2.0 / 7.0  # m_t/m_n of a solid sphere on a fixed body
+STEEPEST = 0.7  # angle by which a body may travel around another, in rad
+BENT = ", paths bent"
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,24 +63,36 @@ def stage_of_bodies(hit: Impact, column: Mapping[str, Array]) -> Stage:
     """Return the bodies of an impact from its history, which is evenly spaced in time."""
     pair, radius, duration = hit.pair, hit.pair.first.radius, hit.duration
     time = column["time"] / duration
-    along = _travelled(time, column["tangential_speed"], duration)
+    along = _travelled(time, column["tangential_speed"], duration) / radius
     closer = _continued(time, column["penetration"], hit.normal_speed, -hit.normal_speed, duration)
+    closer /= radius
     turns = [_travelled(time, column[name], duration) for name in ("spin", "spin2")]
-    magnified = _magnification(radius, hit.max_penetration, along)
-    along, closer = (magnified * path / radius for path in (along, closer))
-    turns = [magnified * turn for turn in turns]
-    second = pair.second
-    kind, size = _shape(second, radius)
+    kind, size = _shape(pair.second, radius)
+    magnified = _magnification(kind, size, closer, along)
+    place = _placed(kind, size, magnified * along, magnified * closer)
+    first_turn, second_turn = (magnified * turn for turn in turns)
     share = pair.normal_mass / pair.first.mass  # of the relative motion, the first body's
-    height = 1.0 - closer if kind != "sphere" else 1.0 - share * closer
-    first = Body("sphere", 1.0, share * along, height, turns[0])
-    still = np.zeros(along.size)
-    if kind == "sphere":
-        rest = 1.0 - share
-        other = Body(kind, size, -rest * along, -size + rest * closer, turns[1])
-    else:
-        other = Body(kind, size, still, still + (size if kind == "cup" else 0.0), still)
-    return Stage(_wide(time), (first, other), f"motion magnified {magnified:.3g} times")
+    height = {"plane": 0.0, "sphere": -size, "cup": size}[kind]  # of the second body
+    rest = (1.0 - share) * (place - [0.0, 1.0 - height])
+    x, y = place.T - rest.T
+    first = Body("sphere", 1.0, x, y + height, first_turn)
+    second = Body(kind, size, -rest[:, 0], height - rest[:, 1], second_turn)
+    caption = f"motion magnified {magnified:.3g} times" + (BENT if kind != "plane" else "")
+    return Stage(_wide(time), (first, second), caption)
+
+
+def _placed(kind: str, size: float, along: Array, closer: Array) -> Array:
+    """Return where the first centre is as seen from the second body's.
+
+    Paths follow the surface of the second body, so that the bodies overlap by `closer` wherever
+    they are: what is magnified is small against both radii.
+    """
+    if kind == "plane":
+        return np.column_stack([along, 1.0 - closer])
+    reach = 1.0 + size - closer if kind == "sphere" else size - 1.0 + closer
+    angle = along / (1.0 + size if kind == "sphere" else size - 1.0)
+    up = np.cos(angle) if kind == "sphere" else -np.cos(angle)
+    return np.column_stack([reach * np.sin(angle), reach * up])
 
 
 def stage_of_numbers(solution: Solution, history: History, friction: float) -> Stage:
@@ -89,7 +103,7 @@ def stage_of_numbers(solution: Solution, history: History, friction: float) -> S
     along = _travelled(time, slope * (solution.psi_in - SOLID_SPHERE * lost), duration)
     turn = _travelled(time, -slope * (1.0 - SOLID_SPHERE) * lost, duration)
     closer = _continued(time, history.penetration, 1.0, -1.0, duration)
-    magnified = _magnification(1.0, 1.0, along)
+    magnified = _magnification("plane", 1.0, closer, along)
     still = np.zeros(along.size)
     first = Body("sphere", 1.0, magnified * along, 1.0 - magnified * closer, magnified * turn)
     plane = Body("plane", 1.0, still, still, still)
@@ -102,10 +116,16 @@ def _shape(second: object, radius: float) -> tuple[str, float]:
     return "plane", 1.0
 
 
-def _magnification(radius: float, depth: float, along: Array) -> float:
-    travel = float(np.ptp(along))
-    sideways = WIDEST * radius / travel if travel else np.inf
-    return min(DEEPEST * radius / depth, sideways)
+def _magnification(kind: str, size: float, closer: Array, along: Array) -> float:
+    """Return by how much motion is magnified, so that it stays within the picture and a cup."""
+    depth, travel = float(closer.max()), float(np.abs(along).max())
+    deep, wide = DEEPEST, 0.5 * WIDEST
+    if kind == "sphere":
+        deep, wide = DEEPEST * min(1.0, size), STEEPEST * (1.0 + size)
+    elif kind == "cup":
+        lifted = float(-closer.min()) / depth  # before and after
+        deep, wide = min(DEEPEST, 0.5 * (size - 1.0) / lifted), STEEPEST * (size - 1.0)
+    return min(deep / depth, wide / travel if travel else np.inf)
 
 
 def _wide(time: Array) -> Array:

@@ -2,17 +2,18 @@
 
 from base64 import b64decode
 from binascii import Error as NotBase64
-from pathlib import Path, PurePath
+from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from carom import datasets
-from carom.explorer.layout import LARGEST_UPLOAD
 from carom.explorer.views import View
 from carom.fitting import Fit, fit
 from carom.quantities import InputError, refusal
 from carom.sheets import read_table
 
+LARGEST_UPLOAD = 1_000_000  # bytes
 MOST_ROWS = 2000
+LONGEST_NAME = 80
 
 
 def fit_of(name: str) -> Fit:
@@ -27,15 +28,23 @@ def fit_of_upload(view: View, contents: str, name: str) -> Fit:
     """
     text = _decoded(contents)
     with TemporaryDirectory() as folder:
-        file = Path(folder) / (PurePath(name.replace("\\", "/")).name or "upload.csv")
+        file = Path(folder) / "upload.csv"
         file.write_bytes(text)
         try:
             return _fitted(view, file)
         except InputError as error:
-            raise InputError(str(error).replace(f"{folder}/", "")) from None
+            raise InputError(str(error).replace(str(file), shown_name(name))) from None
+
+
+def shown_name(name: str) -> str:
+    """Return the name of a user's file, fit to be shown."""
+    last = str(name).replace("\\", "/").rpartition("/")[2]
+    return "".join(letter for letter in last if letter.isprintable())[:LONGEST_NAME] or "file"
 
 
 def _decoded(contents: str) -> bytes:
+    if not isinstance(contents, str):
+        raise InputError("file: it did not arrive; choose it again")
     try:
         found = b64decode(contents.partition(",")[2], validate=True)
     except NotBase64:

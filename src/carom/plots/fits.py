@@ -169,11 +169,8 @@ def _scale(name: str, values: Any) -> tuple[float, str]:
 
 
 def _label(name: str, unit: str) -> str:
-    if name not in GLOSSARY:
-        return name.replace("_", " ")
-    words, symbol = GLOSSARY[name].meaning.split(",")[0], GLOSSARY[name].symbol
-    short = words if len(words) < 24 else ""
-    text = f"{short}, {symbol}" if short else symbol
+    words = name.replace("_", " ")
+    text = f"{words}, {GLOSSARY[name].symbol}" if name in GLOSSARY else words
     return text if unit == "1" else f"{text}\u00a0({unit})"
 
 

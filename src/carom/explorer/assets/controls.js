@@ -24,7 +24,7 @@ window.dash_clientside.controls = {
     if (!contents) return [same, same];
     const size = Math.floor((contents.length - contents.indexOf(",") - 1) * 0.75);
     if (size > largest) {
-      return [null, `file: ${name} has ${size} bytes; it must be at most ${largest}`];
+      return [same, `file: ${name} has ${size} bytes; it must be at most ${largest}`];
     }
     return [{ contents, name, read: Date.now() }, ""];
   },

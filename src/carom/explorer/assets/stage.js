@@ -130,7 +130,7 @@ Carom.stage = (() => {
     stretch(-share, share, color("stick"), 8);
   }
 
-  // The tangential force on the first body, against the traction on the second.
+  // Friction on the first body, against the traction on the second.
   function drawForce(pen, seen, touch, now) {
     const length = -now.force * FORCE;
     if (Math.abs(length) < SHORT) return;
@@ -142,7 +142,7 @@ Carom.stage = (() => {
     canvas.arrow(pen, ...seen.at(from), ...seen.at(to), color("force"), 3);
     const side = length < 0 ? "right" : "left";
     const [px, py] = seen.at(to);
-    canvas.haloed(pen, "force", px + (length < 0 ? -4 : 4), py - 4, { align: side });
+    canvas.haloed(pen, "friction", px + (length < 0 ? -4 : 4), py - 4, { align: side });
   }
 
   function drawLegend(pen, width, height, caption, now) {
