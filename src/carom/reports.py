@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from math import degrees, isnan
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
+from carom.dimensionless.states import Phase, SlipAngle
 from carom.glossary import GLOSSARY
 from carom.histories import RESULTS
-from carom.results import MARKS
-
-if TYPE_CHECKING:
-    from carom.courses import Course
+from carom.normals import NormalLaw
+from carom.pairs import Pair
+from carom.results import MARKS, Validity
 
 OF_LOSSES = ("normal_restitution", "lost_energy")  # 1 and 0 without
 NOTES = {
@@ -20,7 +20,24 @@ NOTES = {
 }
 
 
-def impact_record(hit: Course) -> dict[str, Any]:
+class Reported(Protocol):
+    """What a report needs of an impact."""
+
+    @property
+    def pair(self) -> Pair: ...
+    @property
+    def normal(self) -> NormalLaw | None: ...
+    @property
+    def phases(self) -> tuple[Phase, ...]: ...
+    @property
+    def slip_angles(self) -> tuple[SlipAngle, ...]: ...
+    @property
+    def validity(self) -> Validity: ...
+    def scalars(self) -> dict[str, float]: ...
+    def inputs(self) -> dict[str, Any]: ...
+
+
+def impact_record(hit: Reported) -> dict[str, Any]:
     """Return the result as what JSON can hold; what is not a number becomes null."""
     scalars = {name: _finite(value) for name, value in hit.scalars().items()}
     return {
@@ -45,7 +62,7 @@ def _finite(value: float) -> float | None:
     return value if abs(value) < float("inf") and not isnan(value) else None
 
 
-def impact_text(hit: Course) -> str:
+def impact_text(hit: Reported) -> str:
     """Return the result as text to read."""
     scalars, method = hit.scalars(), hit.inputs().get("method", "exact")
     note = NOTES["lossy" if hit.normal is not None else method]
