@@ -3,11 +3,9 @@
 Every visit ends with the console free of errors and warnings and no other host asked.
 """
 
-import contextlib
 import json
 import re
 import shutil
-import signal
 import subprocess
 import sys
 import time
@@ -113,10 +111,7 @@ def address():
         try:
             yield json.loads(server.stdout.readline())["url"]
         finally:
-            server.send_signal(signal.SIGINT)
-            with contextlib.suppress(subprocess.TimeoutExpired):
-                server.wait(timeout=10)
-            server.kill()
+            server.terminate()
 
 
 @pytest.fixture(scope="session")

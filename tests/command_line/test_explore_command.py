@@ -17,7 +17,9 @@ from carom import InputError
 from carom.cli import main
 from carom.explorer import Explorer, explorer
 
-COMMAND = [sys.executable, "-c", "from carom.cli import run; run()", "explore", "--no-open"]
+HEARS = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"  # in jobs, too
+START = f"{HEARS}; from carom.cli import run; run()"
+COMMAND = [sys.executable, "-c", START, "explore", "--no-open"]
 
 
 @pytest.fixture(scope="module")
@@ -91,8 +93,7 @@ def test_an_unknown_path_is_told_in_a_line(page):
 def test_it_tells_its_address_and_an_interrupt_ends_it():
     arguments = [*COMMAND, "--port", "0", "--json"]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    hears = lambda: signal.signal(signal.SIGINT, signal.default_int_handler)  # noqa: E731
-    with subprocess.Popen(arguments, text=True, preexec_fn=hears, **pipes) as server:
+    with subprocess.Popen(arguments, text=True, **pipes) as server:
         url = json.loads(server.stdout.readline())["url"]
         with urllib.request.urlopen(url, timeout=10) as answer:
             assert b"Carom" in answer.read()

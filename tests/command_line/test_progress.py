@@ -27,6 +27,7 @@ with advancing("impacts", 30, unit="steps") as advance:
         {more}
 print("done", file=sys.stderr)
 """
+OWN_TERMINAL = "import fcntl, termios; fcntl.ioctl(0, termios.TIOCSCTTY, 0)\n"
 CONTROL = re.compile(r"\x1b\[([?\d;]*)([A-Za-z])")
 
 
@@ -36,13 +37,12 @@ def on_terminal(code, *, columns=100, typed=None, **environment):
     fcntl.ioctl(own, termios.TIOCSWINSZ, struct.pack("HHHH", 30, columns, 0, 0))
     told = {name: os.environ[name] for name in os.environ if name not in ("COLUMNS", "LINES")}
     process = subprocess.Popen(
-        [sys.executable, "-c", code],
+        [sys.executable, "-c", OWN_TERMINAL + code],
         stdin=theirs,
         stdout=subprocess.PIPE,
         stderr=theirs,
         env=told | {"TERM": "xterm-256color"} | environment,
         start_new_session=True,
-        preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0),
     )
     os.close(theirs)
     got = b""
