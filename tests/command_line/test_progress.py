@@ -27,7 +27,11 @@ with advancing("impacts", 30, unit="steps") as advance:
         {more}
 print("done", file=sys.stderr)
 """
-OWN_TERMINAL = "import fcntl, termios; fcntl.ioctl(0, termios.TIOCSCTTY, 0)\n"
+OWN_TERMINAL = """
+import fcntl, signal, termios
+fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+signal.signal(signal.SIGINT, signal.default_int_handler)  # which a background job would ignore
+"""
 CONTROL = re.compile(r"\x1b\[([?\d;]*)([A-Za-z])")
 
 
@@ -128,7 +132,8 @@ def test_unknown_amounts_are_counted():
 
 
 def test_an_interrupt_leaves_the_terminal_as_it_was():
-    got, _, status = on_terminal(LONG.format(patience=0.1, more=""), typed=b"\x03")
+    long = LONG.replace("30", "1000")  # still at it when the key is pressed
+    got, _, status = on_terminal(long.format(patience=0.1, more=""), typed=b"\x03")
     lines, cursor = screen(got)
     assert status != 0
     assert cursor
