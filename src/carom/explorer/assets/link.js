@@ -2,20 +2,12 @@
 window.Carom = window.Carom || {};
 
 Carom.link = (() => {
-  const OURS = ["time", "theme"]; // parts of the link that Dash does not know
   const DOWNLOADS = "a.carom-download, .carom-downloads a";
   const WAIT = 300; // ms between two changes: browsers refuse floods
   const opened = new URLSearchParams(window.location.search);
   let query = null; // what Dash says; null until it has
   let paused = Carom.clock.START; // where the time last stood still
   let waiting = 0;
-
-  // The query the page was opened with, without our own parts.
-  function asked() {
-    const rest = new URLSearchParams(opened);
-    OURS.forEach((name) => rest.delete(name));
-    return rest.toString();
-  }
 
   function timeAsked() {
     const text = opened.get("time");
@@ -79,5 +71,5 @@ Carom.link = (() => {
     window.setTimeout(() => place.textContent === text && (place.textContent = ""), 4000);
   }
 
-  return { whole, DOWNLOADS, asked, timeAsked, put, refresh, write, copy };
+  return { whole, DOWNLOADS, timeAsked, put, refresh, write, copy };
 })();

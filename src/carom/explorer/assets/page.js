@@ -123,11 +123,6 @@ Carom.page = (() => {
     Carom.clock.toggle();
   }
 
-  function start() {
-    attach();
-    return Carom.link.asked();
-  }
-
   function show(scene) {
     attach();
     Carom.scene.put(scene);
@@ -152,7 +147,7 @@ Carom.page = (() => {
   }
 
   document.addEventListener("DOMContentLoaded", listen);
-  return { start, show, link };
+  return { show, link };
 })();
 
 window.dash_clientside = window.dash_clientside || {};
