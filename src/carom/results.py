@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Mapping, Sequence
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -57,6 +58,7 @@ def flags(meanings: Sequence[str], first: int = 0) -> dict[str, Any]:
 SIGNS = flags(("slip along -x", "stick", "slip along +x"), first=-1)
 
 
+@cache
 def carom_version() -> str:
     """Return the version of the package."""
     try:

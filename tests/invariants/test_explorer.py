@@ -175,6 +175,16 @@ def test_curves_go_through_the_present_point(view):
             assert np.abs(law.force).max() <= scene.limit.max() * (1 + 1e-3)
 
 
+@pytest.mark.parametrize("chi", [0.6, 1.44, 3.0])
+def test_curves_of_laws_are_drawn_to_a_pixel(chi):
+    scene = scene_of(View(given=NUMBERS, psi=1.0, chi=chi))
+    for drawn in law_curves(scene, LAWS):
+        law = next(e for e in carom.verify.CATALOGUE if e.label == drawn.label).law
+        meant = law.rebound(drawn.psi_in, chi, kappa=scene.kappa)
+        height = np.ptp(meant)
+        np.testing.assert_allclose(drawn.psi_out, meant, atol=height / 200.0, err_msg=law.name)
+
+
 @pytest.mark.parametrize("view", [View(law=LAWS[:2], angle=41.5), NUMBERED[0]], ids=str)
 def test_lines_of_python_give_the_same(view, tmp_path):
     scene = scene_of(view)

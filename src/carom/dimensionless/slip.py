@@ -14,6 +14,7 @@ from carom.dimensionless.surface import slip_shape
 Array = NDArray[np.float64]
 
 ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(10)
+AROUND, WEIGHTS_AROUND = np.polynomial.legendre.leggauss(32)
 # Slip starts at a point like a root of time: panels grow from there by this factor.
 GROWTH = 0.3
 LEVELS = 12
@@ -110,15 +111,14 @@ def directions(front: Array, lateral_ratio: float) -> tuple[Array, Array]:
     For fronts a/b in [0, 1), per unit of slip rate: integral over the ring of sqrt(1 - r^2) w_x,
     and the same times |atan2(lambda w_2 sin 2 theta, w_0 - lambda w_2 cos 2 theta)|.
     """
-    nodes, weights = np.polynomial.legendre.leggauss(32)
-    phi, theta = 0.5 * np.pi * nodes, 0.25 * np.pi * (1.0 + nodes)
+    phi, theta = 0.5 * np.pi * AROUND, 0.25 * np.pi * (1.0 + AROUND)
     a = np.atleast_1d(front)[:, np.newaxis]
     r = 0.5 * (1.0 + a) + 0.5 * (1.0 - a) * np.sin(phi)
     w = np.sqrt((r - a) * (r + a))
     mean = (2.0 / np.pi * np.arctan2(w, a))[..., np.newaxis]
     lateral = (2.0 / np.pi * lateral_ratio * a * w / r**2)[..., np.newaxis]
     along, across = mean - lateral * np.cos(2.0 * theta), lateral * np.sin(2.0 * theta)
-    area = weights * np.cos(phi) * (1.0 - a) * r * np.sqrt(1.0 - r**2)
-    power = area[..., np.newaxis] * weights * along
+    area = WEIGHTS_AROUND * np.cos(phi) * (1.0 - a) * r * np.sqrt(1.0 - r**2)
+    power = area[..., np.newaxis] * WEIGHTS_AROUND * along
     angle = np.abs(np.arctan2(across, along))
     return power.sum((1, 2)), (power * angle).sum((1, 2))

@@ -35,6 +35,7 @@ CAUSE_NAMES = {
     Cause.SEPARATION: "separation",
     Cause.UNRESOLVED: "not resolved",
 }
+ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(48)  # in time, over a phase
 SHORTEST = 1e-12  # of a phase, in units of d_max/V_1; what is shorter is rounding
 
 
@@ -212,10 +213,9 @@ class Solution:
         array([1. , 0.8])
         """
         places = np.ascontiguousarray(radii, dtype=np.float64).ravel()
-        out = np.empty((places.size, 5))
-        depth = float(self.at(float(time)).penetration[0])
-        surface.sample(self.memory(time).profile(), depth, places, out)
-        return out[:, 1]
+        out = np.empty(places.size)
+        surface.tractions(self.memory(time).profile(), places, out)
+        return out
 
     def slip_rate(self, time: float) -> float:
         """Return psi - sigma v, the rate of slip far outside the stick zone; 0 in stick.
@@ -296,13 +296,12 @@ class Solution:
     def _slip_angle(self, phase: Phase, lateral_ratio: float) -> SlipAngle:
         if phase.kind != KIND_NAMES[Kind.SLIP]:
             return SlipAngle(0.0, 0.0)
-        nodes, weights = np.polynomial.legendre.leggauss(48)
         middle, half = 0.5 * (phase.start + phase.end), 0.5 * (phase.end - phase.start)
-        now = self.at(middle + half * np.sin(0.5 * np.pi * nodes))
+        now = self.at(middle + half * np.sin(0.5 * np.pi * ABSCISSAS))
         power, turned = slip.directions(now.stick_radius / now.contact_radius, lateral_ratio)
         rate = now.psi - phase.sign * abs(self.scale) * now.speed
         rate = np.abs(rate) * now.contact_radius**3
-        rate *= weights * np.cos(0.5 * np.pi * nodes)
+        rate *= WEIGHTS * np.cos(0.5 * np.pi * ABSCISSAS)
         return SlipAngle(float(np.arcsin(lateral_ratio)), float(rate @ turned / (rate @ power)))
 
 

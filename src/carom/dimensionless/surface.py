@@ -65,6 +65,13 @@ def traction(profile: Profile, r: float) -> float:
 
 
 @kernel
+def tractions(profile: Profile, radii: Array, out: Array) -> None:
+    """Write the traction over mu for every radius."""
+    for i in range(radii.size):
+        out[i] = traction(profile, radii[i])
+
+
+@kernel
 def displacement(profile: Profile, r: float) -> tuple[float, float]:
     """Return the two radial functions of the tangential displacement of both surfaces together.
 

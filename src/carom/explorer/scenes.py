@@ -104,7 +104,7 @@ def _of_bodies(hit: Impact) -> Scene:
     force_unit, newtons = _scaled(hit.pair.friction * hit.max_force or hit.max_force, "N")
     energies = {name: column[name] for name in ENERGIES}
     whole = sum(energies.values())
-    solution = _elastic(hit)
+    solution, scalars = _elastic(hit), hit.scalars()
     return Scene(
         psi_in=hit.psi_in,
         psi_out=hit.psi_out,
@@ -122,7 +122,7 @@ def _of_bodies(hit: Impact) -> Scene:
         stick=column["stick_radius"] / hit.max_radius,
         tractions=_tractions(solution),
         stage=stage_of_bodies(hit, column),
-        results={_named(name): _text(name, hit.scalars()[name]) for name in OF_BODIES},
+        results={_named(name): _text(name, scalars[name]) for name in OF_BODIES},
         findings=str(hit.validity),
     )
 

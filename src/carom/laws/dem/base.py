@@ -39,6 +39,7 @@ class Law(ABC):
         *,
         kappa: ArrayLike | None = None,
         steps: int | None = None,
+        threads: int | None = None,
     ) -> Any:
         """Return the tangential velocity of the contact point after the impact, psi_2.
 
@@ -54,6 +55,8 @@ class Law(ABC):
         steps : int, optional
             How many equal time steps the elastic impact takes (the duration of Hertz's contact),
             as the codes do it; by default as many, of adaptive size, as it takes for 1e-8.
+        threads : int, optional
+            How many threads to use, all cores by default. The result does not depend on it.
 
         Returns
         -------
@@ -63,7 +66,7 @@ class Law(ABC):
         Raises
         ------
         InputError
-            If `steps` is below 4.
+            If `steps` is below 4, or `threads` below 1.
 
         Examples
         --------
@@ -74,6 +77,8 @@ class Law(ABC):
         """
         if steps is not None:
             counted("steps", steps, FEWEST_STEPS)
+        if threads is not None:
+            counted("threads", threads, 1)
         kappa = SOLID * np.asarray(chi, dtype=np.float64) if kappa is None else kappa
         given = np.broadcast_arrays(*(np.asarray(x, dtype=np.float64) for x in (psi, chi, kappa)))
         flat = [np.ravel(values) for values in given]
@@ -84,8 +89,13 @@ class Law(ABC):
             if own_chi > 0.0 and own_kappa > 0.0:
                 result[part] = self._rebound(flat[0][part], own_chi, own_kappa, steps)
 
-        with ThreadPoolExecutor(available_cores()) as pool:
-            list(pool.map(solve, _parts(flat[1], flat[2])))
+        parts = _parts(flat[1], flat[2])
+        workers = min(threads or available_cores(), len(parts))
+        if workers <= 1:
+            list(map(solve, parts))
+        else:
+            with ThreadPoolExecutor(workers) as pool:
+                list(pool.map(solve, parts))
         return result.reshape(given[0].shape) if given[0].ndim else float(result[0])
 
 
