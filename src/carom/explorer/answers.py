@@ -6,6 +6,7 @@ from math import isfinite
 from typing import Any
 
 from dash import ClientsideFunction, Dash, Input, Output, State, ctx, html, no_update
+from dash.exceptions import PreventUpdate
 
 from carom.explorer import charts
 from carom.explorer.fits import fitted
@@ -20,13 +21,14 @@ from carom.results import MARKS
 log = logging.getLogger(__name__)
 
 EQUAL = 1e-6  # laws are solved to 1e-8
+PROMPT = 0.03  # s that an answer waits for the contact laws; what is not solved then follows
+WITH_LAWS = (("forces", "figure"), ("rebounds", "figure"), ("results", "children"))
 DRAWN = (  # what a view is drawn into
+    *WITH_LAWS,
     ("scene", "data"),
     ("query", "data"),
-    ("forces", "figure"),
+    ("late", "data"),
     ("energies", "figure"),
-    ("rebounds", "figure"),
-    ("results", "children"),
     ("numbers", "hidden"),
     ("motion", "hidden"),
     ("bodies", "hidden"),
@@ -100,6 +102,19 @@ def _answer(app: Dash) -> None:
         except InputError as error:
             return [*[no_update for _ in DRAWN], str(error), no_update]
 
+    @app.callback(
+        [Output(*part, allow_duplicate=True) for part in WITH_LAWS],
+        Input("late", "data"),
+        State("query", "data"),
+        prevent_initial_call=True,
+    )
+    def follow(late: list[str], query: str) -> list[Any]:
+        if not late:  # what an earlier view still waits for is dropped all the same
+            raise PreventUpdate
+        view = View.of(query)
+        scene = scene_of(view)
+        return _with_laws(scene, law_curves(scene, view.law))
+
     app.clientside_callback(
         ClientsideFunction("carom", "show"), Input("scene", "data"), prevent_initial_call=True
     )
@@ -111,14 +126,13 @@ def _answer(app: Dash) -> None:
 def _drawn(view: View) -> list[Any]:
     """Return what goes into `DRAWN`."""
     scene = scene_of(view)
-    laws = law_curves(scene, view.law)
+    laws = law_curves(scene, view.law, PROMPT)
     return [
+        *_with_laws(scene, laws),
         scene.moving(),
         view.query(),
-        charts.forces(scene, laws),
+        [label for label, law in zip(view.law, laws, strict=True) if law is None],
         charts.energies(scene),
-        charts.rebounds(scene, exact_curve(scene), laws),
-        _table(scene, laws),
         not view.in_numbers,
         view.in_numbers,
         view.in_numbers,
@@ -128,10 +142,19 @@ def _drawn(view: View) -> list[Any]:
     ]
 
 
-def _table(scene: Scene, laws: list[LawCurve]) -> list[Any]:
+def _with_laws(scene: Scene, laws: list[LawCurve | None]) -> list[Any]:
+    """Return what goes into `WITH_LAWS`."""
+    return [
+        charts.forces(scene, laws),
+        charts.rebounds(scene, exact_curve(scene), laws),
+        _table(scene, laws),
+    ]
+
+
+def _table(scene: Scene, laws: list[LawCurve | None]) -> list[Any]:
     rows = dict(scene.results)
     for law in laws:
-        if isfinite(law.at):
+        if law is not None and isfinite(law.at):
             rows[f"ψ₂ by {law.label}"] = f"{law.at:.6g}, {_off(law.at - scene.psi_out)}"
     body = [html.Tr([html.Th(name, scope="row"), html.Td(text)]) for name, text in rows.items()]
     table = html.Table(html.Tbody(body), className="carom-table")

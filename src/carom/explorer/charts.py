@@ -14,6 +14,7 @@ from carom.plots.impact import ENERGIES
 
 Array = NDArray[np.float64]
 Figure = dict[str, Any]
+Laws = Sequence[LawCurve | None]  # None: not solved yet
 
 BLUE, VERMILION, ORANGE, GREEN, GREY = "#2b8cc4", "#d55e00", "#e69f00", "#009e73", "#8a8f98"
 CHART: Any = {"displayModeBar": False, "responsive": True}
@@ -48,30 +49,29 @@ ROOM = 1.12  # of the shares of energy: above them the phases have their names
 NARROW = 0.07  # of the axis: a band below that goes without its name
 
 
-def forces(scene: Scene, laws: Sequence[LawCurve] = ()) -> Figure:
+def forces(scene: Scene, laws: Laws = ()) -> Figure:
     """Return F_x between its limits against time, phases shaded."""
+    drawn = _drawn(laws)
     time = scene.share * scene.duration
     name = f"friction on the second body, F_x ({scene.force_unit})"
     traces = [
         line(time, scene.limit, "± µ F_z, exact", GREY, "dash", 1.2, group="limit"),
         line(time, -scene.limit, "± µ F_z", GREY, "dash", 1.2, group="limit", shown=False),
         line(time, scene.force, "F_x", BLUE, "solid", 2.4),
-        *(
-            line(law.share * scene.duration, law.force, law.label, *_style(row))
-            for row, law in enumerate(laws)
-        ),
+        *(line(law.share * scene.duration, law.force, law.label, *style) for law, style in drawn),
     ]
     figure = axes_of(traces, f"time ({scene.time_unit})", name, scene)
-    most = max(1e-9, *(float(np.abs(part).max(initial=0.0)) for part in _drawn(scene, laws)))
+    limits = [scene.limit, *(law.force for law, _ in drawn)]
+    most = max(1e-9, *(float(np.abs(part).max(initial=0.0)) for part in limits))
     figure["layout"]["yaxis"]["range"] = [-1.1 * most, HEADROOM * most]
-    longest = max([1.0, *(float(law.share.max(initial=0.0)) for law in laws)])
+    longest = max([1.0, *(float(law.share.max(initial=0.0)) for law, _ in drawn)])
     figure["layout"]["xaxis"]["range"] = [0.0, longest * scene.duration]
     return figure
 
 
-def _drawn(scene: Scene, laws: Sequence[LawCurve]) -> Iterator[Array]:
-    yield scene.limit
-    yield from (law.force for law in laws)
+def _drawn(laws: Laws) -> list[tuple[LawCurve, tuple[str, str]]]:
+    """Return the laws that are solved with colour and dash, which depend on their places."""
+    return [(law, _style(row)) for row, law in enumerate(laws) if law is not None]
 
 
 def energies(scene: Scene) -> Figure:
@@ -111,15 +111,15 @@ def _border(time: float) -> Figure:
     return {"type": "line", **place, "line": {"width": 0.8, "color": "#5d646e", "dash": "dot"}}
 
 
-def rebounds(scene: Scene, curve: tuple[Array, Array], laws: Sequence[LawCurve] = ()) -> Figure:
+def rebounds(scene: Scene, curve: tuple[Array, Array], laws: Laws = ()) -> Figure:
     """Return psi_2 against psi_1 with the bands of the regimes and the present point."""
-    psi, out = curve
+    (psi, out), drawn = curve, _drawn(laws)
     traces = [
         line(psi, out, "exact", BLUE, "solid", 2.4),
-        *(line(law.psi_in, law.psi_out, law.label, *_style(row)) for row, law in enumerate(laws)),
+        *(line(law.psi_in, law.psi_out, law.label, *style) for law, style in drawn),
         *(
-            _point(scene.psi_in, law.at, law.label, _style(row)[0], "x")
-            for row, law in enumerate(laws)
+            _point(scene.psi_in, law.at, law.label, color, "x")
+            for law, (color, _) in drawn
             if np.isfinite(law.at)
         ),
     ]

@@ -54,6 +54,7 @@ def page() -> html.Div:
             dcc.Store(id="view"),
             dcc.Store(id="scene"),
             dcc.Store(id="query"),
+            dcc.Store(id="late"),
             dcc.Store(id="file"),
             dcc.Store(id="restored"),
             _head(),

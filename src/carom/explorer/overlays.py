@@ -1,7 +1,7 @@
 """Rebound curves of a view, the exact one and those of contact laws; remembered by bodies."""
 
-from collections.abc import Iterable
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -17,12 +17,14 @@ from carom.verify.catalogue import named
 
 Array = NDArray[np.float64]
 
-POINTS, POINTS_OF_LAWS = 241, 41
+POINTS, POINTS_OF_LAWS = 241, 61
 BEYOND = 1.15  # of the present psi_1, that is shown
-STEPS = 800  # of a law: its curve to half a hundredth of its height, far quicker than to 1e-8
-EVERY = 4  # of these steps that is drawn
+STEPS = 400  # of a law's force in time
+EVERY = 2  # of these that is drawn
 KEPT = 256  # curves that are remembered
 DIGITS = 12  # of what a curve is remembered by
+
+_solvers = ThreadPoolExecutor(available_cores(), "carom-law")
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,18 +44,27 @@ def exact_curve(scene: Scene) -> tuple[Array, Array]:
     return _exact(round(scene.chi, DIGITS), *_span(scene))
 
 
+def law_curves(
+    scene: Scene, labels: Sequence[str], seconds: float | None = None
+) -> list[LawCurve | None]:
+    """Return what the contact laws of these names give in the place of the exact one.
+
+    None in the place of those that take longer, which may be asked for again.
+    """
+    begun = [_solvers.submit(_of_law, scene, label) for label in labels]
+    done, late = wait(begun, seconds)
+    for future in late:  # the page may have moved on
+        future.cancel()
+    return [future.result() if future in done else None for future in begun]
+
+
 @lru_cache(maxsize=KEPT)
 def _exact(chi: float, low: float, high: float) -> tuple[Array, Array]:
     psi = np.linspace(low, high, POINTS)
     return psi, rebound(psi, chi)
 
 
-def law_curves(scene: Scene, labels: Iterable[str]) -> list[LawCurve]:
-    """Return what the contact laws of these names give in the place of the exact one."""
-    with ThreadPoolExecutor(available_cores()) as pool:
-        return list(pool.map(lambda label: _of_law(scene, label), labels))
-
-
+@lru_cache(maxsize=KEPT)
 def _of_law(scene: Scene, label: str) -> LawCurve:
     law = named(label)[0].law
     low, high = _span(scene)
@@ -81,8 +92,7 @@ def _in_time(law: Law, scene: Scene) -> tuple[Array, Array]:
 def _half(label: str, chi: float, kappa: float) -> Array:
     """Return psi_2 of a law over the regimes; beyond them every law slides."""
     grid = np.linspace(0.0, _regimes(chi), POINTS_OF_LAWS)
-    law = named(label)[0].law
-    return np.asarray(law.rebound(grid, chi, kappa=kappa, steps=STEPS, threads=1))
+    return np.asarray(named(label)[0].law.rebound(grid, chi, kappa=kappa, threads=1))
 
 
 def _regimes(chi: float) -> float:

@@ -1,7 +1,8 @@
 """What a view comes to: an impact solved, in the units in which the page draws it."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from math import isfinite
 from typing import Any
 
@@ -22,6 +23,7 @@ from carom.plots.style import prefixed
 Array = NDArray[np.float64]
 
 TIMES = 201  # of the histories
+KEPT = 16  # scenes that are remembered
 INSTANTS, RADII = 61, 33  # at which tractions are drawn
 OF_BODIES = (
     "chi",
@@ -88,6 +90,11 @@ class Scene:
 
 def scene_of(view: View) -> Scene:
     """Solve what a view asks for, or raise InputError."""
+    return _solved(replace(view, law=(), data=""))
+
+
+@lru_cache(maxsize=KEPT)
+def _solved(view: View) -> Scene:
     return _of_numbers(view) if view.in_numbers else _of_bodies(impact_of(view))
 
 
