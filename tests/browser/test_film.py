@@ -12,9 +12,11 @@ import carom
 pytestmark = pytest.mark.browser
 HIT = carom.impact(
     carom.Pair(
-        carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), 0.2
+        carom.Sphere(radius="5 mm", material="bearing-steel"),
+        carom.HalfSpace(material="bearing-steel"),
+        0.2,
     ),
-    speed=2.0,
+    speed=0.6,
     angle="30 deg",
 )
 MICROSECOND = 1e6

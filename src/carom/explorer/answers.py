@@ -10,7 +10,7 @@ from dash.exceptions import PreventUpdate
 
 from carom.explorer import charts
 from carom.explorer.fits import fitted
-from carom.explorer.layout import CONTROLS, SLIDERS
+from carom.explorer.layout import CONTROLS, OF_BODIES, OF_NUMBERS, SLIDERS
 from carom.explorer.overlays import LawCurve, exact_curve, law_curves
 from carom.explorer.scenes import Scene, scene_of
 from carom.explorer.uploads import LARGEST_UPLOAD, fit_of, fit_of_upload, shown_name
@@ -58,7 +58,7 @@ def _restore(app: Dash) -> None:
     def restore(search: str | None) -> list[Any]:
         view, wrong = View.with_complaints(search or "")
         values = [getattr(view, name) for name in CONTROLS]
-        return [*map(_plain, values), "; ".join(map(str, wrong)), view.query()]
+        return [*map(_plain, values), "; ".join(map(str, wrong)), [view.query()]]
 
 
 def _plain(value: Any) -> Any:
@@ -83,6 +83,14 @@ def _gather(app: Dash) -> None:
         prevent_initial_call=True,
     )
 
+    app.clientside_callback(
+        ClientsideFunction("controls", "carry"),
+        [Output(name, "value", allow_duplicate=True) for name in OF_NUMBERS],
+        Input("given", "value"),
+        State("restored", "data"),
+        prevent_initial_call=True,
+    )
+
 
 def _answer(app: Dash) -> None:
     """Solve the impact of the view and draw it."""
@@ -95,10 +103,10 @@ def _answer(app: Dash) -> None:
         State("restored", "data"),
         prevent_initial_call=True,
     )
-    def answer(query: str | None, restored: str | None) -> list[Any]:
+    def answer(query: str | None, restored: list[str] | None) -> list[Any]:
         try:
             view = View.of(query or "")
-            return [*_drawn(view), "", no_update if view.query() == restored else ""]
+            return [*_drawn(view), "", no_update if [view.query()] == restored else ""]
         except InputError as error:
             return [*[no_update for _ in DRAWN], str(error), no_update]
 
@@ -178,12 +186,21 @@ def _off(error: float) -> str:
 
 def _measure(app: Dash) -> None:
     """Fit measured rebounds: those that come along, or an uploaded file."""
+    bodies = json.dumps(("given", *OF_BODIES))
     app.clientside_callback(
-        f"(contents, name) => dash_clientside.controls.accept(contents, name, {LARGEST_UPLOAD})",
+        f"(...sent) => dash_clientside.controls.accept({bodies}, {LARGEST_UPLOAD}, ...sent)",
         Output("file", "data"),
         Output("fit-notice", "children"),
         Input("upload", "contents"),
         State("upload", "filename"),
+        State("query", "data"),
+        prevent_initial_call=True,
+    )
+    app.clientside_callback(
+        f"(...now) => dash_clientside.controls.refit({bodies}, ...now)",
+        Output("file", "data", allow_duplicate=True),
+        Input("query", "data"),
+        State("file", "data"),
         prevent_initial_call=True,
     )
 
@@ -192,7 +209,7 @@ def _measure(app: Dash) -> None:
         Output("fit-notice", "children", allow_duplicate=True),
         Input("data", "value"),
         Input("file", "data"),
-        State("view", "data"),
+        State("query", "data"),
         running=[(Output("fit-progress", "children"), "fitting ...", "")],
         prevent_initial_call=True,
     )

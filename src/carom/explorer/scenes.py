@@ -74,6 +74,7 @@ class Scene:
     def moving(self) -> dict[str, Any]:
         """Return what the page animates, as JSON can hold it."""
         return {
+            "numbers": [self.psi_in, self.chi],
             "duration": self.duration,
             "unit": self.time_unit,
             "phases": [

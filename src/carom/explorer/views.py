@@ -73,12 +73,12 @@ class View:
 
     given: str = BODIES
     radius: float = 5.0
-    material: str = "steel"
+    material: str = "bearing-steel"
     against: str = "half-space"
     second_radius: float = 10.0
-    second_material: str = "steel"
+    second_material: str = "bearing-steel"
     friction: float = 0.2
-    speed: float = 2.0
+    speed: float = 0.6
     angle: float = 30.0
     spin: float = 0.0
     psi: float = 1.5

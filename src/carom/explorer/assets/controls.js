@@ -19,13 +19,38 @@ window.dash_clientside.controls = {
     return [same, Number.isFinite(number) ? number : same];
   },
 
-  accept(contents, name, largest) {
+  // Going over to numbers keeps the impact; a link that tells numbers keeps its own.
+  carry(given, restored) {
+    const same = window.dash_clientside.no_update;
+    const byLink = restored !== this.restored;
+    this.restored = restored;
+    const numbers = window.Carom.scene.data()?.numbers ?? [];
+    if (byLink || given !== "numbers") return [same, same];
+    const digits = 6;
+    return [0, 1].map((i) =>
+      Number.isFinite(numbers[i]) ? Number(numbers[i].toPrecision(digits)) : same,
+    );
+  },
+
+  // A file is fitted again when the bodies change: it may not tell its own.
+  refit(names, query, file) {
+    const bodies = this.told(names, query);
+    if (!file || file.bodies === bodies) return window.dash_clientside.no_update;
+    return { ...file, bodies };
+  },
+
+  told(names, query) {
+    const found = new URLSearchParams(query ?? "");
+    return names.map((name) => found.getAll(name)).join(";");
+  },
+
+  accept(names, largest, contents, name, query) {
     const same = window.dash_clientside.no_update;
     if (!contents) return [same, same];
     const size = Math.floor((contents.length - contents.indexOf(",") - 1) * 0.75);
     if (size > largest) {
       return [same, `file: ${name} has ${size} bytes; it must be at most ${largest}`];
     }
-    return [{ contents, name, read: Date.now() }, ""];
+    return [{ contents, name, bodies: this.told(names, query), read: Date.now() }, ""];
   },
 };
