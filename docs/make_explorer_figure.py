@@ -15,7 +15,6 @@ from carom.explorer import explorer
 
 FIGURE = Path(__file__).with_name("figures") / "explorer.png"
 STATE = "?angle=25&friction=0.25&law=mindlin&time=0.6&theme=light"
-COLOURS = 128  # a third of the bytes
 SIZE = {"width": 1280, "height": 920}
 
 
@@ -34,7 +33,7 @@ def main() -> None:
         seen = BytesIO(tab.screenshot())
         browser.close()
     page.stop()
-    Image.open(seen).convert("RGB").quantize(COLOURS).save(FIGURE, optimize=True)
+    Image.open(seen).convert("RGB").save(FIGURE, optimize=True)
 
 
 if __name__ == "__main__":

@@ -10,13 +10,13 @@ import numpy as np
 from matplotlib.axes import Axes
 
 import carom
+from carom.plots.bands import STICK
 from carom.plots.style import (
     BLACK,
     BLUE,
     DASHES,
     GREEN,
     PURPLE,
-    STICK,
     VERMILION,
     new_figure,
     save_figure,

@@ -16,20 +16,8 @@ from matplotlib.patches import Patch
 from numpy.polynomial.chebyshev import chebval
 
 import carom
-from carom.plots.style import (
-    BANDS,
-    BLACK,
-    BLUE,
-    DASHES,
-    DOUBLE,
-    SIGNS,
-    STICK,
-    new_figure,
-    save_figure,
-    shade,
-    slip_band,
-    styled,
-)
+from carom.plots.bands import BANDS, SIGNS, STICK, shade, slip_band
+from carom.plots.style import BLACK, BLUE, DASHES, DOUBLE, new_figure, save_figure, styled
 
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)

@@ -13,6 +13,7 @@ import carom
 
 pytest.importorskip("dash")
 
+from carom.explorer.downloads import curve_figure
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import impact_of, scene_of
 from carom.explorer.scripts import script
@@ -187,6 +188,18 @@ def test_curves_of_laws_that_take_long_follow():
         law = next(e for e in carom.verify.CATALOGUE if e.label == curve.label).law
         meant = law.rebound(curve.psi_in, scene.chi, kappa=scene.kappa)
         np.testing.assert_allclose(curve.psi_out, meant, atol=1e-9, err_msg=curve.label)
+
+
+def test_the_figure_of_the_curve_holds_laws_and_the_impact():
+    scene = scene_of(View(law=LAWS[:3]))
+    laws = law_curves(scene, LAWS[:3])
+    axis = curve_figure(scene, laws).axes[0]
+    lines = {line.get_label(): line.get_xydata() for line in axis.get_lines()}
+    for law in laws:
+        np.testing.assert_array_equal(lines[law.label], np.stack([law.psi_in, law.psi_out], 1))
+    np.testing.assert_array_equal(lines["this impact"], [[scene.psi_in, scene.psi_out]])
+    told = [text.get_text() for text in axis.get_legend().get_texts()]
+    assert told[-4:] == [*LAWS[:3], "this impact"]
 
 
 @pytest.mark.parametrize("view", [View(law=LAWS[:2], angle=41.5), NUMBERED[0]], ids=str)

@@ -10,6 +10,7 @@ from carom.curves import borders
 from carom.explorer.overlays import LawCurve
 from carom.explorer.scenes import OF_CONTACT, Scene
 from carom.explorer.stages import short
+from carom.plots.bands import SIGNS
 from carom.plots.impact import ENERGIES
 
 Array = NDArray[np.float64]
@@ -18,7 +19,7 @@ Laws = Sequence[LawCurve | None]  # None: not solved yet
 
 BLUE, VERMILION, ORANGE, GREEN, GREY = "#2b8cc4", "#d55e00", "#e69f00", "#009e73", "#8a8f98"
 CHART: Any = {"displayModeBar": False, "responsive": True}
-LAW_COLORS = (VERMILION, GREEN, "#cc79a7", ORANGE, "#56b4e9", "#8d6fc1", "#b0793d")
+LAW_COLORS = (GREEN, "#cc79a7", ORANGE, "#8d6fc1", "#7f8a00", "#b0793d", "#56b4e9")
 DASHES = ("dash", "dot", "dashdot", "longdash")
 PHASE_FILLS = {
     ("stick", 0): "rgba(86, 180, 233, 0.22)",
@@ -43,7 +44,6 @@ ENERGY_FILLS = {  # colour and pattern
     "frictional_work": ("#7d838b", "\\"),
 }
 ENERGY_NAMES = {name: label for name, (label, *_) in ENERGIES.items()} | OF_CONTACT
-SIGNS = {0: "", 1: " +", -1: " \N{MINUS SIGN}"}
 HEADROOM = 1.25  # of the forces: above them the phases have their names
 ROOM = 1.12  # of the shares of energy: above them the phases have their names
 NARROW = 0.07  # of the axis: a band below that goes without its name

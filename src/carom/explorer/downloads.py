@@ -6,19 +6,21 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from threading import Lock
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qs
 
 from flask import Flask, Response, request
+from matplotlib.figure import Figure
 
 from carom.curves import curve
 from carom.dimensionless.solution import solve
 from carom.exact_impacts import Impact
-from carom.explorer.overlays import exact_curve
-from carom.explorer.scenes import TIMES, impact_of, scene_of
+from carom.explorer.overlays import LawCurve, exact_curve, law_curves
+from carom.explorer.scenes import TIMES, Scene, impact_of, scene_of
 from carom.explorer.scripts import script
 from carom.explorer.views import View
 from carom.plots import plot_curve, plot_impact, plot_patch, save_figure
+from carom.plots.style import DASHES, LINES, MM, VERMILION, legend_above, styled
 from carom.quantities import InputError, refusal
 from carom.results import labelled_dataset
 from carom.storage import save
@@ -48,6 +50,8 @@ MEANINGS = {  # of the columns of `Solution.history`
     "normal_stored": "normal elastic energy, in that of the impact",
     "normal_lost": "what the normal motion lost, as above",
 }
+
+ENTRY = 1.8  # mm that a law adds to the legend of the rebound curve
 
 _drawing = Lock()  # matplotlib's settings are those of the whole process
 
@@ -98,9 +102,29 @@ def _picture(view: View, _: float, file: Path) -> None:
 
 def _curve(view: View, _: float, file: Path) -> None:
     scene = scene_of(view)
-    dataset = curve(scene.chi, exact_curve(scene)[0])
+    laws = [law for law in law_curves(scene, view.law) if law is not None]
     with _drawing:
-        save_figure(plot_curve(dataset), file)
+        save_figure(curve_figure(scene, laws), file)
+
+
+@styled
+def curve_figure(scene: Scene, laws: list[LawCurve]) -> Figure:
+    """Return the rebound curve with the present point and the contact laws over it."""
+    figure = plot_curve(curve(scene.chi, exact_curve(scene)[0]))
+    axis = figure.axes[0]
+    legend = axis.get_legend()
+    entries: list[Any] = [] if legend is None else list(legend.legend_handles)
+    for row, law in enumerate(laws):
+        look: Any = {"color": LINES[1 + row % 4], "ls": DASHES[1 + row // 4 % 4], "lw": 0.9}
+        entries += axis.plot(law.psi_in, law.psi_out, label=law.label, **look)
+    if isfinite(scene.psi_in):
+        point: Any = {"marker": "o", "ls": "", "color": VERMILION, "label": "this impact"}
+        entries += axis.plot(scene.psi_in, scene.psi_out, **point)
+    if laws:  # whose names are long
+        height = figure.get_figheight() + ENTRY * MM * len(laws)
+        figure.set_size_inches(1.5 * figure.get_figwidth(), height)
+    legend_above(axis, 2, handles=entries)
+    return figure
 
 
 def _patch(view: View, time: float, file: Path) -> None:

@@ -3,6 +3,8 @@
 from carom.explorer.views import View
 
 BODIES = """\
+import numpy as np
+
 import carom
 
 pair = carom.Pair({first}, {second}, friction={friction!r})
@@ -13,6 +15,13 @@ hit.plot("history.png")
 patch = hit.fields({time!r} * hit.duration)
 carom.plots.save_figure(carom.plots.plot_patch(patch), "patch.png")
 """
+CURVE = """\
+psi = np.linspace(0.0, 4.5 * {chi}, 241)  # all regimes
+figure = carom.plots.plot_curve(carom.curve({chi}, psi))
+"""
+SAVED = """\
+carom.plots.save_figure(figure, "curve.png")
+"""
 NUMBERS = """\
 import numpy as np
 
@@ -21,13 +30,13 @@ import carom
 impact = carom.solve({psi!r}, {chi!r})
 print(impact.psi_out, impact.phases)
 history = impact.history(201)  # time, psi, force, radii, energies as arrays
-curve = carom.curve({chi!r}, np.linspace(0.0, {most!r}, 241))
-carom.plots.save_figure(carom.plots.plot_curve(curve), "curve.png")
 """
 LAWS = """\
 laws = {{entry.label: entry.law for entry in carom.verify.CATALOGUE}}
 for label in {labels!r}:
     print(label, laws[label].rebound({psi}, {chi}, kappa={kappa}))
+    figure.axes[0].plot(psi, laws[label].rebound(psi, {chi}, kappa={kappa}), "--", label=label)
+figure.axes[0].legend()
 """
 DATA = """\
 found = carom.fit(carom.datasets.load({name!r}))  # pip install 'carom[fit]'
@@ -37,13 +46,14 @@ print(found)
 
 def script(view: View, time: float) -> str:
     """Return the lines for a view, fields at a time that is a share of the duration."""
-    parts = [_numbers(view) if view.in_numbers else _bodies(view, time)]
+    psi, chi, kappa = "hit.psi_in", "pair.chi", "pair.kappa"
+    if view.in_numbers:
+        psi, chi, kappa = "impact.psi_in", "impact.chi", "None"
+    parts = [NUMBERS.format(psi=view.psi, chi=view.chi) if view.in_numbers else _bodies(view, time)]
+    parts.append(CURVE.format(chi=chi))
     if view.law:
-        names = ("impact.psi_in", "impact.chi", "None")
-        if not view.in_numbers:
-            names = ("hit.psi_in", "pair.chi", "pair.kappa")
-        psi, chi, kappa = names
         parts.append(LAWS.format(labels=view.law, psi=psi, chi=chi, kappa=kappa))
+    parts.append(SAVED)
     if view.data:
         parts.append(DATA.format(name=view.data))
     return "".join(parts)
@@ -63,7 +73,3 @@ def _bodies(view: View, time: float) -> str:
         spin=view.spin,
         time=min(max(time, 0.0), 1.0),
     )
-
-
-def _numbers(view: View) -> str:
-    return NUMBERS.format(psi=view.psi, chi=view.chi, most=max(4.0 * view.chi, abs(view.psi)))

@@ -15,10 +15,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 from PIL import Image
 
+from carom.plots.bands import BANDS
 from carom.plots.impact import FORCES, HISTORY, RADII, forces_panel, phase_handles
 from carom.plots.patch import patch_panel, patch_title
 from carom.plots.style import (
-    BANDS,
     BLACK,
     BLUE,
     DOUBLE,

@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from carom.plots.bands import phases
 from carom.plots.style import (
     BLACK,
     BLUE,
@@ -17,7 +18,6 @@ from carom.plots.style import (
     label,
     legend_above,
     new_figure,
-    phases,
     scaled,
     span,
 )

@@ -9,19 +9,17 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from carom.glossary import GLOSSARY
+from carom.plots.bands import STICK, Band, shade
 from carom.plots.style import (
     BLACK,
     BLUE,
     DOUBLE,
     MM,
     SINGLE,
-    STICK,
     VERMILION,
-    Band,
     draws,
     new_figure,
     prefixed,
-    shade,
     styled,
 )
 

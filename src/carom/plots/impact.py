@@ -7,22 +7,19 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from carom.plots.bands import BANDS, SIGNS, phases, shade
 from carom.plots.style import (
-    BANDS,
     BLACK,
     BLUE,
     DASHES,
     DOUBLE,
-    SIGNS,
     VERMILION,
     Array,
     draws,
     label,
     legend_above,
     new_figure,
-    phases,
     scaled,
-    shade,
     span,
 )
 

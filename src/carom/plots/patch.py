@@ -8,17 +8,16 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Circle
 from matplotlib.patheffects import withStroke
 
+from carom.plots.bands import moment, slip_band
 from carom.plots.style import (
     MAP,
     Array,
     check_grid,
     draws,
     label,
-    moment,
     new_figure,
     prefixed,
     scaled,
-    slip_band,
     symbol,
 )
 from carom.quantities import refusal

@@ -7,23 +7,19 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from carom.plots.bands import STICK, Band, moment, shade, slip_band
 from carom.plots.style import (
     BLACK,
     BLUE,
     DASHES,
-    STICK,
     VERMILION,
     Array,
-    Band,
     draws,
     label,
     legend_above,
-    moment,
     new_figure,
     prefixed,
     scaled,
-    shade,
-    slip_band,
     span,
 )
 from carom.quantities import InputError

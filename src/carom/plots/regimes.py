@@ -13,21 +13,17 @@ from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_cdt
 
+from carom.plots.bands import BANDS, MINUS, STICK, Band, shade
 from carom.plots.style import (
-    BANDS,
     BLACK,
     DASHES,
     DOUBLE,
     LINES,
-    MINUS,
-    STICK,
     Array,
-    Band,
     draws,
     label,
     legend_above,
     new_figure,
-    shade,
     span,
 )
 

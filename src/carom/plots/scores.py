@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from carom.plots.bands import shade
 from carom.plots.impact import phase_handles, time_axis
 from carom.plots.regimes import REGIMES
 from carom.plots.style import (
@@ -23,7 +24,6 @@ from carom.plots.style import (
     legend_above,
     new_figure,
     scaled,
-    shade,
 )
 
 if TYPE_CHECKING:

@@ -9,17 +9,8 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
-from carom.plots.style import (
-    MAP,
-    Array,
-    check_grid,
-    draws,
-    label,
-    moment,
-    new_figure,
-    scaled,
-    symbol,
-)
+from carom.plots.bands import moment
+from carom.plots.style import MAP, Array, check_grid, draws, label, new_figure, scaled, symbol
 from carom.quantities import InputError, refusal
 
 if TYPE_CHECKING:

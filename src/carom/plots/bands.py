@@ -1,0 +1,70 @@
+"""Phases and zones as figures mark them: tints, hatches, signs, the words for an instant."""
+
+from typing import Any, NamedTuple
+
+from matplotlib.axes import Axes
+from numpy.typing import ArrayLike
+
+from carom.plots.style import scaled
+
+
+class Band(NamedTuple):
+    """How a kind of phase or zone is marked: a tint, and a hatch that tells the sign of slip."""
+
+    face: str
+    edge: str
+    hatch: str
+
+
+STICK = Band("#DCEBF7", "#DCEBF7", "")
+BANDS = {
+    ("stick", 0): STICK,
+    ("slip", 1): Band("#FBEBCB", "#E3C27A", "////"),
+    ("slip", -1): Band("#FBEBCB", "#E3C27A", "\\\\\\\\"),
+    ("gross slip", 1): Band("#DDDDDD", "#BBBBBB", "//////"),
+    ("gross slip", -1): Band("#DDDDDD", "#BBBBBB", "\\\\\\\\\\\\"),
+}
+MINUS = "\u2212"
+SIGNS = {0: "", 1: " +", -1: f" {MINUS}"}
+
+
+class Phase(NamedTuple):
+    """A phase as a stored history holds it, times in s."""
+
+    kind: str
+    sign: int
+    start: float
+    end: float
+
+
+def phases(dataset: Any) -> list[Phase]:
+    """Return the phases that a dataset holds, none if it is not that of an impact."""
+    if "phase_kind" not in dataset:
+        return []
+    columns = (dataset[f"phase_{name}"].values for name in Phase._fields)
+    return [Phase(str(k), int(s), float(a), float(b)) for k, s, a, b in zip(*columns, strict=True)]
+
+
+def shade(axis: Axes, start: float, end: float, band: Band) -> None:
+    """Fill a band of the x axis behind all data."""
+    axis.axvspan(
+        start, end, facecolor=band.face, edgecolor=band.edge, hatch=band.hatch, lw=0, zorder=0
+    )
+
+
+def slip_band(dataset: Any) -> Band:
+    """Return the mark of the zone that slips at the instant of a fields dataset."""
+    kind = "gross slip" if dataset.attrs.get("phase_kind") == "gross slip" else "slip"
+    return BANDS[kind, -1 if int(dataset.attrs.get("phase_sign", 1)) < 0 else 1]
+
+
+def moment(dataset: Any, like: ArrayLike | None = None) -> str:
+    """Return phase and time of a fields dataset, as far as it has them, in a unit as for `like`."""
+    parts = []
+    if "phase_kind" in dataset.attrs:
+        sign = SIGNS[int(dataset.attrs.get("phase_sign", 0))]
+        parts.append(str(dataset.attrs["phase_kind"]) + sign)
+    if "time" in dataset:
+        time, unit, _ = scaled(dataset, "time", like)
+        parts.append(f"$t$ = {float(time):.3g}\u00a0{unit}")
+    return ", ".join(parts)
