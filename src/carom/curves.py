@@ -79,11 +79,12 @@ def curve(
     chis, incoming = positive_line("chi", chi), finite_line("psi", psi)
     rows = chis[:, np.newaxis]
     nonzero = np.where(incoming == 0.0, 1e-12, incoming)
-    contact = rebound(nonzero, rows, normal=normal) / nonzero
+    outgoing = rebound(nonzero, rows, normal=normal)
+    contact = outgoing / nonzero
     wide, elastic = ("chi", "psi_in"), normal is None
     return labelled_dataset(
         {
-            "psi_out": (wide, rebound(incoming, rows, normal=normal)),
+            "psi_out": (wide, np.where(incoming == 0.0, 0.0, outgoing)),
             "contact_restitution": (wide, contact),
             "tangential_restitution": (
                 wide,
