@@ -51,7 +51,7 @@ def checked(seen):
 
 def test_a_link_restores_everything_in_a_fresh_browser(visit):
     words = [*BODIES.items(), *(("law", law) for law in LAWS), ("data", DATA)]
-    query = urlencode([*words, ("time", "0.25"), ("theme", "dark")])
+    query = urlencode([*words, ("time", "0.25"), ("pace", "10"), ("theme", "dark")])
     seen, hit = visit(f"?{query}", fresh=True), hit_of(BODIES)
     assert controls(seen) == BODIES
     assert checked(seen) == list(LAWS)
@@ -59,6 +59,7 @@ def test_a_link_restores_everything_in_a_fresh_browser(visit):
     assert seen.number(AFTER) == pytest.approx(hit.psi_out, rel=1e-5)
     assert float(seen.page.input_value("#time")) == pytest.approx(0.25)
     assert seen.page.evaluate("document.documentElement.dataset.theme") == "dark"
+    assert seen.page.input_value("#pace") == "10"
     moment = 0.25 * hit.duration * 1e6
     assert float(seen.page.inner_text("#clock").split()[0]) == pytest.approx(moment, abs=0.051)
     chart = seen.traces("rebounds")

@@ -18,7 +18,7 @@ BODIES, NUMBERS = "bodies", "numbers"
 AGAINST = ("half-space", "sphere", "cup")
 LAWS = tuple(entry.label for entry in CATALOGUE)
 LONGEST = 4000  # characters of a link
-PAGE_ONLY = ("time", "theme")  # what the page alone keeps of a link
+PAGE_ONLY = ("time", "pace", "theme")  # what the page alone keeps of a link
 
 
 class Knob(NamedTuple):

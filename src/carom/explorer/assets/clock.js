@@ -69,6 +69,7 @@ Carom.clock = (() => {
     START,
     PACE,
     now: () => time,
+    pace,
     isPlaying: () => playing,
     hear: (listener) => heard.push(listener),
     toggle: () => (playing ? pause() : play()),

@@ -9,8 +9,9 @@ Carom.link = (() => {
   let paused = Carom.clock.START; // where the time last stood still
   let waiting = 0;
 
-  function timeAsked() {
-    const text = opened.get("time");
+  // A number in the link that the page was opened with.
+  function asked(name) {
+    const text = opened.get(name);
     return text === null || text.trim() === "" ? NaN : Number(text);
   }
 
@@ -19,6 +20,7 @@ Carom.link = (() => {
     if (!Carom.clock.isPlaying()) paused = Carom.clock.now();
     const time = Number(paused.toFixed(3));
     if (time !== Carom.clock.START) parts.push(`time=${time}`);
+    if (Carom.clock.pace() !== Carom.clock.PACE) parts.push(`pace=${Carom.clock.pace()}`);
     if (Carom.theme.choice() !== "auto") parts.push(`theme=${Carom.theme.choice()}`);
     return parts.filter(Boolean).join("&");
   }
@@ -71,5 +73,5 @@ Carom.link = (() => {
     window.setTimeout(() => place.textContent === text && (place.textContent = ""), 4000);
   }
 
-  return { whole, DOWNLOADS, timeAsked, put, refresh, write, copy };
+  return { whole, DOWNLOADS, asked, put, refresh, write, copy };
 })();

@@ -59,8 +59,11 @@ Carom.page = (() => {
       sizes.observe(canvas);
     }
     const select = byId("pace");
-    if (select && !paced) select.value = String(Carom.clock.PACE);
-    paced = paced || Boolean(select);
+    if (select && !paced) {
+      select.value = String(Carom.link.asked("pace"));
+      if (!select.value) select.value = String(Carom.clock.PACE);
+      paced = true;
+    }
     const output = byId("clock");
     if (output) output.setAttribute("aria-live", "off"); // it would talk without end
   }
@@ -100,6 +103,7 @@ Carom.page = (() => {
   }
 
   function onInput(event) {
+    if (event.target.id === "pace") Carom.link.refresh();
     if (event.target.id !== "time") return;
     Carom.clock.pause();
     Carom.clock.set(event.target.value);
@@ -143,7 +147,7 @@ Carom.page = (() => {
     Carom.clock.hear(draw);
     Carom.clock.hear(() => Carom.link.refresh());
     Carom.theme.hear(() => (draw(), Carom.link.refresh()));
-    Carom.clock.set(Carom.link.timeAsked());
+    Carom.clock.set(Carom.link.asked("time"));
   }
 
   document.addEventListener("DOMContentLoaded", listen);
