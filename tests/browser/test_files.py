@@ -24,6 +24,7 @@ PAIR = carom.Pair(
 HIT = carom.impact(PAIR, speed=1.5, angle="55 deg")
 QUERY = {"friction": 0.17, "speed": 1.5, "angle": 55}
 FRICTION = 0.123
+LAWS = [entry.label for entry in carom.verify.CATALOGUE]
 
 
 def taken(seen, link, folder):
@@ -105,6 +106,27 @@ def test_laws_laid_over(visit):
         off = at - HIT.psi_out  # laws are solved to 1e-8
         assert told == f"{at:.6g}, " + (f"off by {off:+.3g}" if abs(off) > 1e-6 else "exact")
         assert (label, "lines") in seen.traces("forces")
+
+
+def test_laws_that_take_long_follow_the_answer(visit):
+    """However fast the bodies change, in the end all laws are there, for the bodies at last."""
+    query = {"given": "numbers", "psi": 1.1, "law": LAWS}
+    seen, chi = visit(f"?{urlencode(query, doseq=True)}"), 1.48
+    seen.page.focus("#chi-slider")
+    for _ in range(8):
+        seen.page.keyboard.press("ArrowRight")
+    seen.linked(f"chi={chi}")
+    expected = {label: float(named(label)[0].law.rebound(1.1, chi)) for label in LAWS}
+
+    def points():
+        chart = seen.traces("rebounds")
+        found = {name: line["y"][0] for (name, kind), line in chart.items() if kind == "markers"}
+        found.pop("this impact")
+        return found == pytest.approx(expected, rel=1e-9)
+
+    seen.until(points)
+    seen.page.wait_for_timeout(500)
+    assert points()
 
 
 def measured(friction):

@@ -7,7 +7,8 @@ from typing import Any
 from dash import dcc, html
 
 from carom.explorer.charts import CHART
-from carom.explorer.views import BODIES, CHOICES, KNOBS, LAWS, NUMBERS, View
+from carom.explorer.views import BODIES, CHOICES, KNOBS, NUMBERS, View
+from carom.verify.catalogue import CATALOGUE
 
 LABELS: Mapping[str, str] = MappingProxyType(
     {
@@ -112,11 +113,19 @@ def _controls() -> list[Any]:
                     className="carom-field carom-laws",
                     children=[
                         html.Legend(LABELS["law"]),
-                        dcc.Checklist(id="law", options=list(LAWS), value=list(opens.law)),
+                        dcc.Checklist(id="law", options=_laws(), value=list(opens.law)),
                     ],
                 ),
             ],
         )
+    ]
+
+
+def _laws() -> list[dict[str, str]]:
+    """Return the contact laws to choose from, each with who uses it as a hint."""
+    return [
+        {"value": entry.label, "label": entry.label, "title": f"used by: {entry.used_by}"}
+        for entry in CATALOGUE
     ]
 
 
