@@ -20,6 +20,11 @@ FOUND = """() => ({
   wrong: document.querySelectorAll('[data-mjx-error]').length,
   unset: document.querySelectorAll('.math').length
     - document.querySelectorAll('.math mjx-container').length,
+  cut: [...document.querySelectorAll('div.math mjx-container')].filter(formula =>
+    formula.getBoundingClientRect().left < formula.parentNode.getBoundingClientRect().left - 1
+  ).length,
+  over: Math.max(0, ...[...document.querySelectorAll('.bd-article, .bd-content')].map(part =>
+    part.scrollWidth - part.clientWidth)),
 })"""
 
 
@@ -33,6 +38,10 @@ def faults(page: Any, file: Path, said: list[str]) -> Iterator[str]:
         yield f"{found['wider']} pixels wider than its window"
     if found["wrong"] or found["unset"] > 0:
         yield f"formulas: {found['wrong']} wrong, {found['unset']} not set"
+    if found["cut"]:
+        yield f"{found['cut']} formulas begin left of where they can be seen"
+    if found["over"] > 1:
+        yield f"its text is {found['over']} pixels wider than its place"
     yield from said
 
 

@@ -1,4 +1,4 @@
-"""The manual: `sphinx-build -W --keep-going -b html docs docs/_build/html`."""
+"""The manual: `sphinx-build -W --keep-going docs manual`."""
 
 import sys
 from importlib.util import find_spec
@@ -28,7 +28,7 @@ extensions = [
     "schema",
 ]
 templates_path = ["_templates"]
-exclude_patterns = ["_build", "_ext", "gallery/*.ipynb", "gallery/*.py"]
+exclude_patterns = ["_ext", "gallery/*.ipynb", "gallery/*.py"]
 default_role = "code"
 smartquotes = False  # "--json" is not a dash
 toc_object_entries_show_parents = "hide"

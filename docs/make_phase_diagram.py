@@ -10,7 +10,7 @@ PAGE = Path(__file__).with_name("phases.md")
 HALVES = {False: "loading", True: "unloading"}
 SIGNS = {SAME: ", same sign", OPPOSITE: ", opposite sign"}
 HEAD = """\
-# Which phase follows which
+# Diagram of the phases
 
 Drawn by `python docs/make_phase_diagram.py` from `TRANSITIONS` in
 `src/carom/dimensionless/phases.py`, the one place that decides it. Any phase may also end by
