@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+from urllib.parse import urlencode
 
 import numpy as np
 import pytest
@@ -17,7 +18,7 @@ from carom.explorer.downloads import curve_figure
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import impact_of, scene_of
 from carom.explorer.scripts import script
-from carom.explorer.views import CHOICES, KNOBS, LAWS, NUMBERS, View
+from carom.explorer.views import CHOICES, KNOBS, LAWS, NUMBERS, OF_NUMBERS, View
 
 NUMBER = {name: st.floats(knob.least, knob.most) for name, knob in KNOBS.items()}
 WORD = {name: st.sampled_from(known) for name, known in CHOICES.items()}
@@ -44,10 +45,12 @@ def test_every_state_is_a_link_that_restores_it(view):
 
 @pytest.mark.parametrize("name", KNOBS)
 def test_numbers_out_of_range_are_refused_by_name(name):
-    knob = KNOBS[name]
+    knob, using = KNOBS[name], {"against": "sphere"}
+    if name in OF_NUMBERS:
+        using = {"given": NUMBERS}
     for text in ("", "nan", "inf", "x", "1e400", str(knob.most * 1.01), str(knob.least - 0.1)):
         with pytest.raises(carom.InputError, match=rf"^{name}: .* must be a number from"):
-            View.of(f"{name}={text}")
+            View.of(urlencode(using | {name: text}))
 
 
 @pytest.mark.parametrize(
@@ -63,8 +66,16 @@ def test_numbers_out_of_range_are_refused_by_name(name):
 def test_links_that_say_nonsense_are_refused_in_one_line(query, says):
     view, wrong = View.with_complaints(query)
     assert view == View()
-    assert says in str(wrong[0])
-    assert "\n" not in str(wrong[0])
+    line = str(next(iter(wrong.values())))
+    assert says in line
+    assert "\n" not in line
+
+
+def test_what_a_view_does_not_use_may_be_anything():
+    assert View.of("psi=&chi=x&second_radius=-1").pair == View().pair
+    assert View.of("given=numbers&psi=2&radius=&angle=95").psi == 2.0
+    with pytest.raises(carom.InputError, match=r"^second_radius: "):
+        View.of("against=sphere&second_radius=-1")
 
 
 def test_what_a_link_says_right_is_kept_beside_what_it_says_wrong():

@@ -8,9 +8,11 @@ from dash import set_props as set_on_page
 from flask import Flask, Response, abort, request
 from werkzeug.exceptions import HTTPException
 
-from carom.explorer.answers import connect
+from carom.explorer.answers import connect_answers
+from carom.explorer.controls import connect_controls
 from carom.explorer.downloads import add_downloads
 from carom.explorer.layout import page
+from carom.explorer.measures import connect_measures
 from carom.explorer.uploads import LARGEST_UPLOAD
 from carom.quantities import InputError
 
@@ -51,7 +53,9 @@ def new_app(hosts: list[str] | None = None) -> Dash:
         index_string=INDEX,
     )
     app.layout = page
-    connect(app)
+    connect_controls(app)
+    connect_answers(app)
+    connect_measures(app)
     add_downloads(server)
     server.register_error_handler(Exception, _one_line)
     server.before_request(_refuse_unknown)
@@ -76,7 +80,7 @@ def _one_line(error: Exception) -> Response:
         return _text(str(error), 400)
     if isinstance(error, HTTPException):
         return _text(f"{error.code}: {error.name}", error.code or 500)
-    log.error("%s: %s", type(error).__name__, error)
+    log.error("%s: %s", type(error).__name__, " ".join(str(error).split()))
     if request.path == UPDATES:  # what callbacks raise is told on the page
         return _text("400: this is no request of the page", 400)
     if request.path.startswith(PARTS):

@@ -46,12 +46,13 @@ ENERGY_FILLS = {  # colour and pattern
 ENERGY_NAMES = {name: label for name, (label, *_) in ENERGIES.items()} | OF_CONTACT
 HEADROOM = 1.25  # of the forces: above them the phases have their names
 ROOM = 1.12  # of the shares of energy: above them the phases have their names
+NAMED = 3  # laws that a legend has room for; of more the table of results is the key
 NARROW = 0.07  # of the axis: a band below that goes without its name
 
 
 def forces(scene: Scene, laws: Laws = ()) -> Figure:
     """Return F_x between its limits against time, phases shaded."""
-    drawn = _drawn(laws)
+    drawn = styles(laws)
     time = scene.share * scene.duration
     name = f"friction on the second body, F_x ({scene.force_unit})"
     traces = [
@@ -62,14 +63,15 @@ def forces(scene: Scene, laws: Laws = ()) -> Figure:
     ]
     figure = axes_of(traces, f"time ({scene.time_unit})", name, scene)
     limits = [scene.limit, *(law.force for law, _ in drawn)]
-    most = max(1e-9, *(float(np.abs(part).max(initial=0.0)) for part in limits))
+    most = max(float(np.abs(part).max(initial=0.0)) for part in limits) or 1.0
     figure["layout"]["yaxis"]["range"] = [-1.1 * most, HEADROOM * most]
+    figure["layout"]["showlegend"] = len(drawn) <= NAMED
     longest = max([1.0, *(float(law.share.max(initial=0.0)) for law, _ in drawn)])
     figure["layout"]["xaxis"]["range"] = [0.0, longest * scene.duration]
     return figure
 
 
-def _drawn(laws: Laws) -> list[tuple[LawCurve, tuple[str, str]]]:
+def styles(laws: Laws) -> list[tuple[LawCurve, tuple[str, str]]]:
     """Return the laws that are solved with colour and dash, which depend on their places."""
     return [(law, _style(row)) for row, law in enumerate(laws) if law is not None]
 
@@ -101,6 +103,8 @@ def energies(scene: Scene) -> Figure:
     figure = axes_of(traces, f"time ({scene.time_unit})", "share of energy", scene)
     room = {"range": [0.0, ROOM], "tickformat": ".0%", "tickvals": [0.0, 0.25, 0.5, 0.75, 1.0]}
     figure["layout"]["yaxis"] |= room
+    names = figure["layout"]["annotations"]  # turned ones would run into the stack
+    figure["layout"]["annotations"] = [name for name in names if not name["textangle"]]
     figure["layout"]["shapes"] += [_border(scene.duration * p.start) for p in scene.phases[1:]]
     return figure
 
@@ -113,7 +117,7 @@ def _border(time: float) -> Figure:
 
 def rebounds(scene: Scene, curve: tuple[Array, Array], laws: Laws = ()) -> Figure:
     """Return psi_2 against psi_1 with the bands of the regimes and the present point."""
-    (psi, out), drawn = curve, _drawn(laws)
+    (psi, out), drawn = curve, styles(laws)
     traces = [
         line(psi, out, "exact", BLUE, "solid", 2.4),
         *(line(law.psi_in, law.psi_out, law.label, *style) for law, style in drawn),
@@ -126,6 +130,7 @@ def rebounds(scene: Scene, curve: tuple[Array, Array], laws: Laws = ()) -> Figur
     if np.isfinite(scene.psi_in):
         traces.append(_point(scene.psi_in, scene.psi_out, "this impact", VERMILION, "circle"))
     figure = axes_of(traces, "ψ₁ before", "ψ₂ after")
+    figure["layout"]["showlegend"] = len(drawn) <= NAMED
     figure["layout"] |= _bands(_regimes(scene.chi, psi), float(psi[0]), float(psi[-1]))
     figure["layout"]["xaxis"]["range"] = [float(psi[0]), float(psi[-1])]
     return figure

@@ -7,7 +7,16 @@ from typing import Any
 from dash import dcc, html
 
 from carom.explorer.charts import CHART
-from carom.explorer.views import BODIES, CHOICES, KNOBS, NUMBERS, View
+from carom.explorer.views import (
+    BODIES,
+    CHOICES,
+    KNOBS,
+    NUMBERS,
+    OF_BODIES,
+    OF_MOTION,
+    OF_NUMBERS,
+    View,
+)
 from carom.verify.catalogue import CATALOGUE
 
 LABELS: Mapping[str, str] = MappingProxyType(
@@ -27,9 +36,6 @@ LABELS: Mapping[str, str] = MappingProxyType(
         "data": "Measured rebounds that come along",
     }
 )
-OF_BODIES = ("radius", "material", "against", "second_radius", "second_material")
-OF_MOTION = ("speed", "angle", "spin")
-OF_NUMBERS = ("psi", "chi")
 CONTROLS = ("given", *OF_BODIES, "friction", *OF_MOTION, *OF_NUMBERS, "law", "data")
 SLIDERS = tuple(name for name in CONTROLS if name in KNOBS and KNOBS[name].slider)
 FILES = MappingProxyType(
@@ -56,6 +62,8 @@ def page() -> html.Div:
             dcc.Store(id="scene"),
             dcc.Store(id="query"),
             dcc.Store(id="late"),
+            dcc.Store(id="figures"),
+            dcc.Store(id="carried"),
             dcc.Store(id="file"),
             dcc.Store(id="restored"),
             _head(),
@@ -228,5 +236,7 @@ def _downloads() -> Iterable[Any]:
 
 
 def _file(name: str, text: str) -> html.A:
-    where: dict[str, Any] = {"href": f"/{name}", "download": name}
-    return html.A(text, id=name.replace(".", "-"), className="carom-download", **where)
+    where: Any = {"data-path": f"/{name}"}  # a link once there is a state to tell
+    return html.A(
+        text, id=name.replace(".", "-"), className="carom-download", download=name, **where
+    )

@@ -1,7 +1,7 @@
 """Rebound curves of a view, the exact one and those of contact laws; remembered by bodies."""
 
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor, wait
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -25,6 +25,7 @@ KEPT = 256  # curves that are remembered
 DIGITS = 12  # of what a curve is remembered by
 
 _solvers = ThreadPoolExecutor(available_cores(), "carom-law")
+_at_work: dict[tuple[Scene, str], Future["LawCurve"]] = {}
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,11 +52,21 @@ def law_curves(
 
     None in the place of those that take longer, which may be asked for again.
     """
-    begun = [_solvers.submit(_of_law, scene, label) for label in labels]
+    begun = [_begun(scene, label) for label in labels]
     done, late = wait(begun, seconds)
     for future in late:  # the page may have moved on
         future.cancel()
-    return [future.result() if future in done else None for future in begun]
+    solved = {future for future in done if not future.cancelled()}
+    return [future.result() if future in solved else None for future in begun]
+
+
+def _begun(scene: Scene, label: str) -> Future[LawCurve]:
+    """Return a law at work, only once even if it is asked for again meanwhile."""
+    found = _at_work.get((scene, label))
+    if found is None or found.cancelled():
+        found = _at_work[scene, label] = _solvers.submit(_of_law, scene, label)
+        found.add_done_callback(lambda _: _at_work.pop((scene, label), None))
+    return found
 
 
 @lru_cache(maxsize=KEPT)

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import isfinite
+from math import isinf, isnan
 from typing import Any
 
 import numpy as np
@@ -74,7 +74,6 @@ class Scene:
     def moving(self) -> dict[str, Any]:
         """Return what the page animates, as JSON can hold it."""
         return {
-            "numbers": [self.psi_in, self.chi],
             "duration": self.duration,
             "unit": self.time_unit,
             "phases": [
@@ -165,8 +164,8 @@ def _of_numbers(view: View) -> Scene:
 def _numbers(solution: Solution) -> dict[str, str]:
     psi, out = solution.psi_in, solution.psi_out
     rows = {
-        _named("psi_in"): f"{psi:.6g}",
-        _named("psi_out"): f"{out:.6g}",
+        _named("psi_in"): f"{psi + 0.0:.6g}",
+        _named("psi_out"): f"{out + 0.0:.6g}",
         _named("chi"): f"{solution.chi:.6g}",
     }
     if psi:
@@ -203,8 +202,10 @@ def _named(name: str) -> str:
 def _text(name: str, value: float) -> str:
     """Return a value of the glossary with its unit, prefixed so that it is easy to read."""
     unit = GLOSSARY[name].unit
-    if not isfinite(value):
+    if isinf(value):
         return "none: it slides freely"
+    if isnan(value):
+        return "none: it was zero before"
     if unit in ("1", "rad"):
         return GLOSSARY[name].text(value)
     short_unit, scale = _scaled(value, unit)

@@ -15,6 +15,9 @@ from carom.quantities import InputError, nearest, refusal
 from carom.verify.catalogue import CATALOGUE
 
 BODIES, NUMBERS = "bodies", "numbers"
+OF_BODIES = ("radius", "material", "against", "second_radius", "second_material")
+OF_MOTION = ("speed", "angle", "spin")
+OF_NUMBERS = ("psi", "chi")
 AGAINST = ("half-space", "sphere", "cup")
 LAWS = tuple(entry.label for entry in CATALOGUE)
 LONGEST = 4000  # characters of a link
@@ -52,7 +55,7 @@ KNOBS: Mapping[str, Knob] = MappingProxyType(
         "speed": Knob("m/s", 1e-4, 1e3, (0.05, 10.0, 0.05)),
         "angle": Knob("deg", 0.0, 89.9, (0.0, 89.0, 0.25)),
         "spin": Knob("rad/s", -1e6, 1e6, (-1000.0, 1000.0, 5.0)),
-        "psi": Knob("", -100.0, 100.0, (0.0, 10.0, 0.01)),
+        "psi": Knob("", -1e6, 1e6, (0.0, 10.0, 0.01)),
         "chi": Knob("", 0.05, 10.0, (0.5, 3.0, 0.005)),
     }
 )
@@ -90,17 +93,19 @@ class View:
     def of(cls, query: str) -> Self:
         """Return the view of a link's query, or raise InputError for the first thing wrong."""
         view, wrong = cls.with_complaints(query)
-        if wrong:
-            raise wrong[0]
+        for name, error in wrong.items():
+            if name not in view.unused:
+                raise error
         return view
 
     @classmethod
-    def with_complaints(cls, query: str) -> tuple[Self, list[InputError]]:
-        """Return the view of a link, defaults in place of what cannot be used, and what that is."""
+    def with_complaints(cls, query: str) -> tuple[Self, dict[str, InputError]]:
+        """Return the view of a link, defaults in place of what cannot be used, and why by name."""
         if len(query) > LONGEST:
-            return cls(), [InputError(f"link: {len(query)} characters, at most {LONGEST} are read")]
+            long = f"link: {len(query)} characters, at most {LONGEST} are read"
+            return cls(), {"link": InputError(long)}
         found: dict[str, Any] = {}
-        wrong: list[InputError] = []
+        wrong: dict[str, InputError] = {}
         given = parse_qs(query.lstrip("?"), keep_blank_values=True)
         for name, texts in given.items():
             if name in PAGE_ONLY:
@@ -108,7 +113,7 @@ class View:
             try:
                 found[name] = _read(name, texts)
             except InputError as error:
-                wrong.append(error)
+                wrong[name] = error
         return cls(**found), wrong
 
     def query(self) -> str:
@@ -124,6 +129,13 @@ class View:
     def in_numbers(self) -> bool:
         """Whether psi_1 and chi are given instead of bodies."""
         return self.given == NUMBERS
+
+    @property
+    def unused(self) -> tuple[str, ...]:
+        """What does not matter in this view, and may be anything."""
+        if self.in_numbers:
+            return (*OF_BODIES, *OF_MOTION)
+        return OF_NUMBERS if self.against != "half-space" else (*OF_NUMBERS, "second_radius")
 
     @cached_property
     def pair(self) -> Pair:

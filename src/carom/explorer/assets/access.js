@@ -11,6 +11,18 @@ Carom.access = (() => {
     }
   }
 
+  // Keys change a number in its field; its buttons are for the hand.
+  function nameSteppers() {
+    for (const button of document.querySelectorAll(".carom-field .dash-input-stepper")) {
+      const field = button.closest(".carom-field").querySelector("input");
+      const verb = button.classList.contains("dash-stepper-decrement") ? "Decrease" : "Increase";
+      button.ariaLabel = `${verb} ${labelOf(field.id)}`;
+      button.tabIndex = -1;
+    }
+    const file = document.querySelector("#upload input[type=file]");
+    if (file) file.tabIndex = -1;
+  }
+
   // Their options are labels around boxes to tick, which are reached themselves.
   function nameLists() {
     for (const list of document.querySelectorAll(".carom-field .dash-options-list")) {
@@ -37,6 +49,7 @@ Carom.access = (() => {
 
   function name() {
     nameSliders();
+    nameSteppers();
     nameLists();
     nameChoices();
   }

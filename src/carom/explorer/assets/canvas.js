@@ -9,13 +9,10 @@ Carom.canvas = (() => {
     const { clientWidth: width, clientHeight: height } = canvas;
     if (width < 40 || height < 40) return null;
     const dense = window.devicePixelRatio || 1;
-    const pixels = [Math.round(width * dense), Math.round(height * dense)];
-    if (canvas.width !== pixels[0] || canvas.height !== pixels[1]) {
-      [canvas.width, canvas.height] = pixels;
-    }
+    canvas.width = Math.round(width * dense); // clears, and forgets how the pen was left
+    canvas.height = Math.round(height * dense);
     const pen = canvas.getContext("2d");
-    pen.setTransform(dense, 0, 0, dense, 0, 0);
-    pen.clearRect(0, 0, width, height);
+    pen.scale(dense, dense);
     return { pen, width, height };
   }
 

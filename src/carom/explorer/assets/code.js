@@ -23,8 +23,10 @@ Carom.code = (() => {
   }
 
   function show(query) {
-    if (query === shown || !document.getElementById("code")) return;
+    if (!document.getElementById("code")) return;
     window.clearTimeout(waiting);
+    if (asking) asking.abort();
+    if (query === shown) return;
     waiting = window.setTimeout(() => ask(query), WAIT);
   }
 

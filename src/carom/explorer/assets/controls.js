@@ -19,17 +19,17 @@ window.dash_clientside.controls = {
     return [same, Number.isFinite(number) ? number : same];
   },
 
-  // Going over to numbers keeps the impact; a link that tells numbers keeps its own.
-  carry(given, restored) {
-    const same = window.dash_clientside.no_update;
+  // What is not given, or not there, is not asked for.
+  hide(given, against) {
+    const numbers = given === "numbers";
+    return [!numbers, numbers, numbers, against === "half-space", numbers, numbers];
+  },
+
+  // The controls as they are when the reader, not a link, goes over from bodies to numbers.
+  leaves_bodies(given, restored, view) {
     const byLink = restored !== this.restored;
     this.restored = restored;
-    const numbers = window.Carom.scene.data()?.numbers ?? [];
-    if (byLink || given !== "numbers") return [same, same];
-    const digits = 6;
-    return [0, 1].map((i) =>
-      Number.isFinite(numbers[i]) ? Number(numbers[i].toPrecision(digits)) : same,
-    );
+    return byLink || given !== "numbers" ? window.dash_clientside.no_update : view;
   },
 
   // A file is fitted again when the bodies change: it may not tell its own.
@@ -46,11 +46,16 @@ window.dash_clientside.controls = {
 
   accept(names, largest, contents, name, query) {
     const same = window.dash_clientside.no_update;
-    if (!contents) return [same, same];
+    if (!contents) return [same, same, same, same];
     const size = Math.floor((contents.length - contents.indexOf(",") - 1) * 0.75);
     if (size > largest) {
-      return [same, `file: ${name} has ${size} bytes; it must be at most ${largest}`];
+      const wrong = `file: ${name} has ${size} bytes; it must be at most ${largest}`;
+      return [null, wrong, "", null];
     }
-    return [{ contents, name, bodies: this.told(names, query), read: Date.now() }, ""];
+    const file = { contents, name, bodies: this.told(names, query), read: Date.now() };
+    return [file, "", "", null]; // so that the same file can be sent again
   },
+
+  // A data set that comes along takes the place of a file.
+  dismiss: (data) => (data ? null : window.dash_clientside.no_update),
 };

@@ -6,6 +6,8 @@ Carom.page = (() => {
   const NARROW = "(max-width: 760px)";
   const sizes = new ResizeObserver(() => draw());
   const sized = new WeakSet();
+  const CHARTS = 3;
+  let latest = null;
   let due = false;
   let folded = false;
   let paced = false;
@@ -140,6 +142,14 @@ Carom.page = (() => {
     return window.dash_clientside.no_update;
   }
 
+  // The charts, which take longest, once the moving pictures are there; none that is outdated.
+  async function chart(figures) {
+    const same = window.dash_clientside.no_update;
+    latest = figures;
+    await new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+    return figures && figures === latest ? figures : Array(CHARTS).fill(same);
+  }
+
   function listen() {
     document.addEventListener("input", onInput);
     document.addEventListener("click", onClick, true);
@@ -151,7 +161,7 @@ Carom.page = (() => {
   }
 
   document.addEventListener("DOMContentLoaded", listen);
-  return { show, link };
+  return { show, link, chart, attach: () => (attach(), window.dash_clientside.no_update) };
 })();
 
 window.dash_clientside = window.dash_clientside || {};
