@@ -118,6 +118,11 @@ def materials() -> dict[str, Material]:
 
     Typical values at room temperature; `material_sources` tells where each comes from.
 
+    Returns
+    -------
+    dict
+        Each `Material` by name, E in Pa, density in kg/m^3.
+
     Examples
     --------
     >>> import carom
@@ -134,6 +139,11 @@ def material(name: str) -> Material:
     ----------
     name : str
         As `materials` has it, or an alias of it such as "glass".
+
+    Returns
+    -------
+    Material
+        E in Pa, nu, density in kg/m^3, yield strength in Pa; what is not known is None.
 
     Raises
     ------
@@ -165,6 +175,11 @@ def material_sources(name: str) -> dict[str, str]:
     ----------
     name : str
         As `material` takes it.
+
+    Returns
+    -------
+    dict
+        The source by the name of the value; empty for "rigid".
 
     Raises
     ------

@@ -143,6 +143,7 @@ def normal_of(case: Mapping[str, Any]) -> "NormalLaw | None":
 
     Raises InputError if it is given in two ways, or out of range.
 
+    >>> from carom.cases import normal_of
     >>> normal_of({"restitution": 0.9}), normal_of({"speed": "2 m/s"})
     (KelvinVoigt(restitution=0.9, loss_time=None), None)
     """
@@ -231,11 +232,18 @@ def material_values(value: Any) -> dict[str, float]:
 def _as_table(value: Any) -> Any:
     """Return text like "young=210 GPa, poisson=0.3" as a table, anything else as it is."""
     if isinstance(value, str) and "=" in value:
-        pairs = (part.partition("=") for part in value.split(","))
-        value = {key.strip(): text.strip() for key, _, text in pairs}
+        value = dict(map(_entry, value.split(",")))
     if isinstance(value, Mapping):
         for key in value:
             if key not in MATERIAL:
-                hint = nearest(key, MATERIAL) or MATERIAL
+                hint = nearest(key, MATERIAL) or f"known are {', '.join(MATERIAL)}"
                 raise InputError(f"{key}: unknown in a material; {hint}")
     return value
+
+
+def _entry(part: str) -> tuple[str, str]:
+    key, equals, text = part.partition("=")
+    if not equals:
+        example = "write e.g. young=210 GPa, poisson=0.3, density=7850 with decimal points"
+        raise refusal("material", part.strip(), example)
+    return key.strip(), text.strip()

@@ -19,6 +19,7 @@ def bibtex(*keys: str) -> str:
 
     Examples
     --------
+    >>> from carom.citations import bibtex
     >>> print(bibtex("maw1976").splitlines()[2])
       author = {Maw, N. and Barber, J. R. and Fawcett, J. N.},
     """
@@ -30,6 +31,7 @@ def with_doi(doi: str) -> str:
 
     Examples
     --------
+    >>> from carom.citations import with_doi
     >>> print(with_doi("10.1000/182"), end="")
     @misc{data,
       doi = {10.1000/182},

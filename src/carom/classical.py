@@ -18,7 +18,8 @@ class Obliquity(NamedTuple):
 
     Examples
     --------
-    >>> Obliquity(force=0.1974, displacement=0.2383).force
+    >>> import carom
+    >>> carom.classical.Obliquity(force=0.1974, displacement=0.2383).force
     0.1974
     """
 
@@ -39,6 +40,11 @@ def cattaneo_mindlin(pair: Pair, normal_force: ArrayLike, tangential_force: Arra
     normal_force, tangential_force : array_like
         P > 0 and T in N, |T| <= mu P; shapes that broadcast.
 
+    Returns
+    -------
+    numpy.ndarray
+        U in m, of the broadcast shape.
+
     Raises
     ------
     InputError
@@ -47,11 +53,12 @@ def cattaneo_mindlin(pair: Pair, normal_force: ArrayLike, tangential_force: Arra
     Examples
     --------
     >>> import carom
-    >>> from carom.loading import load_path
+    >>> import numpy as np
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> path = load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.5])
-    >>> bool(np.isclose(path.displacement[-1], cattaneo_mindlin(pair, 10.0, 1.5), rtol=1e-12))
+    >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.5])
+    >>> moved = carom.classical.cattaneo_mindlin(pair, 10.0, 1.5)
+    >>> bool(np.isclose(path.displacement[-1], moved, rtol=1e-12))
     True
     """
     share, most = _share(pair, normal_force, tangential_force)
@@ -74,6 +81,11 @@ def loop_energy(pair: Pair, normal_force: ArrayLike, amplitude: ArrayLike) -> Ar
     normal_force, amplitude : array_like
         P > 0 and 0 <= T <= mu P in N; shapes that broadcast.
 
+    Returns
+    -------
+    numpy.ndarray
+        W in J, of the broadcast shape.
+
     Raises
     ------
     InputError
@@ -82,12 +94,12 @@ def loop_energy(pair: Pair, normal_force: ArrayLike, amplitude: ArrayLike) -> Ar
     Examples
     --------
     >>> import carom
-    >>> from carom.loading import load_path
+    >>> import numpy as np
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> path = load_path(pair, normal_force=10.0, tangential_force=[0.0, 1.5, -1.5, 1.5])
+    >>> path = carom.load_path(pair, normal_force=10.0, tangential_force=[0.0, 1.5, -1.5, 1.5])
     >>> lost = path.frictional_work[3] - path.frictional_work[1]
-    >>> bool(np.isclose(lost, loop_energy(pair, 10.0, 1.5), rtol=1e-12))
+    >>> bool(np.isclose(lost, carom.classical.loop_energy(pair, 10.0, 1.5), rtol=1e-12))
     True
     """
     share, most = _share(pair, normal_force, amplitude)
@@ -112,6 +124,11 @@ def critical_obliquity(pair: Pair) -> Obliquity:
     pair : Pair
         The bodies and their friction.
 
+    Returns
+    -------
+    Obliquity
+        Angles from the normal in rad: `force`, atan(mu), and `displacement`, atan(mu/kappa).
+
     Raises
     ------
     InputError
@@ -122,7 +139,7 @@ def critical_obliquity(pair: Pair) -> Obliquity:
     >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> round(critical_obliquity(pair).force, 4)
+    >>> round(carom.classical.critical_obliquity(pair).force, 4)
     0.1974
     """
     _check_pair(pair)

@@ -139,7 +139,14 @@ class Course(Outcome):
         return card("Oblique impact", rows, self.plot(), notes)
 
     def to_dataset(self) -> xr.Dataset:
-        """Return all of the result as one dataset, with a history of 400 times."""
+        """Return all of the result as one dataset, with a history of 400 times.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along `time` in s, as `history` has it; along `phase` kind, sign, start and end in s;
+            the numbers of the result without a dimension.
+        """
         return self.history(400)
 
     def plot(self, path: str | Path | None = None) -> Figure:
@@ -149,6 +156,11 @@ class Course(Outcome):
         ----------
         path : str or Path, optional
             Where the figure is stored, too: .png, .pdf or .svg.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure, 178 mm wide, of four axes.
 
         Raises
         ------
@@ -187,6 +199,11 @@ class Course(Outcome):
         progress : bool or callable, optional
             Whether a bar is shown after two seconds, by default in a notebook and on a terminal;
             or what is called after every frame.
+
+        Returns
+        -------
+        pathlib.Path
+            The file that was written.
 
         Raises
         ------

@@ -38,6 +38,22 @@ def borders(chi: float) -> tuple[float, float, float]:
     Up to the first the contact sticks from the first touch; up to the second it sticks after gross
     slip; from the third on it slips throughout (Barber 1979, after (34)). For chi <= 1/2 all are 1:
     what does not stick from the first touch slips throughout.
+
+    Parameters
+    ----------
+    chi : float
+        (kappa/2)(m_n/m_t), positive.
+
+    Returns
+    -------
+    tuple of float
+        The three borders, each in units of psi and not below the one before.
+
+    Examples
+    --------
+    >>> from carom.curves import borders
+    >>> borders(1.5)
+    (1.0, 3.0, 5.0)
     """
     if chi <= 0.5:
         return 1.0, 1.0, 1.0
@@ -62,6 +78,12 @@ def curve(
     normal : KelvinVoigt, optional
         What the normal motion loses energy to: a restitution is given. The `border` of regimes,
         1, 2 chi, 4 chi - 1, is left out then, as it is that of elastic bodies.
+
+    Returns
+    -------
+    xarray.Dataset
+        psi_out, contact_restitution and tangential_restitution, pure numbers along (chi, psi_in);
+        without losses also border (chi, regime_border), the psi_1 at which the regime changes.
 
     Raises
     ------
@@ -122,6 +144,12 @@ def regime_map(psi: ArrayLike, chi: ArrayLike, *, progress: Progress = None) -> 
         Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
         what is called with the rows of chi done so far and their number.
 
+    Returns
+    -------
+    xarray.Dataset
+        sequence (chi, psi_in), whole numbers, and sequence_name (sequence_name), the kinds of
+        phases in order with the sign of slip.
+
     Raises
     ------
     InputError
@@ -130,8 +158,7 @@ def regime_map(psi: ArrayLike, chi: ArrayLike, *, progress: Progress = None) -> 
     Examples
     --------
     >>> import carom
-    >>> from carom.curves import regime_map
-    >>> found = regime_map([0.5, 2.0, 6.0], [1.44])
+    >>> found = carom.regime_map([0.5, 2.0, 6.0], [1.44])
     >>> print(found.sequence_name.values[found.sequence.values[0, 1]])
     gross slip +, stick, slip -, gross slip -
     """

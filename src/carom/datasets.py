@@ -25,10 +25,15 @@ if TYPE_CHECKING:
 def names() -> tuple[str, ...]:
     """Return the names of the datasets.
 
+    Returns
+    -------
+    tuple of str
+        Names that `path`, `table` and `load` take.
+
     Examples
     --------
-    >>> from carom import datasets
-    >>> datasets.names()
+    >>> import carom
+    >>> carom.datasets.names()
     ('kharaz2001', 'kharaz2001_kratos', 'kharaz2001_mfix')
     """
     return tuple(sorted(file.stem for file in _folder().glob("*.csv")))
@@ -42,6 +47,11 @@ def path(name: str) -> Path:
     name : str
         One of `names()`.
 
+    Returns
+    -------
+    pathlib.Path
+        The CSV file.
+
     Raises
     ------
     InputError
@@ -49,8 +59,8 @@ def path(name: str) -> Path:
 
     Examples
     --------
-    >>> from carom import datasets
-    >>> datasets.path("kharaz2001").name
+    >>> import carom
+    >>> carom.datasets.path("kharaz2001").name
     'kharaz2001.csv'
     """
     if name not in names():
@@ -67,6 +77,12 @@ def table(name: str) -> Results:
     name : str
         One of `names()`.
 
+    Returns
+    -------
+    Results
+        `columns`: arrays of shape (n,) by name, which `table[name]` gives, too; `rows`, the lines
+        of the file, shape (n,).
+
     Raises
     ------
     InputError
@@ -74,8 +90,8 @@ def table(name: str) -> Results:
 
     Examples
     --------
-    >>> from carom import datasets
-    >>> measured = datasets.table("kharaz2001")
+    >>> import carom
+    >>> measured = carom.datasets.table("kharaz2001")
     >>> measured["spin_out"][8:10].round(1), measured["rebound_angle"][8:10]
     (array([-136.2, -265.7]), array([nan, nan]))
     """
@@ -95,6 +111,11 @@ def load(name: str) -> "xr.Dataset":
     name : str
         One of `names()`.
 
+    Returns
+    -------
+    xarray.Dataset
+        Along `point`: one variable a column, with its unit and meaning as attributes.
+
     Raises
     ------
     InputError
@@ -102,8 +123,8 @@ def load(name: str) -> "xr.Dataset":
 
     Examples
     --------
-    >>> from carom import datasets
-    >>> data = datasets.load("kharaz2001")
+    >>> import carom
+    >>> data = carom.datasets.load("kharaz2001")
     >>> data.spin_out.units, int(data.spin_out.notnull().sum()), data.doi
     ('rad/s', 7, '10.1016/S0032-5910(01)00283-2')
     """

@@ -35,7 +35,8 @@ class Impact(Course):
     """The result of `impact`: the rebound, every phase, and what happens inside the contact.
 
     SI units. Tangential speeds are those of the first body relative to the second, positive spin
-    adds to the tangential speed of the contact point: V_x = v_t + R spin + R_2 spin2.
+    adds to the tangential speed of the contact point: V_x = v_t + R spin + R_2 spin2. The theory is
+    that of Maw, Barber & Fawcett (1976), in the form of Barber (1979).
 
     Examples
     --------
@@ -73,6 +74,12 @@ class Impact(Course):
         ----------
         time : float or str
             Time since the first touch in s, 0 to `duration`.
+
+        Returns
+        -------
+        Contact
+            `numbers()` are its quantities in SI units; penetration, displacement and stick_radius
+            are dimensionless, `scales` gives them units.
 
         Raises
         ------
@@ -238,6 +245,11 @@ class Impact(Course):
 
     def cite(self) -> str:
         """Return what to cite for this result, as BibTeX.
+
+        Returns
+        -------
+        str
+            Entries of BibTeX, one after the other.
 
         Examples
         --------

@@ -19,11 +19,15 @@ class Quantity(NamedTuple):
     def text(self, value: float) -> str:
         """Return a value with its unit, to read; angles in degrees, a dash for what is no number.
 
+        >>> from carom.glossary import GLOSSARY
         >>> GLOSSARY["speed"].text(2.0), GLOSSARY["angle"].text(0.5)
         ('2 m/s', '28.648 deg')
+        >>> GLOSSARY["spin"].text(-0.0)
+        '0 rad/s'
         """
         if isnan(value):
             return "-"
+        value += 0.0  # makes -0.0 a plain zero
         if self.unit == "rad":
             return f"{degrees(value):.5g} deg"
         return f"{value:.6g}" + ("" if self.unit == "1" else f" {self.unit}")

@@ -77,7 +77,8 @@ class BoundaryElements:
 class HalfspaceImpact(Course):
     """The result of `impact` by boundary elements: what that of the theory is, and how sure it is.
 
-    SI units, signs as in `Impact`. Phases are as the grid shows them: short ones are left out, and
+    Love (1929), Kalker (1990), section 4.2, as `BoundaryElements` tells. SI units, signs as in
+    `Impact`. Phases are as the grid shows them: short ones are left out, and
     where little slips they may alternate.
 
     Examples

@@ -71,7 +71,8 @@ def impact(
     """Solve one oblique impact of two bodies: exactly, within the theory, or by boundary elements.
 
     V_1 = speed cos(angle), v_t = speed sin(angle), V_x = v_t + R spin + R_2 spin2,
-    psi_1 = kappa V_x/(mu V_1).
+    psi_1 = kappa V_x/(mu V_1) (Maw, Barber & Fawcett 1976; Barber 1979, stick (15), gross slip
+    (33); boundary elements Love 1929 and Kalker 1990, section 4.2).
 
     Parameters
     ----------

@@ -46,15 +46,15 @@ class LoadPath:
 
     A step is a straight line in penetration and displacement. `frictional_work` is the energy lost
     so far, `tangential_elastic_energy` what is stored; both together are the work of F_x. U is
-    the displacement since the start, F_x positive where it opposes a growing U.
+    the displacement since the start, F_x positive where it opposes a growing U. The theory is that
+    of Mindlin & Deresiewicz (1953), J. Appl. Mech. 20:327.
 
     Examples
     --------
     >>> import carom
-    >>> from carom.loading import load_path
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> path = load_path(pair, penetration=[1e-6, 2e-6], displacement=[0.0, 1e-7])
+    >>> path = carom.load_path(pair, penetration=[1e-6, 2e-6], displacement=[0.0, 1e-7])
     >>> path.tangential_force.round(4)
     array([0.    , 1.6381])
     """
@@ -91,6 +91,11 @@ class LoadPath:
         normal_force, penetration, tangential_force, displacement : array_like, float or str
             As of `load_path`, from where the path ends.
 
+        Returns
+        -------
+        LoadPath
+            The steps so far and the new ones.
+
         Raises
         ------
         InputError
@@ -99,10 +104,9 @@ class LoadPath:
         Examples
         --------
         >>> import carom
-        >>> from carom.loading import load_path
         >>> ball = carom.Sphere(radius="5 mm", material="steel")
         >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> pushed = load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
+        >>> pushed = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
         >>> moved = pushed.then(normal_force="10 N", displacement=0.0)
         >>> len(moved), bool(moved.tangential_force[-1] < 0.0)
         (3, True)
@@ -112,6 +116,11 @@ class LoadPath:
 
     def cite(self) -> str:
         """Return what to cite for this result, as BibTeX.
+
+        Returns
+        -------
+        str
+            Entries of BibTeX, one after the other.
 
         Examples
         --------
@@ -131,6 +140,12 @@ class LoadPath:
         ----------
         step : int
             Its number, or from the end if negative.
+
+        Returns
+        -------
+        Contact
+            `numbers()` are its quantities in SI units; penetration, displacement and stick_radius
+            are dimensionless, `scales` gives them units.
 
         Raises
         ------
@@ -184,6 +199,13 @@ class LoadPath:
         points : array_like, shape (n, 2)
             Points (x, y) in m, instead of a grid.
 
+        Returns
+        -------
+        xarray.Dataset
+            Along (y, x), or along `point`: pressure and traction_x in Pa, zone (0 outside, 1 stick,
+            2 slip), displacement_x to displacement_z, slip_x and slip_y in m; and the forces,
+            radii, penetration and displacement of the step as numbers.
+
         Raises
         ------
         InputError
@@ -222,6 +244,11 @@ class LoadPath:
         body : str
             "first" or "second".
 
+        Returns
+        -------
+        xarray.Dataset
+            Along (z, x), or along `point`, as `Impact.stress`: stresses in Pa, positive in tension.
+
         Raises
         ------
         InputError
@@ -249,6 +276,12 @@ class LoadPath:
         n : int
             How many distances from the centre.
 
+        Returns
+        -------
+        xarray.Dataset
+            Along `distance` in m, n of them: pressure, friction_limit and traction_x in Pa,
+            memory_g, memory_q and memory_limit in m, zone.
+
         Raises
         ------
         InputError
@@ -275,7 +308,15 @@ class LoadPath:
         return card(f"Load path of {len(self)} steps", rows, figure)
 
     def to_dataset(self) -> xr.Dataset:
-        """Return the path as a dataset along `step`, which `carom.storage.save` can store."""
+        """Return the path as a dataset along `step`, which `carom.save` can store.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along `step`: penetration, displacement, contact_radius and stick_radius in m,
+            normal_force and tangential_force in N, frictional_work and tangential_elastic_energy in
+            J; and friction.
+        """
         count = {"units": "1", "long_name": "step of the load path"}
         return labelled_dataset(
             {name: ("step", getattr(self, name)) for name in COLUMNS}
@@ -349,10 +390,9 @@ def load_path(
     Examples
     --------
     >>> import carom
-    >>> from carom.loading import load_path
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> loop = load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.5, -1.5, 1.5])
+    >>> loop = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.5, -1.5, 1.5])
     >>> (loop.stick_radius / loop.contact_radius).round(4)
     array([1.  , 0.63, 0.63, 0.63])
     """

@@ -56,7 +56,8 @@ def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
 
     Any one tangential observable after, and the normal restitution where it enters, give the
     tangential impulse, from which all others follow: m_n (v_t - v_t') = I_1 (omega - omega')/R_1 =
-    I_2 (omega_2 - omega_2')/R_2 = m_t (V_x - V_x') = J_t.
+    I_2 (omega_2 - omega_2')/R_2 = m_t (V_x - V_x') = J_t. psi = kappa V_x/(mu V_1) is that of Maw,
+    Barber & Fawcett (1976).
 
     Parameters
     ----------
@@ -73,6 +74,12 @@ def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     wanted : str
         Any of these names.
 
+    Returns
+    -------
+    float or numpy.ndarray
+        The wanted quantity in SI units, angles in rad; of the broadcast shape, a number if all are
+        numbers.
+
     Raises
     ------
     InputError
@@ -82,11 +89,10 @@ def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     Examples
     --------
     >>> import carom
-    >>> from carom.observables import convert
     >>> ball = carom.Sphere(radius="2.5 mm", material="alumina")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="soda-lime-glass"), friction=0.092)
     >>> known = {"speed": 3.9, "angle": ["20 deg", "40 deg"], "tangential_restitution": [0.6, 0.78]}
-    >>> convert(pair, known=known, wanted="spin_out").round(1)
+    >>> carom.convert(pair, known=known, wanted="spin_out").round(1)
     array([-533.6, -551.5])
     """
     given = {name: _values(name, value) for name, value in known.items()}

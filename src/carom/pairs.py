@@ -156,6 +156,12 @@ class Pair:
         length : float
             Penetration in m.
 
+        Returns
+        -------
+        ContactScales
+            SI units: length d, radius sqrt(R* d), force, the largest pressure, tangential_length mu
+            d/kappa, and tangential_force, (3/2) mu times the force.
+
         Examples
         --------
         >>> import carom
@@ -181,6 +187,12 @@ class Pair:
         ----------
         normal_speed : float
             V_1 in m/s, positive.
+
+        Returns
+        -------
+        Scales
+            What `contact_scales` has at the largest penetration d_max; time d_max/V_1 in s, energy
+            m_n V_1^2/2 in J, and tangential_speed mu V_1/kappa in m/s.
 
         Examples
         --------
@@ -208,6 +220,11 @@ class Pair:
             V_x in m/s.
         normal_speed : float
             V_1 in m/s, positive.
+
+        Returns
+        -------
+        float
+            psi_1, with the sign of V_x; zero where V_x is zero.
 
         Examples
         --------

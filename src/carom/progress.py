@@ -51,6 +51,7 @@ def advancing(
 
     Examples
     --------
+    >>> from carom.progress import advancing
     >>> with advancing("impacts", 3, lambda done, total: print(done, "of", total)) as advance:
     ...     advance(2)
     ...     advance(1)

@@ -36,6 +36,8 @@ def number(name: str, value: Any, unit: str | None = None) -> float:
 
     Examples
     --------
+    >>> import math
+    >>> from carom.quantities import number
     >>> number("radius", "5 mm")
     0.005
     >>> number("angle", "90 deg") == math.pi / 2
@@ -126,6 +128,8 @@ def _parsed(name: str, text: str, unit: str) -> float:
         return float(text)
     except ValueError:
         pass
+    if "," in text:  # pint would drop it
+        raise refusal(name, text, "numbers need a decimal point, not a comma")
     if "%" in text:
         raise refusal(name, text, "write a percentage as a number, 0.2 for 20 percent")
     import pint

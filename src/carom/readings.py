@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.glossary import GLOSSARY
-from carom.quantities import InputError, nearest, number, refusal
+from carom.quantities import InputError, nearest, number
 from carom.sheets import CASE, GAP, SHOWN, Table, name_and_unit, named, read_table, spelled
 
 __all__ = [
@@ -112,6 +112,8 @@ def in_units(table: Table, known: Iterable[str], gaps: Collection[str] = ()) -> 
 
     Examples
     --------
+    >>> from carom.readings import in_units
+    >>> from carom.sheets import read_table
     >>> table = read_table({"angle [deg]": [0.0, 60.0], "spin_out [rpm]": ["-", -600]})
     >>> given = in_units(table, ("angle", "spin_out"), gaps=("spin_out",))
     >>> given["angle"].round(4), given["spin_out"].round(2)
@@ -138,6 +140,7 @@ def with_errors(names: Iterable[str]) -> tuple[str, ...]:
 
     Examples
     --------
+    >>> from carom.readings import with_errors
     >>> with_errors(["angle", "spin_out"])
     ('angle', 'angle_error', 'spin_out', 'spin_out_error')
     """
@@ -151,6 +154,8 @@ def others(table: Table, known: Iterable[str]) -> tuple[str, ...]:
 
     Examples
     --------
+    >>> from carom.readings import others
+    >>> from carom.sheets import read_table
     >>> others(read_table({"angle": [0.1], "run": [1]}), ["angle", "spin_out"])
     ('run',)
     """
@@ -174,6 +179,7 @@ def entry(name: str) -> str:
 
     Examples
     --------
+    >>> from carom.readings import entry
     >>> entry("spin_out"), entry("spin_out_error")
     ('spin_out', 'spin_out')
     """
@@ -254,6 +260,4 @@ def _cell(name: str, cell: Any, scale: float) -> float:
         return float(cell) * scale
     except (TypeError, ValueError):
         pass
-    if isinstance(cell, str) and cell.count(",") == 1 and "." not in cell:
-        raise refusal(spelled(name), cell, "numbers need a decimal point, not a comma")
     return number(spelled(name), cell, GLOSSARY[entry(name)].unit)

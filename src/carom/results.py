@@ -84,6 +84,7 @@ def labelled_dataset(
 
     Examples
     --------
+    >>> from carom.results import labelled_dataset
     >>> force = labelled_dataset({"normal_force": ("time", [0.0, 2.0])}, {"time": [0.0, 1e-6]}, {})
     >>> force.normal_force.units, force.time.long_name
     ('N', 'time since the first touch')

@@ -61,6 +61,7 @@ def read_table(source: Any) -> Table:
 
     Examples
     --------
+    >>> from carom.sheets import read_table
     >>> table = read_table({"angle [deg]": [10.0, 20.0], "spin_out": [-200.0, -500.0]})
     >>> table.names, table.word, len(table.rows)
     (('angle', 'spin_out'), 'row', 2)
@@ -98,6 +99,7 @@ def named(word: str, rows: Iterable[int], total: int = 0) -> str:
 
     Examples
     --------
+    >>> from carom.sheets import named
     >>> named("line", [3]), named("row", [1, 2, 5]), named("row", [1, 2], 2)
     ('line 3', 'rows 1, 2 and 5', 'every row')
     """
@@ -156,7 +158,7 @@ def _text(path: Path) -> str:
         text = path.read_bytes().decode("utf-8-sig")
     except OSError as error:
         reason = error.strerror or error
-        raise refusal("results", str(path), f"it cannot be read; {reason}") from None
+        raise InputError(f"results: {str(path)!r} cannot be read; {reason}") from None
     except UnicodeDecodeError:
         raise refusal("results", str(path), "it is not text in UTF-8; give a CSV file") from None
     if "\0" in text:

@@ -42,6 +42,11 @@ def save(result: "xr.Dataset | Result", path: str | Path) -> Path:
     path : str or Path
         A name that ends in .nc or .csv.
 
+    Returns
+    -------
+    pathlib.Path
+        The file that was written.
+
     Raises
     ------
     InputError
@@ -51,9 +56,8 @@ def save(result: "xr.Dataset | Result", path: str | Path) -> Path:
     --------
     >>> from tempfile import TemporaryDirectory
     >>> import carom
-    >>> from carom.storage import save
     >>> with TemporaryDirectory() as folder:
-    ...     save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.csv").name
+    ...     carom.save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.csv").name
     'curve.csv'
     """
     target, dataset = checked_output(path, TABLES), _dataset(result)
@@ -98,6 +102,11 @@ def read(path: str | Path) -> "xr.Dataset":
         A file that `save` or the option --output of a command has written, or the store of a sweep,
         .zarr, whose values are read when they are used.
 
+    Returns
+    -------
+    xarray.Dataset
+        Variables and coordinates as they were stored, with their units and meanings as attributes.
+
     Raises
     ------
     InputError
@@ -107,10 +116,9 @@ def read(path: str | Path) -> "xr.Dataset":
     --------
     >>> from tempfile import TemporaryDirectory
     >>> import carom
-    >>> from carom.storage import read, save
     >>> with TemporaryDirectory() as folder:
-    ...     stored = save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.csv")
-    ...     read(stored).psi_out.values.round(4)
+    ...     stored = carom.save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.csv")
+    ...     carom.read(stored).psi_out.values.round(4)
     array([[ 0.0471, -0.839 ]])
     """
     source = _as_path("file", path)

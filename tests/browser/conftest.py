@@ -22,7 +22,7 @@ READY = "document.querySelector('#results table') && window.Carom && Carom.scene
 class Visit:
     """A page of the explorer in a browser of its own."""
 
-    def __init__(self, context, address, query):
+    def __init__(self, context, address, query, ready):
         self.address = address
         self.trouble = []
         self.page = context.new_page()
@@ -30,8 +30,9 @@ class Visit:
         self.page.on("pageerror", lambda error: self.trouble.append(f"page error: {error}"))
         self.page.on("request", self._asked)
         self.response = self.page.goto(f"{address}{query}")
-        self.page.wait_for_function(READY, timeout=30_000)
-        self.until(lambda: self.traces("rebounds"))
+        if ready:
+            self.page.wait_for_function(READY, timeout=30_000)
+            self.until(lambda: self.traces("rebounds"))
 
     def _heard(self, message):
         if message.type in ("error", "warning"):
@@ -146,8 +147,8 @@ def visit(address, contexts):
     """Open the page with a query; fresh: in a browser that was never here."""
     visits = []
 
-    def open_page(query="", *, width=1280, scheme="light", fresh=False):
-        visits.append(Visit(contexts(width, scheme, fresh), address, query))
+    def open_page(query="", *, width=1280, scheme="light", fresh=False, ready=True):
+        visits.append(Visit(contexts(width, scheme, fresh), address, query, ready))
         return visits[-1]
 
     yield open_page

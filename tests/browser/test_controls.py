@@ -113,3 +113,26 @@ def test_numbers_instead_of_bodies(visit):
     seen.linked("chi=1.45")
     solved = carom.solve(1.5, 1.45)
     seen.until(lambda: seen.number(AFTER) == pytest.approx(solved.psi_out, rel=1e-5))
+
+
+def test_what_is_hidden_blocks_nothing(visit):
+    """A field that is not in use may hold anything; the fields in use are always to be seen."""
+    seen = visit("?angle=88.5&friction=0.1")  # psi_1 = 316, more than its slider has
+    seen.page.get_by_role("radio", name="ψ₁ and χ").check(force=True)
+    hit = steel(friction=0.1, angle="88.5 deg")
+    seen.until(lambda: seen.page.input_value("#psi") == f"{hit.psi_in:.6g}")
+    seen.until(lambda: seen.number(AFTER) == pytest.approx(hit.psi_out, rel=1e-4))
+    seen.page.fill("#psi", "")
+    seen.until(lambda: seen.notice().startswith("psi: missing"))
+    assert seen.page.is_visible("#psi")
+    seen.page.get_by_role("radio", name="bodies").check(force=True)
+    seen.until(lambda: seen.notice() == "" and shows(seen, hit))
+    assert seen.page.is_visible("#radius")
+
+
+def test_numbers_are_those_of_the_controls_not_of_an_earlier_answer(visit):
+    seen = visit()
+    seen.page.fill("#angle", "60")
+    seen.page.get_by_role("radio", name="ψ₁ and χ").check(force=True)
+    psi = steel(angle="60 deg").psi_in
+    seen.until(lambda: seen.page.input_value("#psi") == f"{psi:.6g}")

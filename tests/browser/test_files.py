@@ -183,6 +183,35 @@ def test_uploads_are_fitted_or_refused_in_a_line(visit):
     assert seen.notice() == ""
 
 
+def test_the_last_of_file_and_data_set_counts(visit):
+    seen, name = visit(), carom.datasets.names()[0]
+    for _ in range(2):  # the same file can be sent again
+        upload(seen, measured(FRICTION), "own.csv")
+        seen.until(lambda: "own.csv: fitted" in seen.page.inner_text("#fit-notice"))
+        assert "data=" not in seen.link()
+        seen.choose("data", name)
+        seen.until(lambda: seen.page.inner_text("#fit-notice") == "")
+        seen.linked(f"data={name}")
+        seen.page.fill("#radius", "6.5")
+        seen.linked("radius=6.5")
+        seen.page.wait_for_timeout(500)
+        assert seen.page.inner_text("#fit-notice") == ""  # still that of the data set
+        seen.page.fill("#radius", "5")
+        seen.linked("!radius")
+
+
+def test_the_lines_are_those_of_the_link(visit):
+    seen = visit("?angle=50")
+    seen.until(lambda: 'angle="50.0 deg"' in seen.page.inner_text("#code"))
+    seen.page.focus("#angle-slider")
+    for key in ("ArrowRight", "ArrowLeft"):
+        seen.page.keyboard.press(key)
+        seen.page.wait_for_timeout(250)
+    seen.linked("angle=50")
+    seen.page.wait_for_timeout(800)
+    assert 'angle="50.0 deg"' in seen.page.inner_text("#code")
+
+
 def post(address, content, kind="application/json"):
     where = f"{address}_dash-update-component"
     request = urllib.request.Request(where, content, {"Content-Type": kind})

@@ -150,3 +150,15 @@ def test_nonsense_beside_sense_keeps_the_sense(visit):
     assert seen.page.input_value("#angle") == "50"
     assert seen.page.input_value("#time") == "0.5"
     assert seen.until(lambda: seen.notice()).startswith("law: ")
+
+
+def test_a_link_of_bodies_that_do_not_fit(visit):
+    seen = visit("?against=cup&second_radius=3", ready=False)
+    notice = seen.until(lambda: seen.notice())
+    assert "cup" in notice
+    assert "\n" not in notice
+    hrefs = "[...document.querySelectorAll('a.carom-download')].map(each => each.href)"
+    assert seen.page.evaluate(hrefs) == [""] * 6  # no files of another state
+    seen.page.fill("#second_radius", "30")
+    seen.until(lambda: seen.notice() == "" and seen.traces("rebounds"))
+    assert all("second_radius=30" in href for href in seen.page.evaluate(hrefs))

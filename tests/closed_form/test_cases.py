@@ -8,6 +8,10 @@ import carom
 from carom import InputError
 from carom.cases import check_case, material_values, motion_of, pair_of, read_case, read_material
 
+POINTS = (
+    "^material: '3' cannot be used; write e.g. young=210 GPa, poisson=0.3, density=7850 with "
+    "decimal points$"
+)
 TOML = """
 friction = 0.3
 speed = "2 m/s"
@@ -58,7 +62,12 @@ def test_values_of_materials_with_and_without_gaps():
         (lambda: check_case({"second": {"material": {"yung": 1}}}), "yung: .*'young'"),
         (lambda: check_case([1]), "case: .*mapping"),
         (lambda: material_values({"poisson": 0.6}), "poisson: 0.6"),
+        (
+            lambda: material_values({"xyz": 1}),
+            "^xyz: unknown in a material; known are young, poisson, density, yield_strength, name$",
+        ),
         (lambda: material_values({"modulus": 1}), "modulus: unknown in a material"),
+        (lambda: read_material("young=210 GPa, poisson=0,3, density=7850"), POINTS),
         (lambda: read_material({"young": 1e9}), "poisson: missing"),
         (lambda: pair_of({"first": {}}), "friction: missing"),
     ],

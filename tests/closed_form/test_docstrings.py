@@ -9,14 +9,20 @@ import pytest
 
 import carom
 import carom.classical
+import carom.curves
 import carom.datasets
 import carom.fitting
 import carom.plots
+import carom.plots.style
 import carom.verify
 from carom.glossary import GLOSSARY
 
 SECTIONS = ("Parameters", "Attributes", "Returns", "Raises", "Notes", "Examples")
 MODULES = (carom, carom.verify, carom.plots, carom.fitting, carom.classical, carom.datasets)
+BESIDE = {  # what users find in a module without a list of its own
+    carom.curves: ("borders",),
+    carom.plots.style: ("new_figure", "style"),
+}
 MADE = {  # by functions, which say what is in them
     *("Bench", "Collisions", "Estimate", "Fit", "HalfspaceImpact", "Impact", "LoadPath"),
     *("Obliquity", "Ranking", "Score", "Solution", "Tuning", "WaltonFit"),
@@ -30,12 +36,15 @@ NEVER_REFUSE = {
     *("CATALOGUE", "Entry", "names", "materials", "ThorntonLaw", "Lammps", "Liggghts", "Yade"),
     *("Pair.contact_scales", "Pair.psi", "Pair.scales", "Solution.phase_at"),
     *("Solution.slip_angles", "verify.Tuning.best", "Fit.cite"),
+    *("curves.borders", "plots.style.new_figure"),
 }
 SOURCED = [  # what implements a formula of others
-    *("BoundaryElements", "ElasticPlastic", "HertzLinearHistory", "KelvinVoigt", "LammpsMindlin"),
-    *("LinearSpring", "MixtureLaw", "Pair", "ReboundLaw", "RoughLaw", "StrongeLaw", "ThorntonLaw"),
-    *("WaltonBraunLaw", "WaltonLaw", "collide", "curve", "fit", "fit_walton", "load_path"),
-    *("rebound", "regime_map", "solve", "sweep", "Fit.advice", "Fit.posterior", "Impact.fields"),
+    *("BoundaryElements", "ElasticPlastic", "HalfspaceImpact", "HertzLinearHistory", "Impact"),
+    *("KelvinVoigt", "LammpsMindlin", "LinearSpring", "LoadPath", "MixtureLaw", "Pair"),
+    *("ReboundLaw", "RoughLaw", "Solution", "StrongeLaw", "ThorntonLaw", "WaltonBraunLaw"),
+    *("WaltonLaw", "collide", "convert", "curve", "curves.borders", "fit", "fit_walton", "impact"),
+    *("load_path", "rebound", "regime_map", "solve", "sweep"),
+    *("Fit.advice", "Fit.posterior", "Impact.fields"),
     *("Impact.stress", "Pair.contact_scales", "Pair.scales", "Pair.lateral_ratio"),
     *("Solution.traction", "Solution.slip_angles", "classical.cattaneo_mindlin"),
     *("classical.critical_obliquity", "classical.loop_energy", "verify.damping"),
@@ -63,8 +72,8 @@ def functions(cls):
 def public():
     """Return all that users call, by its name as they write it."""
     found = {}
-    for module in MODULES:
-        here = [
+    for module in (*MODULES, *BESIDE):
+        here = BESIDE.get(module) or [
             name
             for name, value in vars(module).items()
             if inspect.isroutine(value) or inspect.isclass(value)
@@ -183,6 +192,11 @@ def test_every_parameter_is_described_in_order(label):
     lines = documented(label).get("Parameters", [])
     heads = [line.partition(" :")[0] for line in lines if line and not line.startswith(" ")]
     assert [name.strip() for head in heads for name in head.split(",")] == parameters(label)
+
+
+@pytest.mark.parametrize("label", [name for name in ASKED if not inspect.isclass(PUBLIC[name])])
+def test_what_comes_back_is_told(label):
+    assert documented(label).get("Returns"), "no section Returns"
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from carom.quantities import InputError
+import carom
+from carom.quantities import InputError, number
 from carom.readings import in_units, others, read_table, with_errors
 
 KNOWN = with_errors(("angle", "speed", "spin_out", "tangential_restitution", "rebound_angle"))
@@ -98,6 +99,27 @@ def test_a_labelled_dataset_is_a_table():
     assert read_table(data).case == {"friction": 0.3}
     with pytest.raises(InputError, match="angle: not a number in row 1"):
         read(data.assign(angle=("point", [np.nan, 20.0], {"units": "deg"})))
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [("radius", "2,5 mm"), ("radius", "1,250 mm"), ("speed", "1,5 m/s"), ("friction", "0,25")],
+)
+def test_a_decimal_comma_is_refused_and_not_dropped(name, text):
+    """In a number, a body, a pair, a motion; in a cell beside a point, too."""
+    given = {"radius": "5 mm", "speed": "1 m/s", "friction": 0.2, name: text}
+
+    def struck():
+        ball = carom.Sphere(radius=given["radius"], material="steel")
+        pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=given["friction"])
+        return carom.impact(pair, speed=given["speed"], angle="30 deg")
+
+    message = f"^{name}: '{text}' cannot be used; numbers need a decimal point, not a comma$"
+    for make in (lambda: number(name, text), struck):
+        with pytest.raises(InputError, match=message):
+            make()
+    with pytest.raises(InputError, match=r"speed: '1,250\.5 m/s' cannot be used; numbers need"):
+        read({"speed": ["1,250.5 m/s"], "spin_out": [1.0]})
 
 
 ROWS = "\n1,1\n1,1\n1,1\n"

@@ -106,10 +106,22 @@ def test_long_impacts_are_recorded_whole(psi, chi):
     assert solution.history(3).psi[-1] == solution.psi_out
 
 
-@pytest.mark.parametrize("arguments", [((1j,), (1.0,)), (("a",), (1.0,)), ((0.5,), ("1",))])
-def test_refuses_what_is_not_a_number(arguments):
-    with pytest.raises(ValueError, match="give real numbers"):
-        carom.rebound(*arguments)
+@pytest.mark.parametrize(
+    ("psi", "chi", "name"),
+    [
+        *[((1j,), (1.0,), "psi"), (("a",), (1.0,), "psi"), ((0.5,), ("1",), "chi")],
+        *[({}, 1.0, "psi"), ([[1.0], [2.0, 3.0]], 1.0, "psi"), (0.5, [1.44, None, "x"], "chi")],
+    ],
+)
+def test_refuses_what_is_not_a_number(psi, chi, name):
+    with pytest.raises(ValueError, match=f"^{name}: .* cannot be used; give real numbers"):
+        carom.rebound(psi, chi)
+
+
+def test_refuses_shapes_that_do_not_fit():
+    message = r"^psi, chi: arrays of shapes \(3,\) and \(2,\) cannot be used together; give one"
+    with pytest.raises(ValueError, match=message):
+        carom.rebound([1.0, 2.0, 3.0], [1.0, 2.0])
 
 
 @pytest.mark.parametrize("threads", [0, -3, 2.5])
@@ -122,3 +134,17 @@ def test_refuses_a_number_of_threads_that_is_none(threads):
 def test_solve_refuses_what_is_out_of_range(psi, chi, name):
     with pytest.raises(ValueError, match=f"^{name}: .*not allowed"):
         carom.solve(psi, chi)
+
+
+@pytest.mark.parametrize(
+    ("psi", "chi", "name"),
+    [
+        *[([1, 2], 1.44, "psi"), ("a", 1.44, "psi"), (np.zeros((3, 40)), 1.44, "psi")],
+        *[(0.5, None, "chi"), (0.5, [1.0, 2.0], "chi")],
+    ],
+)
+def test_solve_refuses_what_is_not_one_number(psi, chi, name):
+    with pytest.raises(ValueError, match=f"^{name}: .*give one number; carom.rebound") as refused:
+        carom.solve(psi, chi)
+    assert "\n" not in str(refused.value)
+    assert len(str(refused.value)) < 150

@@ -122,6 +122,13 @@ def test_columns_of_arrays(tmp_path):
     assert Table(columns).description() != two.description()
 
 
+def test_a_decimal_comma_in_a_cell_is_not_dropped():
+    table = Table({"friction": ["0,25", "0.25"], "speed": ["1,5 m/s", "1.5 m/s"]})
+    points = table.inputs((slice(0, 2),))
+    np.testing.assert_array_equal(points["friction"], [np.nan, 0.25])
+    np.testing.assert_array_equal(points["speed"], [np.nan, 1.5])
+
+
 def test_cells_of_lists():
     values = Table({"angle": ["90 deg", 0.1, None, True]}).inputs((slice(0, 4),))["angle"]
     np.testing.assert_array_equal(values, [math.pi / 2, 0.1, np.nan, np.nan])

@@ -88,6 +88,7 @@ def test_files_are_stored(capsys, tmp_path):
         ((), "give a CSV file, or --dataset"),
         (("data.csv", "--dataset", "kharaz2001"), "give a CSV file, or --dataset"),
         (("data.csv",), "pair: missing"),
+        (("data.csv",), "give pair=carom.Pair(...) in Python or --case FILE in a shell, or write"),
         (("none.csv", "--case", "ball.toml"), "cannot be read"),
         (("--dataset", "kharaz"), "did you mean 'kharaz2001'"),
         (("data.csv", "--case", "ball.toml", "--fix", "restitution"), "restitution=0.98"),

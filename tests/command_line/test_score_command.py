@@ -205,7 +205,7 @@ def test_records_that_are_no_whole_contact_are_refused(capsys, hit, change, mess
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (("none.csv",), "'none.csv' cannot be used; it cannot be read"),
+        (("none.csv",), "results: 'none.csv' cannot be read; No such file or directory"),
         (("good.csv", "--chi", "0"), "chi: '0' cannot be used; must be positive"),
         (("good.csv", "--chi", "1.4", "--tolerance", "-1"), "tolerance: '-1' cannot be used"),
         (("good.csv", "--chi", "1.4", "--plot", "score.txt"), "must end in .png"),

@@ -78,6 +78,7 @@ def test_laws_of_a_shell(run):
     code, out, _ = run("laws", *options)
     expected = rank(chi=1.0294, kappa=0.8235, psi=(0.5, 2.0))
     assert (code, out) == (0, f"{expected}\n")
+    assert out.splitlines()[0].endswith(", at 2 incidences, psi_1 from 0.5 to 2")
     record = json.loads(run("laws", *options, "--json")[1])
     assert record == expected.as_record()
     assert record["laws"] != rank(chi=1.0294, psi=(0.5, 2.0)).as_record()["laws"]

@@ -7,7 +7,7 @@ from typing import Any
 
 from numba.core import event
 
-MESSAGE = "carom: compiling what this needs, once; it takes about a minute ..."
+MESSAGE = "carom: compiling what this needs, once; it takes up to a minute ..."
 PATIENCE = 2.0  # seconds before it is said
 
 

@@ -31,6 +31,7 @@ class DoubleDouble:
 
     Examples
     --------
+    >>> from carom.dimensionless.doubledouble import DoubleDouble
     >>> third = DoubleDouble(1.0) / 3.0
     >>> (3.0 * third - 1.0).hi
     0.0
@@ -101,6 +102,7 @@ def two_sum(a: Real, b: Real) -> DoubleDouble:
 
     Examples
     --------
+    >>> from carom.dimensionless.doubledouble import two_sum
     >>> x = two_sum(1.0, 1e-20)
     >>> x.hi, x.lo
     (1.0, 1e-20)
@@ -115,6 +117,7 @@ def two_product(a: Real, b: Real) -> DoubleDouble:
 
     Examples
     --------
+    >>> from carom.dimensionless.doubledouble import two_product
     >>> x = two_product(1.0 + 2.0**-30, 1.0 - 2.0**-30)
     >>> x.hi, x.lo == -(2.0**-60)
     (1.0, True)
@@ -134,6 +137,7 @@ def square_root(x: DoubleDouble) -> DoubleDouble:
 
     Examples
     --------
+    >>> from carom.dimensionless.doubledouble import DoubleDouble, square_root
     >>> root = square_root(DoubleDouble(2.0))
     >>> abs((root * root - 2.0).hi) < 1e-31
     True
@@ -147,6 +151,7 @@ def fifth_root(x: DoubleDouble) -> DoubleDouble:
 
     Examples
     --------
+    >>> from carom.dimensionless.doubledouble import DoubleDouble, fifth_root
     >>> root = fifth_root(DoubleDouble(2.0))
     >>> abs((root * root * root * root * root - 2.0).hi) < 1e-30
     True
@@ -170,6 +175,7 @@ def coefficients(
 
     Examples
     --------
+    >>> from carom.dimensionless.doubledouble import DoubleDouble, coefficients
     >>> exact = [c.hi for c in coefficients((1, 0, 0), (1, 2, 1), DoubleDouble(1.0))]
     >>> exact[:3]
     [1.0, -1.0, 0.0]
@@ -201,6 +207,7 @@ def power_series(coefficients: Sequence[DoubleDouble], z: DoubleDouble) -> Doubl
 
     Examples
     --------
+    >>> from carom.dimensionless.doubledouble import DoubleDouble, power_series
     >>> power_series([DoubleDouble(1.0), DoubleDouble(-2.0)], DoubleDouble(0.25)).hi
     0.5
     """

@@ -68,6 +68,7 @@ def largest(measure: Measure, profile: Profile, depths: Array = DEPTHS) -> Large
 
     Examples
     --------
+    >>> from carom.dimensionless.extremes import largest, von_mises
     >>> from carom.dimensionless.profile import flat, stacked
     >>> from carom.dimensionless.subsurface import stresses
     >>> hertz = stacked([1.0], [flat(0.0, 1.0, 1.0, 0.0)])

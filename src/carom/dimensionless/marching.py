@@ -60,6 +60,7 @@ def march_on(psi: float, chi: float, motion: Array, stride: int = 2) -> float:
     Dimensionless; `motion` has shape (steps + 1, 6), and its edge must grow to its peak and fall
     to zero; every `stride`-th step of the loading a spring is met. Maw, Barber & Fawcett (1976).
 
+    >>> from carom.dimensionless.marching import march_on
     >>> from carom.dimensionless.marching_motion import elastic
     >>> round(march_on(4.0, 0.5, elastic(2000)), 9)
     2.0
@@ -82,6 +83,7 @@ def march(
     positive, alpha not in [0, 100], or `steps` not a multiple of 2 `springs`. Maw, Barber &
     Fawcett (1976), Wear 38:101-114.
 
+    >>> from carom.dimensionless.marching import march
     >>> round(march(4.0, 0.5), 9)
     2.0
     >>> round(march(4.0, 0.5, alpha=0.1), 3)
@@ -102,6 +104,7 @@ def extrapolated(
     that stops between two springs leaves a kink in q there. Raises ValueError as `march` does,
     or if `springs` is odd. Richardson (1911), Phil. Trans. A 210:307-357.
 
+    >>> from carom.dimensionless.marching import extrapolated
     >>> round(extrapolated(0.3, 4.0), 6)
     -0.3
     """
@@ -121,6 +124,7 @@ def march_history(
     Dimensionless, shape (steps + 1, 6). Raises ValueError as `march` does. Maw, Barber & Fawcett
     (1976), Wear 38:101-114.
 
+    >>> from carom.dimensionless.marching import march_history
     >>> time, psi, u, force, stored, lost = march_history(1.0, 1.44, alpha=0.1).T
     >>> kept = psi**2 / 2.0 + 3.75 * 1.44 * (stored / 2.0 + lost)
     >>> bool(abs(kept - 0.5).max() < 1e-5)
@@ -145,6 +149,7 @@ def march_slips(
     at the centre, and both signs may slip at once. Raises ValueError as `march` does. Maw, Barber &
     Fawcett (1976), Wear 38:101-114.
 
+    >>> from carom.dimensionless.marching import march_slips
     >>> times, x, slips = march_slips(3.0, 1.44, alpha=0.2)
     >>> slips[400, :250:35]  # while loading, a belt at the edge sticks
     array([1, 1, 1, 1, 1, 0, 2, 2], dtype=int8)
@@ -166,6 +171,7 @@ def resolved(phases: Iterable[Phase], shortest: float) -> list[Phase]:
 
     Times in d_max/V_1.
 
+    >>> from carom.dimensionless.marching import resolved
     >>> resolved([("slip", 1, 0.0, 1.0), ("stick", 0, 1.0, 1.1), ("slip", -1, 1.1, 2.9)], 0.2)
     [('slip', 1, 0.0, 1.0), ('slip', -1, 1.0, 2.9)]
     """
@@ -204,6 +210,7 @@ def march_phases(psi: float, chi: float, springs: int = 500, steps: int = 2000) 
     at the receding edge Coulomb's two limits fall together, and one of them must be met. Raises
     ValueError as `march` does. Maw, Barber & Fawcett (1976), Wear 38:101-114.
 
+    >>> from carom.dimensionless.marching import march_phases
     >>> [(kind, sign) for kind, sign, start, end in march_phases(0.5, 1.44)]
     [('stick', 0), ('slip', -1), ('gross slip', -1)]
     """

@@ -92,7 +92,8 @@ class Status(IntEnum):
 
     Examples
     --------
-    >>> Status(0).message
+    >>> import carom
+    >>> carom.Status(0).message
     'solved'
     """
 

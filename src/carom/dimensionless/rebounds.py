@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import reprlib
 import warnings
 from typing import Any, Literal, overload
 
@@ -75,7 +76,7 @@ def rebound(
     Raises
     ------
     ValueError
-        If an argument is not a number at all, or `threads` is below 1.
+        If an argument is not a number at all, the shapes do not fit, or `threads` is below 1.
 
     Examples
     --------
@@ -90,7 +91,7 @@ def rebound(
     if threads is not None and (not isinstance(threads, int) or threads < 1):
         raise ValueError(f"threads: {threads!r} cannot be used; must be a whole number from 1 on")
     psi_in, chi_in = _real("psi", psi), _real("chi", chi)
-    shape = np.broadcast_shapes(psi_in.shape, chi_in.shape)
+    shape = _shape(psi_in, chi_in)
     flat_psi, flat_chi = (np.array(np.broadcast_to(x, shape)).ravel() for x in (psi_in, chi_in))
     if normal is None:
         psi_out, status, _ = solved(flat_psi, flat_chi, threads)
@@ -107,10 +108,29 @@ def rebound(
 
 
 def _real(name: str, values: ArrayLike) -> Array:
-    given = np.asarray(values)
-    if given.size and given.dtype.kind not in "biufO":
-        raise ValueError(f"{name}: values of type {given.dtype} cannot be used; give real numbers")
-    return np.asarray(given, dtype=np.float64)
+    try:
+        given = np.asarray(values)
+        if given.dtype.kind in "biufO" or not given.size:
+            return np.asarray(given, dtype=np.float64)
+    except (TypeError, ValueError):
+        pass
+    raise refused(name, values, "give real numbers, one or an array of them")
+
+
+def _shape(psi: Array, chi: Array) -> tuple[int, ...]:
+    try:
+        return np.broadcast_shapes(psi.shape, chi.shape)
+    except ValueError:
+        raise ValueError(
+            f"psi, chi: arrays of shapes {psi.shape} and {chi.shape} cannot be used together; "
+            "give one number for either, or arrays of one shape"
+        ) from None
+
+
+def refused(name: str, value: Any, allowed: str) -> ValueError:
+    """Return the error that refuses a value, in one line."""
+    shown = " ".join(reprlib.repr(value).split())
+    return ValueError(f"{name}: {shown} cannot be used; {allowed}")
 
 
 def warn_of_unsolved(status: NDArray[np.int8]) -> None:

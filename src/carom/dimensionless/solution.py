@@ -15,6 +15,7 @@ from carom.dimensionless.lossy.rebounds import is_elastic
 from carom.dimensionless.lossy.solution import LossySolution, solve_with_losses
 from carom.dimensionless.motion import PSI
 from carom.dimensionless.phases import Cause, Kind, Status, new_work, run_phases
+from carom.dimensionless.rebounds import refused
 from carom.dimensionless.record import (
     CAUSE,
     KIND,
@@ -45,7 +46,8 @@ class Solution:
 
     Time in units of d_max/V_1, penetration and squares of radii in units of d_max and R* d_max,
     tangential displacement U in mu d_max/kappa, tangential force as Q = (2/3) F_x/(mu P_max), psi
-    in mu V_1/kappa; energies such that the kinetic one is psi^2/2.
+    in mu V_1/kappa; energies such that the kinetic one is psi^2/2. Maw, Barber & Fawcett (1976), in
+    the form of Barber (1979): traction (6), stick (15), gross slip (33).
 
     Examples
     --------
@@ -92,6 +94,13 @@ class Solution:
         time : array_like
             In d_max/V_1, 0 to `duration`.
 
+        Returns
+        -------
+        History
+            Arrays of shape (n,) in the units of `Solution`: time, penetration, speed, psi,
+            displacement, force, stick_radius, contact_radius, stored, dissipated, normal_force,
+            normal_stored, normal_lost.
+
         Raises
         ------
         ValueError
@@ -133,6 +142,11 @@ class Solution:
         n : int
             How many times, 2 at least.
 
+        Returns
+        -------
+        History
+            Arrays of shape (n,), as of `at`.
+
         Raises
         ------
         ValueError
@@ -155,6 +169,12 @@ class Solution:
         ----------
         time : float
             In d_max/V_1, 0 to `duration`.
+
+        Returns
+        -------
+        Memory
+            `g(s)` and `q(s)` for s = r^2/(R* d_max), q in units of mu d_max/kappa; `annuli`, each
+            with inner and outer radius in sqrt(R* d_max) and the sign of its slip.
 
         Raises
         ------
@@ -179,6 +199,11 @@ class Solution:
         time : float
             In d_max/V_1, 0 to `duration`.
 
+        Returns
+        -------
+        Phase
+            Its kind, sign of slip, start and end in d_max/V_1, and what ended it.
+
         Examples
         --------
         >>> import carom
@@ -199,6 +224,11 @@ class Solution:
             In d_max/V_1, 0 to `duration`.
         radii : array_like
             In units of sqrt(R* d_max).
+
+        Returns
+        -------
+        numpy.ndarray, shape (n,)
+            f/(mu p_max), p_max the largest pressure of the impact; zero outside the contact.
 
         Raises
         ------
@@ -224,6 +254,11 @@ class Solution:
         ----------
         time : float
             In d_max/V_1, 0 to `duration`.
+
+        Returns
+        -------
+        float
+            In units of mu V_1/kappa.
 
         Raises
         ------
@@ -252,6 +287,11 @@ class Solution:
             In d_max/V_1, 0 to `duration`.
         radii : array_like, shape (n,)
             In units of sqrt(R* d_max).
+
+        Returns
+        -------
+        numpy.ndarray, shape (n, 2)
+            w_0 and w_2 in units of mu d_max/kappa.
 
         Raises
         ------
@@ -284,6 +324,12 @@ class Solution:
         ----------
         lateral_ratio : float
             lambda, `Pair.lateral_ratio`; nu/(2 - nu) of equal materials.
+
+        Returns
+        -------
+        tuple of SlipAngle
+            `largest` and `mean`, weighted by frictional work, of each phase, in rad; zero but in
+            slip rings.
 
         Examples
         --------
@@ -335,6 +381,13 @@ def solve(psi: float, chi: float, *, normal: NormalLoss | None = None) -> Soluti
     normal : KelvinVoigt or ElasticPlastic, optional
         What the normal motion loses energy to, free of units; by default nothing.
 
+    Returns
+    -------
+    Solution or LossySolution
+        `status`, psi_out where that is SOLVED, and `phases`, times in d_max/V_1; `at`, `history`
+        and what else it has tell the state at any time. LossySolution where the normal motion loses
+        energy.
+
     Raises
     ------
     ValueError
@@ -350,7 +403,7 @@ def solve(psi: float, chi: float, *, normal: NormalLoss | None = None) -> Soluti
     slip       -1 until 2.4967: slip front reaches centre
     gross slip -1 until 2.9433: separation
     """
-    psi, chi = float(psi), float(chi)
+    psi, chi = _one("psi", psi), _one("chi", chi)
     if normal is not None:
         return solve_with(psi, chi, *normal.scale_free())
     work, record = new_work(), new_record(True)
@@ -369,6 +422,13 @@ def solve(psi: float, chi: float, *, normal: NormalLoss | None = None) -> Soluti
     if status is Status.SOLVED:
         psi_out = mirror * min(1.0, abs(psi) / LINEAR) * float(work.series[0, PSI])
     return Solution(psi, chi, psi_out, status, phases, record, times, moved)
+
+
+def _one(name: str, value: float) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise refused(name, value, "give one number; carom.rebound takes arrays") from None
 
 
 def _phases(changes: Array, times: Array, mirror: int) -> tuple[Phase, ...]:

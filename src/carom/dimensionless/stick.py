@@ -76,6 +76,7 @@ def transition_speed(psi: float, chi: float) -> float:
 
     Examples
     --------
+    >>> from carom.dimensionless.stick import transition_speed
     >>> transition_speed(2.0, 1.5)
     0.5
     """
@@ -114,6 +115,7 @@ class Stick:
 
     Examples
     --------
+    >>> from carom.dimensionless.stick import Stick
     >>> stick = Stick.from_touch(0.5, 1.44)
     >>> round(stick.end, 12), stick.slip_sign
     (0.267774892465, -1)
@@ -148,6 +150,7 @@ class Stick:
 
         Examples
         --------
+        >>> from carom.dimensionless.stick import Stick
         >>> Stick.from_touch(0.3, 0.5).g([1.0, 0.5, 0.001])
         array([0.3, 0.3, 0.3])
         """
@@ -159,6 +162,7 @@ class Stick:
 
         Examples
         --------
+        >>> from carom.dimensionless.stick import Stick
         >>> stick = Stick.after_gross_slip(2.0, 1.5)
         >>> stick.start, stick.g(stick.start)
         (0.5, 1.0)

@@ -181,6 +181,7 @@ def stresses(points: ArrayLike, profile: Profile, *, friction: float, poisson: f
     Examples
     --------
     >>> from carom.dimensionless.profile import flat, stacked
+    >>> from carom.dimensionless.subsurface import stresses
     >>> hertz = stacked([1.0], [flat(0.0, 1.0, 1.0, 0.0)])
     >>> axis = stresses([[0, 0, 0.48]], hertz, friction=0.0, poisson=0.3)[0]
     >>> round(float(axis[0] - axis[2]) / 2, 4)

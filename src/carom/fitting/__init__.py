@@ -55,6 +55,14 @@ def fit(
     confidence : float
         Of the intervals.
 
+    Returns
+    -------
+    Fit
+        `estimates` by name: friction, kappa, chi and restitution as pure numbers, spin_offset in
+        rad/s, each an `Estimate` with value, low, high and, where the data do not determine it, a
+        reason. Also `regimes`, how many rows lie in each, `notes`, the `comparison` with other
+        laws, and what gives the rest: advice, posterior, plot, to_dataset.
+
     Raises
     ------
     InputError
@@ -64,13 +72,12 @@ def fit(
     Examples
     --------
     >>> import carom
-    >>> from carom.fitting import fit
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> angles = [f"{angle} deg" for angle in range(5, 80, 5)]
     >>> hits = [carom.impact(pair, speed=2.0, angle=angle) for angle in angles]
     >>> measured = {"angle": angles, "contact_beta": [-hit.contact_restitution for hit in hits]}
-    >>> found = fit(measured, pair=pair, fixed={"restitution": 1.0})
+    >>> found = carom.fit(measured, pair=pair, fixed={"restitution": 1.0})
     >>> round(found.friction.value, 3), round(found.chi.value, 2)
     (0.2, 1.44)
     """

@@ -24,6 +24,7 @@ class Estimate:
 
     Examples
     --------
+    >>> from carom.fitting import Estimate
     >>> str(Estimate("friction", 0.0921, 0.0914, 0.0928))
     '0.0921 (0.0914 to 0.0928)'
     """
@@ -66,6 +67,7 @@ def significant(value: float, width: float) -> int:
 
     Examples
     --------
+    >>> from carom.fitting.estimates import significant
     >>> significant(0.0921, 0.0014), significant(-3.0, 40.0)
     (3, 2)
     """

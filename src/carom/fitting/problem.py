@@ -143,8 +143,9 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> Pair:
         bodies = pair_of({"friction": START, **case})
     else:
         raise InputError(
-            "pair: missing, and the data hold no case; give pair=carom.Pair(...), or write the "
-            "bodies as JSON into a comment '# case: {...}' of the file"
+            "pair: missing, and the data hold no case; give pair=carom.Pair(...) in Python or "
+            "--case FILE in a shell, or write the bodies as JSON into a comment '# case: {...}' "
+            "of the file"
         )
     if bodies.friction > 0.0:
         return bodies

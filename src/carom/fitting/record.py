@@ -102,6 +102,14 @@ class Fit:
             What is to be known better, by default what is known least: friction, kappa, chi,
             restitution or spin_offset.
 
+        Returns
+        -------
+        Advice
+            `places`: n incidences of the contact point, each an `angle` in rad with its `regime`
+            and how many measurements there, `needed`, would halve the interval (None if too many);
+            `best` the single one that needs fewest; `shorter` the width of the interval after all
+            places, in units of the present one.
+
         Raises
         ------
         InputError
@@ -142,6 +150,13 @@ class Fit:
             Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
             what is called with the steps done and their number.
 
+        Returns
+        -------
+        xarray.Dataset
+            Along `sample`: the parameters that were varied, friction, kappa and restitution as pure
+            numbers, spin_offset in rad/s; and chi if kappa was varied. The attributes tell steps,
+            seed, autocorrelation_time in steps, and whether it has converged.
+
         Raises
         ------
         InputError
@@ -160,13 +175,29 @@ class Fit:
         return sample(self, steps, seed, progress)
 
     def to_dataset(self) -> "xr.Dataset":
-        """Return data, fit, curves and intervals as one dataset, from which the figure is drawn."""
+        """Return data, fit, curves and intervals as one dataset, from which the figure is drawn.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along (row, response) measured, error, expected and residual in SI units, and regime
+            (row); curve_expected (law, curve, response), curve_low and curve_high (curve, response)
+            over curve_incidence (curve) in rad; border (regime_border) in rad; value, low, high and
+            reason (parameter); aicc (law).
+        """
         from carom.fitting.datasets import fit_dataset
 
         return fit_dataset(self)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the result as plain numbers, texts and lists, for JSON; what is open is None."""
+        """Return the result as plain numbers, texts and lists, for JSON; what is open is None.
+
+        Returns
+        -------
+        dict
+            parameters, confidence, values (how many were measured), rows, regimes, notes and
+            comparison; SI units.
+        """
         return {
             "parameters": {name: _plain(each) for name, each in self.estimates.items()},
             "confidence": self.confidence,
@@ -184,6 +215,11 @@ class Fit:
         ----------
         posterior : bool
             Whether `posterior` was used, too.
+
+        Returns
+        -------
+        str
+            Entries of BibTeX, one after the other.
 
         Examples
         --------
@@ -204,6 +240,11 @@ class Fit:
         ----------
         path : str or Path, optional
             Where the figure is stored, too: .png, .pdf or .svg.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
 
         Raises
         ------

@@ -34,6 +34,7 @@ def influence(x: Field, y: Field) -> Influence:
     Examples
     --------
     >>> import numpy as np
+    >>> from carom.halfspace.influence import influence
     >>> at_centre = influence(np.array(0.0), np.array(0.0))
     >>> round(float(at_centre.xx + at_centre.yy), 6)  # 4 asinh 1
     3.525494

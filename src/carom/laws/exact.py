@@ -102,6 +102,11 @@ class ReboundLaw:
         psi : array of any library that follows the array API standard
             psi_1.
 
+        Returns
+        -------
+        array
+            Of the library and shape of psi.
+
         Raises
         ------
         InputError
@@ -125,6 +130,11 @@ class ReboundLaw:
         ----------
         psi : array of any library that follows the array API standard
             psi_1.
+
+        Returns
+        -------
+        array
+            Of the library and shape of psi, in units of (m_t/2)(mu V_1/kappa)^2.
 
         Raises
         ------
@@ -191,7 +201,13 @@ class ReboundLaw:
         return bibtex(*IMPACT, *((VISCOUS,) if self.restitution < 1.0 else ()))
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the table as plain numbers and lists, for JSON; `from_dict` takes it back."""
+        """Return the table as plain numbers and lists, for JSON; `from_dict` takes it back.
+
+        Returns
+        -------
+        dict
+            chi, restitution, edges and coefficients.
+        """
         return {
             "chi": self.chi,
             "restitution": self.restitution,
@@ -207,6 +223,11 @@ class ReboundLaw:
         ----------
         table : mapping
             What `to_dict` returned, e.g. read back from JSON.
+
+        Returns
+        -------
+        ReboundLaw
+            The law, with the same table.
 
         Raises
         ------

@@ -55,6 +55,12 @@ def fit_walton(pair: Pair, span: float | None = None) -> WaltonFit:
     span : float, optional
         Largest psi_1, by default 4 chi: nearly up to gross slip throughout and a little beyond.
 
+    Returns
+    -------
+    WaltonFit
+        `law`, a WaltonLaw with e = 1; rms_error and max_error of its psi_2 over the span; `span`
+        itself.
+
     Raises
     ------
     InputError

@@ -67,6 +67,11 @@ def animate(
         Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
         what is called after every frame.
 
+    Returns
+    -------
+    pathlib.Path
+        The file that was written.
+
     Raises
     ------
     InputError
@@ -76,14 +81,13 @@ def animate(
     Examples
     --------
     >>> import carom
-    >>> from carom.plots import animate
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     frames = (hit.fields(time) for time in (6e-6, 21e-6))
-    ...     animate(hit.history(50), frames, folder + "/hit.gif").name
+    ...     carom.plots.animate(hit.history(50), frames, folder + "/hit.gif").name
     'hit.gif'
     """
     target = checked_animation(path)
@@ -111,6 +115,11 @@ def checked_animation(path: str | Path) -> Path:
     path : str or Path
         A name that ends in .gif, or in .mp4.
 
+    Returns
+    -------
+    pathlib.Path
+        The path.
+
     Raises
     ------
     InputError
@@ -118,8 +127,8 @@ def checked_animation(path: str | Path) -> Path:
 
     Examples
     --------
-    >>> from carom.plots import checked_animation
-    >>> checked_animation("hit.gif").name
+    >>> import carom
+    >>> carom.plots.checked_animation("hit.gif").name
     'hit.gif'
     """
     target = checked_output(path, ANIMATIONS)

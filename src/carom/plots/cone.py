@@ -51,6 +51,11 @@ def plot_cone(dataset: "xr.Dataset") -> Figure:
     dataset : xarray.Dataset
         What `Impact.history` or `LoadPath.to_dataset` returns.
 
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure, 86 mm wide, of one axis.
+
     Raises
     ------
     InputError
@@ -59,11 +64,10 @@ def plot_cone(dataset: "xr.Dataset") -> Figure:
     Examples
     --------
     >>> import carom
-    >>> from carom.plots import plot_cone
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
-    >>> axis = plot_cone(hit.history(50)).axes[0]
+    >>> axis = carom.plots.plot_cone(hit.history(50)).axes[0]
     >>> [text.get_text() for text in axis.get_legend().get_texts()[1:]]
     ['gross slip', 'stick', 'slip']
     """

@@ -60,13 +60,12 @@ def plot_fit(dataset: "xr.Dataset") -> Figure:
     Examples
     --------
     >>> import carom
-    >>> from carom.fitting import fit
     >>> from carom.plots.fits import plot_fit
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> angles = [10.0, 25.0, 40.0, 55.0, 70.0]
     >>> data = {"angle [deg]": angles, "impulse_ratio": [0.1, 0.2, 0.19, 0.21, 0.2]}
-    >>> len(plot_fit(fit(data, pair=pair, fixed={"restitution": 1.0}).to_dataset()).axes)
+    >>> len(plot_fit(carom.fit(data, pair=pair, fixed={"restitution": 1.0}).to_dataset()).axes)
     2
     """
     names = [str(name) for name in dataset["response"].values]

@@ -54,6 +54,11 @@ def plot_impact(dataset: "xr.Dataset") -> Figure:
     dataset : xarray.Dataset
         What `Impact.history` returns.
 
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure, 178 mm wide, of four axes.
+
     Raises
     ------
     InputError
@@ -62,11 +67,10 @@ def plot_impact(dataset: "xr.Dataset") -> Figure:
     Examples
     --------
     >>> import carom
-    >>> from carom.plots import plot_impact
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
-    >>> len(plot_impact(hit.history(50)).axes)
+    >>> len(carom.plots.plot_impact(hit.history(50)).axes)
     4
     """
     figure, axes = new_figure(2, 2, width=DOUBLE, height=112.0, sharex=True)
@@ -87,6 +91,11 @@ def plot_forces(dataset: "xr.Dataset") -> Figure:
     ----------
     dataset : xarray.Dataset
         What `Impact.history` returns.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure, 86 mm wide, of one axis.
 
     Raises
     ------
@@ -113,6 +122,11 @@ def plot_radii(dataset: "xr.Dataset") -> Figure:
     ----------
     dataset : xarray.Dataset
         What `Impact.history` returns.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure, 86 mm wide, of one axis.
 
     Raises
     ------

@@ -68,6 +68,11 @@ def plot_laws(dataset: "xr.Dataset") -> Figure:
     dataset : xarray.Dataset
         What `carom.verify.rank(...).to_dataset()` returns.
 
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
+
     Raises
     ------
     InputError
@@ -76,9 +81,8 @@ def plot_laws(dataset: "xr.Dataset") -> Figure:
     Examples
     --------
     >>> import carom
-    >>> from carom.plots.laws import plot_laws
     >>> ranking = carom.verify.rank(carom.verify.CATALOGUE[:2], psi=[0.5, 1.0, 3.0])
-    >>> axis = plot_laws(ranking.to_dataset()).axes[1]
+    >>> axis = carom.plots.plot_laws(ranking.to_dataset()).axes[1]
     >>> [text.get_text() for text in axis.get_yticklabels()]
     ['linear spring, k_t/k_n = kappa', 'linear spring, k_t/k_n = 2/7']
     """
@@ -161,7 +165,7 @@ def _key(dataset: "xr.Dataset") -> Iterator[Any]:
 def plot_error_map(dataset: "xr.Dataset", limit: float | None = None) -> Figure:
     """Draw the error of a contact law in psi_2 over psi_1 and chi, white where there is none.
 
-    Thin lines are errors of 0.1, dashed where negative; black lines the borders 1, 2 chi, 4 chi - 1
+    Thin lines are errors of 0.1, dashed where negative; thick ones the borders 1, 2 chi, 4 chi - 1
     of the regimes. Where the law has no answer the map is grey.
 
     Parameters
@@ -170,6 +174,11 @@ def plot_error_map(dataset: "xr.Dataset", limit: float | None = None) -> Figure:
         What `carom.verify.error_map` returns.
     limit : float, optional
         End of the colour scale; by default the largest |error|.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
 
     Raises
     ------
@@ -180,9 +189,8 @@ def plot_error_map(dataset: "xr.Dataset", limit: float | None = None) -> Figure:
     Examples
     --------
     >>> import carom
-    >>> from carom.plots.laws import plot_error_map
     >>> found = carom.verify.error_map(carom.LinearSpring(), [0.5, 1.0, 3.0], [1.2, 1.4])
-    >>> plot_error_map(found).axes[1].get_ylabel()
+    >>> carom.plots.plot_error_map(found).axes[1].get_ylabel()
     'error in $\\\\psi_2$'
     """
     check_grid(dataset, "error", "chi", "psi_in")

@@ -56,6 +56,11 @@ def plot_patch(dataset: "xr.Dataset", variable: str = "traction_x") -> Figure:
     variable : str
         What the shading tells: "traction_x" or "pressure".
 
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
+
     Raises
     ------
     InputError
@@ -64,11 +69,10 @@ def plot_patch(dataset: "xr.Dataset", variable: str = "traction_x") -> Figure:
     Examples
     --------
     >>> import carom
-    >>> from carom.plots import plot_patch
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
-    >>> plot_patch(hit.fields("21 us")).axes[0].get_title().splitlines()[1]
+    >>> carom.plots.plot_patch(hit.fields("21 us")).axes[0].get_title().splitlines()[1]
     'longest arrow: 277\\xa0mm/s'
     """
     if variable not in MAPPED:

@@ -46,6 +46,11 @@ def plot_profiles(dataset: "xr.Dataset") -> Figure:
     dataset : xarray.Dataset
         Fields on a grid or at points of the line y = 0, or a contact's radial profile.
 
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure, 86 mm wide, of three axes for a profile along the radius, else of one.
+
     Raises
     ------
     InputError
@@ -54,11 +59,10 @@ def plot_profiles(dataset: "xr.Dataset") -> Figure:
     Examples
     --------
     >>> import carom
-    >>> from carom.plots import plot_profiles
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
-    >>> len(plot_profiles(hit.radial("21 us")).axes)
+    >>> len(carom.plots.plot_profiles(hit.radial("21 us")).axes)
     3
     """
     radial = "memory_g" in dataset

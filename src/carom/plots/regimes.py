@@ -57,6 +57,11 @@ def plot_curve(dataset: "xr.Dataset") -> Figure:
     dataset : xarray.Dataset
         What `carom.curve` returns.
 
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
+
     Raises
     ------
     InputError
@@ -65,8 +70,7 @@ def plot_curve(dataset: "xr.Dataset") -> Figure:
     Examples
     --------
     >>> import carom
-    >>> from carom.plots import plot_curve
-    >>> axis = plot_curve(carom.curve(1.44, [0.0, 0.5, 1.0, 1.5, 2.0])).axes[0]
+    >>> axis = carom.plots.plot_curve(carom.curve(1.44, [0.0, 0.5, 1.0, 1.5, 2.0])).axes[0]
     >>> [text.get_text() for text in axis.get_legend().get_texts()[1:]]
     ['stick', 'gross slip, stick']
     """
@@ -140,6 +144,11 @@ def plot_regime_map(dataset: "xr.Dataset") -> Figure:
     dataset : xarray.Dataset
         What `carom.curves.regime_map` returns.
 
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure, 178 mm wide.
+
     Raises
     ------
     InputError
@@ -148,9 +157,7 @@ def plot_regime_map(dataset: "xr.Dataset") -> Figure:
     Examples
     --------
     >>> import carom
-    >>> from carom.plots import plot_regime_map
-    >>> from carom.curves import regime_map
-    >>> figure = plot_regime_map(regime_map([0.5, 2.0, 6.0], [1.0, 1.44]))
+    >>> figure = carom.plots.plot_regime_map(carom.regime_map([0.5, 2.0, 6.0], [1.0, 1.44]))
     >>> len(figure.legends[0].get_texts())
     4
     """

@@ -49,6 +49,11 @@ def plot_score(dataset: "xr.Dataset") -> Figure:
     dataset : xarray.Dataset
         What `carom.verify.score(...).to_dataset()` returns.
 
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
+
     Raises
     ------
     InputError
@@ -57,11 +62,9 @@ def plot_score(dataset: "xr.Dataset") -> Figure:
     Examples
     --------
     >>> import carom
-    >>> from carom.plots.scores import plot_score
-    >>> from carom.verify.scoring import score
     >>> psi = [0.5, 1.0, 2.0, 4.0]
-    >>> result = score({"psi_1": psi, "psi_2": [0.05, -0.06, -0.84, -1.51]}, chi=1.44)
-    >>> len(plot_score(result.to_dataset()).axes)
+    >>> result = carom.verify.score({"psi_1": psi, "psi_2": [0.05, -0.06, -0.84, -1.51]}, chi=1.44)
+    >>> len(carom.plots.plot_score(result.to_dataset()).axes)
     2
     """
     return _forces(dataset) if "normal_force_exact" in dataset else _points(dataset)

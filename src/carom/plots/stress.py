@@ -33,6 +33,11 @@ def plot_stress(dataset: "xr.Dataset", variable: str = "von_mises") -> Figure:
     variable : str
         Which stress, e.g. "von_mises", "max_shear", "principal_1", "sigma_xx".
 
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
+
     Raises
     ------
     InputError
@@ -41,11 +46,10 @@ def plot_stress(dataset: "xr.Dataset", variable: str = "von_mises") -> Figure:
     Examples
     --------
     >>> import carom
-    >>> from carom.plots import plot_stress
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
-    >>> figure = plot_stress(hit.stress("21 us"), "max_shear")
+    >>> figure = carom.plots.plot_stress(hit.stress("21 us"), "max_shear")
     >>> figure.axes[0].get_ylabel()
     'depth below the surface, $z$\\xa0(µm)'
     """

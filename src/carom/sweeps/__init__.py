@@ -75,11 +75,10 @@ def sweep(
 
     Examples
     --------
-    >>> from carom.sweeps import sweep
-    >>> from carom.sweeps.designs import Grid
+    >>> import carom
     >>> case = {"first": {"radius": "5 mm", "material": "steel"}, "speed": "2 m/s"}
-    >>> grid = Grid({"angle": ["20 deg", "60 deg"], "friction": [0.1, 0.2, 0.3]})
-    >>> result = sweep(case, grid)
+    >>> grid = carom.Grid({"angle": ["20 deg", "60 deg"], "friction": [0.1, 0.2, 0.3]})
+    >>> result = carom.sweep(case, grid)
     >>> dict(result.sizes), int(result.status.max())
     ({'angle': 2, 'friction': 3}, 0)
     """

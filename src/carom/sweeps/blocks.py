@@ -21,6 +21,7 @@ def chunk_shape(shape: Sequence[int], cost: int = 1) -> tuple[int, ...]:
 
     Examples
     --------
+    >>> from carom.sweeps.blocks import chunk_shape
     >>> chunk_shape((1_000_000,)), chunk_shape((86, 40, 500))
     ((16130,), (1, 20, 500))
     """
@@ -38,6 +39,7 @@ def boxes(shape: Sequence[int], chunks: Sequence[int]) -> Iterator[Box]:
 
     Examples
     --------
+    >>> from carom.sweeps.blocks import boxes
     >>> list(boxes((3,), (2,)))
     [(slice(0, 2, None),), (slice(2, 3, None),)]
     """

@@ -80,13 +80,15 @@ class Problem:
 
     Examples
     --------
-    >>> from carom.sweeps.designs import Grid
+    >>> import carom
+    >>> from carom.sweeps.evaluation import Problem
     >>> case = {"friction": 0.2, "speed": 2.0, "first": {"radius": "5 mm", "material": "steel"}}
-    >>> problem = Problem(case, Grid({"angle": ["20 deg", "40 deg", "100 deg"]}), ["psi_out"])
+    >>> grid = carom.Grid({"angle": ["20 deg", "40 deg", "100 deg"]})
+    >>> problem = Problem(case, grid, ["psi_out"])
     >>> found = problem.block((slice(0, 3),))
     >>> found["psi_out"].round(4).tolist()
     [-0.4269, -1.4738, nan]
-    >>> [PointStatus(status).message for status in found["status"]]
+    >>> [carom.PointStatus(status).message for status in found["status"]]
     ['solved', 'solved', 'bodies do not approach']
     """
 

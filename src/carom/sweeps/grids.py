@@ -43,8 +43,8 @@ class Grid:
     Examples
     --------
     >>> import carom
-    >>> from carom.sweeps.designs import Grid
-    >>> grid = Grid({"angle": {"from": "0 deg", "to": "80 deg", "points": 9}, "friction": [0.1]})
+    >>> angle = {"from": "0 deg", "to": "80 deg", "points": 9}
+    >>> grid = carom.Grid({"angle": angle, "friction": [0.1]})
     >>> grid.dims, grid.shape
     (('angle', 'friction'), (9, 1))
     """

@@ -49,8 +49,7 @@ class LatinHypercube:
     Examples
     --------
     >>> import carom
-    >>> from carom.sweeps.designs import LatinHypercube
-    >>> design = LatinHypercube({"friction": (0.0, 0.5)}, samples=5, seed=1)
+    >>> design = carom.LatinHypercube({"friction": (0.0, 0.5)}, samples=5, seed=1)
     >>> sorted((design.inputs((slice(0, 5),))["friction"] * 10).astype(int).tolist())
     [0, 1, 2, 3, 4]
     """

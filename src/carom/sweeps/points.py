@@ -30,7 +30,8 @@ class PointStatus(IntEnum):
 
     Examples
     --------
-    >>> PointStatus(3).message
+    >>> import carom
+    >>> carom.PointStatus(3).message
     'bodies do not approach'
     """
 

@@ -56,8 +56,7 @@ class Table:
     Examples
     --------
     >>> import carom
-    >>> from carom.sweeps.designs import Table
-    >>> Table({"angle [deg]": [10, 20], "friction": [0.1, 0.2]}).names
+    >>> carom.Table({"angle [deg]": [10, 20], "friction": [0.1, 0.2]}).names
     ('angle', 'friction')
     """
 

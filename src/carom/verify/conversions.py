@@ -47,6 +47,12 @@ def stiffnesses(pair: Pair, normal_speed: float | str) -> Stiffnesses:
     normal_speed : float or str
         V_1 in m/s, positive.
 
+    Returns
+    -------
+    Stiffnesses
+        normal, normal_by_duration, tangential and steepest in N/m; ratio, k_t/k_n; hertz and
+        mindlin in Pa.
+
     Raises
     ------
     InputError
@@ -85,6 +91,11 @@ def poisson_from_kappa(kappa: float) -> float:
     ----------
     kappa : float
         G*/E*, positive and below 2.
+
+    Returns
+    -------
+    float
+        Poisson's ratio nu.
 
     Raises
     ------
@@ -125,6 +136,11 @@ def damping(restitution: float, convention: str = "critical") -> float:
     convention : str
         "critical", "lammps tsuji" or "thornton".
 
+    Returns
+    -------
+    float
+        zeta, alpha or betan, a pure number.
+
     Raises
     ------
     InputError
@@ -152,6 +168,11 @@ def restitution(value: float, convention: str = "critical") -> float:
         The damping, not negative.
     convention : str
         As of `damping`.
+
+    Returns
+    -------
+    float
+        e, above 0 and at most 1.
 
     Raises
     ------
@@ -205,6 +226,11 @@ def recipes(
         Normal restitution.
     spring, mindlin : LinearSpring, LammpsMindlin
         Tangential stiffnesses, e.g. those that `tune` has found; by default those of the bodies.
+
+    Returns
+    -------
+    dict
+        Text by the name of the code and of its contact model.
 
     Raises
     ------

@@ -1,5 +1,6 @@
 """How far a contact law is from the exact impact: in psi_2, in its forces, in energy."""
 
+from collections.abc import Sequence
 from dataclasses import fields
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -46,6 +47,20 @@ def incidences(psi: ArrayLike) -> Array:
         allowed = f"must not all be zero, nor beyond {LARGEST:g}"
         raise refusal("psi", values.tolist(), allowed)
     return values
+
+
+def in_words(psi: Sequence[float]) -> str:
+    """Return how many incidences there are, and from where to where.
+
+    Examples
+    --------
+    >>> from carom.verify.errors import INCIDENCES, in_words
+    >>> in_words(INCIDENCES), in_words([1.0])
+    ('at 15 incidences, psi_1 from 0.1 to 6', 'at psi_1 = 1')
+    """
+    if len(psi) == 1:
+        return f"at psi_1 = {psi[0]:g}"
+    return f"at {len(psi)} incidences, psi_1 from {min(psi):g} to {max(psi):g}"
 
 
 def exact_rebound(psi: Array, chi: float) -> Array:
@@ -147,6 +162,11 @@ def force_error(law: Law, psi: float, chi: float, *, kappa: float | None = None)
         (kappa/2)(m_n/m_t), positive.
     kappa : float, optional
         G*/E*; by default that of solid spheres, 4 chi/7.
+
+    Returns
+    -------
+    ForceError
+        `largest` and `rms` over the contact, in units of mu P_max.
 
     Raises
     ------

@@ -20,7 +20,7 @@ from carom.readings import CASE
 from carom.verify.catalogue import CATALOGUE, Entry, as_entry
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
 from carom.verify.engines.running import Engine, EngineError, EngineKilled, run
-from carom.verify.errors import INCIDENCES
+from carom.verify.errors import INCIDENCES, in_words
 
 Array = NDArray[np.float64]
 
@@ -83,7 +83,7 @@ class Bench:
         return "\n".join(
             [
                 f"|error in psi_2| of {what}, chi = {self.pair.chi:.5g},"
-                f" psi_1 from {min(self.psi):g} to {max(self.psi):g}, {self.steps} steps a contact",
+                f" {in_words(self.psi)}, {self.steps} steps a contact",
                 f"  {'':32s} {head}",
                 *(_row(one) for one in self.measured),
                 "law: largest difference from the same law in Carom at the same steps",
@@ -125,6 +125,13 @@ def bench(
     progress : bool or callable, optional
         Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
         what is called with the laws done so far and their number.
+
+    Returns
+    -------
+    Bench
+        `measured`, a law each, the best first: its `entry`, max_error and rms_error in psi_2,
+        `worst`, the psi_1 of the largest, law_error against the same law in Carom, seconds, and the
+        `failure` or None; `version` of the program, `psi`, `steps`, `outcomes`.
 
     Raises
     ------

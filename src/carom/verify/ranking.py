@@ -16,6 +16,7 @@ from carom.verify.errors import (
     energy_gain,
     exact_rebound,
     force_error,
+    in_words,
     incidences,
     solid_kappa,
 )
@@ -78,12 +79,25 @@ class Ranking:
         return card(title, rows, plot_laws(self.to_dataset()))
 
     def as_record(self) -> dict[str, Any]:
-        """Return the ranking as what JSON can hold."""
+        """Return the ranking as what JSON can hold.
+
+        Returns
+        -------
+        dict
+            chi, kappa, psi_in and laws, a record each.
+        """
         laws = [_record(standing) for standing in self.standings]
         return {"chi": self.chi, "kappa": self.kappa, "psi_in": list(self.psi), "laws": laws}
 
     def to_dataset(self) -> "xr.Dataset":
-        """Return psi_2 of each law and of the exact impact, and all errors, as one dataset."""
+        """Return psi_2 of each law and of the exact impact, and all errors, as one dataset.
+
+        Returns
+        -------
+        xarray.Dataset
+            psi_out (law, psi_in), psi_out_exact (psi_in), max_error, rms_error, force_error and
+            energy_gain (law), steps (law, step_kind), -1 where none suffice; chi and kappa.
+        """
         from carom.results import labelled_dataset
 
         laws = [standing.entry.law for standing in self.standings]
@@ -145,6 +159,13 @@ def rank(
     progress : bool or callable, optional
         Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
         what is called with the laws done so far and their number.
+
+    Returns
+    -------
+    Ranking
+        `standings`, a law each, by max_error: its `entry`, max_error and rms_error in psi_2,
+        `worst`, the psi_1 of the largest, force_error in units of mu P_max, energy_gain in units of
+        psi, and the time steps it needs, `step` and `fine_step`, or None.
 
     Raises
     ------
@@ -223,7 +244,7 @@ def _table(ranking: Ranking) -> str:
     return "\n".join(
         [
             f"|error in psi_2| of contact laws, chi = {ranking.chi:g}, kappa = {ranking.kappa:.4g},"
-            f" psi_1 from {min(ranking.psi):g} to {max(ranking.psi):g}",
+            f" {in_words(ranking.psi)}",
             f"  {'':32s} {head}  used by",
             *rows,
             "force: rms error of the tangential force through the worst impact, in mu P_max",

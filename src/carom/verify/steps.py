@@ -47,6 +47,11 @@ def step_error(
     kappa : float, optional
         G*/E*; by default that of solid spheres, 4 chi/7.
 
+    Returns
+    -------
+    float
+        In units of psi; NaN if the law has no limit.
+
     Raises
     ------
     InputError
@@ -90,6 +95,11 @@ def advised_steps(
         (kappa/2)(m_n/m_t), positive.
     kappa : float, optional
         G*/E*; by default that of solid spheres, 4 chi/7.
+
+    Returns
+    -------
+    Step or None
+        `steps` per duration of Hertz's contact, and their `error` in psi_2.
 
     Raises
     ------

@@ -100,6 +100,11 @@ class Tuning:
         kind : type
             A class of laws, e.g. `carom.LinearSpring`.
 
+        Returns
+        -------
+        Law or None
+            The law, its parameter tuned.
+
         Examples
         --------
         >>> import carom
@@ -117,7 +122,13 @@ class Tuning:
         return card(f"Closest to the exact psi_2 at chi = {self.chi:g}", rows)
 
     def as_record(self) -> dict[str, Any]:
-        """Return the advice as what JSON can hold."""
+        """Return the advice as what JSON can hold.
+
+        Returns
+        -------
+        dict
+            chi, kappa, psi_in (first and last) and laws, a record each.
+        """
         return {
             "chi": self.chi,
             "kappa": self.kappa,
@@ -175,6 +186,13 @@ def tune(
     progress : bool or callable, optional
         Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
         what is called with the laws done so far and their number.
+
+    Returns
+    -------
+    Tuning
+        `advice`, a law each, by the error that was minimised: the `law` with the parameter set, the
+        name of the `parameter` and its `value` (None if it has none), max_error and rms_error in
+        psi_2, `before`, the largest error as given, and a time `step`.
 
     Raises
     ------

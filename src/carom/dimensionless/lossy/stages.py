@@ -138,6 +138,7 @@ def restitution(loss: int, parameter: float, work: Work) -> float:
 def viscous_loss(wanted: float) -> float:
     """Return alpha, loss time in d_max/V_1, that gives a restitution 0 < e <= 1, to 1e-12 or so.
 
+    >>> from carom.dimensionless.lossy.stages import viscous_loss
     >>> round(viscous_loss(0.9), 10)
     0.0576035799
     """

@@ -63,11 +63,10 @@ class Experiment:
     Examples
     --------
     >>> import carom
-    >>> from carom.laws.dem import LammpsMindlin
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> experiment = Experiment(
-    ...     pair=pair, law=LammpsMindlin(), normal_speed=0.1,
+    >>> experiment = carom.verify.Experiment(
+    ...     pair=pair, law=carom.LammpsMindlin(), normal_speed=0.1,
     ...     tangential_speed=(0.05, 0.0), spin=(0.0, 10.0), steps=1000,
     ... )
     >>> experiment.psi_in.round(3)
@@ -148,10 +147,12 @@ def results_csv(experiment: Experiment, outcomes: Outcomes) -> str:
 
     Examples
     --------
+    >>> import numpy as np
     >>> import carom
+    >>> from carom.verify.engines.experiments import Outcomes, results_csv
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> experiment = Experiment(
+    >>> experiment = carom.verify.Experiment(
     ...     pair=pair, law=carom.LammpsMindlin(), normal_speed=0.25,
     ...     tangential_speed=(0.5,), steps=1000,
     ... )

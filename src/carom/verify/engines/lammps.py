@@ -40,7 +40,8 @@ class Lammps(Program):
     Examples
     --------
     >>> import carom
-    >>> Lammps().supports(carom.LinearSpring()), Lammps().supports(carom.ThorntonLaw())
+    >>> engine = carom.verify.Lammps()
+    >>> engine.supports(carom.LinearSpring()), engine.supports(carom.ThorntonLaw())
     (True, False)
     """
 

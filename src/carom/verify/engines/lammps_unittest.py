@@ -85,9 +85,10 @@ def unit_test_yaml(
     Examples
     --------
     >>> import carom
+    >>> from carom.verify.engines.lammps_unittest import unit_test_yaml
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> experiment = Experiment(
+    >>> experiment = carom.verify.Experiment(
     ...     pair=pair, law=carom.LammpsMindlin(), normal_speed=1e-4,
     ...     tangential_speed=(5e-5,), steps=1000,
     ... )

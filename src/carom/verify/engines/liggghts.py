@@ -76,8 +76,10 @@ class Liggghts(Program):
 
     Examples
     --------
-    >>> from carom.laws.dem import LammpsMindlin, LiggghtsHertz
-    >>> Liggghts().supports(LiggghtsHertz(restitution=0.9)), Liggghts().supports(LammpsMindlin())
+    >>> import carom
+    >>> engine = carom.verify.Liggghts()
+    >>> hertz = carom.LiggghtsHertz(restitution=0.9)
+    >>> engine.supports(hertz), engine.supports(carom.LammpsMindlin())
     (True, False)
     """
 

@@ -92,6 +92,14 @@ def run(engine: Engine, experiment: Experiment, *, time_limit: float = 120.0) ->
     time_limit : float
         Seconds after which the program, and all that it started, is killed.
 
+    Returns
+    -------
+    Run
+        `outcomes`: how the first body leaves each impact relative to the second, arrays of shape
+        (n,), one value an impact: `normal_speed` in m/s, positive when the bodies recede,
+        `tangential_speed` in m/s and `spin` in rad/s. `version`: what the program printed as its
+        version, or "unknown". `seconds`: how long it ran, in s.
+
     Raises
     ------
     InputError
@@ -102,16 +110,31 @@ def run(engine: Engine, experiment: Experiment, *, time_limit: float = 120.0) ->
     Examples
     --------
     >>> import carom
-    >>> from carom.verify.engines.lammps import Lammps
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> experiment = Experiment(
+    >>> experiment = carom.verify.Experiment(
     ...     pair=pair, law=carom.LammpsMindlin(), normal_speed=0.01,
     ...     tangential_speed=(0.005,), steps=1000,
     ... )
-    >>> run(Lammps("/nowhere/lmp"), experiment)
+    >>> carom.verify.run(carom.verify.Lammps("/nowhere/lmp"), experiment)
     Traceback (most recent call last):
     carom.quantities.InputError: LAMMPS: '/nowhere/lmp' is not an executable; give another path
+
+    What is not LAMMPS stands in for it here: it lets each body keep its tangential speed.
+
+    >>> import sys
+    >>> import numpy as np
+    >>> from carom.verify.engines.experiments import Outcomes
+    >>> class Smooth(carom.verify.Lammps):
+    ...     def executable(self):
+    ...         return sys.executable
+    ...     def command(self, folder):
+    ...         return [sys.executable, "-c", "open('out', 'w').write('0.01 0.005 0.0')"]
+    ...     def outcomes(self, folder, experiment):
+    ...         return Outcomes(*np.loadtxt(folder / "out", unpack=True, ndmin=2))
+    >>> found = carom.verify.run(Smooth(), experiment)
+    >>> found.outcomes.tangential_speed, found.version
+    (array([0.005]), 'unknown')
     """
     limit = positive("time_limit", time_limit)
     if not engine.supports(experiment.law):

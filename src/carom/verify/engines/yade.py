@@ -109,8 +109,10 @@ class Yade(Program):
 
     Examples
     --------
-    >>> from carom.laws.dem import LammpsMindlin, YadeMindlin
-    >>> Yade().supports(YadeMindlin(restitution=0.9)), Yade().supports(LammpsMindlin("mindlin"))
+    >>> import carom
+    >>> engine = carom.verify.Yade()
+    >>> mindlin = carom.YadeMindlin(restitution=0.9)
+    >>> engine.supports(mindlin), engine.supports(carom.LammpsMindlin("mindlin"))
     (True, False)
     """
 

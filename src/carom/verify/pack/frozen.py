@@ -25,6 +25,7 @@ def folders_with(name: str) -> list[str]:
 
     Examples
     --------
+    >>> from carom.verify.pack.frozen import folders_with
     >>> folders_with("results.csv")[-1]
     'wall_spin'
     """

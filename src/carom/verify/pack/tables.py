@@ -55,6 +55,7 @@ def read_table(text: str) -> Table:
 
     Examples
     --------
+    >>> from carom.verify.pack.tables import read_table
     >>> table = read_table("# two impacts\\npsi_in,psi_out\\n0.5,0.05\\n1,-0.06\\n")
     >>> table.notes, table.numbers("psi_out")
     (('two impacts',), array([ 0.05, -0.06]))
@@ -75,6 +76,7 @@ def uncertain(name: str, values: ArrayLike, errors: ArrayLike) -> Columns:
 
     Examples
     --------
+    >>> from carom.verify.pack.tables import uncertain
     >>> uncertain("psi_out", [-1.23456789012345], [1e-10])
     {'psi_out': ['-1.23456789012'], 'psi_out_error': ['1.1e-10']}
     """

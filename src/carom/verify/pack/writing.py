@@ -27,6 +27,11 @@ def write_pack(folder: str | Path) -> tuple[str, ...]:
     folder : str or Path
         A folder that does not exist, or is empty; the one it is in must exist.
 
+    Returns
+    -------
+    tuple of str
+        Paths within the folder, / between their parts.
+
     Raises
     ------
     InputError
@@ -35,9 +40,9 @@ def write_pack(folder: str | Path) -> tuple[str, ...]:
     Examples
     --------
     >>> from tempfile import TemporaryDirectory
-    >>> from carom.verify.pack import write_pack
+    >>> import carom
     >>> with TemporaryDirectory() as folder:
-    ...     files = write_pack(folder + "/bench")
+    ...     files = carom.verify.write_pack(folder + "/bench")
     >>> "wall/reference.csv" in files
     True
     """

@@ -66,6 +66,13 @@ def score(
         Largest |error in psi_2| that passes. It is also the limit of what the audit finds, in units
         of psi; of the errors of forces, in units of mu P_max and P_max; of the duration, relative.
 
+    Returns
+    -------
+    Score
+        `passed` and `failures`; max_error, rms_error and mean_error in psi_2, the same for each
+        sequence of phases in `groups`; `audit`, a finding each with its value, limit and verdict;
+        `notes`; and what gives the rest: plot, to_dataset, cite.
+
     Raises
     ------
     InputError
@@ -75,9 +82,8 @@ def score(
     Examples
     --------
     >>> import carom
-    >>> from carom.verify.scoring import score
     >>> psi = [0.5, 1.0, 2.0, 4.0]
-    >>> result = score({"psi_1": psi, "psi_2": [0.05, -0.06, -0.84, -1.51]}, chi=1.44)
+    >>> result = carom.verify.score({"psi_1": psi, "psi_2": [0.05, -0.06, -0.84, -1.51]}, chi=1.44)
     >>> result.passed, round(result.max_error, 3)
     (False, 0.075)
     >>> result.groups[0].name

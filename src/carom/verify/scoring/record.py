@@ -82,7 +82,14 @@ class Score:
         return as_text(self)
 
     def as_record(self) -> dict[str, Any]:
-        """Return the score as what JSON can hold."""
+        """Return the score as what JSON can hold.
+
+        Returns
+        -------
+        dict
+            passed, tolerance, failures, kind, max_error, rms_error, mean_error, points by column,
+            phases, audit, notes.
+        """
         from carom.verify.scoring.report import as_record
 
         return as_record(self)
@@ -101,7 +108,16 @@ class Score:
         return bibtex(*IMPACT)
 
     def to_dataset(self) -> "xr.Dataset":
-        """Return the score as one dataset: points along `point`, a history along `time`."""
+        """Return the score as one dataset: points along `point`, a history along `time`.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along `point`: psi_in, psi_out, psi_out_exact, error, chi, sequence and energy_change
+            (in J, a pure number for psi); audit_name, audit_value, audit_limit, audit_holds and
+            audit_verdict (audit); tolerance, passed and the errors as numbers. Exact curves along
+            `curve` where chi are few; forces of a history in N along `time` in s.
+        """
         from carom.verify.scoring.datasets import score_dataset
 
         return score_dataset(self)
@@ -113,6 +129,11 @@ class Score:
         ----------
         path : str or Path, optional
             Where the figure is stored, too: .png, .pdf or .svg.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure, of two axes or more.
 
         Raises
         ------
