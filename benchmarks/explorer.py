@@ -38,7 +38,8 @@ class Page:
     def __init__(self, url: str) -> None:
         self._line = http.client.HTTPConnection(urlsplit(url).netloc)
         known = json.loads(self._ask("GET", "/_dash-dependencies"))
-        self._known = {each["inputs"][0]["id"]: each for each in known}
+        asked = [each for each in known if not each["clientside_function"]]
+        self._known = {each["inputs"][0]["id"]: each for each in asked}
 
     def answer(self, query: str) -> tuple[int, list[str]]:
         """Return the size of the answer to a view, and the laws that are to follow."""
