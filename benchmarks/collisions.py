@@ -14,7 +14,7 @@ import numba
 import numpy as np
 
 import carom
-from carom.dimensionless.blocks import available_cores
+from carom.dimensionless.numerics.threads import available_cores
 
 SEED = 20261121
 CHIS = (0.3, 1.0, 1.44, 2.0, 3.0)

@@ -12,7 +12,7 @@ from functools import partial
 import numpy as np
 
 import carom
-from carom.dimensionless.marching import march
+from carom.dimensionless.twins.marching import march
 
 SEED = 20261121
 FINE, COARSE = (500, 2000), (125, 500)

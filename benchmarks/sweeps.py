@@ -15,10 +15,10 @@ from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 import carom
-from carom.dimensionless.blocks import available_cores
+from carom.dimensionless.numerics.threads import available_cores
 from carom.sweeps import sweep
 from carom.sweeps.designs import LatinHypercube
-from carom.sweeps.evaluation import Problem
+from carom.sweeps.problem import Problem
 
 SEED = 20261121
 CASE = {

@@ -7,7 +7,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).with_name("_ext")))
 
 
-from carom.results import carom_version
+from carom.io.labels import carom_version
 
 project = "Carom"
 author = "The Carom developers"

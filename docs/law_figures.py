@@ -9,7 +9,7 @@ from PIL import Image
 from tqdm import tqdm
 
 import carom
-from carom.dimensionless.hertz import DURATION
+from carom.dimensionless.numerics.hertz import DURATION
 from carom.plots.laws import plot_error_map, plot_laws
 from carom.plots.style import (
     BLACK,

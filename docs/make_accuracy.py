@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from run_pages import keep
 
 import carom
-from carom.dimensionless.marching import extrapolated, march
+from carom.dimensionless.twins.marching import extrapolated, march
 from carom.plots.style import (
     BLUE,
     DASHES,

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from tqdm import tqdm
 
 import carom
-from carom.fitting.curves import TABLE, grid, nodes, table, tabulated
+from carom.fitting.interpolation import TABLE, grid, nodes, table, tabulated
 
 FILE = Path(carom.__file__).parent / TABLE
 CHECKED = (0, 3, 11)  # of the e of the table

@@ -20,7 +20,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import carom
-from carom.validity import rebound_error
+from carom.impacts.validity import rebound_error
 
 TARGET = Path(__file__).parent / "figures" / "halfspace_study.png"
 ORDER = 1.5  # of the error of the grid: the newest elements at the edge take no traction

@@ -12,7 +12,7 @@ from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
 import carom
-from carom.dimensionless.surface import slip_shape
+from carom.dimensionless.fields.surface import slip_shape
 from carom.halfspace.compliance import Materials
 from carom.halfspace.ledger import slipping
 from carom.halfspace.solution import HalfspaceSolution, Resolution, Snapshot, solve

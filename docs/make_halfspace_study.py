@@ -25,7 +25,7 @@ from tqdm import tqdm
 import carom
 from carom.halfspace.compliance import Materials
 from carom.halfspace.solution import HalfspaceSolution, Resolution, solve
-from carom.storage import replace_whole
+from carom.io.files import replace_whole
 
 TABLE = Path(__file__).with_name("halfspace_study.csv")
 HEAD = """\

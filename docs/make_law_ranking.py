@@ -18,13 +18,13 @@ from tqdm import tqdm
 
 import carom
 from carom.verify import CATALOGUE, Ranking, Tuning, rank, step_error, tune
+from carom.verify.benchmark import Bench, bench, steel_on_steel
 from carom.verify.engines.experiments import Experiment, psi_out
 from carom.verify.engines.lammps import Lammps
 from carom.verify.engines.liggghts import Liggghts
 from carom.verify.engines.running import Engine, run
 from carom.verify.engines.yade import Yade
 from carom.verify.errors import INCIDENCES
-from carom.verify.measuring import Bench, bench, steel_on_steel
 from carom.verify.tuning import FREE, TUNED, called
 
 PAGE = Path(__file__).with_name("laws.md")

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from carom.dimensionless.phases import OPPOSITE, SAME, TRANSITIONS, Cause, Kind
+from carom.dimensionless.elastic.phases import OPPOSITE, SAME, TRANSITIONS, Cause, Kind
 from carom.dimensionless.solution import CAUSE_NAMES
 from carom.dimensionless.states import KIND_NAMES
 
@@ -13,7 +13,7 @@ HEAD = """\
 # Diagram of the phases
 
 Drawn by `python docs/make_phase_diagram.py` from `TRANSITIONS` in
-`src/carom/dimensionless/phases.py`, the one place that decides it. Any phase may also end by
+`src/carom/dimensionless/elastic/phases.py`, the one place that decides it. Any phase may also end by
 separation; gross slip and slip end so, stick only where the load retraces its path.
 """
 

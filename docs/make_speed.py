@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import carom
-from carom.dimensionless.marching import march
+from carom.dimensionless.twins.marching import march
 from carom.plots.style import (
     BLUE,
     DOUBLE,

@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from carom.dimensionless.marching import extrapolated, march
 from carom.dimensionless.rebounds import rebound
+from carom.dimensionless.twins.marching import extrapolated, march
 
 Array = NDArray[np.float64]
 

@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 import carom
+from carom.impacts.validity import SLOW_CONTACT, SMALL_CONTACT, YIELD_PRESSURE
 from carom.plots.bands import STICK
 from carom.plots.style import (
     BLACK,
@@ -22,7 +23,6 @@ from carom.plots.style import (
     save_figure,
     style,
 )
-from carom.validity import SLOW_CONTACT, SMALL_CONTACT, YIELD_PRESSURE
 
 FIGURE = Path(__file__).parent / "figures" / "validity.png"
 MATERIAL = carom.material("bearing-steel")

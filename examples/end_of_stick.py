@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 import carom
-from carom.dimensionless.stick import Stick, transition_speed
+from carom.dimensionless.twins.stick import Stick, transition_speed
 from carom.plots.style import BLACK, DASHES, LINES, legend_above, new_figure, save_figure, styled
 
 CHIS = (0.8, 1.44, 2.5)

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 import carom
-from carom.dimensionless.stick import Stick, transition_speed
+from carom.dimensionless.twins.stick import Stick, transition_speed
 from carom.plots.style import BLACK, DASHES, DOUBLE, LINES, new_figure, save_figure, styled
 
 CHI = 1.44

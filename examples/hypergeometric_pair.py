@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from scipy.special import hyp2f1, poch
 
-from carom.dimensionless.stick import Stick
+from carom.dimensionless.twins.stick import Stick
 from carom.plots.style import (
     BLACK,
     BLUE,

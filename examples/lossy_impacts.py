@@ -16,7 +16,7 @@ import numpy as np
 
 import carom
 from carom.dimensionless.lossy.stages import viscous_loss
-from carom.dimensionless.marching import extrapolated
+from carom.dimensionless.twins.marching import extrapolated
 from carom.plots.style import (
     BLACK,
     BLUE,

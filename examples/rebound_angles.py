@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 import carom
-from carom.curves import borders
+from carom.impacts.curves import borders
 from carom.plots.style import BLACK, BLUE, DASHES, DOUBLE, new_figure, save_figure, styled
 
 ALUMINA = carom.Material(young="380 GPa", poisson=0.23, density=4000)

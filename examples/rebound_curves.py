@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 import carom
-from carom.dimensionless.marching import extrapolated
+from carom.dimensionless.twins.marching import extrapolated
 from carom.plots import plot_curve, save_figure
 from carom.plots.style import BLACK, legend_above, styled
 

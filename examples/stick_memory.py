@@ -16,7 +16,7 @@ from scipy.integrate import solve_ivp
 from scipy.special import gamma, hyp2f1
 
 import carom
-from carom.dimensionless.stick import Stick
+from carom.dimensionless.twins.stick import Stick
 from carom.plots.style import BLACK, DASHES, LINES, legend_above, new_figure, save_figure, styled
 
 CHIS = (0.3, 0.5, 1.44, 4.0, 6.0)

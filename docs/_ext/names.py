@@ -1,6 +1,6 @@
 """Names in the text: those of the reference become links, all others must exist.
 
-`carom.rebound` leads to its page; `carom.dimensionless.stick` has none, but must be importable.
+`carom.rebound` leads to its page; `carom.dimensionless.solution.Solution` has none, but must exist.
 """
 
 import re
@@ -16,7 +16,7 @@ from sphinx.application import Sphinx
 from sphinx.environment import BuildEnvironment
 from sphinx.util.logging import getLogger
 
-from carom.glossary import GLOSSARY
+from carom.quantities.glossary import GLOSSARY
 
 NAME = re.compile(r"(carom(?:\.\w+)+)(\(.*\))?")
 COMMAND = re.compile(r"carom(?: verify)? [a-z]+")
@@ -63,8 +63,8 @@ def to_page(code: nodes.literal, name: str, page: str) -> None:
 def offered(name: str) -> str:
     """Return a full name as it is offered to users, if it is.
 
-    >>> offered("carom.pairs.Pair.chi"), offered("carom.dimensionless.stick")
-    ('carom.Pair.chi', 'carom.dimensionless.stick')
+    >>> offered("carom.bodies.pairs.Pair.chi"), offered("carom.dimensionless.twins.stick")
+    ('carom.Pair.chi', 'carom.dimensionless.twins.stick')
     """
     parts = name.split(".")
     for end in range(len(parts), 1, -1):
@@ -77,7 +77,7 @@ def offered(name: str) -> str:
 def exists(name: str) -> bool:
     """Return whether a dotted name leads to something.
 
-    >>> exists("carom.dimensionless.stick"), exists("carom.dimensionless.stuck")
+    >>> exists("carom.dimensionless.twins.stick"), exists("carom.dimensionless.stuck")
     (True, False)
     """
     parts = name.split(".")

@@ -8,8 +8,8 @@ from samples import COMMANDS, DATASETS, SETUP, datasets, printed
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-from carom import glossary
-from carom.glossary import GLOSSARY
+from carom.quantities import glossary
+from carom.quantities.glossary import GLOSSARY
 
 LONGEST = 60  # characters of an attribute's value
 

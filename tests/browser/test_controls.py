@@ -3,7 +3,7 @@
 import pytest
 
 import carom
-from carom.glossary import GLOSSARY
+from carom.quantities.glossary import GLOSSARY
 
 pytestmark = pytest.mark.browser
 AFTER, BEFORE = f"ψ₂, {GLOSSARY['psi_out'].meaning}", f"ψ₁, {GLOSSARY['psi_in'].meaning}"

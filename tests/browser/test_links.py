@@ -5,7 +5,7 @@ from urllib.parse import parse_qsl, urlencode, urlsplit
 import pytest
 
 import carom
-from carom.glossary import GLOSSARY
+from carom.quantities.glossary import GLOSSARY
 from carom.verify.catalogue import named
 
 pytestmark = pytest.mark.browser

@@ -6,7 +6,14 @@ import pytest
 
 import carom
 from carom import InputError
-from carom.cases import check_case, material_values, motion_of, pair_of, read_case, read_material
+from carom.bodies.cases import (
+    check_case,
+    material_values,
+    motion_of,
+    pair_of,
+    read_case,
+    read_material,
+)
 
 POINTS = (
     "^material: '3' cannot be used; write e.g. young=210 GPa, poisson=0.3, density=7850 with "

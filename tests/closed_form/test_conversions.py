@@ -13,8 +13,7 @@ import carom
 from carom.verify import damping, poisson_from_kappa, recipes, restitution, stiffnesses
 from carom.verify.conversions import CONVENTIONS
 from carom.verify.engines.experiments import Experiment, psi_out
-from carom.verify.engines.lammps import Lammps
-from carom.verify.engines.lammps_input import INPUT
+from carom.verify.engines.lammps import INPUT, Lammps
 from carom.verify.engines.running import run
 
 STEEL = carom.Material(young=210e9, poisson=0.3, density=7850)

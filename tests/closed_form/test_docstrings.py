@@ -9,18 +9,18 @@ import pytest
 
 import carom
 import carom.classical
-import carom.curves
 import carom.datasets
 import carom.fitting
+import carom.impacts.curves
 import carom.plots
 import carom.plots.style
 import carom.verify
-from carom.glossary import GLOSSARY
+from carom.quantities.glossary import GLOSSARY
 
 SECTIONS = ("Parameters", "Attributes", "Returns", "Raises", "Notes", "Examples")
 MODULES = (carom, carom.verify, carom.plots, carom.fitting, carom.classical, carom.datasets)
 BESIDE = {  # what users find in a module without a list of its own
-    carom.curves: ("borders",),
+    carom.impacts.curves: ("borders",),
     carom.plots.style: ("new_figure", "style"),
 }
 MADE = {  # by functions, which say what is in them

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.cases import case_of
+from carom.bodies.cases import case_of
 from carom.fitting import fit
 
 ANGLES = [10.0, 20.0, 30.0, 40.0, 50.0]

@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import brentq, least_squares
 
 import carom
-from carom.fitting import curves, fit
+from carom.fitting import fit, interpolation as curves
 
 MU, SIGMA = 0.12, 0.02
 BALL = carom.Sphere(radius="2.5 mm", material="steel")

@@ -7,7 +7,7 @@ import pytest
 
 import carom
 from carom import Cup, HalfSpace, InputError, Material, Pair, Sphere
-from carom.validity import rebound_error
+from carom.impacts.validity import rebound_error
 
 STEEL = Material(young="210 GPa", poisson=0.3, density=7850)
 GLASS = Material(young="70 GPa", poisson=0.23, density=2500)

@@ -12,9 +12,9 @@ import pytest
 
 import carom
 from carom.classical import cattaneo_mindlin, critical_obliquity, loop_energy
-from carom.loading import load_path
-from carom.quantities import InputError
-from carom.storage import read, save
+from carom.contacts.load_paths import load_path
+from carom.io.files import read, save
+from carom.quantities.units import InputError
 
 GLASS = carom.Material(young="70 GPa", poisson=0.23, density=2500)
 STEEL = carom.Material(young="210 GPa", poisson=0.3, density=7850)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.chebyshev import evaluate, fitted
-from carom.dimensionless.patches import fitted_patches, value_at
+from carom.dimensionless.numerics.chebyshev import evaluate, fitted
+from carom.dimensionless.numerics.chebyshev_2d import fitted_patches, value_at
 
 SEED = 20261121
 

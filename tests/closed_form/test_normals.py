@@ -5,9 +5,9 @@ import pytest
 from scipy.special import beta
 
 import carom
+from carom.bodies.losses import yield_velocity
 from carom.dimensionless.lossy.normal import Loss
-from carom.normals import yield_velocity
-from carom.quantities import InputError
+from carom.quantities.units import InputError
 
 STEEL = carom.Pair(
     carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), friction=0.2

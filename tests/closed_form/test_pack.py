@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import carom
-from carom.cases import pair_of
-from carom.histories import inertia
+from carom.bodies.cases import pair_of
+from carom.bodies.kinematics import inertia
 from carom.verify.pack import VERSION
 from carom.verify.pack.frozen import _texts, frozen_files
 from carom.verify.pack.references import case_of, references

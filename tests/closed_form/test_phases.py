@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.phases import TRANSITIONS, Kind
+from carom.dimensionless.elastic.phases import TRANSITIONS, Kind
 from carom.dimensionless.solution import CAUSE_NAMES
 from carom.dimensionless.states import KIND_NAMES
 

@@ -13,10 +13,10 @@ from PIL import Image
 
 import carom
 from carom import plots
-from carom.curves import regime_map
-from carom.glossary import GLOSSARY
+from carom.impacts.curves import regime_map
+from carom.io.files import save
 from carom.plots.style import label, prefixed
-from carom.storage import save
+from carom.quantities.glossary import GLOSSARY
 
 MM = 1.0 / 25.4
 MICROSLIP = 21e-6  # an instant of the impact below with a slip ring
@@ -273,7 +273,7 @@ def test_drawing_needs_no_solver(history, tmp_path):
     """A stored history is read and drawn in a process that never loads the solution."""
     stored, picture = save(history, tmp_path / "hit.nc"), tmp_path / "hit.png"
     code = (
-        "import sys, carom.plots as plots; from carom.storage import read\n"
+        "import sys, carom.plots as plots; from carom.io.files import read\n"
         f"plots.save_figure(plots.plot_impact(read({str(stored)!r})), {str(picture)!r})\n"
         "assert 'carom.dimensionless.solution' not in sys.modules"
     )

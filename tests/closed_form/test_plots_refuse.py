@@ -6,7 +6,7 @@ from matplotlib.quiver import Quiver
 
 import carom
 from carom import plots
-from carom.curves import regime_map
+from carom.impacts.curves import regime_map
 
 MICROSLIP = 21e-6  # an instant of the impact below with a slip ring
 DRAWN = {

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.curves import borders, regime_map
+from carom.impacts.curves import borders, regime_map
 
 
 def test_regime_map_agrees_with_single_impacts():

@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 import carom
-from carom.curves import borders
+from carom.impacts.curves import borders
 from carom.plots.scores import plot_score
 from carom.verify.scoring import score
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.stick import Stick
+from carom.dimensionless.twins.stick import Stick
 
 RNG = np.random.default_rng(4)
 TOUCH = [

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.extremes import SURFACE, largest, principal_stresses, von_mises
-from carom.dimensionless.subsurface import COMPONENTS, stresses
+from carom.dimensionless.fields.extremes import SURFACE, largest, principal_stresses, von_mises
+from carom.dimensionless.fields.subsurface import COMPONENTS, stresses
 
 STEEL = carom.Material(young="210 GPa", poisson=0.3, density=7850)
 BALL = carom.Sphere(radius="5 mm", material=STEEL)

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from carom.dimensionless import subsurface
-from carom.dimensionless.profile import coefficients, flat, radii, stacked
-from carom.dimensionless.subsurface import stresses
+from carom.dimensionless.fields import subsurface
+from carom.dimensionless.fields.profile import coefficients, flat, radii, stacked
+from carom.dimensionless.fields.subsurface import stresses
 
 STICK = 0.6  # radius of Cattaneo's stick zone
 FRICTION = 0.7

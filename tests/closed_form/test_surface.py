@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless import hertz, slip, surface
-from carom.dimensionless.chebyshev import evaluate
-from carom.dimensionless.profile import coefficients, flat, radii, stacked
+from carom.dimensionless.elastic import slip
+from carom.dimensionless.fields import surface
+from carom.dimensionless.fields.profile import coefficients, flat, radii, stacked
+from carom.dimensionless.numerics import hertz
+from carom.dimensionless.numerics.chebyshev import evaluate
 
 IMPACTS = [
     (0.5, 1.44),  # stick, slip -, gross slip -

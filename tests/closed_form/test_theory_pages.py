@@ -16,11 +16,13 @@ from scipy.optimize import brentq
 from scipy.special import beta, gamma, hyp2f1, rgamma
 
 import carom
-from carom.dimensionless import hertz, paths, surface
+from carom.dimensionless.fields import surface
+from carom.dimensionless.fields.profile import flat, stacked
+from carom.dimensionless.fields.subsurface import stresses
+from carom.dimensionless.load_paths import paths
 from carom.dimensionless.lossy.stages import viscous_loss
-from carom.dimensionless.profile import flat, stacked
-from carom.dimensionless.stick import Stick
-from carom.dimensionless.subsurface import stresses
+from carom.dimensionless.numerics import hertz
+from carom.dimensionless.twins.stick import Stick
 from carom.halfspace.compliance import Materials
 
 DOCS = Path(__file__).parents[2] / "docs"

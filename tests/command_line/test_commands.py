@@ -198,7 +198,7 @@ def test_bad_case_files(run, text, message):
 
 
 def test_an_existing_file_survives_a_failed_write(run, monkeypatch):
-    from carom import storage
+    from carom.io import files as storage
 
     Path("keep.csv").write_text("precious")
     monkeypatch.setattr(storage, "as_csv", lambda _: (_ for _ in ()).throw(OSError("disk full")))

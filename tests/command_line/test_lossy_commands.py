@@ -8,7 +8,7 @@ import pytest
 
 import carom
 from carom import plots
-from carom.cases import normal_of
+from carom.bodies.cases import normal_of
 from carom.cli import main
 
 BALL = ["impact", "--radius", "5 mm", "--material", "steel", "--friction", "0.2"]

@@ -11,9 +11,9 @@ pytest.importorskip("ipywidgets")
 
 pytestmark = pytest.mark.filterwarnings("ignore::DeprecationWarning:jupyter_client")
 
-SOON = "import time, carom, carom.progress\ncarom.progress.PATIENCE = 0.2"
+SOON = "import time, carom, carom.io.progress\ncarom.progress.PATIENCE = 0.2"
 WORK = """
-with carom.progress.advancing("impacts", 20, {progress}, unit="steps") as advance:
+with carom.io.progress.advancing("impacts", 20, {progress}, unit="steps") as advance:
     for step in range(20):
         time.sleep(0.05)
         advance(1)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.cases import case_of
+from carom.bodies.cases import case_of
 from carom.cli import main
 
 CHI = 1.4412

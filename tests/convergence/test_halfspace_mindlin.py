@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 from carom.halfspace.compliance import Materials
-from carom.halfspace.pressure import solve_pressure
 from carom.halfspace.quasistatic import Patch
-from carom.halfspace.traction import solve_traction
+from carom.halfspace.traction import solve_pressure, solve_traction
 
 GRIDS = np.array([8, 12, 16, 24, 32, 48])
 SHIFTS = np.array([0.15, 0.4, 0.65, 0.9])  # kappa U

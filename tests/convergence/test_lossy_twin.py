@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from scipy.special import beta, betainc, betaincinv
 
 import carom
+from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.normal import Loss
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.lossy.stages import viscous_loss
-from carom.dimensionless.marching import extrapolated, march_on
-from carom.dimensionless.phases import Status
+from carom.dimensionless.twins.marching import extrapolated, march_on
 
 Array = NDArray[np.float64]
 

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from carom.dimensionless.marching import (
+from carom.dimensionless.rebounds import rebound
+from carom.dimensionless.solution import solve
+from carom.dimensionless.twins.marching import (
     Phase,
     extrapolated,
     march,
@@ -14,8 +16,6 @@ from carom.dimensionless.marching import (
     resolution,
     resolved,
 )
-from carom.dimensionless.rebounds import rebound
-from carom.dimensionless.solution import solve
 
 Array = NDArray[np.float64]
 

@@ -9,14 +9,14 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 from scipy.special import beta
 
-from carom.dimensionless.marching import (
+from carom.dimensionless.twins.marching import (
     extrapolated,
     march,
     march_history,
     march_on,
     march_slips,
 )
-from carom.dimensionless.marching_motion import elastic, kelvin_voigt
+from carom.dimensionless.twins.marching_motion import elastic, kelvin_voigt
 
 Array = NDArray[np.float64]
 

@@ -4,7 +4,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from carom.dimensionless import hertz
+from carom.dimensionless.numerics import hertz
 
 BOUND = 3e-15
 TINY = [1e-100, 1e-30, 1e-10, 1e-3]

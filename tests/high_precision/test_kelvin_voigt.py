@@ -9,8 +9,8 @@ import mpmath as mp
 import pytest
 from scipy.special import beta
 
-from carom.dimensionless import hertz
-from carom.dimensionless.marching_motion import kelvin_voigt
+from carom.dimensionless.numerics import hertz
+from carom.dimensionless.twins.marching_motion import kelvin_voigt
 
 TERMS = 45
 

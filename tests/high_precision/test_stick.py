@@ -6,8 +6,13 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from carom.dimensionless.doubledouble import DoubleDouble, coefficients, fifth_root, square_root
-from carom.dimensionless.stick import Stick, transition_speed
+from carom.dimensionless.twins.doubledouble import (
+    DoubleDouble,
+    coefficients,
+    fifth_root,
+    square_root,
+)
+from carom.dimensionless.twins.stick import Stick, transition_speed
 
 CHI = (0.05, 0.2, 0.499999999, 0.5, 0.500000001, 1.44, 4.0, 10.0, 65 / 6, 30.0, 60.0, 100.0)
 X = (0.0, 1e-10, 1e-6, 1e-3, 0.05, 0.2, 0.5, 0.8, 0.95, 0.99, 1 - 1e-4, 1 - 1e-6, 1 - 1e-9)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.hertz import DURATION
+from carom.dimensionless.numerics.hertz import DURATION
 from carom.verify.engines.arrangement import (
     outcomes_of,
     placed,

@@ -7,17 +7,15 @@ from urllib.parse import urlencode
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 import carom
 
 pytest.importorskip("dash")
 
-from carom.explorer.downloads import curve_figure
+from carom.explorer.downloads import curve_figure, script
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import impact_of, scene_of
-from carom.explorer.scripts import script
 from carom.explorer.views import CHOICES, KNOBS, LAWS, NUMBERS, OF_NUMBERS, View
 
 NUMBER = {name: st.floats(knob.least, knob.most) for name, knob in KNOBS.items()}

@@ -5,8 +5,7 @@ import pytest
 from scipy.optimize import nnls
 
 from carom.halfspace.compliance import Compliance, Materials
-from carom.halfspace.pressure import solve_pressure
-from carom.halfspace.traction import solve_traction
+from carom.halfspace.traction import solve_pressure, solve_traction
 
 SIZE = 8
 TIGHT = 1e-9

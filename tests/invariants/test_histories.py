@@ -9,7 +9,7 @@ from scipy.integrate import cumulative_trapezoid
 
 import carom
 from carom import Cup, HalfSpace, InputError, Material, Pair, Sphere
-from carom.results import flags, labelled_dataset
+from carom.io.labels import flags, labelled_dataset
 
 ENERGIES = (
     "normal_kinetic_energy",

@@ -14,7 +14,8 @@ PROGRAM = """
 import json, sys
 import numpy as np
 import carom
-from carom.dimensionless import hertz, subsurface
+from carom.dimensionless.numerics import hertz
+from carom.dimensionless.fields import subsurface
 cases = json.loads(sys.argv[1])
 ball = carom.Sphere(radius="5 mm", material="steel")
 pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)

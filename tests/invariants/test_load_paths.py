@@ -8,13 +8,13 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from scipy.integrate import quad
 
 import carom
-from carom.dimensionless.chebyshev import evaluate
-from carom.dimensionless.paths import (
+from carom.contacts.load_paths import load_path
+from carom.dimensionless.load_paths.memory import RADIUS, RIM, SLOPE, profile_of
+from carom.dimensionless.load_paths.paths import (
     DISPLACEMENT,
     INSIDE,
     STICK,
@@ -24,9 +24,8 @@ from carom.dimensionless.paths import (
     follow_path,
     slid,
 )
-from carom.dimensionless.strata import RADIUS, RIM, SLOPE, profile_of
-from carom.loading import load_path
-from carom.quantities import InputError
+from carom.dimensionless.numerics.chebyshev import evaluate
+from carom.quantities.units import InputError
 
 PAIR = carom.Pair(
     carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), friction=0.3
@@ -276,7 +275,7 @@ def test_outside_coulombs_cone():
 PROGRAM = """
 import json, sys
 import numpy as np
-from carom.dimensionless.paths import follow_path, slid
+from carom.dimensionless.load_paths.paths import follow_path, slid
 d, u = np.array(json.loads(sys.argv[1]))
 path = follow_path(d, u, np.zeros(d.size, dtype=bool))
 by_force = (d > 0.05) & (path.results[:, 2] > 0.05) & (np.arange(d.size) % 2 == 0)

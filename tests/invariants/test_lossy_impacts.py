@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 from scipy.integrate import cumulative_simpson
 
 import carom
+from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.normal import Loss
 from carom.dimensionless.lossy.rebounds import Rebounds, lossy_rebounds, outgoing
 from carom.dimensionless.lossy.record import NUMBERS, PSI_OUT, new_record
 from carom.dimensionless.lossy.solution import LossySolution, solve_with_losses
 from carom.dimensionless.lossy.work import new_work
-from carom.dimensionless.marching import march_history
-from carom.dimensionless.marching_motion import kelvin_voigt
-from carom.dimensionless.phases import Status
+from carom.dimensionless.twins.marching import march_history
+from carom.dimensionless.twins.marching_motion import kelvin_voigt
 
 Array = NDArray[np.float64]
 

@@ -9,10 +9,10 @@ import pytest
 
 import carom
 from carom import InputError
-from carom.cases import motion_of, normal_of, pair_of
+from carom.bodies.cases import motion_of, normal_of, pair_of
 from carom.sweeps import sweep
 from carom.sweeps.designs import Grid, LatinHypercube, Table
-from carom.sweeps.evaluation import OUTPUTS, PointStatus, Problem
+from carom.sweeps.problem import OUTPUTS, PointStatus, Problem
 from carom.sweeps.records import identity
 
 STEEL = {"young": "210 GPa", "poisson": 0.3, "density": 7850}

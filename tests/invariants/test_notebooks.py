@@ -10,8 +10,8 @@ import pytest
 from PIL import Image
 
 import carom
-from carom.citations import ELEMENTS, FITS, IMPACT, LOADS, SAMPLES, VISCOUS, bibtex
-from carom.notebooks import card
+from carom.io.citations import ELEMENTS, FITS, IMPACT, LOADS, SAMPLES, VISCOUS, bibtex
+from carom.plots.card import card
 
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)

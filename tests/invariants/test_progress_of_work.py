@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import carom
+from carom.io.progress import Place
 from carom.plots import animate
-from carom.progress import Place
 
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
@@ -73,7 +73,7 @@ LONG = [
 
 @pytest.fixture
 def _at_once(monkeypatch):
-    monkeypatch.setattr("carom.progress.PATIENCE", 0.0)
+    monkeypatch.setattr("carom.io.progress.PATIENCE", 0.0)
 
 
 @pytest.mark.usefixtures("_at_once")
@@ -125,7 +125,7 @@ def test_a_table_with_losses_counts_its_impacts(monkeypatch, capsys):
         return genuine(psi, *known)
 
     monkeypatch.setattr(panels, "lossy_rebounds", counted)
-    monkeypatch.setattr("carom.progress.place", lambda progress: Place.TEXT)
+    monkeypatch.setattr("carom.io.progress.place", lambda progress: Place.TEXT)
     carom.ReboundLaw(1.0, normal=carom.KelvinVoigt(restitution=0.8))
     shown = capsys.readouterr().err
     assert "table of rebounds" in shown

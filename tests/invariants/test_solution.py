@@ -1,8 +1,7 @@
 """What holds in every impact at every time: energy, Coulomb's bound, symmetry, one memory."""
 
 import numpy as np
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 import carom
 

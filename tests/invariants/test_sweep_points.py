@@ -9,10 +9,10 @@ import pytest
 
 import carom
 from carom import InputError
-from carom.cases import motion_of, pair_of
-from carom.results import labelled_dataset
+from carom.bodies.cases import motion_of, pair_of
+from carom.io.labels import labelled_dataset
 from carom.sweeps.designs import Grid, LatinHypercube, Table
-from carom.sweeps.evaluation import NOT_RUN, PointStatus, Problem
+from carom.sweeps.problem import NOT_RUN, PointStatus, Problem
 
 STUFF = {"young": 2e11, "poisson": 0.3, "density": 7800}
 PAIRS = {  # the second body, and the inputs that belong to it
@@ -89,7 +89,7 @@ def test_a_block_is_what_single_impacts_are(kind):
 
 def test_everything_that_can_be_asked_for():
     """All results and quantities of the pair, of points given by components of the velocity."""
-    from carom.histories import PAIR, RESULTS
+    from carom.impacts.history import PAIR, RESULTS
 
     axes = {"normal_speed": [0.5, 2.0], "tangential_speed": [-1.0, 0.0], "friction": [0.0, 0.3]}
     case = {"spin": 10.0, "first": BALL["first"], "second": {"material": "glass"}}

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.storage import read_store
+from carom.io.files import read_store
 from carom.sweeps import sweep
 from carom.sweeps.designs import Grid
 
@@ -34,8 +34,8 @@ import numpy as np
 import carom
 from carom.sweeps import sweep
 from carom.sweeps.designs import Grid
-from carom.storage import read_store
-from carom.sweeps.evaluation import Problem
+from carom.io.files import read_store
+from carom.sweeps.problem import Problem
 
 path, case, axes = sys.argv[1], *map(json.loads, sys.argv[2:4])
 log = os.open(path + ".log", os.O_WRONLY | os.O_APPEND | os.O_CREAT)

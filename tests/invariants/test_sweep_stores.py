@@ -12,12 +12,12 @@ import pytest
 import xarray as xr
 import zarr
 
-from carom.quantities import InputError
+from carom.quantities.units import InputError
 from carom.sweeps import sweep
 from carom.sweeps.blocks import boxes, chunk_shape, points
-from carom.sweeps.chunks import codecs, write_chunk
 from carom.sweeps.designs import Grid, LatinHypercube, Table
-from carom.sweeps.evaluation import Problem
+from carom.sweeps.problem import Problem
+from carom.sweeps.stores import codecs, write_chunk
 
 CASE = {
     "first": {"radius": "5 mm", "material": "steel"},
@@ -113,7 +113,7 @@ def test_killed_before_or_after_any_of_its_files_it_ends_in_the_same_bits(tmp_pa
     for instant in range(2 * blocks * files_of_a_block):
         path = tmp_path / f"{instant}.zarr"
         with monkeypatch.context() as doomed:
-            doomed.setattr("carom.sweeps.chunks.os.replace", killed_at(instant))
+            doomed.setattr("carom.sweeps.stores.os.replace", killed_at(instant))
             with pytest.raises(Killed):
                 sweep(CASE, GRID, outputs=outputs, store=path)
         with monkeypatch.context() as counted:

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from carom.cases import pair_of
+from carom.bodies.cases import pair_of
 from carom.verify.pack.frozen import frozen_files
 from carom.verify.pack.references import case_of
 from carom.verify.pack.tables import Table, read_table

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import carom
-from carom import datasets
-from carom.cases import pair_of
-from carom.observables import BEFORE, OBSERVABLES, convert
-from carom.readings import in_units, others, read_table, with_errors
+from carom.bodies.cases import pair_of
+from carom.io.columns import in_units, others, read_table, with_errors
+from carom.measurements import datasets
+from carom.measurements.observables import BEFORE, OBSERVABLES, convert
 
 KHARAZ = ("kharaz2001", "kharaz2001_kratos", "kharaz2001_mfix")
 TOLD = ("title", "references", "doi", "digitised", "bodies", "case", "definitions", "signs")

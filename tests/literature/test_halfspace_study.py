@@ -15,7 +15,7 @@ import pytest
 import carom
 from carom.halfspace.compliance import Materials
 from carom.halfspace.solution import Resolution, solve
-from carom.validity import rebound_error
+from carom.impacts.validity import rebound_error
 
 TABLE = Path(__file__).parents[2] / "docs" / "halfspace_study.csv"
 NUMBERS = ("kappa", "beta", "friction", "chi", "psi_1", "psi_2")

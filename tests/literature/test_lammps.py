@@ -15,8 +15,7 @@ import pytest
 
 import carom
 from carom.verify.engines.experiments import Experiment, psi_out
-from carom.verify.engines.lammps import Lammps
-from carom.verify.engines.lammps_input import INPUT
+from carom.verify.engines.lammps import INPUT, Lammps
 from carom.verify.engines.lammps_unittest import unit_test_yaml
 from carom.verify.engines.running import run
 

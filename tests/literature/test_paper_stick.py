@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 from scipy.special import hyp2f1
 
-from carom.dimensionless.stick import Stick, transition_speed
+from carom.dimensionless.twins.stick import Stick, transition_speed
 
 CHI_N = [((11 + 20 * n) ** 2 - 1) / 240 for n in range(6)]  # 1/2, 4, 65/6, 21, ...
 SLIDING = [(1.05, 0.6), (1.5, 1.44), (2.8, 1.44), (5.0, 4.0), (12.0, 10.0), (3.0, 60.0)]

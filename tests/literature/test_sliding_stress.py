@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from carom.dimensionless.extremes import SURFACE, largest, principal_stresses, von_mises
-from carom.dimensionless.profile import flat, stacked
-from carom.dimensionless.subsurface import stresses
+from carom.dimensionless.fields.extremes import SURFACE, largest, principal_stresses, von_mises
+from carom.dimensionless.fields.profile import flat, stacked
+from carom.dimensionless.fields.subsurface import stresses
 
 SLIDING = stacked([1.0], [flat(0.0, 1.0, 1.0, 0.0)])
 RATIOS = pytest.mark.parametrize("poisson", [0.0, 0.25, 0.3, 0.45])

@@ -4,7 +4,7 @@ import sys
 
 import typer
 
-from carom.cli import interpreting
+from carom.cli import cases as interpreting
 from carom.cli.curve import curve_command
 from carom.cli.explore import explore_command
 from carom.cli.fit import fit_command
@@ -12,7 +12,7 @@ from carom.cli.impact import impact_command
 from carom.cli.materials import materials_command
 from carom.cli.sweep import sweep_command
 from carom.cli.verify import app as verify_app
-from carom.quantities import InputError
+from carom.quantities.units import InputError
 
 app = typer.Typer(
     name="carom",
@@ -34,7 +34,7 @@ app.add_typer(verify_app)
 @app.callback(invoke_without_command=True)
 def _common(version: bool = typer.Option(False, "--version", help="Print the version.")) -> None:
     if version:
-        from carom.results import carom_version
+        from carom.io.labels import carom_version
 
         typer.echo(carom_version())
         raise typer.Exit

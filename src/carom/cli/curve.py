@@ -8,7 +8,7 @@ import typer
 if TYPE_CHECKING:
     import xarray as xr
 
-    from carom.normals import KelvinVoigt
+    from carom.bodies.losses import KelvinVoigt
 
 ROWS = 17  # of the printed table
 HEADERS = (".h",)
@@ -50,9 +50,9 @@ def curve_command(
         return
     import numpy as np
 
-    from carom.curves import curve
-    from carom.quantities import finite, positive, refusal
-    from carom.storage import FIGURES, TABLES, checked_output, save
+    from carom.impacts.curves import curve
+    from carom.io.files import FIGURES, TABLES, checked_output, save
+    from carom.quantities.units import finite, positive, refusal
 
     for path, endings in ((plot, FIGURES), (output, TABLES)):
         if path is not None:
@@ -76,7 +76,7 @@ def curve_command(
 
 
 def _normal(restitution: str | None) -> "KelvinVoigt | None":
-    from carom.normals import KelvinVoigt
+    from carom.bodies.losses import KelvinVoigt
 
     return None if restitution is None else KelvinVoigt(restitution=restitution)
 
@@ -89,10 +89,10 @@ def _export(
     others: dict[str, Any],
 ) -> None:
     """Print or store a header that holds the rebound at each chi."""
+    from carom.io.files import checked_output, replace_whole
     from carom.laws.exact import ReboundLaw
     from carom.laws.header import c_header
-    from carom.quantities import InputError, positive, refusal
-    from carom.storage import checked_output, replace_whole
+    from carom.quantities.units import InputError, positive, refusal
 
     if language != "c":
         raise refusal("export", language, "must be c, a header for C and C++")

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
+    from carom.bodies.pairs import Pair
     from carom.fitting import Fit
-    from carom.pairs import Pair
 
 
 def fit_command(
@@ -66,10 +66,10 @@ def fit_command(
 
     Own data: carom fit rebounds.csv --case ball.toml --fix restitution=0.98 --advice 5
     """
-    from carom.cli.files import refuse_same
+    from carom.cli.cases import refuse_same
     from carom.fitting import fit
-    from carom.quantities import refusal
-    from carom.storage import FIGURES, TABLES, checked_output, save
+    from carom.io.files import FIGURES, TABLES, checked_output, save
+    from carom.quantities.units import refusal
 
     source = _source(data, dataset)
     if about is not None and advice is None:
@@ -105,8 +105,8 @@ def fit_command(
 
 def _source(data: Path | None, dataset: str | None) -> Path:
     """Return the file of the data, or raise InputError."""
-    from carom import datasets
-    from carom.quantities import InputError
+    from carom.measurements import datasets
+    from carom.quantities.units import InputError
 
     if (data is None) == (dataset is None):
         raise InputError(
@@ -117,7 +117,7 @@ def _source(data: Path | None, dataset: str | None) -> Path:
 
 def _pair(case: Path | None) -> "Pair | None":
     """Return the bodies of a case file, whose friction may be left out."""
-    from carom.cases import pair_of, read_case
+    from carom.bodies.cases import pair_of, read_case
     from carom.fitting.problem import START
 
     return None if case is None else pair_of({"friction": START, **read_case(case)})
@@ -125,7 +125,7 @@ def _pair(case: Path | None) -> "Pair | None":
 
 def _fixed(given: list[str]) -> dict[str, Any]:
     """Return the values of texts like "restitution=0.98", or raise InputError."""
-    from carom.quantities import refusal
+    from carom.quantities.units import refusal
 
     for text in given:
         if "=" not in text:
@@ -135,14 +135,14 @@ def _fixed(given: list[str]) -> dict[str, Any]:
 
 
 def _number(text: str) -> float:
-    from carom.quantities import number
+    from carom.quantities.units import number
 
     return number("confidence", text, "1")
 
 
 def _sampled(found: "Fit", target: str, steps: int, seed: int) -> Path:
     """Store samples of the posterior, or a corner plot of them, and return the file."""
-    from carom.storage import FIGURES, save
+    from carom.io.files import FIGURES, save
 
     samples = found.posterior(steps, seed)
     if not samples.attrs["converged"]:

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from carom.glossary import GLOSSARY
+from carom.quantities.glossary import GLOSSARY
 
 if TYPE_CHECKING:
     from carom.cli.cases import Output
-    from carom.courses import Course
-    from carom.halfspace_impacts import BoundaryElements
+    from carom.impacts.boundary_elements import BoundaryElements
+    from carom.impacts.result import Course
 
 
 def _flag(name: str, example: str, of: str = "") -> Any:
@@ -91,9 +91,8 @@ def impact_command(
 
     A case file with figures: carom impact examples/steel_ball.toml --plot hit.png --animate hit.gif
     """
-    from carom.cases import normal_of, read_case
-    from carom.cli.cases import merged, outputs, solve_case
-    from carom.cli.interpreting import interpret
+    from carom.bodies.cases import normal_of, read_case
+    from carom.cli.cases import interpret, merged, outputs, solve_case
 
     flags = {
         "first.radius": radius,
@@ -123,7 +122,7 @@ def impact_command(
         interpret()
     _check_outputs(files, elastic=normal_of(content) is None)
     solver = _method(method, elements, steps)
-    from carom.reports import impact_record
+    from carom.impacts.report import impact_record
 
     hit = solve_case(content, solver)
     stored = _store(hit, files)
@@ -133,7 +132,7 @@ def impact_command(
 
 
 def _method(name: str, elements: int | None, steps: int | None) -> "str | BoundaryElements":
-    from carom.quantities import refusal
+    from carom.quantities.units import refusal
 
     if name not in METHODS:
         raise refusal("method", name, f"must be {' or '.join(METHODS)}")
@@ -141,7 +140,7 @@ def _method(name: str, elements: int | None, steps: int | None) -> "str | Bounda
     given = {key: value for key, value in asked.items() if value is not None}
     if not given:
         return name
-    from carom.halfspace_impacts import BoundaryElements
+    from carom.impacts.boundary_elements import BoundaryElements
 
     if name != "halfspace":
         key, value = next(iter(given.items()))
@@ -150,8 +149,8 @@ def _method(name: str, elements: int | None, steps: int | None) -> "str | Bounda
 
 
 def _check_outputs(files: "Output", *, elastic: bool) -> None:
-    from carom.quantities import refusal
-    from carom.storage import FIGURES, TABLES, checked_output
+    from carom.io.files import FIGURES, TABLES, checked_output
+    from carom.quantities.units import refusal
 
     for path, endings in ((files.plot, FIGURES), (files.data, TABLES)):
         if path is not None:
@@ -168,7 +167,7 @@ def _check_outputs(files: "Output", *, elastic: bool) -> None:
 def _store(hit: "Course", files: "Output") -> list[Path]:
     stored = []
     if files.data is not None:
-        from carom.storage import save
+        from carom.io.files import save
 
         stored.append(save(hit.to_dataset(), files.data))
     if files.plot is not None:

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from carom.bodies import VALUES
+from carom.bodies.materials import VALUES
 
 
 def materials_command(
@@ -16,7 +16,7 @@ def materials_command(
 
     Example: carom materials soda-lime-glass
     """
-    from carom.bodies import material, materials
+    from carom.bodies.materials import material, materials
 
     names = list(materials()) if name is None else [str(material(name).name)]
     records = {key: _record(key) for key in names}
@@ -29,7 +29,7 @@ def materials_command(
 
 
 def _record(name: str) -> dict[str, Any]:
-    from carom.bodies import material, material_sources
+    from carom.bodies.materials import material, material_sources
 
     stuff = material(name)
     values = {key: getattr(stuff, key) for key in VALUES}
@@ -49,7 +49,7 @@ def _list(records: dict[str, dict[str, Any]]) -> str:
 
 
 def _details(records: dict[str, dict[str, Any]]) -> str:
-    from carom.glossary import GLOSSARY
+    from carom.quantities.glossary import GLOSSARY
 
     lines = []
     for name, record in records.items():

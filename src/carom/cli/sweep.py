@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from carom.glossary import GLOSSARY
+from carom.quantities.glossary import GLOSSARY
 
 if TYPE_CHECKING:
-    from carom.cases import Case
+    from carom.bodies.cases import Case
     from carom.sweeps.summaries import Summary
 
 
@@ -41,8 +41,8 @@ def sweep_command(
 
     One that may be killed: carom sweep examples/sweep.toml --store sweep.zarr --resume
     """
-    from carom.cases import read_case
-    from carom.storage import TABLES, checked_output, save
+    from carom.bodies.cases import read_case
+    from carom.io.files import TABLES, checked_output, save
     from carom.sweeps import sweep
     from carom.sweeps.plans import plan
     from carom.sweeps.summaries import summary
@@ -76,7 +76,7 @@ def sweep_command(
 def _file(content: "Case") -> str | None:
     """Return the file that the case asks for; figures are of one impact."""
     from carom.cli.cases import outputs
-    from carom.quantities import refusal
+    from carom.quantities.units import refusal
 
     files = outputs(content)
     for name in ("plot", "animation"):

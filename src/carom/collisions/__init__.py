@@ -8,15 +8,23 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.bodies import Sphere
+from carom.bodies.pairs import Pair
+from carom.bodies.shapes import Sphere
 from carom.collisions.compiled import Motions, collide_all
 from carom.collisions.portable import collide_arrays
-from carom.collisions.reading import NAMES, common_shape, is_foreign, vectors
-from carom.collisions.records import Collisions, CollisionStatus, Inertia, inertia_of
+from carom.collisions.records import (
+    NAMES,
+    Collisions,
+    CollisionStatus,
+    Inertia,
+    common_shape,
+    inertia_of,
+    is_foreign,
+    vectors,
+)
 from carom.laws.exact import law_of
 from carom.laws.rules import Rule
-from carom.pairs import Pair
-from carom.quantities import counted, refusal
+from carom.quantities.units import counted, refusal
 
 __all__ = ["CollisionLaw", "CollisionStatus", "Collisions", "collide"]
 

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.collisions.records import SKEW, CollisionStatus, Inertia
-from carom.dimensionless._jit import kernel
-from carom.dimensionless.blocks import available_cores
+from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.threads import available_cores
 from carom.laws.rules import LARGEST, Rule, one_plus_beta
+from carom.quantities.arrays import Array
 
 Flat = NDArray[np.floating]  # x, y, z of one pair after the other
-Array = NDArray[np.float64]
 
 CHUNK = 256  # pairs whose numbers stay in the nearest cache
 BLOCK = 65536  # pairs that a thread takes at once

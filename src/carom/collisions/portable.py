@@ -9,11 +9,20 @@ from typing import Any, NamedTuple
 import array_api_compat
 import numpy as np
 
-from carom.collisions.reading import ALLOWED, NAMES, common_shape, is_foreign, vectors
-from carom.collisions.records import SKEW, Collisions, CollisionStatus, Inertia
+from carom.collisions.records import (
+    ALLOWED,
+    NAMES,
+    SKEW,
+    Collisions,
+    CollisionStatus,
+    Inertia,
+    common_shape,
+    is_foreign,
+    vectors,
+)
 from carom.laws.portable import constants, floating, part_lost
 from carom.laws.rules import Rule
-from carom.quantities import InputError, refusal
+from carom.quantities.units import InputError, refusal
 
 
 class Approach(NamedTuple):

@@ -9,12 +9,11 @@ from typing import Any, Literal, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from carom.dimensionless.elastic import solved
+from carom.dimensionless.elastic.batch import solved
+from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.normal import NormalLoss
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.phases import Status
-
-Array = NDArray[np.float64]
+from carom.dimensionless.numerics.arrays import Array
 
 
 @overload

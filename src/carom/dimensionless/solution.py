@@ -5,28 +5,22 @@ from operator import index
 from typing import ClassVar, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from carom.dimensionless import dense, hertz, slip, surface
-from carom.dimensionless.annuli import Memory, memory_at
-from carom.dimensionless.elastic import LINEAR, TOLERANCE
+from carom.dimensionless.elastic import dense_output as dense, slip
+from carom.dimensionless.elastic.annuli import Memory, memory_at
+from carom.dimensionless.elastic.batch import LINEAR, TOLERANCE
+from carom.dimensionless.elastic.motion import PSI
+from carom.dimensionless.elastic.phases import Cause, Kind, Status, new_work, run_phases
+from carom.dimensionless.elastic.record import CAUSE, KIND, KIND_SIGN, Record, new_record, trimmed
+from carom.dimensionless.fields import surface
 from carom.dimensionless.lossy.normal import NormalLoss
 from carom.dimensionless.lossy.rebounds import is_elastic
 from carom.dimensionless.lossy.solution import LossySolution, solve_with_losses
-from carom.dimensionless.motion import PSI
-from carom.dimensionless.phases import Cause, Kind, Status, new_work, run_phases
+from carom.dimensionless.numerics import hertz
+from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.rebounds import refused
-from carom.dimensionless.record import (
-    CAUSE,
-    KIND,
-    KIND_SIGN,
-    Record,
-    new_record,
-    trimmed,
-)
 from carom.dimensionless.states import KIND_NAMES, History, Phase, SlipAngle, now_at, times_within
-
-Array = NDArray[np.float64]
 
 CAUSE_NAMES = {
     Cause.EDGE_AT_LIMIT: "edge reaches friction limit",

@@ -4,11 +4,10 @@ from dataclasses import dataclass, fields
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from carom.dimensionless.phases import Kind
-
-Array = NDArray[np.float64]
+from carom.dimensionless.elastic.phases import Kind
+from carom.dimensionless.numerics.arrays import Array
 
 KIND_NAMES = {Kind.STICK: "stick", Kind.SLIP: "slip", Kind.GROSS_SLIP: "gross slip"}
 

@@ -3,8 +3,7 @@
 import logging
 from typing import Any
 
-from dash import Dash
-from dash import set_props as set_on_page
+from dash import Dash, set_props as set_on_page
 from flask import Flask, Response, abort, request
 from werkzeug.exceptions import HTTPException
 
@@ -12,9 +11,8 @@ from carom.explorer.answers import connect_answers
 from carom.explorer.controls import connect_controls
 from carom.explorer.downloads import add_downloads
 from carom.explorer.layout import page
-from carom.explorer.measures import connect_measures
-from carom.explorer.uploads import LARGEST_UPLOAD
-from carom.quantities import InputError
+from carom.explorer.measures import LARGEST_UPLOAD, connect_measures
+from carom.quantities.units import InputError
 
 LARGEST_REQUEST = 2 * LARGEST_UPLOAD  # a file travels in more characters than it has
 OWN_HOST_ONLY = (

@@ -4,16 +4,15 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.curves import borders
 from carom.explorer.overlays import LawCurve
 from carom.explorer.scenes import OF_CONTACT, Scene
 from carom.explorer.stages import short
+from carom.impacts.curves import borders
 from carom.plots.bands import SIGNS
 from carom.plots.impact import ENERGIES
+from carom.quantities.arrays import Array
 
-Array = NDArray[np.float64]
 Figure = dict[str, Any]
 Laws = Sequence[LawCurve | None]  # None: not solved yet
 

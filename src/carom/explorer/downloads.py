@@ -12,22 +12,71 @@ from urllib.parse import parse_qs
 from flask import Flask, Response, request
 from matplotlib.figure import Figure
 
-from carom.curves import curve
 from carom.dimensionless.solution import solve
-from carom.exact_impacts import Impact
 from carom.explorer.overlays import LawCurve, exact_curve, law_curves
 from carom.explorer.scenes import TIMES, Scene, impact_of, scene_of
-from carom.explorer.scripts import script
 from carom.explorer.views import View
+from carom.impacts.curves import curve
+from carom.impacts.exact import Impact
+from carom.io.files import save
+from carom.io.labels import labelled_dataset
 from carom.plots import plot_curve, plot_impact, plot_patch, save_figure
 from carom.plots.style import DASHES, LINES, MM, VERMILION, legend_above, styled
-from carom.quantities import InputError, refusal
-from carom.results import labelled_dataset
-from carom.storage import save
+from carom.quantities.units import InputError, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
 
+BODIES = """\
+import numpy as np
+
+import carom
+
+pair = carom.Pair({first}, {second}, friction={friction!r})
+hit = carom.impact(pair, speed={speed!r}, angle="{angle!r} deg", spin={spin!r})
+print(hit.psi_in, hit.psi_out, hit.rebound_angle, hit.spin_out)
+carom.save(hit.history(201), "history.csv")  # or .nc
+hit.plot("history.png")
+patch = hit.fields({time!r} * hit.duration)
+carom.plots.save_figure(carom.plots.plot_patch(patch), "patch.png")
+"""
+CURVE = """\
+most = max(4.5 * {chi}, 1.15 * abs({psi}))  # all regimes, and this impact
+psi = np.linspace(0.0, most, 241) * np.copysign(1.0, {psi})
+figure = carom.plots.plot_curve(carom.curve({chi}, np.sort(psi)))
+axis = figure.axes[0]
+shown = axis.get_legend().legend_handles
+shown += axis.plot({psi}, {out}, "o", label="this impact")
+"""
+SAVED = """\
+axis.legend(handles=shown)
+carom.plots.save_figure(figure, "curve.png")
+"""
+NUMBERS = """\
+import numpy as np
+
+import carom
+
+impact = carom.solve({psi!r}, {chi!r})
+print(impact.psi_out, impact.phases)
+history = impact.history(201)  # time, psi, force, radii, energies as arrays
+"""
+FREE = """\
+psi = np.linspace(0.0, 4.5 * {chi}, 241)  # all regimes; without friction there is no psi_1
+figure = carom.plots.plot_curve(carom.curve({chi}, psi))
+axis = figure.axes[0]
+shown = axis.get_legend().legend_handles
+"""
+LAWS = """\
+laws = {{entry.label: entry.law for entry in carom.verify.CATALOGUE}}
+for label in {labels!r}:
+    print(label, laws[label].rebound({psi}, {chi}, kappa={kappa}))
+    shown += axis.plot(psi, laws[label].rebound(psi, {chi}, kappa={kappa}), "--", label=label)
+"""
+DATA = """\
+found = carom.fit(carom.datasets.load({name!r}))  # pip install 'carom[fit]'
+print(found)
+"""
 KINDS = MappingProxyType(
     {
         ".csv": "text/csv; charset=utf-8",
@@ -50,10 +99,41 @@ MEANINGS = {  # of the columns of `Solution.history`
     "normal_stored": "normal elastic energy, in that of the impact",
     "normal_lost": "what the normal motion lost, as above",
 }
-
 ENTRY = 1.8  # mm that a law adds to the legend of the rebound curve
-
 _drawing = Lock()  # matplotlib's settings are those of the whole process
+
+
+def script(view: View, time: float) -> str:
+    """Return the lines for a view, fields at a time that is a share of the duration."""
+    names = {"psi": "hit.psi_in", "out": "hit.psi_out", "chi": "pair.chi", "kappa": "pair.kappa"}
+    rubs = view.in_numbers or view.friction > 0.0
+    if view.in_numbers:
+        names = {"psi": "impact.psi_in", "out": "impact.psi_out", "chi": "impact.chi"}
+        names["kappa"] = "None"
+    parts = [NUMBERS.format(psi=view.psi, chi=view.chi) if view.in_numbers else _bodies(view, time)]
+    parts.append((CURVE if rubs else FREE).format(**names))
+    if view.law:
+        parts.append(LAWS.format(labels=view.law, **names))
+    parts.append(SAVED)
+    if view.data:
+        parts.append(DATA.format(name=view.data))
+    return "".join(parts)
+
+
+def _bodies(view: View, time: float) -> str:
+    kinds = {"half-space": "HalfSpace", "sphere": "Sphere", "cup": "Cup"}
+    first = f'carom.Sphere(radius="{view.radius!r} mm", material={view.material!r})'
+    sized = f'radius="{view.second_radius!r} mm", ' if view.against != "half-space" else ""
+    second = f"carom.{kinds[view.against]}({sized}material={view.second_material!r})"
+    return BODIES.format(
+        first=first,
+        second=second,
+        friction=view.friction,
+        speed=view.speed,
+        angle=view.angle,
+        spin=view.spin,
+        time=min(max(time, 0.0), 1.0),
+    )
 
 
 def add_downloads(server: Flask) -> None:

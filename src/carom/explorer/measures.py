@@ -2,16 +2,85 @@
 
 import json
 import logging
-from typing import Any
+from base64 import b64decode
+from binascii import Error as NotBase64
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
 
-from dash import ClientsideFunction, Dash, Input, Output, State, no_update
+import numpy as np
+from dash import ClientsideFunction, Dash, Input, Output, State, dcc, html, no_update
 
-from carom.explorer.fits import fitted
-from carom.explorer.uploads import LARGEST_UPLOAD, fit_of, fit_of_upload, shown_name
+from carom.explorer.charts import BLUE, CHART, GREY, VERMILION, Figure, axes_of, line
+from carom.explorer.stages import short
 from carom.explorer.views import OF_BODIES, View
-from carom.quantities import InputError
+from carom.fitting import Fit, fit
+from carom.io.tables import read_table
+from carom.measurements import datasets
+from carom.plots.style import prefixed
+from carom.quantities.glossary import GLOSSARY
+from carom.quantities.units import InputError, refusal
 
+if TYPE_CHECKING:
+    import xarray as xr
+
+LINES = {
+    "exact": (BLUE, "solid", 2.2),
+    "Walton": ("#009e73", "dot", 1.4),
+    "rigid Coulomb": (GREY, "dash", 1.4),
+}
 log = logging.getLogger(__name__)
+LARGEST_UPLOAD = 1_000_000  # bytes
+MOST_ROWS = 2000
+LONGEST_NAME = 80
+
+
+def fitted(found: Fit) -> list[Any]:
+    """Return what the page shows of a fit."""
+    dataset = found.to_dataset()
+    return [
+        html.Pre(str(found), className="carom-code", tabIndex="0"),
+        *(
+            dcc.Graph(
+                figure=_chart(dataset.sel(response=name), str(name)),
+                config=CHART,
+                responsive=True,
+                className="carom-chart",
+            )
+            for name in dataset["response"].values
+        ),
+    ]
+
+
+def _chart(one: "xr.Dataset", name: str) -> Figure:
+    scale, unit = _scale(name, one["measured"].values)
+    along = np.degrees(one["curve_incidence"].values)
+    traces: list[Figure] = [
+        line(along, scale * one["curve_expected"].sel(law=law).values, str(law), *LINES[str(law)])
+        for law in one["law"].values
+    ]
+    traces.append(_points(one, scale))
+    text = name.replace("_", " ") + (f" ({unit})" if unit != "1" else "")
+    return axes_of(traces, "incidence of the contact point (deg)", text)
+
+
+def _points(one: "xr.Dataset", scale: float) -> Figure:
+    error = {"type": "data", "array": short(scale * one["error"].values), "thickness": 1}
+    return {
+        "type": "scatter",
+        "mode": "markers",
+        "name": "measured",
+        "x": short(np.degrees(one["incidence"].values)),
+        "y": short(scale * one["measured"].values),
+        "error_y": error,
+        "marker": {"color": VERMILION, "size": 6},
+        "hovertemplate": "%{y:.4g}",
+    }
+
+
+def _scale(name: str, values: Any) -> tuple[float, str]:
+    unit = GLOSSARY[name].unit if name in GLOSSARY else "1"
+    return (float(np.degrees(1.0)), "deg") if unit == "rad" else prefixed(values, unit)
 
 
 def connect_measures(app: Dash) -> None:
@@ -65,3 +134,52 @@ def connect_measures(app: Dash) -> None:
         except Exception as error:  # not a word of the page's own notice, which is the impact's
             log.exception("fit")
             return [None, f"failed, {type(error).__name__}"]
+
+
+def fit_of(name: str) -> Fit:
+    """Return the fit of measured rebounds that come along."""
+    return fit(datasets.path(name))
+
+
+def fit_of_upload(view: View, contents: str, name: str) -> Fit:
+    """Return the fit of a file as the browser sends it; bodies of the view unless it tells them.
+
+    Raises InputError if it is too large, no table, or cannot be fitted.
+    """
+    text = _decoded(contents)
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "upload.csv"
+        file.write_bytes(text)
+        try:
+            return _fitted(view, file)
+        except InputError as error:
+            raise InputError(str(error).replace(str(file), shown_name(name))) from None
+
+
+def shown_name(name: str) -> str:
+    """Return the name of a user's file, fit to be shown."""
+    last = str(name).replace("\\", "/").rpartition("/")[2]
+    return "".join(letter for letter in last if letter.isprintable())[:LONGEST_NAME] or "file"
+
+
+def _decoded(contents: str) -> bytes:
+    if not isinstance(contents, str):
+        raise InputError("file: it did not arrive; choose it again")
+    try:
+        found = b64decode(contents.partition(",")[2], validate=True)
+    except NotBase64:
+        raise InputError("file: it did not arrive whole; choose it again") from None
+    if len(found) > LARGEST_UPLOAD:
+        allowed = f"must be at most {LARGEST_UPLOAD} bytes; leave out what is not needed"
+        raise refusal("file", f"{len(found)} bytes", allowed)
+    return found
+
+
+def _fitted(view: View, file: Path) -> Fit:
+    table = read_table(file)
+    if len(table.rows) > MOST_ROWS:
+        allowed = f"must be at most {MOST_ROWS} rows; use carom fit for more"
+        raise refusal("file", f"{len(table.rows)} rows", allowed)
+    if table.case is None and view.in_numbers:
+        raise InputError("bodies: the file does not tell them; choose bodies on the left")
+    return fit(file, pair=view.pair if table.case is None else None)

@@ -6,16 +6,14 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.dimensionless.blocks import available_cores
-from carom.dimensionless.hertz import DURATION
+from carom.dimensionless.numerics.hertz import DURATION
+from carom.dimensionless.numerics.threads import available_cores
 from carom.dimensionless.rebounds import rebound
 from carom.explorer.scenes import Scene
 from carom.laws.dem.base import ContactLaw, Law
+from carom.quantities.arrays import Array
 from carom.verify.catalogue import named
-
-Array = NDArray[np.float64]
 
 POINTS, POINTS_OF_LAWS = 241, 61
 BEYOND = 1.15  # of the present psi_1, that is shown

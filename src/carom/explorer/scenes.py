@@ -7,20 +7,18 @@ from math import isinf, isnan
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from carom.dimensionless.solution import Solution, solve
 from carom.dimensionless.states import Phase
-from carom.exact_impacts import Impact
 from carom.explorer.stages import Stage, short, stage_of_bodies, stage_of_numbers
 from carom.explorer.views import View
-from carom.glossary import GLOSSARY
-from carom.impacts import impact
+from carom.impacts.exact import Impact
+from carom.impacts.solve import impact
 from carom.laws.dem.base import SOLID
 from carom.plots.impact import ENERGIES
 from carom.plots.style import prefixed
-
-Array = NDArray[np.float64]
+from carom.quantities.arrays import Array
+from carom.quantities.glossary import GLOSSARY
 
 TIMES = 201  # of the histories
 KEPT = 16  # scenes that are remembered

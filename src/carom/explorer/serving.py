@@ -3,10 +3,17 @@
 import socket
 from dataclasses import dataclass, field
 from errno import EADDRNOTAVAIL
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from carom.extras import extra
-from carom.quantities import InputError, refusal
+from werkzeug.serving import WSGIRequestHandler
+
+from carom.explorer.measures import fit_of
+from carom.explorer.overlays import exact_curve, law_curves
+from carom.explorer.scenes import impact_of, scene_of
+from carom.explorer.views import LAWS, NUMBERS, View
+from carom.io.extras import extra
+from carom.measurements import datasets
+from carom.quantities.units import InputError, refusal
 
 if TYPE_CHECKING:
     from werkzeug.serving import BaseWSGIServer
@@ -75,8 +82,7 @@ def explorer(*, host: str = LOOPBACK, port: int = PORT) -> Explorer:
         from werkzeug.serving import make_server
 
         from carom.explorer.app import new_app
-        from carom.explorer.requests import Quiet
-        from carom.explorer.warming import warm_up
+        from carom.explorer.serving import Quiet, warm_up
 
         warm_up()
         server = make_server(
@@ -110,3 +116,27 @@ def _bound(host: str, port: int) -> socket.socket:
             "take another, or 0 for any that is free"
         ) from None
     return found
+
+
+class Quiet(WSGIRequestHandler):
+    """A handler that keeps connections open and tells of errors only."""
+
+    protocol_version = "HTTP/1.1"
+    timeout = 60  # seconds that an idle connection is kept
+
+    def log_request(self, code: Any = "-", size: Any = "-") -> None:
+        """Say nothing."""
+
+    def log(self, type: str, message: str, *args: Any) -> None:
+        """Say nothing of a browser that went away."""
+
+
+def warm_up() -> None:
+    """Answer once what can be asked: bodies, numbers, laws, fields, a fit."""
+    for view in (View(law=LAWS), View(given=NUMBERS)):
+        scene = scene_of(view)
+        exact_curve(scene)
+        law_curves(scene, view.law)
+    hit = impact_of(View())
+    hit.fields(0.5 * hit.duration)
+    fit_of(datasets.names()[0])

@@ -5,16 +5,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.bodies import Cup, Sphere
-from carom.curves import SOLID_SPHERE
+from carom.bodies.shapes import Cup, Sphere
 from carom.dimensionless.solution import Solution
 from carom.dimensionless.states import History
-from carom.exact_impacts import Impact
+from carom.impacts.curves import SOLID_SPHERE
+from carom.impacts.exact import Impact
 from carom.laws.dem.base import SOLID
-
-Array = NDArray[np.float64]
+from carom.quantities.arrays import Array
 
 BEFORE = AFTER = 0.6  # of the contact's duration that is shown besides
 DEEPEST, WIDEST = 0.3, 6.0  # radii that the bodies may approach, and travel sideways

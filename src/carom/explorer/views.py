@@ -8,10 +8,11 @@ from types import MappingProxyType
 from typing import Any, NamedTuple, Self
 from urllib.parse import parse_qs, urlencode
 
-from carom.bodies import Cup, HalfSpace, Sphere, materials
-from carom.datasets import names as dataset_names
-from carom.pairs import Counterbody, Pair
-from carom.quantities import InputError, nearest, refusal
+from carom.bodies.materials import materials
+from carom.bodies.pairs import Counterbody, Pair
+from carom.bodies.shapes import Cup, HalfSpace, Sphere
+from carom.measurements.datasets import names as dataset_names
+from carom.quantities.units import InputError, nearest, refusal
 from carom.verify.catalogue import CATALOGUE
 
 BODIES, NUMBERS = "bodies", "numbers"

@@ -3,16 +3,16 @@
 from collections.abc import Collection, Mapping
 from typing import Any
 
+from carom.bodies.pairs import Pair
 from carom.fitting.assembly import assembled
 from carom.fitting.errors import SoftL1, Squares
 from carom.fitting.estimates import Estimate
-from carom.fitting.identifiability import settle
+from carom.fitting.intervals import settle
 from carom.fitting.laws import EXACT
 from carom.fitting.model import Model
 from carom.fitting.options import check_count, checked_confidence, read_options
 from carom.fitting.problem import read_problem
-from carom.fitting.record import Fit
-from carom.pairs import Pair
+from carom.fitting.result import Fit
 
 __all__ = ["Estimate", "Fit", "fit"]
 

@@ -6,21 +6,20 @@ from math import ceil, inf, log10
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.curves import REGIMES
-from carom.fitting.descent import jacobian
 from carom.fitting.errors import weights_at
 from carom.fitting.estimation import Best
-from carom.fitting.identifiability import row_regimes
+from carom.fitting.intervals import row_regimes
+from carom.fitting.least_squares import jacobian
 from carom.fitting.model import Model
 from carom.fitting.problem import Problem
-from carom.quantities import InputError, counted, nearest
+from carom.impacts.curves import REGIMES
+from carom.quantities.arrays import Array
+from carom.quantities.units import InputError, counted, nearest
 
 if TYPE_CHECKING:
-    from carom.fitting.record import Fit
+    from carom.fitting.result import Fit
 
-Array = NDArray[np.float64]
 
 DEGREES = np.arange(1.0, 86.0)  # incidences that are considered
 MOST = 10_000  # further measurements that are worth a thought

@@ -6,15 +6,13 @@ from math import nan
 
 import numpy as np
 
-from carom.curves import REGIMES
 from carom.fitting.estimates import LIMITS, Estimate
 from carom.fitting.estimation import Best, estimate
-from carom.fitting.identifiability import Settled, reason, row_regimes
-from carom.fitting.intervals import Profile, profile
+from carom.fitting.intervals import Profile, Settled, profile, reason, rise_of, row_regimes
 from carom.fitting.laws import half_ratio
-from carom.fitting.quantiles import rise_of
-from carom.fitting.record import Fit
 from carom.fitting.report import notes
+from carom.fitting.result import Fit
+from carom.impacts.curves import REGIMES
 
 TRIES = 4  # better fits that the search for the ends may meet
 PRODUCT = {"friction", "restitution"}

@@ -6,14 +6,11 @@ from math import isfinite, nan
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from carom.fitting.estimation import Best
-from carom.fitting.identifiability import settle
+from carom.fitting.intervals import settle
 from carom.fitting.laws import EXACT, RIVALS, Law
 from carom.fitting.model import Model
-
-Array = NDArray[np.float64]
 
 START = {"tangential_restitution": 0.4}  # of a solid sphere that sticks, about
 APART = 2.0  # difference of the criterion from which laws are told apart (Burnham & Anderson 2002)

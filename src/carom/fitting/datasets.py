@@ -3,26 +3,23 @@
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.curves import REGIMES
-from carom.fitting.curves import borders
-from carom.fitting.descent import jacobian
 from carom.fitting.estimation import Best
-from carom.fitting.identifiability import row_regimes
-from carom.fitting.laws import half_ratio
+from carom.fitting.interpolation import borders
+from carom.fitting.intervals import rise_of, row_regimes
+from carom.fitting.laws import Motion, half_ratio, predicted
+from carom.fitting.least_squares import jacobian
 from carom.fitting.model import Model
-from carom.fitting.prediction import Motion, predicted
 from carom.fitting.problem import Problem
-from carom.fitting.quantiles import rise_of
-from carom.results import flags, labelled_dataset
+from carom.impacts.curves import REGIMES
+from carom.io.labels import flags, labelled_dataset
+from carom.quantities.arrays import Array
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from carom.fitting.record import Fit
+    from carom.fitting.result import Fit
 
-Array = NDArray[np.float64]
 
 SMOOTH = 241  # points of a curve
 BEYOND = np.radians(4.0)  # how far curves go beyond the data

@@ -3,13 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.fitting.laws import Law, Values
-from carom.fitting.prediction import predicted
+from carom.fitting.laws import Law, Values, predicted
 from carom.fitting.problem import Problem
-
-Array = NDArray[np.float64]
+from carom.quantities.arrays import Array
 
 
 @dataclass(frozen=True)

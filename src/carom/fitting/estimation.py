@@ -8,20 +8,57 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.extras import extra
-from carom.fitting.descent import Minimum, descend
 from carom.fitting.errors import NORMAL, Loss, Weights, gaussian_mean, weights_at
-from carom.fitting.information import Information, information
+from carom.fitting.least_squares import Minimum, descend, jacobian
 from carom.fitting.model import Model
 from carom.fitting.problem import Problem
+from carom.io.extras import extra
+from carom.quantities.arrays import Array
 
-Array = NDArray[np.float64]
-
+WEAK = 0.3  # standard deviations by which a coordinate changes the values, too few to tell
 STARTS = 6  # starting points that are followed to the end
 TURNS = 8  # times that errors are estimated and the fit is made anew
 SURE = 3.09  # standard deviations beyond which errors that were given are called too small
 RESOLVED = 1e-4  # of the largest measured value: errors below are those of the curves
 FINE = {"friction": 25, "kappa": 12, "tangential_restitution": 9, "restitution": 4}
+
+
+@dataclass(frozen=True, eq=False)
+class Information:
+    """Derivatives of residuals, of shape (rows, responses, parameters), in standard deviations."""
+
+    slopes: Array
+
+    @cached_property
+    def matrix(self) -> Array:
+        """Fisher's information, of shape (parameters, parameters)."""
+        return np.asarray(np.einsum("rjp,rjq->pq", self.slopes, self.slopes))
+
+    @cached_property
+    def covariance(self) -> Array:
+        """Covariance of the coordinates; one that is not told is uncertain by 1/WEAK."""
+        count = len(self.matrix)
+        return np.asarray(np.linalg.inv(self.matrix + WEAK**2 * 1e-2 * np.eye(count)))
+
+    @property
+    def used(self) -> Array:
+        """How many of the parameters each response determines."""
+        taken = np.einsum("rjp,pq,rjq->j", self.slopes, self.covariance, self.slopes)
+        return np.asarray(taken)
+
+    @property
+    def shares(self) -> Array:
+        """Variances of the coordinates from each response, of shape (parameters, responses)."""
+        gains = np.einsum("pq,rjq->prj", self.covariance, self.slopes)
+        return np.asarray(np.square(gains).sum(axis=1))
+
+
+def information(model: Model, at: Array, weights: Weights, loss: Loss) -> Information:
+    """Return what the values tell at coordinates of shape (parameters,)."""
+    residuals = model.residuals(weights, loss)
+    start = at[np.newaxis]
+    slopes = jacobian(residuals, start, residuals(start), model.bounds)[0]
+    return Information(slopes.reshape(*model.problem.measured.shape, -1))
 
 
 @dataclass(frozen=True, eq=False)

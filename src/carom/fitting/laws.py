@@ -1,17 +1,18 @@
 """What is fitted: the exact rebound, and the rival laws of rigid spheres."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.fitting.curves import LEAST_CHI, LEAST_E, MOST_CHI, psi_out
-from carom.pairs import Pair
+from carom.bodies.kinematics import Rebound, Tangential
+from carom.bodies.pairs import Pair
+from carom.fitting.interpolation import LEAST_CHI, LEAST_E, MOST_CHI, psi_out
+from carom.quantities.arrays import Array
 
-Array = NDArray[np.float64]
 Values = Mapping[str, Array]  # of parameters by name, each of shape (batch, 1)
+ROUNDING = 1e-9
 
 
 class Parameter(NamedTuple):
@@ -31,7 +32,6 @@ class Parameter(NamedTuple):
         return np.exp(coordinate) if self.scale is None else coordinate * self.scale
 
 
-ROUNDING = 1e-9
 FRICTION = Parameter("friction", 1e-3, 10.0, None)
 KAPPA = Parameter("kappa", 0.1, 4.0, None)
 RESTITUTION = Parameter("restitution", LEAST_E, 1.0)
@@ -125,3 +125,29 @@ def _limited(
     whole = values["friction"] * (1.0 + values["restitution"]) * normal_speed
     bound = 2.0 * half_ratio(pair) * whole
     return velocity - np.copysign(np.minimum(stuck * np.abs(velocity), bound), velocity)
+
+
+class Motion(NamedTuple):
+    """Motion before the impacts, one a row, in SI units."""
+
+    normal_speed: Array
+    tangential_speed: Array
+    spin: Array
+    spin2: Array
+
+
+def rebounds(law: Law, pair: Pair, motion: Motion, values: Values) -> Rebound:
+    """Return the rebounds from a motion, of shape (batch, rows)."""
+    normal, tangential, spin, spin2 = motion
+    turning = spin + values["spin_offset"]
+    before = Tangential(tangential + 0.0 * turning, turning, spin2)  # type: ignore[arg-type]
+    velocity = np.asarray(before.contact_velocity(pair))
+    after = law.contact_velocity_out(pair, normal, velocity, values)
+    impulse = pair.tangential_mass * (velocity - after)
+    return Rebound(pair, normal, before, values["restitution"] + 0.0 * turning, impulse)
+
+
+def predicted(law: Law, pair: Pair, motion: Motion, values: Values, names: Sequence[str]) -> Array:
+    """Return the observables of these names, of shape (batch, rows, names)."""
+    rebound = rebounds(law, pair, motion, values)
+    return np.stack([getattr(rebound, name) for name in names], axis=-1)

@@ -5,15 +5,12 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.fitting.descent import Bounds, Residuals
 from carom.fitting.errors import Loss, Weights
-from carom.fitting.laws import Law, Parameter, Values, ranged
-from carom.fitting.prediction import predicted
+from carom.fitting.laws import Law, Parameter, Values, predicted, ranged
+from carom.fitting.least_squares import Bounds, Residuals
 from carom.fitting.problem import Problem
-
-Array = NDArray[np.float64]
+from carom.quantities.arrays import Array
 
 OFFSET = "spin_offset"
 

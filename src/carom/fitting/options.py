@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 from carom.fitting.laws import EXACT, KAPPA, half_ratio, ranged
 from carom.fitting.model import OFFSET, offset_parameter
 from carom.fitting.problem import Problem
-from carom.quantities import InputError, nearest, number, refusal
+from carom.quantities.units import InputError, nearest, number, refusal
 
 NAMES = ("friction", "kappa", "chi", "restitution", OFFSET)
 FIRST = ("friction", "kappa", "restitution")  # varied unless something else is said

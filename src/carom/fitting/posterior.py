@@ -3,20 +3,19 @@
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.extras import extra
 from carom.fitting.laws import half_ratio
-from carom.progress import Progress, advancing
-from carom.quantities import counted
-from carom.results import labelled_dataset
+from carom.io.extras import extra
+from carom.io.labels import labelled_dataset
+from carom.io.progress import Progress, advancing
+from carom.quantities.arrays import Array
+from carom.quantities.units import counted
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from carom.fitting.record import Fit
+    from carom.fitting.result import Fit
 
-Array = NDArray[np.float64]
 
 WALKERS = 8  # per parameter
 BURN = 0.25  # part of the steps that is left out

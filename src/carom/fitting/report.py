@@ -5,11 +5,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from carom.fitting.estimation import Best
-from carom.fitting.identifiability import row_regimes
-from carom.fitting.intervals import Profile
+from carom.fitting.intervals import Profile, row_regimes
 
 if TYPE_CHECKING:
-    from carom.fitting.record import Fit
+    from carom.fitting.result import Fit
 
 FAR = 4.0  # standard deviations of an outlier
 COLUMN = 14

@@ -8,8 +8,7 @@ import scipy.fft
 
 from carom.halfspace.compliance import Compliance, Materials
 from carom.halfspace.influence import Field, Mask
-from carom.halfspace.pressure import solve_pressure
-from carom.halfspace.traction import solve_traction
+from carom.halfspace.traction import solve_pressure, solve_traction
 
 EXCHANGES = 60  # between normal and tangential contact of unlike materials
 MARGIN = 1.06  # of the grid over the largest contact

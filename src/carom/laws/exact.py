@@ -9,20 +9,18 @@ from typing import Any, Self
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
-from carom.citations import IMPACT, VISCOUS, bibtex
-from carom.dimensionless import hertz
-from carom.dimensionless.chebyshev import Panels
+from carom.bodies.losses import KelvinVoigt
+from carom.bodies.pairs import Pair
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.numerics import hertz
+from carom.dimensionless.numerics.chebyshev import Panels
+from carom.io.citations import IMPACT, VISCOUS, bibtex
 from carom.laws.panels import borders, elastic_panels, lossy_panels, reach_of
 from carom.laws.portable import applied, lost
 from carom.laws.rules import DEGREE, Rule, frozen
-from carom.normals import KelvinVoigt
-from carom.pairs import Pair
-from carom.quantities import InputError, positive, refusal
-
-Array = NDArray[np.float64]
+from carom.quantities.arrays import Array
+from carom.quantities.units import InputError, positive, refusal
 
 
 @dataclass(frozen=True, eq=False)

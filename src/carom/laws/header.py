@@ -6,9 +6,9 @@ from string import Template
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.io.labels import carom_version
 from carom.laws.exact import ReboundLaw
-from carom.quantities import InputError
-from carom.results import carom_version
+from carom.quantities.units import InputError
 
 HEADER = Template("""\
 /* The exact oblique impact of spheres: psi_2(psi_1), to $error,

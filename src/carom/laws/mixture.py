@@ -5,16 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from carom.dimensionless._jit import kernel
-from carom.dimensionless.elastic import solved
-from carom.dimensionless.patches import Patches, fitted_patches, value_at
+from carom.dimensionless.elastic.batch import solved
+from carom.dimensionless.numerics.chebyshev_2d import Patches, fitted_patches, value_at
+from carom.dimensionless.numerics.jit import kernel
 from carom.dimensionless.rebounds import warn_of_unsolved
-from carom.progress import advancing
-from carom.quantities import InputError, positive, refusal
-
-Array = NDArray[np.float64]
+from carom.io.progress import advancing
+from carom.quantities.arrays import Array
+from carom.quantities.units import InputError, positive, refusal
 
 SMALLEST = 1e-6  # psi_1: below, psi_2/psi_1 is constant
 TOLERANCE = 3e-8  # of the last terms of a series; errors found are a third of the promised 1e-7

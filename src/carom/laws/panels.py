@@ -11,16 +11,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.chebyshev import Panels, fitted
-from carom.dimensionless.elastic import solved
+from carom.bodies.losses import KelvinVoigt
+from carom.dimensionless.elastic.batch import solved
+from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.phases import Status
+from carom.dimensionless.numerics.chebyshev import Panels, fitted
+from carom.io.progress import advancing
 from carom.laws.rules import DEGREE
-from carom.normals import KelvinVoigt
-from carom.progress import advancing
-from carom.quantities import refusal
+from carom.quantities.arrays import Array
+from carom.quantities.units import refusal
 
-Array = NDArray[np.float64]
 Branches = NDArray[np.int64]
 
 SMALLEST, LOSSY_SMALLEST = 1e-6, 1e-3  # psi_1: below, r is that of the first panel

@@ -11,7 +11,7 @@ import array_api_compat
 import numpy as np
 
 from carom.laws.rules import Rule
-from carom.quantities import refusal
+from carom.quantities.units import refusal
 
 ALLOWED = "must be a real number, or an array of them"
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf
 
+from carom.bodies.pairs import Pair
 from carom.laws.rules import Rule, constant_rule
-from carom.pairs import Pair
-from carom.quantities import not_negative, number, refusal
+from carom.quantities.units import not_negative, number, refusal
 
 
 def _check_ratios(law: object, **least: float) -> None:

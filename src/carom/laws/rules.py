@@ -5,9 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless._jit import kernel
-
-Array = NDArray[np.float64]
+from carom.dimensionless.numerics.jit import kernel
+from carom.quantities.arrays import Array
 
 DEGREE = 10  # of a series, even: known to the compiler, which unrolls its sum
 LARGEST = 1e300  # a bound on slopes, so that no infinity times zero occurs

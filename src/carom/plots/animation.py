@@ -15,6 +15,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 from PIL import Image
 
+from carom.io.files import ANIMATIONS, checked_output, replace_whole
+from carom.io.progress import Advance, advancing
 from carom.plots.bands import BANDS
 from carom.plots.impact import FORCES, HISTORY, RADII, forces_panel, phase_handles
 from carom.plots.patch import patch_panel, patch_title
@@ -30,9 +32,7 @@ from carom.plots.style import (
     prefixed,
     scaled,
 )
-from carom.progress import Advance, advancing
-from carom.quantities import InputError, refusal
-from carom.storage import ANIMATIONS, checked_output, replace_whole
+from carom.quantities.units import InputError, refusal
 
 if TYPE_CHECKING:
     import xarray as xr

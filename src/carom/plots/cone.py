@@ -13,7 +13,6 @@ from carom.plots.style import (
     BLUE,
     DASHES,
     VERMILION,
-    Array,
     draws,
     label,
     legend_above,
@@ -21,6 +20,7 @@ from carom.plots.style import (
     scaled,
     span,
 )
+from carom.quantities.arrays import Array
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -8,7 +8,6 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from carom.glossary import GLOSSARY
 from carom.plots.bands import STICK, Band, shade
 from carom.plots.style import (
     BLACK,
@@ -22,6 +21,7 @@ from carom.plots.style import (
     prefixed,
     styled,
 )
+from carom.quantities.glossary import GLOSSARY
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -101,7 +101,7 @@ def plot_corner(samples: "xr.Dataset") -> Figure:
     samples : xarray.Dataset
         What `carom.fit(...).posterior()` returns.
     """
-    from carom.extras import extra
+    from carom.io.extras import extra
 
     corner = extra("corner", "a corner plot", "fit")
     names = _sampled_names(samples)

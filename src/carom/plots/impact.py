@@ -14,7 +14,6 @@ from carom.plots.style import (
     DASHES,
     DOUBLE,
     VERMILION,
-    Array,
     draws,
     label,
     legend_above,
@@ -22,6 +21,7 @@ from carom.plots.style import (
     scaled,
     span,
 )
+from carom.quantities.arrays import Array
 
 if TYPE_CHECKING:
     import xarray as xr

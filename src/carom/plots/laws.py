@@ -27,7 +27,7 @@ from carom.plots.style import (
     span,
     symbol,
 )
-from carom.quantities import refusal
+from carom.quantities.units import refusal
 
 if TYPE_CHECKING:
     import xarray as xr

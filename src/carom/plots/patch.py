@@ -9,18 +9,9 @@ from matplotlib.patches import Annulus, Circle
 from matplotlib.patheffects import withStroke
 
 from carom.plots.bands import moment, slip_band
-from carom.plots.style import (
-    MAP,
-    Array,
-    check_grid,
-    draws,
-    label,
-    new_figure,
-    prefixed,
-    scaled,
-    symbol,
-)
-from carom.quantities import refusal
+from carom.plots.style import MAP, check_grid, draws, label, new_figure, prefixed, scaled, symbol
+from carom.quantities.arrays import Array
+from carom.quantities.units import refusal
 
 if TYPE_CHECKING:
     import xarray as xr

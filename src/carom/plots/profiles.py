@@ -13,7 +13,6 @@ from carom.plots.style import (
     BLUE,
     DASHES,
     VERMILION,
-    Array,
     draws,
     label,
     legend_above,
@@ -22,7 +21,8 @@ from carom.plots.style import (
     scaled,
     span,
 )
-from carom.quantities import InputError
+from carom.quantities.arrays import Array
+from carom.quantities.units import InputError
 
 if TYPE_CHECKING:
     import xarray as xr

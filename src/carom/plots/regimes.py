@@ -19,13 +19,13 @@ from carom.plots.style import (
     DASHES,
     DOUBLE,
     LINES,
-    Array,
     draws,
     label,
     legend_above,
     new_figure,
     span,
 )
+from carom.quantities.arrays import Array
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -131,7 +131,7 @@ def _short(name: str) -> str:
 
 
 @draws(
-    "a map of regimes, what carom.curves.regime_map returns",
+    "a map of regimes, what carom.impacts.curves.regime_map returns",
     *("sequence", "sequence_name", "psi_in", "chi"),
 )
 def plot_regime_map(dataset: "xr.Dataset") -> Figure:
@@ -142,7 +142,7 @@ def plot_regime_map(dataset: "xr.Dataset") -> Figure:
     Parameters
     ----------
     dataset : xarray.Dataset
-        What `carom.curves.regime_map` returns.
+        What `carom.impacts.curves.regime_map` returns.
 
     Returns
     -------

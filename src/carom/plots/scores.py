@@ -18,13 +18,13 @@ from carom.plots.style import (
     DOUBLE,
     LINES,
     VERMILION,
-    Array,
     draws,
     label,
     legend_above,
     new_figure,
     scaled,
 )
+from carom.quantities.arrays import Array
 
 if TYPE_CHECKING:
     import xarray as xr

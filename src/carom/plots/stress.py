@@ -10,8 +10,9 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
 from carom.plots.bands import moment
-from carom.plots.style import MAP, Array, check_grid, draws, label, new_figure, scaled, symbol
-from carom.quantities import InputError, refusal
+from carom.plots.style import MAP, check_grid, draws, label, new_figure, scaled, symbol
+from carom.quantities.arrays import Array
+from carom.quantities.units import InputError, refusal
 
 if TYPE_CHECKING:
     import xarray as xr

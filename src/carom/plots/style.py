@@ -13,13 +13,13 @@ import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from carom.glossary import GLOSSARY
-from carom.quantities import InputError
-from carom.storage import FIGURES, checked_output, replace_whole
+from carom.io.files import FIGURES, checked_output, replace_whole
+from carom.quantities.arrays import Array
+from carom.quantities.glossary import GLOSSARY
+from carom.quantities.units import InputError
 
-Array = NDArray[np.float64]
 P = ParamSpec("P")
 T = TypeVar("T")
 

@@ -8,15 +8,15 @@ from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from carom.quantities import InputError
+from carom.quantities.units import InputError
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from carom.progress import Progress
+    from carom.io.progress import Progress
     from carom.sweeps.blocks import Box, Values
     from carom.sweeps.designs import Design
-    from carom.sweeps.evaluation import Problem
+    from carom.sweeps.problem import Problem
     from carom.sweeps.records import Record
 
 __all__ = ["sweep"]
@@ -82,7 +82,7 @@ def sweep(
     >>> dict(result.sizes), int(result.status.max())
     ({'angle': 2, 'friction': 3}, 0)
     """
-    from carom.sweeps.evaluation import Problem
+    from carom.sweeps.problem import Problem
     from carom.sweeps.schedulers import team
 
     problem = Problem(case, design, outputs)
@@ -96,7 +96,7 @@ def _fill(
     record: Record, total: int, results: Iterable[tuple[Box, Values]], progress: Progress
 ) -> None:
     """Write blocks as they come, and show how far it is."""
-    from carom.progress import advancing
+    from carom.io.progress import advancing
     from carom.sweeps.blocks import points
 
     left = sum(points(box) for box in record.todo)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.cases import (
+from carom.bodies.cases import (
     KINDS,
     LOSSES,
     MOTION,
@@ -19,7 +19,7 @@ from carom.cases import (
     pair_of,
     read_loss,
 )
-from carom.quantities import InputError, not_negative
+from carom.quantities.units import InputError, not_negative
 from carom.sweeps.designs import Design
 from carom.sweeps.inputs import BODIES, ELASTIC, STRENGTH, Choice, leaf, refuse_contradictions
 

@@ -6,9 +6,8 @@ from math import isinf, nan
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.cases import (
+from carom.bodies.cases import (
     LOSSES,
     MOTION,
     ONE_LOSS,
@@ -17,10 +16,9 @@ from carom.cases import (
     material_values,
     read_material,
 )
-from carom.glossary import GLOSSARY
-from carom.quantities import InputError, nearest, refusal
+from carom.quantities.glossary import GLOSSARY
+from carom.quantities.units import InputError, nearest, refusal
 
-Array = NDArray[np.float64]
 Box = tuple[slice, ...]
 CODE = np.int8
 

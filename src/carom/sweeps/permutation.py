@@ -9,10 +9,10 @@ every machine.
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless._jit import kernel
+from carom.dimensionless.numerics.jit import kernel
+from carom.quantities.arrays import Array
 
 Whole = NDArray[np.uint64]
-Array = NDArray[np.float64]
 
 GOLDEN, FIRST, SECOND = (
     np.uint64(value) for value in (0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB)

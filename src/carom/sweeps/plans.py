@@ -15,8 +15,8 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from carom.cases import SWEEP, Case, line_of
-from carom.quantities import InputError, nearest, refusal
+from carom.bodies.cases import SWEEP, Case, line_of
+from carom.quantities.units import InputError, nearest, refusal
 from carom.sweeps.designs import Design, Grid, LatinHypercube, Table
 
 KEYS = ("samples", "seed", "table", "outputs", "axes")

@@ -8,18 +8,20 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.approach import components
-from carom.bodies import Cup, HalfSpace, Material, Sphere, unchecked
-from carom.cases import law_of
-from carom.dimensionless import hertz
+from carom.bodies.cases import law_of
+from carom.bodies.kinematics import components
+from carom.bodies.losses import SMALLEST_RESTITUTION, NormalLaw
+from carom.bodies.materials import Material, unchecked
+from carom.bodies.pairs import Counterbody, Pair, representable
+from carom.bodies.shapes import Cup, HalfSpace, Sphere
+from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.phases import Status
+from carom.dimensionless.numerics import hertz
 from carom.dimensionless.rebounds import rebound
-from carom.histories import PAIR
-from carom.normals import SMALLEST_RESTITUTION, NormalLaw
-from carom.outcomes import Outcome
-from carom.pairs import Counterbody, Pair, representable
-from carom.sweeps.inputs import ELASTIC, STRENGTH, Array, leaf
+from carom.impacts.history import PAIR
+from carom.impacts.outcome import Outcome
+from carom.quantities.arrays import Array
+from carom.sweeps.inputs import ELASTIC, STRENGTH, leaf
 
 Codes = NDArray[np.int8]
 Columns = Mapping[str, Any]  # inputs by name: a number, or an array with one for every point

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.quantities import refusal
-from carom.results import labelled_dataset
+from carom.io.labels import labelled_dataset
+from carom.quantities.units import refusal
 from carom.sweeps.blocks import Box, Values, boxes
-from carom.sweeps.evaluation import Problem
+from carom.sweeps.problem import Problem
 
 if TYPE_CHECKING:
     import xarray as xr

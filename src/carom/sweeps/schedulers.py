@@ -16,12 +16,12 @@ from importlib.metadata import version
 from itertools import islice
 from typing import Any, NamedTuple
 
-from carom.dimensionless.blocks import available_cores
-from carom.extras import extra
-from carom.quantities import InputError, counted, refusal
-from carom.results import carom_version
+from carom.dimensionless.numerics.threads import available_cores
+from carom.io.extras import extra
+from carom.io.labels import carom_version
+from carom.quantities.units import InputError, counted, refusal
 from carom.sweeps.blocks import Box, Values
-from carom.sweeps.evaluation import Problem
+from carom.sweeps.problem import Problem
 from carom.sweeps.records import SweepStopped
 
 ANSWER = 5.0  # seconds a scheduler, and its first worker, have to answer

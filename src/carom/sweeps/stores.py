@@ -11,7 +11,7 @@ import os
 import shutil
 import uuid
 import warnings
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
@@ -19,22 +19,65 @@ from textwrap import shorten
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from carom.extras import extra
-from carom.quantities import refusal
-from carom.results import carom_version
-from carom.storage import STATUS, STORE, read_store
+from carom.io.extras import extra
+from carom.io.files import STATUS, STORE, read_store
+from carom.io.labels import carom_version
+from carom.quantities.units import refusal
 from carom.sweeps.blocks import Box, Values, boxes
-from carom.sweeps.chunks import chunk_file, codecs, write_chunk
-from carom.sweeps.evaluation import NOT_RUN, Problem
+from carom.sweeps.problem import NOT_RUN, Problem
 from carom.sweeps.records import SweepStopped, blank_dataset, identity
 
 if TYPE_CHECKING:
     import xarray as xr
 
+LEVEL = 1  # of compression: floating-point numbers gain nothing from more
 LOCK = f"{STATUS}/.lock"  # a place that zarr does not list
 FULL = (errno.ENOSPC, errno.EDQUOT)
 SHOWN = 3  # differences in a refusal
+
+
+def codecs() -> dict[str, Any]:
+    """Return the codecs of such arrays, for `zarr.Group.create_array`."""
+    zarr_codecs = extra("zarr.codecs", "a store")
+    return {
+        "serializer": zarr_codecs.BytesCodec(endian="little"),
+        "compressors": zarr_codecs.ZstdCodec(level=LEVEL, checksum=True),
+    }
+
+
+def chunk_file(array: Path, corner: Sequence[int]) -> Path:
+    """Return the file of the chunk with this index in the folder of an array."""
+    return array.joinpath("c", *map(str, corner))
+
+
+def write_chunk(
+    array: Path, corner: Sequence[int], chunk: Sequence[int], values: NDArray[Any]
+) -> None:
+    """Write the values of a chunk, which may be cut by the end of the array.
+
+    Parameters
+    ----------
+    array : Path
+        Folder of the array.
+    corner, chunk : sequence of int
+        Index of the chunk, and the shape that chunks have.
+    values : ndarray
+        What the chunk has inside the array.
+    """
+    zstd = extra("numcodecs.zstd", "a store").Zstd(LEVEL, checksum=True)
+    whole = np.zeros(chunk, values.dtype.newbyteorder("<"))
+    whole[tuple(slice(length) for length in values.shape)] = values
+    target = chunk_file(array, corner)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    partial = target.with_name(f"{target.name}.partial")
+    try:
+        partial.write_bytes(zstd.encode(whole))
+        os.replace(partial, target)
+    except OSError:
+        partial.unlink(missing_ok=True)
+        raise
 
 
 class Store:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.quantities import refusal
+from carom.quantities.units import refusal
 from carom.sweeps.blocks import Box, boxes, chunk_shape
 
 if TYPE_CHECKING:

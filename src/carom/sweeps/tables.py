@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.quantities import InputError, number, refusal
+from carom.quantities.arrays import Array
+from carom.quantities.units import InputError, number, refusal
 from carom.sweeps.inputs import (
     CHOSEN,
     CODE,
     UNREADABLE,
-    Array,
     Box,
     Choice,
     Choices,

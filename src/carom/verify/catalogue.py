@@ -16,7 +16,7 @@ from carom.laws.dem import (
     WaltonBraunLaw,
     YadeMindlin,
 )
-from carom.quantities import nearest, refusal
+from carom.quantities.units import nearest, refusal
 
 
 class Entry(NamedTuple):

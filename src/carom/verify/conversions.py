@@ -7,11 +7,11 @@ from collections.abc import Callable
 from math import exp, pi, sqrt
 from typing import NamedTuple
 
-from carom.dimensionless.hertz import DURATION
+from carom.bodies.pairs import Pair
+from carom.dimensionless.numerics.hertz import DURATION
 from carom.laws.dem import LammpsMindlin, LinearSpring
 from carom.laws.dem.damping import SMALLEST, damping_ratio, thornton_damping, tsuji_damping
-from carom.pairs import Pair
-from carom.quantities import not_negative, number, positive, refusal
+from carom.quantities.units import not_negative, number, positive, refusal
 
 SPRING, MINDLIN = LinearSpring(), LammpsMindlin("mindlin_rescale/force")
 

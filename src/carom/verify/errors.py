@@ -5,21 +5,20 @@ from dataclasses import fields
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from carom.arrays import finite_line, positive_line
-from carom.dimensionless.hertz import DURATION
-from carom.dimensionless.phases import Status
+from carom.dimensionless.elastic.phases import Status
+from carom.dimensionless.numerics.hertz import DURATION
 from carom.dimensionless.rebounds import rebound
 from carom.dimensionless.solution import solve
 from carom.laws.dem import ContactLaw, Law
 from carom.laws.dem.base import SOLID
-from carom.quantities import positive, refusal
+from carom.quantities.arrays import Array, finite_line, positive_line
+from carom.quantities.units import positive, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 
 INCIDENCES = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0)
 LARGEST = 1e9  # psi_1
@@ -112,7 +111,7 @@ def error_map(
     >>> found.error.values.round(3)
     array([[0.176, 0.   ]])
     """
-    from carom.results import labelled_dataset
+    from carom.io.labels import labelled_dataset
 
     rule = as_law(law)
     chis = np.linspace(7.0 / 6.0, 7.0 / 4.0, 15) if chi is None else positive_line("chi", chi)

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from carom.io.progress import Progress, advancing
 from carom.laws.dem import ContactLaw, Law
-from carom.progress import Progress, advancing
-from carom.quantities import positive, refusal
+from carom.quantities.units import positive, refusal
 from carom.verify.catalogue import CATALOGUE, Entry, as_entry
 from carom.verify.errors import (
     INCIDENCES,
@@ -71,8 +71,8 @@ class Ranking:
 
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
-        from carom.notebooks import card
         from carom.plots import plot_laws
+        from carom.plots.card import card
 
         rows = {s.entry.label: f"{s.max_error:.3f} at psi_1 = {s.worst:g}" for s in self.standings}
         title = f"Largest |error in psi_2| at chi = {self.chi:g}"
@@ -98,7 +98,7 @@ class Ranking:
             psi_out (law, psi_in), psi_out_exact (psi_in), max_error, rms_error, force_error and
             energy_gain (law), steps (law, step_kind), -1 where none suffice; chi and kappa.
         """
-        from carom.results import labelled_dataset
+        from carom.io.labels import labelled_dataset
 
         laws = [standing.entry.law for standing in self.standings]
         given = [law.rebound(self.psi, self.chi, kappa=self.kappa) for law in laws]

@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.approach import approach, slope
-from carom.cases import motion_of, pair_of, read_case
-from carom.dimensionless.hertz import DURATION
-from carom.pairs import Pair
-from carom.quantities import InputError, finite, number, positive, refusal
+from carom.bodies.cases import motion_of, pair_of, read_case
+from carom.bodies.kinematics import approach, slope
+from carom.bodies.pairs import Pair
+from carom.dimensionless.numerics.hertz import DURATION
+from carom.quantities.units import InputError, finite, number, positive, refusal
 
 POINTS = 61
 SPEED = 1.0  # m/s, of a case without one: k_n of linear springs depends on it

@@ -5,9 +5,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.arrays import finite_line
 from carom.laws.dem import Law
-from carom.quantities import counted, positive
+from carom.quantities.arrays import finite_line
+from carom.quantities.units import counted, positive
 from carom.verify.errors import INCIDENCES, as_law
 
 FEWEST, MOST = 10, 2_000_000

@@ -5,8 +5,9 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from carom.io.progress import Progress, advancing
 from carom.laws.dem import (
     ContactLaw,
     EdemHertzMindlin,
@@ -21,12 +22,11 @@ from carom.laws.dem import (
     WaltonBraunLaw,
     YadeMindlin,
 )
-from carom.progress import Progress, advancing
-from carom.quantities import positive, refusal
+from carom.quantities.arrays import Array
+from carom.quantities.units import positive, refusal
 from carom.verify.errors import as_law, exact_rebound, incidences, solid_kappa
 from carom.verify.steps import Step, advised_steps
 
-Array = NDArray[np.float64]
 AnyLaw = TypeVar("AnyLaw", bound=Law)
 
 FREE = {  # the parameter that can be chosen, and its range; of a stiffness_ratio in units of kappa
@@ -116,7 +116,7 @@ class Tuning:
 
     def _repr_html_(self) -> str:
         """Return a table for a notebook."""
-        from carom.notebooks import card
+        from carom.plots.card import card
 
         rows = {called(one.law): _told(one) for one in self.advice}
         return card(f"Closest to the exact psi_2 at chi = {self.chi:g}", rows)

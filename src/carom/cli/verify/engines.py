@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from carom.verify.benchmark import Bench
     from carom.verify.engines.running import Engine
-    from carom.verify.measuring import Bench
 
 CaseFile = Annotated[
     Path | None, typer.Option(help="Case file as for `carom impact`: the bodies (steel, 1.4412).")
@@ -88,11 +88,11 @@ def _run(
     output: str | None,
     as_json: bool,
 ) -> None:
-    from carom.cases import pair_of, read_case
-    from carom.quantities import InputError, positive
-    from carom.storage import checked_output
+    from carom.bodies.cases import pair_of, read_case
+    from carom.io.files import checked_output
+    from carom.quantities.units import InputError, positive
+    from carom.verify.benchmark import bench
     from carom.verify.catalogue import named
-    from carom.verify.measuring import bench
 
     if output is not None:
         checked_output(output, (".csv",))
@@ -114,7 +114,7 @@ def _run(
 
 def _store(found: "Bench", output: str) -> None:
     """Store results as the scorer reads them."""
-    from carom.storage import checked_output, replace_whole
+    from carom.io.files import checked_output, replace_whole
 
     text = found.results()
     target = checked_output(output, (".csv",))

@@ -38,9 +38,9 @@ def laws_command(
 
     One law for all solid spheres: carom verify laws --law mindlin --map mindlin.png
     """
-    from carom.cli.files import refuse_same
-    from carom.quantities import InputError, finite, positive
-    from carom.storage import FIGURES, TABLES, checked_output, save
+    from carom.cli.cases import refuse_same
+    from carom.io.files import FIGURES, TABLES, checked_output, save
+    from carom.quantities.units import InputError, finite, positive
     from carom.verify.catalogue import named
     from carom.verify.errors import INCIDENCES
     from carom.verify.ranking import rank
@@ -70,9 +70,9 @@ def laws_command(
 
 def _store_map(law: "Law", path: str) -> Path:
     """Store the error map of a law as a figure or a table."""
+    from carom.io.files import TABLES, save
     from carom.plots.laws import plot_error_map
     from carom.plots.style import save_figure
-    from carom.storage import TABLES, save
     from carom.verify.errors import error_map
 
     dataset = error_map(law)

@@ -40,8 +40,8 @@ def score_command(
 
     Velocities or forces: carom verify score results.csv --case examples/steel_ball.toml
     """
-    from carom.cli.files import refuse_same
-    from carom.storage import FIGURES, TABLES, checked_output, save
+    from carom.cli.cases import refuse_same
+    from carom.io.files import FIGURES, TABLES, checked_output, save
     from carom.verify.scoring import score
 
     refuse_same({"results": results, "case": case, "plot": plot, "output": output})

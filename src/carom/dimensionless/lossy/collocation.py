@@ -7,8 +7,8 @@ there makes them smooth in x.
 
 import numpy as np
 
-from carom.dimensionless._jit import kernel
-from carom.dimensionless.chebyshev import extrema, from_extrema
+from carom.dimensionless.numerics.chebyshev import extrema, from_extrema
+from carom.dimensionless.numerics.jit import kernel
 
 DEGREE = 11
 NODES = DEGREE + 1

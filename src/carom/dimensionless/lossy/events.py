@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from carom.dimensionless._jit import kernel
 from carom.dimensionless.lossy import normal
 from carom.dimensionless.lossy.collocation import FLAT_ENDS, FLAT_START, NODES, PLACES, evaluate
 from carom.dimensionless.lossy.memory import MOVED, RADIUS
 from carom.dimensionless.lossy.normal import Motion, Stage
 from carom.dimensionless.lossy.panels import Panel, State, cut_memory, state_at_node
 from carom.dimensionless.lossy.work import PSI, SPEED, Work
+from carom.dimensionless.numerics.jit import kernel
 
 EARLY = 5e-4  # part of a panel in which zones that begin with it are too thin to be told
 TO = 0.9999  # place up to which the structure is looked at

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.dimensionless._jit import kernel
+from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.collocation import (
     EVEN,
     FLAT_END,
@@ -18,10 +18,11 @@ from carom.dimensionless.lossy.events import first_change
 from carom.dimensionless.lossy.memory import MOVED
 from carom.dimensionless.lossy.normal import Motion, Stage
 from carom.dimensionless.lossy.panels import Panel, commit, solve_panel
-from carom.dimensionless.lossy.record import Array, Record, note_panel
+from carom.dimensionless.lossy.record import Record, note_panel
 from carom.dimensionless.lossy.stages import cut_to_stage, next_stage
 from carom.dimensionless.lossy.work import MAX_PANELS, PSI, SPEED, Work
-from carom.dimensionless.phases import Status
+from carom.dimensionless.numerics.arrays import Array
+from carom.dimensionless.numerics.jit import kernel
 
 FIRST, LONGEST, SHORTEST = 0.3, 0.8, 1e-8  # lengths of panels
 TRIALS = 60  # of a panel

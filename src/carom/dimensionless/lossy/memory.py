@@ -9,8 +9,8 @@ cuts its inner or its outer end.
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless._jit import kernel
 from carom.dimensionless.lossy.collocation import evaluate, place
+from carom.dimensionless.numerics.jit import kernel
 
 Pieces = NDArray[np.float64]
 

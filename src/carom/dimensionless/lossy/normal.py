@@ -14,7 +14,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from carom.dimensionless._jit import kernel
+from carom.dimensionless.numerics.jit import kernel
 
 
 class Loss(IntEnum):

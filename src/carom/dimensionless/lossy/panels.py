@@ -2,7 +2,6 @@
 
 from typing import NamedTuple
 
-from carom.dimensionless._jit import kernel
 from carom.dimensionless.lossy import memory, normal
 from carom.dimensionless.lossy.collocation import (
     CLOCKS,
@@ -39,6 +38,7 @@ from carom.dimensionless.lossy.memory import (
 )
 from carom.dimensionless.lossy.normal import Motion, Stage
 from carom.dimensionless.lossy.work import PSI, SPEED, Work
+from carom.dimensionless.numerics.jit import kernel
 
 MAX_ITERATIONS = 30
 SETTLED = 1e-13

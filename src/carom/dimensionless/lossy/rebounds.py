@@ -5,10 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless import hertz
-from carom.dimensionless._jit import kernel
-from carom.dimensionless.blocks import in_blocks
-from carom.dimensionless.elastic import solved
+from carom.dimensionless.elastic.batch import solved
+from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.impacts import run
 from carom.dimensionless.lossy.normal import Loss
 from carom.dimensionless.lossy.record import (
@@ -19,12 +17,14 @@ from carom.dimensionless.lossy.record import (
     STRONGEST,
     TIME,
     WIDEST,
-    Array,
     Record,
     new_record,
 )
 from carom.dimensionless.lossy.work import Work, new_work
-from carom.dimensionless.phases import Status
+from carom.dimensionless.numerics import hertz
+from carom.dimensionless.numerics.arrays import Array
+from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.threads import in_blocks
 
 TOLERANCE = 1e-9  # of a panel; keeps psi_2 to 1e-8 max(1, |psi_1|)
 NEARLY_ELASTIC, NEARLY_YIELDING = 1e-10, 1e-5

@@ -5,7 +5,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless._jit import kernel
 from carom.dimensionless.lossy import normal
 from carom.dimensionless.lossy.collocation import (
     NODES,
@@ -18,8 +17,8 @@ from carom.dimensionless.lossy.memory import RADIUS
 from carom.dimensionless.lossy.normal import Loss, Motion
 from carom.dimensionless.lossy.panels import Panel, cut_memory, state_at_node
 from carom.dimensionless.lossy.work import MAX_PANELS, PSI, SPEED, Work
-
-Array = NDArray[np.float64]
+from carom.dimensionless.numerics.arrays import Array
+from carom.dimensionless.numerics.jit import kernel
 
 # What an impact comes to; time, penetration and loss are those so far.
 PSI_OUT, RESTITUTION, TIME, PENETRATION, LOST, DEEPEST, STRONGEST, WIDEST = range(8)

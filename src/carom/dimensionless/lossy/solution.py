@@ -4,8 +4,9 @@ from dataclasses import dataclass, field
 from operator import index
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from carom.dimensionless.elastic.phases import Kind, Status
 from carom.dimensionless.lossy.collocation import NODES, TO_SERIES, place
 from carom.dimensionless.lossy.rebounds import outgoing
 from carom.dimensionless.lossy.record import (
@@ -32,10 +33,8 @@ from carom.dimensionless.lossy.record import (
     new_record,
 )
 from carom.dimensionless.lossy.work import new_work
-from carom.dimensionless.phases import Kind, Status
+from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.states import KIND_NAMES, History, Phase, times_within
-
-Array = NDArray[np.float64]
 
 SHORTEST = 1e-6  # of a phase, in units of d_max/V_1: structure is not told any finer
 CAUSES = {

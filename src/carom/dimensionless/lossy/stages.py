@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from carom.dimensionless._jit import kernel
 from carom.dimensionless.lossy import normal
 from carom.dimensionless.lossy.collocation import CLOCKS, EVEN, NODES, PLACES, integrate
 from carom.dimensionless.lossy.memory import RADIUS
 from carom.dimensionless.lossy.normal import Loss, Motion, Stage
 from carom.dimensionless.lossy.work import MAX_PANELS, SPEED, Work, new_work
+from carom.dimensionless.numerics.jit import kernel
 
 MAX_ITERATIONS = 40
 SETTLED = 1e-15

@@ -7,22 +7,24 @@ begins or ceases to slide, or turns back: these are found by bisection. Steps by
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.dimensionless._jit import kernel
+from carom.dimensionless.numerics.jit import kernel
 from carom.laws.dem.coefficients import (
+    AGAIN,
+    BACK,
     ELASTIC_PULL,
+    FIRST,
     SPRING,
     Coefficients,
     Normal,
     Shear,
+    force_change,
     kept,
     normal_force,
     shear_stiffness,
+    softening,
 )
-from carom.laws.dem.increments import AGAIN, BACK, FIRST, force_change, softening
-
-Array = NDArray[np.float64]
+from carom.quantities.arrays import Array
 
 B, V, PSI, T, UPPER, LOWER = range(6)  # the state
 SIZE = 6

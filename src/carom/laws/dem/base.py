@@ -8,13 +8,12 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from carom.dimensionless.blocks import available_cores
+from carom.dimensionless.numerics.threads import available_cores
 from carom.laws.dem.adaptive import rebounds
 from carom.laws.dem.coefficients import Coefficients
 from carom.laws.dem.stepping import HISTORY, longest, stepped, stepped_rebounds
-from carom.quantities import counted, finite, positive, refusal
-
-Array = NDArray[np.float64]
+from carom.quantities.arrays import Array
+from carom.quantities.units import counted, finite, positive, refusal
 
 SOLID = 4.0 / 7.0  # kappa/chi of solid spheres, and of one on a half-space
 FEWEST_STEPS = 4

@@ -3,7 +3,7 @@
 from math import exp, log, pi, sqrt
 
 from carom.laws.dem.coefficients import SPRING
-from carom.quantities import number, refusal
+from carom.quantities.units import number, refusal
 
 COEFF_RESTITUTION, TSUJI = "coeff_restitution", "tsuji"
 RULES = (COEFF_RESTITUTION, TSUJI)

@@ -4,13 +4,11 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from carom.laws.dem.base import Law
 from carom.laws.dem.damping import check_restitution
-from carom.quantities import number, refusal
-
-Array = NDArray[np.float64]
+from carom.quantities.arrays import Array
+from carom.quantities.units import number, refusal
 
 
 @dataclass(frozen=True)

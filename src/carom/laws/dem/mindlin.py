@@ -17,7 +17,7 @@ from carom.laws.dem.damping import (
     hertz_damping,
     thornton_damping,
 )
-from carom.quantities import not_negative, positive, refusal
+from carom.quantities.units import not_negative, positive, refusal
 
 KEPT = {  # powers n, while the contact grows and while it shrinks
     "mindlin": (1.0, 1.0),

@@ -6,7 +6,7 @@ from typing import ClassVar
 from carom.laws.dem.base import ContactLaw
 from carom.laws.dem.coefficients import MINDLIN, SPRING, Coefficients, Normal
 from carom.laws.dem.damping import check_restitution, damping_ratio, hertz_damping
-from carom.quantities import not_negative, positive
+from carom.quantities.units import not_negative, positive
 
 
 def check_ratio(law: object) -> None:

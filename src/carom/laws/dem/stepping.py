@@ -1,21 +1,23 @@
 """An impact in equal time steps: velocity Verlet and the increments that codes take."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.dimensionless._jit import kernel
-from carom.dimensionless.hertz import DURATION
+from carom.dimensionless.numerics.hertz import DURATION
+from carom.dimensionless.numerics.jit import kernel
 from carom.laws.dem.coefficients import (
+    AGAIN,
+    BACK,
     ELASTIC_PULL,
+    FIRST,
     Coefficients,
     Shear,
+    force_change,
     kept,
     normal_force,
     shear_stiffness,
+    softening,
 )
-from carom.laws.dem.increments import AGAIN, BACK, FIRST, force_change, softening
-
-Array = NDArray[np.float64]
+from carom.quantities.arrays import Array
 
 HISTORY = (
     "time",

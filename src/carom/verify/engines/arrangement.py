@@ -4,25 +4,25 @@ from __future__ import annotations
 
 import sys
 from math import sqrt
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.bodies import Sphere
+from carom.bodies.pairs import Pair
+from carom.bodies.shapes import Sphere
 from carom.laws.dem import LinearSpring
 from carom.laws.dem.coefficients import SPRING
 from carom.laws.dem.damping import damping_ratio
-from carom.pairs import Pair
-from carom.quantities import refusal
+from carom.quantities.arrays import Array
+from carom.quantities.units import refusal
 from carom.verify.engines.experiments import Experiment, Outcomes
-
-Array = NDArray[np.float64]
 
 SPACING = 4.0  # from centre to centre, in radii of the larger sphere
 HAIR = 1.0 + 4.0 * sys.float_info.epsilon  # programs damp spheres that exactly touch
 RIGID = 1e9  # Young's modulus of a body that does not deform, in units of the other one's
 BEYOND = 1.15  # durations of an elastic contact that are run
+TABLE = "ITEM: ATOMS"  # what stands above the last table of a dump
 
 
 class Spring(NamedTuple):
@@ -149,3 +149,38 @@ def remarks(experiment: Experiment) -> dict[str, str]:
         "steps": str(experiment.steps),
         "duration": f"{experiment.duration:.6g}",
     }
+
+
+def data_file(experiment: Experiment) -> str:
+    """Return the data file: where the spheres are, and their velocities; type 1 or 2 for body."""
+    bodies, edge = placed(experiment), spacing(experiment.pair)
+    sections = (
+        "# Spheres that are about to touch; the second bodies follow in the order of the first.\n"
+        "# Atoms: id, type, diameter, density, x, y, z. Velocities: id, vx, vy, vz, omega",
+        f"{len(bodies)} atoms\n2 atom types\n"
+        f"{-edge!r} {edge!r} xlo xhi\n"
+        f"{-edge!r} {edge * len(experiment)!r} ylo yhi\n"
+        f"{-edge!r} {edge!r} zlo zhi",
+        "Atoms",
+        "\n".join(_atom(i, body, len(experiment)) for i, body in enumerate(bodies)),
+        "Velocities",
+        "\n".join(_velocity(i, body) for i, body in enumerate(bodies, 1)),
+    )
+    return "\n\n".join(sections) + "\n"
+
+
+def read_dump(path: Path) -> Array:
+    """Return x, z, vx, vz, omega_y of each sphere at the end of a dump that has them after ids."""
+    _, _, table = path.read_text(encoding="utf-8").rpartition(TABLE)
+    rows = [line.split()[1:] for line in table.splitlines()[1:]]
+    return np.array(rows, dtype=np.float64).reshape(-1, 5)
+
+
+def _atom(index: int, body: Placed, count: int) -> str:
+    size, density = 2.0 * body.sphere.radius, body.sphere.material.density
+    kind = 1 if index < count else 2
+    return f"{index + 1} {kind} {size!r} {density!r} 0.0 {body.y!r} {body.z!r}"
+
+
+def _velocity(number: int, body: Placed) -> str:
+    return f"{number} {body.vx!r} 0.0 {body.vz!r} 0.0 {0.0 - body.spin!r} 0.0"

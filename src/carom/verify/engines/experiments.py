@@ -9,15 +9,13 @@ from math import isclose
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.bodies import HalfSpace, Sphere
-from carom.dimensionless import hertz
+from carom.bodies.pairs import Pair, Scales
+from carom.bodies.shapes import HalfSpace, Sphere
+from carom.dimensionless.numerics import hertz
 from carom.laws.dem import ContactLaw
-from carom.pairs import Pair, Scales
-from carom.quantities import InputError, counted, finite, positive, refusal
-
-Array = NDArray[np.float64]
+from carom.quantities.arrays import Array
+from carom.quantities.units import InputError, counted, finite, positive, refusal
 
 SOLID = 0.4  # K^2/R^2
 BEFORE = ("normal_speed", "tangential_speed", "spin")

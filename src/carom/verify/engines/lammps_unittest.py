@@ -5,11 +5,11 @@ from __future__ import annotations
 from string import Template
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.bodies import Sphere
+from carom.bodies.shapes import Sphere
 from carom.dimensionless.rebounds import rebound
-from carom.quantities import positive, refusal
+from carom.quantities.arrays import Array
+from carom.quantities.units import positive, refusal
 from carom.verify.engines.arrangement import (
     Placed,
     placed,
@@ -19,9 +19,7 @@ from carom.verify.engines.arrangement import (
     spacing,
 )
 from carom.verify.engines.experiments import Experiment, Outcomes
-from carom.verify.engines.lammps_input import SKIN, coefficients, tangential_damping
-
-Array = NDArray[np.float64]
+from carom.verify.engines.lammps import SKIN, coefficients, tangential_damping
 
 FLIGHT = 8  # steps that the driver runs after the commands
 FASTER = 4.0  # drift over the largest tangential speed

@@ -8,10 +8,12 @@ from pathlib import Path
 from string import Template
 from typing import ClassVar
 
-from carom.bodies import Sphere
+from carom.bodies.shapes import Sphere
 from carom.laws.dem import ContactLaw, LiggghtsHertz, LinearSpring
 from carom.verify.engines.arrangement import (
+    data_file,
     outcomes_of,
+    read_dump,
     remarks,
     restitution,
     run_length,
@@ -20,8 +22,7 @@ from carom.verify.engines.arrangement import (
     young_moduli,
 )
 from carom.verify.engines.experiments import Experiment, Outcomes
-from carom.verify.engines.program import Program
-from carom.verify.engines.spheres import data_file, read_dump
+from carom.verify.engines.running import Program
 
 INPUT, SPHERES, RESULT = "in.liggghts", "spheres.data", "results.dump"
 SKIN = 0.025  # of the distance between neighbours

@@ -5,25 +5,27 @@ from __future__ import annotations
 import contextlib
 import os
 import re
+import shutil
 import signal
 import subprocess
 import warnings
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
-from typing import IO, NamedTuple, Protocol
+from typing import IO, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
 from carom.laws.dem import ContactLaw
-from carom.quantities import InputError, positive, refusal
+from carom.quantities.units import InputError, positive, refusal
 from carom.verify.engines.experiments import Experiment, Outcomes
 
 PRINTED = "printed.txt"  # what the program printed, in its folder
-LAST_LINES, LAST_CHARACTERS = 3, 300
-READ, MOST_PRINTED = 1 << 16, 1 << 26  # bytes of it
 GLANCE = 0.1  # s
 LACKING = r"(?:error while loading shared libraries|Library not loaded): ([^:\s]+)"
+LAST_LINES, LAST_CHARACTERS = 3, 300
+READ, MOST_PRINTED = 1 << 16, 1 << 26  # bytes of it
 
 
 class EngineError(RuntimeError):
@@ -118,7 +120,7 @@ def run(engine: Engine, experiment: Experiment, *, time_limit: float = 120.0) ->
     ... )
     >>> carom.verify.run(carom.verify.Lammps("/nowhere/lmp"), experiment)
     Traceback (most recent call last):
-    carom.quantities.InputError: LAMMPS: '/nowhere/lmp' is not an executable; give another path
+    carom.InputError: LAMMPS: '/nowhere/lmp' is not an executable; give another path
 
     What is not LAMMPS stands in for it here: it lets each body keep its tangential speed.
 
@@ -242,3 +244,42 @@ def _printed(folder: Path) -> str:
 
 def _reason(code: int) -> str:
     return f"exit code {code}" if code > 0 else f"signal {signal.Signals(-code).name}"
+
+
+@dataclass(frozen=True)
+class Program:
+    """A program at a path, else the one that is found by its name.
+
+    Parameters
+    ----------
+    path : str or Path, optional
+        Where the program is.
+    """
+
+    path: str | Path | None = None
+
+    called: ClassVar[str]  # its executable
+    arguments: ClassVar[tuple[str, ...]]  # that run its inputs
+    advice: ClassVar[str]  # how to get it
+    greeting: ClassVar[str]  # the pattern in which it prints its version
+
+    @property
+    def remedy(self) -> str:
+        """What to do where it is absent."""
+        if self.path is not None:
+            return f"{str(self.path)!r} is not an executable; give another path"
+        return f"not found; {self.advice}"
+
+    def executable(self) -> Path | None:
+        """Return where the program is, or None."""
+        found = shutil.which(self.called if self.path is None else self.path)
+        return Path(found).absolute() if found else None
+
+    def command(self, folder: Path) -> list[str]:
+        """Return the command that runs the inputs in a folder."""
+        return [str(self.executable() or self.called), *self.arguments]
+
+    def version(self, printed: str) -> str:
+        """Return the version that the program has printed."""
+        found = re.search(self.greeting, printed, re.MULTILINE)
+        return found.group(1) if found else "unknown"

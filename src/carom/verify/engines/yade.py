@@ -9,9 +9,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.bodies import Sphere
+from carom.bodies.pairs import Counterbody
+from carom.bodies.shapes import Sphere
 from carom.laws.dem import ContactLaw, LammpsMindlin, LinearSpring, YadeMindlin
-from carom.pairs import Counterbody
 from carom.verify.engines.arrangement import (
     HAIR,
     outcomes_of,
@@ -24,7 +24,7 @@ from carom.verify.engines.arrangement import (
     young_moduli,
 )
 from carom.verify.engines.experiments import Experiment, Outcomes
-from carom.verify.engines.program import Program
+from carom.verify.engines.running import Program
 
 SCRIPT, RESULT = "impacts.py", "results.txt"
 

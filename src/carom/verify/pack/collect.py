@@ -7,9 +7,9 @@ has the columns of the template in the folder above.
 import sys
 from pathlib import Path
 
-from carom.cases import read_case
-from carom.quantities import InputError, refusal
-from carom.storage import replace_whole
+from carom.bodies.cases import read_case
+from carom.io.files import replace_whole
+from carom.quantities.units import InputError, refusal
 from carom.verify.pack.frozen import CASE, INPUTS
 from carom.verify.pack.programs import AFTER, PROGRAMS, experiment_of
 from carom.verify.pack.tables import Table, read_table

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.cases import pair_of
+from carom.bodies.cases import pair_of
 from carom.laws.dem import ContactLaw, LammpsMindlin, LiggghtsHertz
 from carom.verify.engines.experiments import Experiment, Outcomes
 from carom.verify.engines.lammps import Lammps

@@ -5,25 +5,22 @@ digits by another algorithm show, times what psi_2 is multiplied by on its way t
 rounding of this way and of 12 printed digits. Inputs are exact: they are what is printed.
 """
 
+import sys
 import tomllib
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from carom.cases import motion_of, pair_of
+from carom.bodies.cases import motion_of, pair_of
+from carom.bodies.kinematics import inertia
+from carom.bodies.pairs import Pair
 from carom.dimensionless.rebounds import rebound
-from carom.exact_impacts import Impact
-from carom.histories import inertia
-from carom.impacts import impact
-from carom.pairs import Pair
-from carom.verify.pack.frozen import (
-    CASE,
-    INPUTS,
-    REFERENCE,
-    folders_with,
-    frozen_files,
-)
-from carom.verify.pack.tables import Array, Columns, Table, exact, read_table, uncertain
+from carom.impacts.exact import Impact
+from carom.impacts.solve import impact
+from carom.quantities.arrays import Array
+from carom.verify.pack.frozen import CASE, INPUTS, REFERENCE, folders_with, frozen_files
+from carom.verify.pack.tables import Columns, Table, exact, read_table, uncertain
 
 ACCURACY = 1e-10  # of psi_2, in max(1, |psi_1|); of forces and speeds in a history, in their scales
 ROUNDING = 2e-15  # of the few operations between psi and SI units, relative to their terms
@@ -148,3 +145,17 @@ def _of_history(folder: str) -> Table:
         "tangential_force is positive against +x, on the first body.",
     )
     return Table((*title_of(folder), *notes, *SIGNS), columns)
+
+
+def freeze(folder: Path) -> list[Path]:
+    """Write every table of reference numbers below a folder and return the paths."""
+    paths = []
+    for name, table in references().items():
+        path = folder / name
+        path.write_text(table.as_csv(), encoding="utf-8", newline="\n")
+        paths.append(path)
+    return paths
+
+
+if __name__ == "__main__":
+    print(*freeze(Path(sys.argv[1])), sep="\n")

@@ -8,13 +8,14 @@ from decimal import ROUND_UP, Context, Decimal
 from io import StringIO
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from carom.quantities.arrays import Array
 
 DIGITS = 12  # of every number
 ERROR_DIGITS = Context(prec=2, rounding=ROUND_UP)
 ERROR = "_error"  # the column of errors of a column ends so
 
-Array = NDArray[np.float64]
 Columns = dict[str, list[str]]
 
 

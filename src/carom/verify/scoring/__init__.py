@@ -8,17 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from carom.bodies import describe
-from carom.cases import check_case, motion_of, pair_of, read_case
-from carom.exact_impacts import Impact
-from carom.impacts import impact
-from carom.pairs import Pair
-from carom.quantities import InputError, nearest, number, positive, refusal
-from carom.readings import Array, Results, in_units, read_table
-from carom.verify.scoring.audits import energy_audit, friction_audit, notes_on
-from carom.verify.scoring.histories import NAMES as HISTORY
-from carom.verify.scoring.histories import score_history
-from carom.verify.scoring.points import compared
+from carom.bodies.cases import check_case, motion_of, pair_of, read_case
+from carom.bodies.pairs import Pair
+from carom.bodies.shapes import describe
+from carom.impacts.exact import Impact
+from carom.impacts.solve import impact
+from carom.io.columns import Results, in_units, read_table
+from carom.quantities.arrays import Array
+from carom.quantities.units import InputError, nearest, number, positive, refusal
+from carom.verify.scoring.histories import NAMES as HISTORY, score_history
+from carom.verify.scoring.points import compared, energy_audit, friction_audit, notes_on
 from carom.verify.scoring.record import Score
 from carom.verify.scoring.velocities import AFTER, BEFORE, score_velocities
 

@@ -5,10 +5,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless import hertz
-from carom.pairs import Scales
-from carom.quantities import InputError
-from carom.readings import Array, Mask, Results
+from carom.bodies.pairs import Scales
+from carom.dimensionless.numerics import hertz
+from carom.io.columns import Mask, Results
+from carom.quantities.arrays import Array
+from carom.quantities.units import InputError
 
 FEWEST = 20  # rows with a force
 SMALL = 0.1  # of the peak: what the first and last force may be

@@ -4,15 +4,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.curves import borders, curve
-from carom.glossary import GLOSSARY
-from carom.results import flags, labelled, labelled_dataset
+from carom.impacts.curves import borders, curve
+from carom.io.labels import flags, labelled, labelled_dataset
+from carom.quantities.glossary import GLOSSARY
 from carom.verify.scoring.report import verdict
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from carom.verify.scoring.forces import Forces
+    from carom.verify.scoring.histories import Forces
     from carom.verify.scoring.record import Score
 
 CURVES = 5  # chi of which the exact curve is part of the dataset

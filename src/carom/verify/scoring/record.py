@@ -6,9 +6,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from carom.citations import IMPACT, bibtex
-from carom.results import MARKS, Finding
-from carom.verify.scoring.forces import Forces
+from carom.io.citations import IMPACT, bibtex
+from carom.io.labels import MARKS, Finding
+from carom.verify.scoring.histories import Forces
 from carom.verify.scoring.points import Group, Points
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ class Score:
 
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
-        from carom.notebooks import card
+        from carom.plots.card import card
         from carom.verify.scoring.report import verdict
 
         rows = {group.name: f"{group.max_error:.3g}" for group in (self.overall, *self.groups)}

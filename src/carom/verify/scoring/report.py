@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.results import MARKS
+from carom.io.labels import MARKS
 
 if TYPE_CHECKING:
     from carom.verify.scoring.record import Score

@@ -1,0 +1,106 @@
+from . import classical as classical, datasets as datasets, plots as plots, verify as verify
+from .bodies.losses import (
+    ElasticPlastic as ElasticPlastic,
+    KelvinVoigt as KelvinVoigt,
+)
+from .bodies.materials import (
+    Material as Material,
+    material as material,
+    material_sources as material_sources,
+    materials as materials,
+)
+from .bodies.pairs import (
+    Pair as Pair,
+)
+from .bodies.shapes import (
+    Cup as Cup,
+    HalfSpace as HalfSpace,
+    Sphere as Sphere,
+)
+from .collisions import (
+    Collisions as Collisions,
+    CollisionStatus as CollisionStatus,
+    collide as collide,
+)
+from .contacts.load_paths import (
+    LoadPath as LoadPath,
+    load_path as load_path,
+)
+from .dimensionless.elastic.phases import (
+    Status as Status,
+)
+from .dimensionless.rebounds import (
+    rebound as rebound,
+)
+from .dimensionless.solution import (
+    Solution as Solution,
+    solve as solve,
+)
+from .fitting import (
+    Fit as Fit,
+    fit as fit,
+)
+from .impacts.boundary_elements import (
+    BoundaryElements as BoundaryElements,
+    HalfspaceImpact as HalfspaceImpact,
+)
+from .impacts.curves import (
+    curve as curve,
+    regime_map as regime_map,
+)
+from .impacts.exact import (
+    Impact as Impact,
+)
+from .impacts.solve import (
+    impact as impact,
+)
+from .io.files import (
+    read as read,
+    save as save,
+)
+from .laws.dem import (
+    EdemHertzMindlin as EdemHertzMindlin,
+    HardSphere as HardSphere,
+    HertzLinearHistory as HertzLinearHistory,
+    LammpsMindlin as LammpsMindlin,
+    LiggghtsHertz as LiggghtsHertz,
+    LinearSpring as LinearSpring,
+    StrongeLaw as StrongeLaw,
+    ThorntonLaw as ThorntonLaw,
+    WaltonBraunLaw as WaltonBraunLaw,
+    YadeMindlin as YadeMindlin,
+)
+from .laws.exact import (
+    ReboundLaw as ReboundLaw,
+)
+from .laws.mixture import (
+    MixtureLaw as MixtureLaw,
+)
+from .laws.rigid import (
+    RoughLaw as RoughLaw,
+    SmoothLaw as SmoothLaw,
+    WaltonLaw as WaltonLaw,
+)
+from .laws.walton_fit import (
+    WaltonFit as WaltonFit,
+    fit_walton as fit_walton,
+)
+from .measurements.observables import (
+    convert as convert,
+)
+from .quantities.units import (
+    InputError as InputError,
+)
+from .sweeps import (
+    sweep as sweep,
+)
+from .sweeps.designs import (
+    Grid as Grid,
+    LatinHypercube as LatinHypercube,
+    Table as Table,
+)
+from .sweeps.problem import (
+    PointStatus as PointStatus,
+)
+
+__version__: str

@@ -1,0 +1,1 @@
+"""Bodies: what they are made of, their shapes, pairs of them, and how they move."""

@@ -1,0 +1,258 @@
+"""Cases: bodies, friction, motion and losses as a TOML file or a mapping gives them."""
+
+import re
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from carom.bodies.kinematics import slope
+from carom.bodies.materials import VALUES, Material, as_material
+from carom.bodies.pairs import Counterbody, Pair
+from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
+from carom.quantities.units import (
+    InputError,
+    finite,
+    nearest,
+    not_negative,
+    number,
+    positive,
+    refusal,
+)
+
+if TYPE_CHECKING:
+    from carom.bodies.losses import NormalLaw
+
+Case = dict[str, Any]
+
+MOTION: dict[str, Callable[[str, Any], float]] = {
+    "speed": positive,
+    "angle": lambda _, value: slope(value),
+    "normal_speed": positive,
+    "tangential_speed": finite,
+    "spin": finite,
+    "spin2": finite,
+}
+LOSSES = ("restitution", "loss_time", "yield_velocity")  # of the normal motion, one at most
+ONE_LOSS = "both tell what the normal motion loses"
+FROM_STRENGTH = "material"  # the yield velocity that the yield strengths give
+SIZES: dict[str, Callable[[str, Any], float]] = {
+    "radius": positive,
+    "gyration_radius": positive,
+    "inner_radius": not_negative,
+}
+BODY = (*SIZES, "material")
+MATERIAL = (*VALUES, "name")
+OUTPUT = ("plot", "animation", "data")
+TABLES = {"first": BODY, "second": ("kind", *BODY), "output": OUTPUT}
+KINDS = ("half-space", "sphere", "cup")
+SHAPES = (HalfSpace, Sphere, Cup)
+SWEEP = "sweep"  # the table of a sweep, which `carom.sweeps` reads
+
+
+def read_case(path: Path, *, losses: bool = False) -> Case:
+    """Return the content of a case file, its keys checked; `losses` as in `check_case`."""
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+        case = tomllib.loads(text)
+    except OSError as error:
+        reason = error.strerror or error
+        raise InputError(f"case file: {str(path)!r} cannot be read; {reason}") from None
+    except UnicodeDecodeError:
+        raise InputError(f"case file: {str(path)!r} is not text; give a TOML file") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"case file: {str(path)!r} is not TOML; {error}") from None
+    where = partial(_place, path, text)
+    check_case(case, where, losses=losses)
+    return case
+
+
+def check_case(
+    case: Mapping[str, Any],
+    place: Callable[[str, str], str] = lambda *_: "",
+    *,
+    losses: bool = False,
+) -> None:
+    """Raise InputError for a key that is not known; `place` tells where a key of a table is.
+
+    Losses of the normal motion are refused, too, unless the caller can do with them.
+    """
+
+    def check(table: Mapping[str, Any], allowed: Iterable[str], name: str) -> None:
+        for key in table:
+            if key not in allowed:
+                hint = nearest(key, allowed) or f"known are {', '.join(allowed)}"
+                raise InputError(f"{key}: unknown key{place(key, name)}; {hint}")
+
+    if not isinstance(case, Mapping):
+        raise refusal("case", case, "must be a mapping with friction, speeds, first and second")
+    for key in () if losses else LOSSES:
+        if key in case:
+            where = place(key, "")
+            raise InputError(f"{key}: of no use{where}; this is for elastic impacts, leave it out")
+    check(case, ("friction", *MOTION, *LOSSES, *TABLES, SWEEP), "")
+    for name, allowed in TABLES.items():
+        table = case.get(name, {})
+        if not isinstance(table, Mapping):
+            raise refusal(name, table, f"must be a table, [{name}], with {', '.join(allowed)}")
+        check(table, allowed, name)
+        if isinstance(table.get("material"), Mapping):
+            check(table["material"], MATERIAL, name)
+
+
+def _place(path: Path, text: str, key: str, table: str) -> str:
+    return f" in {path}, line {line_of(key, text, table)}"
+
+
+def line_of(key: str, text: str, table: str) -> int:
+    """Return the line of a key, searched from the header of its table on."""
+    word = re.escape(key)
+    pattern = re.compile(rf"^\s*\[?\s*[\"']?{word}[\"']?\s*[=\].]|[{{,]\s*{word}\s*=")
+    header = re.compile(rf"^\s*\[?\s*{table}\b") if table else re.compile("")
+    inside = False
+    for row, line in enumerate(text.splitlines(), 1):
+        inside = inside or bool(header.match(line))
+        if inside and pattern.search(line):
+            return row
+    return 1
+
+
+def pair_of(case: Mapping[str, Any]) -> Pair:
+    """Return the bodies of a case with their friction, or raise InputError."""
+    if case.get("friction") is None:
+        raise InputError("friction: missing; give --friction, e.g. 0.2 (0 for none)")
+    first = _sphere("first", "", case.get("first", {}), {})
+    return Pair(first, _second(case.get("second", {}), first), case["friction"])
+
+
+def case_of(pair: Pair) -> Case:
+    """Return the case of a pair, plain numbers and words: what `pair_of` makes it from."""
+    return {
+        "friction": pair.friction,
+        "first": _body_of(pair.first),
+        "second": {"kind": KINDS[SHAPES.index(type(pair.second))], **_body_of(pair.second)},
+    }
+
+
+def _body_of(body: Counterbody) -> Case:
+    table = {name: value for name, value in describe(body).items() if name != "kind"}
+    if body.material.is_rigid:
+        table["material"]["young"] = body.material.young
+    return table
+
+
+def motion_of(case: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what a case says about speeds and spins."""
+    return {name: case[name] for name in MOTION if case.get(name) is not None}
+
+
+def normal_of(case: Mapping[str, Any]) -> "NormalLaw | None":
+    """Return what the normal motion of a case loses energy to, None where it does not.
+
+    Raises InputError if it is given in two ways, or out of range.
+
+    >>> from carom.bodies.cases import normal_of
+    >>> normal_of({"restitution": 0.9}), normal_of({"speed": "2 m/s"})
+    (KelvinVoigt(restitution=0.9, loss_time=None), None)
+    """
+    given = [name for name in LOSSES if case.get(name) is not None]
+    if len(given) > 1:
+        raise InputError(f"{given[1]}: give it or {given[0]}, not both; {ONE_LOSS}")
+    return law_of(given[0], read_loss(given[0], case[given[0]])) if given else None
+
+
+def law_of(name: str, value: Any) -> "NormalLaw":
+    """Return the law of a loss; its value is a number, an array, or None for the strengths."""
+    from carom.bodies.losses import ElasticPlastic, KelvinVoigt
+
+    return ElasticPlastic(value) if name == "yield_velocity" else KelvinVoigt(**{name: value})
+
+
+def read_loss(name: str, value: Any) -> float | None:
+    """Return the value of a loss in SI units, None for that of the strengths, or InputError."""
+    if name == "yield_velocity" and isinstance(value, str) and value.strip().isalpha():
+        if value.strip() == FROM_STRENGTH:
+            return None
+        allowed = f"give a speed, e.g. '0.1 m/s', or '{FROM_STRENGTH}' for that of yield strengths"
+        raise refusal(name, value, allowed)
+    read = number(name, value)
+    law_of(name, read)
+    return read
+
+
+def as_kind(kind: Any) -> str:
+    """Return the kind of a second body, or raise InputError if there is none of that name."""
+    if kind not in KINDS:
+        raise refusal("kind", kind, f"must be {', '.join(KINDS[:-1])} or {KINDS[-1]}")
+    return str(kind)
+
+
+def _second(table: Mapping[str, Any], first: Sphere) -> Counterbody:
+    kind = as_kind(table.get("kind", KINDS[0]))
+    same = {"material": first.material, "radius": first.radius}
+    if kind == "sphere":
+        return _sphere("second", "second-", table, same)
+    stuff = read_material(table.get("material", first.material))
+    for name in ("gyration_radius", "inner_radius"):
+        if name in table:
+            raise refusal(name, table[name], f"a {kind} has none; it belongs to a sphere")
+    if kind == "cup":
+        if "radius" not in table:
+            raise InputError("radius: missing for the cup; give --second-radius, e.g. '10 mm'")
+        return Cup(radius=table["radius"], material=stuff)
+    if "radius" in table:
+        raise refusal("radius", table["radius"], "a half-space has none; set kind to sphere or cup")
+    return HalfSpace(material=stuff)
+
+
+def _sphere(name: str, prefix: str, table: Mapping[str, Any], default: Mapping[str, Any]) -> Sphere:
+    values = {**default, **table}
+    values.pop("kind", None)
+    for key, example in (("radius", "5 mm"), ("material", "steel")):
+        if values.get(key) is None:
+            raise InputError(
+                f"{key}: missing for the {name} body; give --{prefix}{key}, e.g. '{example}'"
+            )
+    return Sphere(**{**values, "material": read_material(values["material"])})
+
+
+def read_material(value: Any) -> Material:
+    """Return a material from a name, a table, or text like "young=210 GPa, poisson=0.3"."""
+    table = _as_table(value)
+    if not isinstance(table, Mapping):
+        return as_material(table)
+    for key in ("young", "poisson"):
+        if key not in table:
+            raise InputError(f"{key}: missing in the material; give young, poisson and density")
+    return Material(**table)
+
+
+def material_values(value: Any) -> dict[str, float]:
+    """Return what is known of a material, in SI units; a table may leave values out."""
+    table = _as_table(value)
+    if isinstance(table, Mapping):
+        known = Material(**{"young": 1.0, "poisson": 0.0, **table})
+        return {name: getattr(known, name) for name in VALUES if table.get(name) is not None}
+    known = as_material(table)
+    return {name: getattr(known, name) for name in VALUES if getattr(known, name) is not None}
+
+
+def _as_table(value: Any) -> Any:
+    """Return text like "young=210 GPa, poisson=0.3" as a table, anything else as it is."""
+    if isinstance(value, str) and "=" in value:
+        value = dict(map(_entry, value.split(",")))
+    if isinstance(value, Mapping):
+        for key in value:
+            if key not in MATERIAL:
+                hint = nearest(key, MATERIAL) or f"known are {', '.join(MATERIAL)}"
+                raise InputError(f"{key}: unknown in a material; {hint}")
+    return value
+
+
+def _entry(part: str) -> tuple[str, str]:
+    key, equals, text = part.partition("=")
+    if not equals:
+        example = "write e.g. young=210 GPa, poisson=0.3, density=7850 with decimal points"
+        raise refusal("material", part.strip(), example)
+    return key.strip(), text.strip()

@@ -1,0 +1,234 @@
+"""A rebound seen from outside: the motion before, two impulses, and what is published of it."""
+
+from dataclasses import dataclass
+from itertools import zip_longest
+from math import inf, nan, pi
+from typing import Any, NamedTuple
+
+from carom.bodies.pairs import Pair
+from carom.bodies.shapes import Sphere
+from carom.quantities.elementwise import arctan2, cos, hypot, quotient, sin, where
+from carom.quantities.units import InputError, Value, finite, number, positive, refusal
+
+
+def approach(
+    speed: Value | None,
+    angle: Value | None,
+    normal_speed: Value | None,
+    tangential_speed: Value | None,
+) -> tuple[float, float]:
+    """Return normal and tangential speed from either way of giving them, in m/s.
+
+    V_1 = speed cos(angle), v_t = speed sin(angle).
+
+    Raises InputError if one is missing, given twice, out of range, or the bodies do not approach.
+    """
+    if speed is not None:
+        if normal_speed is not None or tangential_speed is not None:
+            raise InputError("speed: give speed and angle, or normal_speed and tangential_speed")
+        return components(positive("speed", speed), slope(0.0 if angle is None else angle))
+    if normal_speed is None:
+        raise InputError("speed: missing; give speed and angle, or normal_speed")
+    if angle is not None:
+        raise InputError("angle: goes with speed; with normal_speed give tangential_speed")
+    normal = number("normal_speed", normal_speed)
+    if not 0.0 < normal < inf:
+        raise refusal(
+            "normal_speed", normal_speed, "must be positive and finite: the bodies must approach"
+        )
+    return normal, finite("tangential_speed", 0.0 if tangential_speed is None else tangential_speed)
+
+
+def components(speed: float, angle: float) -> tuple[float, float]:
+    """Return normal and tangential speed, numbers or arrays of them, in m/s."""
+    return speed * cos(angle), speed * sin(angle)
+
+
+def slope(angle: Value) -> float:
+    """Return an angle of incidence in rad, or raise InputError if it does not approach."""
+    result = finite("angle", angle)
+    if abs(result) < pi / 2:
+        return result
+    if isinstance(angle, str) and any(c.isalpha() or c == "°" for c in angle):
+        raise refusal("angle", angle, "must be below 90 deg: the bodies must approach")
+    raise refusal("angle", angle, f"a bare angle is in radians, below pi/2; write '{angle} deg'")
+
+
+class Tangential(NamedTuple):
+    """Tangential motion: speed of the first centre relative to the second, and the spins.
+
+    Each is a number, or an array: along time, or of many impacts.
+    """
+
+    tangential_speed: float
+    spin: float
+    spin2: float
+
+    def after(self, pair: Pair, impulse: Any) -> "Tangential":
+        """Return the motion after an impulse on the contact point of the first body, against +x."""
+        spins = (
+            spin - impulse * body.radius / inertia(body) if body else spin + 0.0 * impulse
+            for body, spin in zip_longest(pair.moving, self[1:])
+        )
+        return Tangential(self.tangential_speed - impulse / pair.normal_mass, *spins)
+
+    def contact_velocity(self, pair: Pair) -> float:
+        """Return the velocity of the contact point, V_x = v_t + R spin + R_2 spin2, in m/s."""
+        carried = (body.radius * spin for body, spin in zip(pair.moving, self[1:], strict=False))
+        return self.tangential_speed + sum(carried)
+
+    def spin_energy(self, pair: Pair) -> float:
+        """Return the kinetic energy of the spins, (1/2) sum I omega^2, in J."""
+        moving = zip(pair.moving, self[1:], strict=False)
+        return sum(0.5 * inertia(body) * spin**2 for body, spin in moving)
+
+
+def inertia(body: Sphere) -> float:
+    """Return the moment of inertia about the centre, M K^2, in kg m^2."""
+    return body.mass * body.gyration_ratio * body.radius**2
+
+
+@dataclass(frozen=True)
+class Rebound:
+    """An impact known from outside: the motion before, and the two impulses as what they do.
+
+    The tangential impulse J_t acts on the first body against +x; the normal one is
+    J_n = m_n (1 + e) V_1. SI units; numbers or arrays of one shape. Signs are those of `impact`:
+    positive spin adds to the tangential speed of the contact point, V_x = v_t + R spin + R_2 spin2.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.bodies.kinematics import Tangential
+    >>> from carom.bodies.kinematics import Rebound
+    >>> ball = carom.Sphere(radius="2.5 mm", material="alumina")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="soda-lime-glass"), friction=0.092)
+    >>> rebound = Rebound(pair, 2.0, Tangential(2.0, 0.0, 0.0), restitution=0.98, impulse=0.0)
+    >>> rebound.tangential_restitution, round(rebound.contact_rebound_angle, 4)
+    (1.0, 0.7955)
+    """
+
+    pair: Pair
+    normal_speed: Any
+    before: Tangential
+    restitution: Any
+    impulse: Any
+
+    @property
+    def after(self) -> Tangential:
+        """Tangential speed of the centre and spins after."""
+        return self.before.after(self.pair, self.impulse)
+
+    @property
+    def tangential_speed(self) -> Any:
+        """Tangential speed of the centre before, v_t in m/s."""
+        return self.before.tangential_speed
+
+    @property
+    def spin(self) -> Any:
+        """Spin of the first body before, in rad/s."""
+        return self.before.spin
+
+    @property
+    def spin2(self) -> Any:
+        """Spin of the second body before, in rad/s."""
+        return self.before.spin2
+
+    @property
+    def speed(self) -> Any:
+        """Speed of approach of the centres, in m/s."""
+        return hypot(self.normal_speed, self.tangential_speed)
+
+    @property
+    def angle(self) -> Any:
+        """Angle of incidence of the centre from the normal, tan = v_t/V_1."""
+        return arctan2(self.tangential_speed, self.normal_speed)
+
+    @property
+    def contact_velocity(self) -> Any:
+        """Tangential velocity of the contact point before, V_x in m/s."""
+        return self.before.contact_velocity(self.pair)
+
+    @property
+    def contact_angle(self) -> Any:
+        """Angle of incidence of the contact point from the normal, tan = V_x/V_1."""
+        return arctan2(self.contact_velocity, self.normal_speed)
+
+    @property
+    def psi_in(self) -> Any:
+        """kappa V_x/(mu V_1)."""
+        return self.pair.psi(self.contact_velocity, self.normal_speed)
+
+    @property
+    def normal_restitution(self) -> Any:
+        """Normal speed after to before, e."""
+        return self.restitution
+
+    @property
+    def normal_speed_out(self) -> Any:
+        """Normal speed after, e V_1 in m/s."""
+        return self.restitution * self.normal_speed
+
+    @property
+    def normal_impulse(self) -> Any:
+        """J_n = m_n (1 + e) V_1, in N s."""
+        return self.pair.normal_mass * (1.0 + self.restitution) * self.normal_speed
+
+    @property
+    def tangential_speed_out(self) -> Any:
+        """Tangential speed of the centre after, v_t' in m/s."""
+        return self.after.tangential_speed
+
+    @property
+    def spin_out(self) -> Any:
+        """Spin of the first body after, in rad/s."""
+        return self.after.spin
+
+    @property
+    def spin2_out(self) -> Any:
+        """Spin of the second body after, in rad/s."""
+        return self.after.spin2
+
+    @property
+    def contact_velocity_out(self) -> Any:
+        """Tangential velocity of the contact point after, V_x' in m/s."""
+        return self.contact_velocity - self.impulse / self.pair.tangential_mass
+
+    @property
+    def rebound_angle(self) -> Any:
+        """Angle of rebound of the centre from the normal, tan = v_t'/(e V_1)."""
+        return arctan2(self.tangential_speed_out, self.normal_speed_out)
+
+    @property
+    def contact_rebound_angle(self) -> Any:
+        """Angle of rebound of the contact point from the normal, tan = V_x'/(e V_1)."""
+        return arctan2(self.contact_velocity_out, self.normal_speed_out)
+
+    @property
+    def tangential_restitution(self) -> Any:
+        """v_t'/v_t of the centre; NaN if there was none."""
+        return _ratio(self.tangential_speed_out, self.tangential_speed)
+
+    @property
+    def contact_restitution(self) -> Any:
+        """V_x'/V_x of the contact point; NaN if there was none."""
+        return _ratio(self.contact_velocity_out, self.contact_velocity)
+
+    @property
+    def contact_beta(self) -> Any:
+        """-V_x'/V_x of the contact point, beta of Foerster et al. (1994), Walton's beta."""
+        return -self.contact_restitution
+
+    @property
+    def impulse_ratio(self) -> Any:
+        """J_t/J_n: the coefficient of friction where the impact slides throughout."""
+        return self.impulse / self.normal_impulse
+
+    @property
+    def psi_out(self) -> Any:
+        """kappa V_x'/(mu V_1)."""
+        return self.pair.psi(self.contact_velocity_out, self.normal_speed)
+
+
+def _ratio(after: Any, before: Any) -> Any:
+    return where(before == 0.0, nan, quotient(after, before))

@@ -1,0 +1,223 @@
+"""Laws of the normal motion that lose energy: what an impact takes as `normal`."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache, reduce
+from math import pi
+from typing import Any, Protocol
+
+import numpy as np
+
+from carom.bodies.pairs import Pair
+from carom.dimensionless.lossy.normal import Loss
+from carom.dimensionless.lossy.stages import viscous_loss
+from carom.io.citations import VISCOUS
+from carom.quantities.elementwise import sqrt
+from carom.quantities.units import InputError, Value, not_negative, number, positive, refusal
+
+SMALLEST_RESTITUTION = 1e-3
+LIMIT_PRESSURE = 1.6  # in yield strengths: where a sphere first yields (Johnson 1985, 6.1)
+
+_viscous_loss: Callable[[float], float] = lru_cache(maxsize=4096)(viscous_loss)
+
+
+class NormalLaw(Protocol):
+    """What an impact needs of a law of normal loss."""
+
+    def loss(self, pair: Pair, normal_speed: Any) -> tuple[int, Any]:
+        """Return which loss it is, and its dimensionless parameter, a number or an array."""
+
+    def scale_free(self) -> tuple[int, float]:
+        """Return the same if it does not depend on bodies and speed, else raise InputError."""
+
+    @property
+    def source(self) -> str:
+        """The key of what to cite, in data/citations.bib."""
+
+    def describe(self) -> dict[str, Any]:
+        """Return the law as plain numbers and words."""
+
+
+@dataclass(frozen=True)
+class KelvinVoigt:
+    """A sphere that is viscous in compression, of incompressible linear material.
+
+    P/P_max = (3/2) integral of (d + tau v - s) over the contact while that is positive: a contact
+    in parallel with dashpots that cannot pull; shear is elastic. Either e is given, the same at all
+    speeds, or the loss time tau, whence 1 - e grows as V_1^(1/5).
+
+    Parameters
+    ----------
+    restitution : float or array, optional
+        e wanted, from 0.001 to 1; alpha = tau V_1/d_max follows from it, to 1e-12.
+    loss_time : float or str, optional
+        tau in s, zero or positive: viscosity over modulus of the material.
+
+    Raises
+    ------
+    InputError
+        If none or both are given, or one is out of range.
+
+    Notes
+    -----
+    Kuwabara & Kono (1987), Jpn. J. Appl. Phys. 26:1230-1233; Brilliantov et al. (1996), Phys. Rev.
+    E 53:5382-5392; without tension as in Schwager & Poeschel (2008), Phys. Rev. E 78:051304. With
+    the memory of the tangential springs on limits that the viscous part shifts.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> law = carom.KelvinVoigt(restitution=0.9)
+    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg", normal=law)
+    >>> round(hit.normal_restitution, 10), round(hit.contact_restitution, 4)
+    (0.9, -0.4639)
+    """
+
+    restitution: Any = None
+    loss_time: Any = None
+
+    def __init__(self, restitution: Any = None, loss_time: Value | None = None) -> None:
+        if (restitution is None) == (loss_time is None):
+            raise InputError("restitution: give it or loss_time, one of the two")
+        if restitution is not None:
+            object.__setattr__(self, "restitution", _restitution(restitution))
+        if loss_time is not None:
+            object.__setattr__(self, "loss_time", _loss_time(loss_time))
+
+    def loss(self, pair: Pair, normal_speed: Any) -> tuple[int, Any]:
+        """Return the loss and alpha = tau V_1/d_max."""
+        if self.restitution is not None:
+            return Loss.VISCOUS.value, _alphas(self.restitution)
+        return Loss.VISCOUS.value, self.loss_time / pair.scales(normal_speed).time
+
+    def scale_free(self) -> tuple[int, float]:
+        """Return the loss and alpha; InputError if a loss time was given."""
+        if self.restitution is None:
+            raise refusal("normal", self, "give a restitution, which needs no bodies and speed")
+        return Loss.VISCOUS.value, float(_alphas(self.restitution))
+
+    @property
+    def source(self) -> str:
+        """The key of Kuwabara & Kono (1987) in data/citations.bib."""
+        return VISCOUS
+
+    def describe(self) -> dict[str, Any]:
+        """Return what was given."""
+        name = "loss_time" if self.restitution is None else "restitution"
+        return {name: getattr(self, name)}
+
+
+@dataclass(frozen=True)
+class ElasticPlastic:
+    """A sphere of elastic, perfectly plastic material: metals above their yield velocity.
+
+    P = P_y + 2 E* a_y (d - d_y) from yield on, and (4/3) E* sqrt(R_p) (d - d_p)^(3/2) while
+    unloading, R_p/R* = (4/3) E* sqrt(R*) d^(3/2)/P at the turning point; e falls as V_1^(-1/4).
+    The tangential contact is taken for the elastic one that bears the same load: after yield its
+    radius, and with it the tangential stiffness, is too small by (P/P_Hertz)^(1/3) while loading
+    and (R*/R_p)^(1/3) while unloading.
+
+    Parameters
+    ----------
+    yield_velocity : float or str, optional
+        Normal velocity V_y in m/s at which the contact first yields; by default that at which the
+        largest pressure is 1.6 times the lowest yield strength of the materials.
+
+    Raises
+    ------
+    InputError
+        If it is not positive, or neither it nor a yield strength is known.
+
+    Notes
+    -----
+    Thornton (1997), J. Appl. Mech. 64:383-386, (14)-(28).
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> law = carom.ElasticPlastic(yield_velocity="0.1 m/s")
+    >>> hit = carom.impact(pair, normal_speed=1.0, tangential_speed=0.5, normal=law)
+    >>> round(hit.normal_restitution, 6)
+    0.658558
+    """
+
+    yield_velocity: Any = None
+
+    def __init__(self, yield_velocity: Value | None = None) -> None:
+        if yield_velocity is not None:
+            checked = _checked("yield_velocity", yield_velocity)
+            object.__setattr__(self, "yield_velocity", checked)
+
+    def loss(self, pair: Pair, normal_speed: Any) -> tuple[int, Any]:
+        """Return the loss and the radius of the contact at yield, (V_y/V_1)^(2/5)."""
+        own = self.yield_velocity
+        velocity = yield_velocity(pair) if own is None else own
+        return Loss.PLASTIC.value, (velocity / normal_speed) ** 0.4
+
+    def scale_free(self) -> tuple[int, float]:
+        """Raise InputError: the loss depends on the speed."""
+        raise refusal("normal", self, "it depends on the speed; use impact, or KelvinVoigt")
+
+    @property
+    def source(self) -> str:
+        """The key of Thornton (1997) in data/citations.bib."""
+        return "thornton1997"
+
+    def describe(self) -> dict[str, Any]:
+        """Return what was given."""
+        return {"yield_velocity": self.yield_velocity}
+
+
+def yield_velocity(pair: Pair) -> float:
+    """Return the normal velocity in m/s at which the largest pressure is 1.6 yield strengths.
+
+    p_0 = (2 E*/pi) sqrt(d_max/R*) = 1.6 Y, V_y^2 = (16/15) E* sqrt(R*) d_max^(5/2)/m_n.
+
+    Raises InputError if no yield strength is known. Johnson (1985), (11.21); Thornton (1997).
+
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> from carom.bodies.losses import yield_velocity
+    >>> 0.0 < yield_velocity(pair) < 1.0
+    True
+    """
+    bodies = (pair.first.material, pair.second.material)
+    strengths = [body.yield_strength for body in bodies if body.yield_strength is not None]
+    if not strengths:
+        raise InputError("yield_velocity: missing, as no yield strength is known; give it")
+    strength = reduce(np.fmin, strengths)
+    ratio = pi * LIMIT_PRESSURE * strength / (2.0 * pair.effective_modulus)
+    length = pair.effective_radius * ratio**2
+    stiffness = 16.0 / 15.0 * pair.effective_modulus * sqrt(pair.effective_radius)
+    return sqrt(stiffness * length**2.5 / pair.normal_mass)
+
+
+def _alphas(restitution: Any) -> Any:
+    if np.ndim(restitution) == 0:
+        return _viscous_loss(float(restitution))
+    unique, places = np.unique(restitution, return_inverse=True)
+    good = (unique >= SMALLEST_RESTITUTION) & (unique <= 1.0)
+    found = [_viscous_loss(float(e)) if ok else np.nan for e, ok in zip(unique, good, strict=True)]
+    return np.array(found)[places].reshape(np.shape(restitution))
+
+
+def _restitution(value: Any) -> Any:
+    if np.ndim(value):
+        return value
+    found = number("restitution", value)
+    if not SMALLEST_RESTITUTION <= found <= 1.0:
+        raise refusal("restitution", value, f"must be from {SMALLEST_RESTITUTION:g} to 1")
+    return found
+
+
+def _loss_time(value: Any) -> Any:
+    return value if np.ndim(value) else not_negative("loss_time", value)
+
+
+def _checked(name: str, value: Any) -> Any:
+    return value if np.ndim(value) else positive(name, value)

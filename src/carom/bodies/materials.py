@@ -1,0 +1,192 @@
+"""Materials: elastic, with a density and a strength where they are known; and the catalogue."""
+
+import math
+import tomllib
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib.resources import files
+from typing import Any, TypeVar
+
+from carom.quantities.units import Value, nearest, number, positive, refusal
+
+VALUES = ("young", "poisson", "density", "yield_strength")
+T = TypeVar("T")
+
+
+def fill(record: object, **values: object) -> None:
+    """Fill a frozen record."""
+    for name, value in values.items():
+        object.__setattr__(record, name, value)
+
+
+def unchecked(kind: type[T], **values: object) -> T:
+    """Return a frozen record with fields as they are: arrays, checked point by point elsewhere."""
+    record = object.__new__(kind)
+    fill(record, **values)
+    return record
+
+
+@dataclass(frozen=True, init=False)
+class Material:
+    """An isotropic elastic material; numbers are SI, text may carry a unit.
+
+    G = E/(2 (1 + nu)).
+
+    Parameters
+    ----------
+    young : float or str
+        Young's modulus, positive; math.inf for a material that does not deform.
+    poisson : float
+        Poisson's ratio, -1 < nu <= 0.5.
+    density : float or str, optional
+        Needed only for a body that moves.
+    yield_strength : float or str, optional
+        Used only to judge whether the impact stays elastic.
+    name : str, optional
+        How results call it.
+
+    Raises
+    ------
+    InputError
+        If a value is out of range or its unit does not fit.
+
+    Examples
+    --------
+    >>> import carom
+    >>> steel = carom.Material(young="210 GPa", poisson=0.3, density=7850)
+    >>> round(steel.shear_modulus / 1e9, 3)
+    80.769
+    """
+
+    young: float
+    poisson: float
+    density: float | None
+    yield_strength: float | None
+    name: str | None
+
+    def __init__(
+        self,
+        *,
+        young: Value,
+        poisson: Value,
+        density: Value | None = None,
+        yield_strength: Value | None = None,
+        name: str | None = None,
+    ) -> None:
+        ratio = number("poisson", poisson)
+        if not -1.0 < ratio <= 0.5:
+            raise refusal("poisson", poisson, "must be above -1 and at most 0.5, e.g. 0.3")
+        fill(
+            self,
+            young=math.inf if young == math.inf else positive("young", young),
+            poisson=ratio,
+            density=None if density is None else positive("density", density),
+            yield_strength=None
+            if yield_strength is None
+            else positive("yield_strength", yield_strength),
+            name=name,
+        )
+
+    @property
+    def shear_modulus(self) -> float:
+        """Shear modulus in Pa."""
+        return self.young / (2.0 * (1.0 + self.poisson))
+
+    @property
+    def is_rigid(self) -> bool:
+        """Whether the material does not deform."""
+        return math.isinf(self.young)
+
+
+@lru_cache(maxsize=1)
+def _catalogue() -> dict[str, dict[str, Any]]:
+    text = files("carom").joinpath("data/materials.toml").read_text(encoding="utf-8")
+    catalogue: dict[str, dict[str, Any]] = tomllib.loads(text)
+    return catalogue
+
+
+def materials() -> dict[str, Material]:
+    """Return the catalogue of materials by name, without "rigid".
+
+    Typical values at room temperature; `material_sources` tells where each comes from.
+
+    Returns
+    -------
+    dict
+        Each `Material` by name, E in Pa, density in kg/m^3.
+
+    Examples
+    --------
+    >>> import carom
+    >>> "soda-lime-glass" in carom.materials()
+    True
+    """
+    return {name: material(name) for name in _catalogue()}
+
+
+def material(name: str) -> Material:
+    """Return a material of the catalogue by its name or an alias; "rigid" does not deform.
+
+    Parameters
+    ----------
+    name : str
+        As `materials` has it, or an alias of it such as "glass".
+
+    Returns
+    -------
+    Material
+        E in Pa, nu, density in kg/m^3, yield strength in Pa; what is not known is None.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name; the message offers the nearest.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.material("steel").young
+    210000000000.0
+    """
+    wanted = str(name).strip().lower()
+    if wanted == "rigid":
+        return Material(young=math.inf, poisson=0.0, name="rigid")
+    for key, entry in _catalogue().items():
+        if wanted in (key, *entry.get("aliases", ())):
+            values: dict[str, Any] = {k: entry.get(k) for k in VALUES}
+            return Material(**values, name=key)
+    known = [alias for key, entry in _catalogue().items() for alias in (key, *entry["aliases"])]
+    hint = nearest(wanted, [*known, "rigid"]) or "carom materials lists what there is"
+    raise refusal("material", name, f"no material of that name; {hint}")
+
+
+def material_sources(name: str) -> dict[str, str]:
+    """Return the source of each value of a material of the catalogue.
+
+    Parameters
+    ----------
+    name : str
+        As `material` takes it.
+
+    Returns
+    -------
+    dict
+        The source by the name of the value; empty for "rigid".
+
+    Raises
+    ------
+    InputError
+        If there is none of that name.
+
+    Examples
+    --------
+    >>> import carom
+    >>> sorted(carom.material_sources("steel"))
+    ['density', 'poisson', 'yield_strength', 'young']
+    """
+    return dict(_catalogue().get(material(name).name or "", {}).get("sources", {}))
+
+
+def as_material(value: Material | str) -> Material:
+    """Return a material as it is, or the one of that name."""
+    return value if isinstance(value, Material) else material(value)

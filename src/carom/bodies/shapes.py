@@ -1,0 +1,174 @@
+"""Shapes of bodies: a sphere, a half-space, a cup."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, cast
+
+from carom.bodies.materials import VALUES, Material, as_material, fill
+from carom.quantities.units import InputError, Value, not_negative, positive, refusal
+
+
+@dataclass(frozen=True, init=False)
+class Sphere:
+    """A sphere: solid, hollow with an `inner_radius`, or of any `gyration_radius` K.
+
+    M = (4/3) pi (R^3 - R_i^3) rho, K^2 = (2/5) (R^5 - R_i^5)/(R^3 - R_i^3).
+
+    Parameters
+    ----------
+    radius : float or str
+        R in m.
+    material : Material or str
+        With a density; or the name of one of the catalogue.
+    gyration_radius, inner_radius : float or str, optional
+        K or R_i in m, not both.
+
+    Raises
+    ------
+    InputError
+        If a size is not positive, the hole as large as the sphere, the inertia given in both ways,
+        or the material without density.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> round(ball.mass * 1e3, 4)
+    4.1103
+    """
+
+    radius: float
+    material: Material
+    gyration_radius: float | None
+    inner_radius: float
+
+    def __init__(
+        self,
+        *,
+        radius: Value,
+        material: Material | str,
+        gyration_radius: Value | None = None,
+        inner_radius: Value | None = None,
+    ) -> None:
+        if gyration_radius is not None and inner_radius is not None:
+            raise InputError("sphere: give gyration_radius or inner_radius, not both")
+        fill(
+            self,
+            radius=positive("radius", radius),
+            material=as_material(material),
+            gyration_radius=None
+            if gyration_radius is None
+            else positive("gyration_radius", gyration_radius),
+            inner_radius=0.0
+            if inner_radius is None
+            else not_negative("inner_radius", inner_radius),
+        )
+        if not self.inner_radius < self.radius:
+            raise refusal("inner_radius", inner_radius, f"must be below the radius, {radius!r}")
+        if self.material.density is None:
+            raise refusal("density", None, "a sphere that moves needs a material with a density")
+
+    @cached_property
+    def mass(self) -> float:
+        """Mass in kg."""
+        volume = 4.0 / 3.0 * math.pi * (self.radius**3 - self.inner_radius**3)
+        return volume * cast(float, self.material.density)
+
+    @cached_property
+    def gyration_ratio(self) -> float:
+        """K^2/R^2: 2/5 for a solid sphere, 2/3 for a thin shell."""
+        if self.gyration_radius is not None:
+            return (self.gyration_radius / self.radius) ** 2
+        hole = self.inner_radius / self.radius
+        return 0.4 * (1.0 - hole**5) / (1.0 - hole**3)
+
+    @property
+    def curvature(self) -> float:
+        """Curvature in 1/m, positive where the body is convex."""
+        return 1.0 / self.radius
+
+
+@dataclass(frozen=True, init=False)
+class HalfSpace:
+    """A flat body that does not move as a whole.
+
+    Parameters
+    ----------
+    material : Material or str
+        What it is made of; or the name of a material of the catalogue.
+
+    Raises
+    ------
+    InputError
+        If there is no material of that name.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.HalfSpace(material="rigid").material.is_rigid
+    True
+    """
+
+    material: Material
+
+    def __init__(self, *, material: Material | str) -> None:
+        fill(self, material=as_material(material))
+
+    @property
+    def curvature(self) -> float:
+        """Curvature in 1/m: none."""
+        return 0.0
+
+
+@dataclass(frozen=True, init=False)
+class Cup:
+    """A spherical cup, fixed, in which a smaller sphere strikes.
+
+    Parameters
+    ----------
+    radius : float or str
+        In m, larger than that of the sphere.
+    material : Material or str
+        What it is made of; or the name of a material of the catalogue.
+
+    Raises
+    ------
+    InputError
+        If the radius is not positive, or there is no material of that name.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.Cup(radius="10 mm", material="steel"), friction=0.2)
+    >>> round(pair.effective_radius * 1e3, 9)
+    10.0
+    """
+
+    radius: float
+    material: Material
+
+    def __init__(self, *, radius: Value, material: Material | str) -> None:
+        fill(self, radius=positive("radius", radius), material=as_material(material))
+
+    @property
+    def curvature(self) -> float:
+        """Curvature in 1/m, negative."""
+        return -1.0 / self.radius
+
+
+def describe(body: Sphere | HalfSpace | Cup) -> dict[str, Any]:
+    """Return what a body was made from, as plain numbers and words."""
+    entries: dict[str, Any] = {"kind": type(body).__name__}
+    for name in ("radius", "gyration_radius", "inner_radius"):
+        value = getattr(body, name, None)
+        if value:
+            entries[name] = value
+    stuff = body.material
+    entries["material"] = {
+        name: getattr(stuff, name)
+        for name in ("name", *VALUES)
+        if getattr(stuff, name) is not None and getattr(stuff, name) != math.inf
+    }
+    return entries

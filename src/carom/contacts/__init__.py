@@ -1,0 +1,1 @@
+"""What happens in a contact at an instant, of an impact or of a load path."""

@@ -1,0 +1,177 @@
+"""Closed forms of classical tangential contact of spheres; what `load_path` reproduces."""
+
+from math import atan
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from carom.bodies.pairs import Pair
+from carom.quantities.arrays import Array, numbers
+from carom.quantities.units import refusal
+
+
+class Obliquity(NamedTuple):
+    """Angles from the normal, in rad: of the force, and of the motion of the bodies.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.classical.Obliquity(force=0.1974, displacement=0.2383).force
+    0.1974
+    """
+
+    force: float
+    displacement: float
+
+
+def cattaneo_mindlin(pair: Pair, normal_force: ArrayLike, tangential_force: ArrayLike) -> Array:
+    """Return the displacement in m under a tangential force that grows at constant normal force.
+
+    U = (3 mu P/(4 a G*)) (1 - (1 - T/(mu P))^(2/3)), a the contact radius; odd in T (Cattaneo
+    1938, Mindlin 1949; Johnson, Contact Mechanics, 1985, section 7.2).
+
+    Parameters
+    ----------
+    pair : Pair
+        The bodies and their friction.
+    normal_force, tangential_force : array_like
+        P > 0 and T in N, |T| <= mu P; shapes that broadcast.
+
+    Returns
+    -------
+    numpy.ndarray
+        U in m, of the broadcast shape.
+
+    Raises
+    ------
+    InputError
+        If P is not positive, |T| above mu P, or there is no friction.
+
+    Examples
+    --------
+    >>> import carom
+    >>> import numpy as np
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.5])
+    >>> moved = carom.classical.cattaneo_mindlin(pair, 10.0, 1.5)
+    >>> bool(np.isclose(path.displacement[-1], moved, rtol=1e-12))
+    True
+    """
+    share, most = _share(pair, normal_force, tangential_force)
+    with np.errstate(divide="ignore"):
+        part = -np.expm1(2.0 / 3.0 * np.log1p(-np.abs(share)))
+    return np.copysign(_gross_displacement(pair, most) * part, share)
+
+
+def loop_energy(pair: Pair, normal_force: ArrayLike, amplitude: ArrayLike) -> Array:
+    """Return the energy in J lost per cycle of a tangential force between -T and T at constant P.
+
+    W = (18 mu^2 P^2/(5 a G*)) (1 - (1 - t)^(5/3) - (5/6) t (1 + (1 - t)^(2/3))), t = T/(mu P); with
+    y = (1 - t)^(1/3) the bracket is (1 - y)^3 (1 + 3 y + y^2)/6, which is how it is computed
+    (Mindlin & Deresiewicz 1953, J. Appl. Mech. 20:327; Johnson 1985, section 7.4).
+
+    Parameters
+    ----------
+    pair : Pair
+        The bodies and their friction.
+    normal_force, amplitude : array_like
+        P > 0 and 0 <= T <= mu P in N; shapes that broadcast.
+
+    Returns
+    -------
+    numpy.ndarray
+        W in J, of the broadcast shape.
+
+    Raises
+    ------
+    InputError
+        If P is not positive, T not between 0 and mu P, or there is no friction.
+
+    Examples
+    --------
+    >>> import carom
+    >>> import numpy as np
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> path = carom.load_path(pair, normal_force=10.0, tangential_force=[0.0, 1.5, -1.5, 1.5])
+    >>> lost = path.frictional_work[3] - path.frictional_work[1]
+    >>> bool(np.isclose(lost, carom.classical.loop_energy(pair, 10.0, 1.5), rtol=1e-12))
+    True
+    """
+    share, most = _share(pair, normal_force, amplitude)
+    if np.any(share < 0.0):
+        raise refusal("amplitude", amplitude, "must not be negative")
+    with np.errstate(divide="ignore"):
+        gap = -np.expm1(np.log1p(-share) / 3.0)
+    y = 1.0 - gap
+    bracket = gap**3 * (1.0 + 3.0 * y + y**2) / 6.0
+    return np.asarray(4.8 * most * _gross_displacement(pair, most) * bracket)
+
+
+def critical_obliquity(pair: Pair) -> Obliquity:
+    """Return the obliquity up to which a load of constant direction, from first touch, slips not.
+
+    F_x/P = mu of the force, U/d = mu/kappa of the motion: then the whole contact sticks, and
+    unloading along the same line retraces the loading. Beyond it the whole contact slides
+    (Mindlin & Deresiewicz 1953, J. Appl. Mech. 20:327; Johnson 1985, section 7.3).
+
+    Parameters
+    ----------
+    pair : Pair
+        The bodies and their friction.
+
+    Returns
+    -------
+    Obliquity
+        Angles from the normal in rad: `force`, atan(mu), and `displacement`, atan(mu/kappa).
+
+    Raises
+    ------
+    InputError
+        If the pair is none.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> round(carom.classical.critical_obliquity(pair).force, 4)
+    0.1974
+    """
+    _check_pair(pair)
+    return Obliquity(atan(pair.friction), atan(pair.friction / pair.kappa))
+
+
+def _share(pair: Pair, normal: ArrayLike, tangential: ArrayLike) -> tuple[Array, Array]:
+    """Return T/(mu P), and mu P in N."""
+    _check_pair(pair)
+    allowed = "must be finite numbers in N, shapes that broadcast"
+    load = numbers("normal_force", normal, allowed)
+    across = numbers("tangential_force", tangential, allowed)
+    if not np.all((load > 0.0) & np.isfinite(load)):
+        raise refusal("normal_force", normal, "must be positive and finite")
+    if not np.all(np.isfinite(across)):
+        raise refusal("tangential_force", tangential, allowed)
+    most = pair.friction * load
+    try:
+        share = np.asarray(across / most)
+    except ValueError:
+        raise refusal("tangential_force", across, f"{allowed}: P has {load.shape}") from None
+    if not np.all(np.abs(share) <= 1.0):
+        raise refusal("tangential_force", tangential, "Coulomb's law allows at most mu P")
+    return share, most
+
+
+def _check_pair(pair: Pair) -> None:
+    if not isinstance(pair, Pair):
+        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    if pair.friction == 0.0:
+        raise refusal("friction", pair.friction, "must be positive; without it all slides freely")
+
+
+def _gross_displacement(pair: Pair, most: Array) -> Array:
+    """Return the displacement in m at which a growing force reaches mu P: mu d/kappa."""
+    unit = pair.contact_scales(1.0).force
+    return np.asarray(pair.friction / pair.kappa * (most / (pair.friction * unit)) ** (2.0 / 3.0))

@@ -1,0 +1,107 @@
+"""A contact at one instant, with units: what fields and stresses are made from."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from carom.bodies.pairs import ContactScales, Pair
+from carom.dimensionless.fields.profile import Profile
+from carom.dimensionless.numerics import hertz
+from carom.dimensionless.solution import Solution
+from carom.dimensionless.states import now_at
+from carom.quantities.arrays import Array
+
+ROUNDING = 8.0 * np.finfo(np.float64).eps  # of a time that has passed through seconds
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """A contact at one instant, of an impact or on a load path.
+
+    Penetration d, tangential displacement U, stick radius a and profile are dimensionless; `scales`
+    gives them units. `slid` tells from dimensionless radii the radial functions of the slip, in m;
+    `slip_speed` is that of the slip far outside the stick zone in m/s, None where there is no time.
+    """
+
+    pair: Pair
+    scales: ContactScales
+    penetration: float
+    displacement: float
+    stick_radius: float
+    profile: Profile = field(repr=False)
+    slid: Callable[[Array], Array] = field(repr=False)
+    slip_speed: float | None = None
+    scalars: Mapping[str, float] = field(default_factory=dict)
+    attributes: Mapping[str, Any] = field(default_factory=dict, repr=False)
+
+    @property
+    def radius(self) -> float:
+        """Radius of the contact, in m."""
+        return float(np.sqrt(self.penetration)) * self.scales.radius
+
+    def numbers(self) -> dict[str, float]:
+        """Return the numbers that describe the contact by name, in SI units."""
+        return {
+            "friction": self.pair.friction,
+            "penetration": self.penetration * self.scales.length,
+            "displacement": self.displacement * self.scales.tangential_length,
+            "contact_radius": self.radius,
+            "stick_radius": self.stick_radius * self.scales.radius,
+            **self.scalars,
+        }
+
+
+def contact_in_impact(
+    pair: Pair,
+    normal_speed: float,
+    drift: float,
+    solution: Solution,
+    time: float,
+    attributes: Mapping[str, Any],
+) -> Contact:
+    """Return the contact at a time in s of an impact; `drift` is V_x where no friction acts."""
+    scales = pair.scales(normal_speed)
+    instant = _at_change(time / scales.time, solution)
+    phase = solution.phase_at(instant)
+    kind, sign = ("gross slip", int(np.sign(drift))) if drift else (phase.kind, phase.sign)
+    now = now_at(solution.at(instant))
+    d = now["penetration"]
+
+    def slid(radii: Array) -> Array:
+        if drift:
+            return freely_slid(radii)
+        return solution.slid(instant, radii) * scales.tangential_length
+
+    def freely_slid(radii: Array) -> Array:
+        inside = radii**2 <= d
+        met = [hertz.time(r**2, np.sqrt(max(1.0 - r**5, 0.0))) for r in radii * inside]
+        slip = drift * (instant - np.array(met)) * scales.time * inside
+        return np.column_stack((slip, np.zeros(radii.size)))
+
+    return Contact(
+        pair,
+        scales,
+        penetration=d,
+        displacement=now["displacement"],
+        stick_radius=0.0 if drift else now["stick_radius"],
+        profile=solution.memory(instant).profile(),
+        slid=slid,
+        slip_speed=drift or solution.slip_rate(instant) * scales.tangential_speed,
+        scalars={
+            "time": time,
+            "displacement": now["displacement"] * scales.tangential_length + drift * time,
+            "normal_force": d**1.5 * scales.force,
+            "tangential_force": now["force"] * scales.tangential_force,
+        },
+        attributes={"phase_kind": kind, "phase_sign": sign, **attributes},
+    )
+
+
+def _at_change(instant: float, solution: Solution) -> float:
+    """Return the instant, or that of a change of phase from which only rounding parts it."""
+    for change in (*(phase.start for phase in solution.phases), solution.duration):
+        if abs(instant - change) <= ROUNDING * change:
+            return change
+    return instant

@@ -1,0 +1,133 @@
+"""What happens at the surface of a contact: tractions, zones, displacements, slip."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from carom.contacts.contact import Contact
+from carom.dimensionless.fields import surface
+from carom.dimensionless.numerics.chebyshev import evaluate
+from carom.io.labels import flags, labelled_dataset
+from carom.quantities.arrays import Array, places
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+GRID = 101  # points along x and y where none are asked for
+REACH = 1.5  # of that grid, in contact radii
+FAR = 1e50  # dimensionless; nothing changes beyond
+ROUNDING = 8.0 * np.finfo(np.float64).eps
+OUTSIDE, STICK, SLIP = 0, 1, 2
+ZONES = {"long_name": "zone of the contact", **flags(("outside", "stick", "slip"))}
+
+
+def surface_fields(
+    contact: Contact,
+    x: ArrayLike | None = None,
+    y: ArrayLike | None = None,
+    *,
+    points: ArrayLike | None = None,
+) -> "xr.Dataset":
+    """Return tractions, zones, displacements and slip on a grid or at points of the surface.
+
+    Arguments, result and errors as `Impact.fields`.
+    """
+    reach = REACH * (contact.radius or contact.scales.radius)
+    side = np.linspace(-reach, reach, GRID)
+    dims, coords, at = places("xy", {"x": x, "y": y}, {"x": side, "y": side}, points)
+    px, py = np.moveaxis(at, -1, 0)
+    r = _distances(contact, px, py)
+    unique, back = np.unique(r, return_inverse=True)
+    radial = _radial(contact, unique)[back.reshape(r.shape)]
+    angle = 2.0 * np.arctan2(py, px)
+    columns = _columns(contact, r, radial, np.cos(angle), np.sin(angle))
+    variables = {name: (dims, values) for name, values in columns.items()}
+    zone = (dims, _zones(contact, r), ZONES)
+    attrs = {"title": "contact seen from above", **contact.attributes}
+    return labelled_dataset({**variables, "zone": zone, **contact.numbers()}, coords, attrs)
+
+
+def radial_fields(contact: Contact, n: int = 401) -> "xr.Dataset":
+    """Return pressure, traction and memory at n distances from the centre of the contact."""
+    r = np.linspace(0.0, float(np.sqrt(contact.penetration)), n)
+    values, memory = _radial(contact, r), _memory(contact, r)
+    limit = contact.pair.friction * contact.scales.pressure
+    deflection = contact.scales.tangential_length
+    columns = {
+        "pressure": values[:, 0] * contact.scales.pressure,
+        "friction_limit": values[:, 0] * limit,
+        "traction_x": values[:, 1] * limit,
+        "memory_g": memory[:, 0],
+        "memory_q": memory[:, 1] * deflection,
+        "memory_limit": (contact.penetration - r**2) * deflection,
+    }
+    variables: dict[str, Any] = {name: ("distance", value) for name, value in columns.items()}
+    return labelled_dataset(
+        {**variables, "zone": ("distance", _zones(contact, r), ZONES), **contact.numbers()},
+        {"distance": r * contact.scales.radius},
+        {"title": "contact along a radius", **contact.attributes},
+    )
+
+
+def _distances(contact: Contact, px: Array, py: Array) -> Array:
+    """Return dimensionless distances from the centre, those at the edge freed from rounding."""
+    r, edge = np.hypot(px, py) / contact.scales.radius, np.sqrt(contact.penetration)
+    r = np.minimum(r, FAR)
+    return np.where(np.abs(r - edge) <= ROUNDING * edge, edge, r)
+
+
+def _radial(contact: Contact, r: Array) -> Array:
+    """Return pressure, traction, u_z, u_0, u_2, w_0, w_2 for dimensionless radii."""
+    out = np.empty((r.size, 5))
+    surface.sample(contact.profile, contact.penetration, r, out)
+    return np.hstack((out, contact.slid(r)))
+
+
+def _memory(contact: Contact, r: Array) -> Array:
+    edges, q, g = contact.profile
+    if len(g) == 0:
+        return np.zeros((r.size, 2))
+    panels = np.clip(np.searchsorted(edges, r) - 1, 0, len(g) - 1)
+    rows = (
+        [evaluate(row[i], edges[i], edges[i + 1], at) for row in (g, q)]
+        for i, at in zip(panels, r, strict=True)
+    )
+    return np.array(list(rows))
+
+
+def _columns(contact: Contact, r: Array, radial: Array, cos: Array, sin: Array) -> dict[str, Array]:
+    pair, scales = contact.pair, contact.scales
+    p, f, u_z, u_0, u_2, w_0, w_2 = np.moveaxis(radial, -1, 0)
+    lateral, unit = pair.lateral_ratio, scales.tangential_length
+    columns = {
+        "pressure": p * scales.pressure,
+        "traction_x": f * pair.friction * scales.pressure,
+        "displacement_x": unit * (u_0 + lateral * u_2 * cos),
+        "displacement_y": unit * lateral * u_2 * sin,
+        "displacement_z": u_z * scales.length,
+        "slip_x": w_0 - lateral * w_2 * cos,
+        "slip_y": -lateral * w_2 * sin,
+    }
+    if contact.slip_speed is not None:
+        v_0, v_2 = contact.slip_speed * _slip_shape(contact, r)
+        columns["slip_velocity_x"] = v_0 - lateral * v_2 * cos
+        columns["slip_velocity_y"] = -lateral * v_2 * sin
+    return columns
+
+
+def _slip_shape(contact: Contact, r: Array) -> Array:
+    shapes = np.array([surface.slip_shape(contact.stick_radius, at) for at in r.ravel()])
+    inside = _in_contact(contact, r).ravel()[:, np.newaxis]
+    return np.moveaxis((shapes * inside).reshape(*r.shape, 2), -1, 0)
+
+
+def _zones(contact: Contact, r: Array) -> NDArray[np.int8]:
+    a = contact.stick_radius
+    zones = np.where((r <= a) & (a > 0.0), STICK, SLIP)
+    return np.where(_in_contact(contact, r), zones, OUTSIDE).astype(np.int8)
+
+
+def _in_contact(contact: Contact, r: Array) -> NDArray[np.bool_]:
+    return np.asarray((r <= np.sqrt(contact.penetration)) & (contact.penetration > 0.0))

@@ -1,0 +1,443 @@
+"""Quasi-static load paths of a contact: any history of normal and tangential load, with units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import isfinite
+from operator import index
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from carom.bodies.pairs import ContactScales, Pair
+from carom.bodies.shapes import describe
+from carom.contacts.contact import Contact
+from carom.contacts.fields import radial_fields, surface_fields
+from carom.contacts.load_steps import Given, Steps, read_steps
+from carom.contacts.stress import stress_dataset
+from carom.dimensionless.load_paths import paths
+from carom.dimensionless.load_paths.memory import SLOPE, profile_of
+from carom.io.citations import LOADS, bibtex
+from carom.io.labels import labelled_dataset
+from carom.quantities.arrays import Array
+from carom.quantities.glossary import GLOSSARY
+from carom.quantities.units import counted, refusal
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+COLUMNS = (
+    "penetration",
+    "displacement",
+    "normal_force",
+    "tangential_force",
+    "contact_radius",
+    "stick_radius",
+    "frictional_work",
+    "tangential_elastic_energy",
+)
+
+
+@dataclass(frozen=True, eq=False)
+class LoadPath:
+    """A contact after each step of a load path; made by `load_path`. SI units, shapes (n,).
+
+    A step is a straight line in penetration and displacement. `frictional_work` is the energy lost
+    so far, `tangential_elastic_energy` what is stored; both together are the work of F_x. U is
+    the displacement since the start, F_x positive where it opposes a growing U. The theory is that
+    of Mindlin & Deresiewicz (1953), J. Appl. Mech. 20:327.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> path = carom.load_path(pair, penetration=[1e-6, 2e-6], displacement=[0.0, 1e-7])
+    >>> path.tangential_force.round(4)
+    array([0.    , 1.6381])
+    """
+
+    pair: Pair
+    penetration: Array
+    displacement: Array
+    normal_force: Array
+    tangential_force: Array
+    contact_radius: Array
+    stick_radius: Array
+    frictional_work: Array
+    tangential_elastic_energy: Array
+    scales: ContactScales = field(repr=False)
+    _steps: Steps = field(repr=False)
+
+    def __len__(self) -> int:
+        return self.penetration.size
+
+    def then(
+        self,
+        *,
+        normal_force: Given = None,
+        penetration: Given = None,
+        tangential_force: Given = None,
+        displacement: Given = None,
+    ) -> LoadPath:
+        """Return the path continued, in the same or another control.
+
+        The whole path is followed anew: many steps are better given at once than one by one.
+
+        Parameters
+        ----------
+        normal_force, penetration, tangential_force, displacement : array_like, float or str
+            As of `load_path`, from where the path ends.
+
+        Returns
+        -------
+        LoadPath
+            The steps so far and the new ones.
+
+        Raises
+        ------
+        InputError
+            As `load_path`.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> pushed = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
+        >>> moved = pushed.then(normal_force="10 N", displacement=0.0)
+        >>> len(moved), bool(moved.tangential_force[-1] < 0.0)
+        (3, True)
+        """
+        more = read_steps(self.pair, normal_force, penetration, tangential_force, displacement)
+        return _followed(self.pair, self._steps.followed_by(more))
+
+    def cite(self) -> str:
+        """Return what to cite for this result, as BibTeX.
+
+        Returns
+        -------
+        str
+            Entries of BibTeX, one after the other.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
+        >>> "Mindlin, R. D. and Deresiewicz, H." in path.cite()
+        True
+        """
+        return bibtex(*LOADS)
+
+    def contact(self, step: int = -1) -> Contact:
+        """Return the contact after a step: what fields and stresses are made from.
+
+        Parameters
+        ----------
+        step : int
+            Its number, or from the end if negative.
+
+        Returns
+        -------
+        Contact
+            `numbers()` are its quantities in SI units; penetration, displacement and stick_radius
+            are dimensionless, `scales` gives them units.
+
+        Raises
+        ------
+        InputError
+            If there is no such step, or the bodies are apart then.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
+        >>> path.contact().attributes["phase_kind"]
+        'slip'
+        """
+        k = self._step(step)
+        d, u = self.penetration[: k + 1], self.displacement[: k + 1]
+        if not d[k] > 0.0:
+            raise refusal("step", step, "the bodies do not press on each other then")
+        scales = self.scales
+        path = paths.follow_path(*self._steps.first(k + 1).dimensionless(scales))
+        d, u = d / scales.length, u / scales.tangential_length
+        return Contact(
+            self.pair,
+            scales,
+            penetration=float(d[k]),
+            displacement=float(u[k]),
+            stick_radius=float(path.results[k, paths.STICK]),
+            profile=profile_of(path.stack),
+            slid=lambda radii: paths.slid(d, u, radii) * scales.tangential_length,
+            scalars={name: float(getattr(self, name)[k]) for name in COLUMNS[2:4]},
+            attributes=_state(path.stack) | {"inputs": self.inputs()},
+        )
+
+    def fields(
+        self,
+        step: int = -1,
+        x: ArrayLike | None = None,
+        y: ArrayLike | None = None,
+        *,
+        points: ArrayLike | None = None,
+    ) -> xr.Dataset:
+        """Return tractions, zones, displacements and slip after a step, as `Impact.fields`.
+
+        Parameters
+        ----------
+        step : int
+            Its number, or from the end if negative.
+        x, y : array_like, shapes (nx,) and (ny,)
+            Positions in m of a grid around the centre of the contact.
+        points : array_like, shape (n, 2)
+            Points (x, y) in m, instead of a grid.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along (y, x), or along `point`: pressure and traction_x in Pa, zone (0 outside, 1 stick,
+            2 slip), displacement_x to displacement_z, slip_x and slip_y in m; and the forces,
+            radii, penetration and displacement of the step as numbers.
+
+        Raises
+        ------
+        InputError
+            If there is no such step, the bodies are apart then, or positions have another shape.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
+        >>> round(float(path.fields(points=[[0.0, 0.0]]).pressure[0]) / 1e9, 2)  # in GPa
+        1.01
+        """
+        return surface_fields(self.contact(step), x, y, points=points)
+
+    def stress(
+        self,
+        step: int = -1,
+        x: ArrayLike | None = None,
+        z: ArrayLike | None = None,
+        *,
+        points: ArrayLike | None = None,
+        body: str = "second",
+    ) -> xr.Dataset:
+        """Return the stress below the surface of one body after a step, as `Impact.stress`.
+
+        Parameters
+        ----------
+        step : int
+            Its number, or from the end if negative.
+        x, z : array_like, shapes (nx,) and (nz,)
+            Positions in m of a grid in the plane y = 0, z the depth.
+        points : array_like, shape (n, 3)
+            Points (x, y, z) in m, instead of a grid.
+        body : str
+            "first" or "second".
+
+        Returns
+        -------
+        xarray.Dataset
+            Along (z, x), or along `point`, as `Impact.stress`: stresses in Pa, positive in tension.
+
+        Raises
+        ------
+        InputError
+            If there is no such step, the bodies are apart then, positions have another shape, or
+            the body is rigid.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
+        >>> bool(path.stress(points=[[0.0, 0.0, 0.0]]).sigma_zz[0] < 0.0)  # pressed
+        True
+        """
+        return stress_dataset(self.contact(step), x=x, z=z, points=points, body=body)
+
+    def radial(self, step: int = -1, n: int = 401) -> xr.Dataset:
+        """Return pressure, traction and the memory g, q along a radius after a step.
+
+        Parameters
+        ----------
+        step : int
+            Its number, or from the end if negative.
+        n : int
+            How many distances from the centre.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along `distance` in m, n of them: pressure, friction_limit and traction_x in Pa,
+            memory_g, memory_q and memory_limit in m, zone.
+
+        Raises
+        ------
+        InputError
+            If there is no such step, the bodies are apart then, or n is below 2.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
+        >>> path.radial(n=11).sizes["distance"]
+        11
+        """
+        return radial_fields(self.contact(step), counted("n", n, 2))
+
+    def _repr_html_(self) -> str:
+        """Return a table and a picture for a notebook."""
+        from carom.plots import plot_cone
+        from carom.plots.card import card
+
+        rows = {GLOSSARY[name].meaning: _span(name, getattr(self, name)) for name in COLUMNS}
+        figure = plot_cone(self.to_dataset()) if len(self) > 1 else None
+        return card(f"Load path of {len(self)} steps", rows, figure)
+
+    def to_dataset(self) -> xr.Dataset:
+        """Return the path as a dataset along `step`, which `carom.save` can store.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along `step`: penetration, displacement, contact_radius and stick_radius in m,
+            normal_force and tangential_force in N, frictional_work and tangential_elastic_energy in
+            J; and friction.
+        """
+        count = {"units": "1", "long_name": "step of the load path"}
+        return labelled_dataset(
+            {name: ("step", getattr(self, name)) for name in COLUMNS}
+            | {"friction": self.pair.friction},
+            {"step": ("step", np.arange(len(self)), count)},
+            {"title": "load path", "inputs": self.inputs()},
+        )
+
+    def inputs(self) -> dict[str, Any]:
+        """Return what the path was made from, but for its steps, as plain numbers and words."""
+        first, second = describe(self.pair.first), describe(self.pair.second)
+        return {"first": first, "second": second, "friction": self.pair.friction}
+
+    def _step(self, step: int) -> int:
+        n = len(self)
+        try:
+            return range(n)[index(step)]
+        except (TypeError, IndexError):
+            allowed = f"must be a whole number from 0 to {n - 1}, or negative, from the end"
+            raise refusal("step", step, allowed) from None
+
+
+def _span(name: str, values: Array) -> str:
+    low, high = (GLOSSARY[name].text(float(end)) for end in (values.min(), values.max()))
+    return low if low == high else f"{low} to {high}"
+
+
+def _state(stack: Array) -> dict[str, Any]:
+    """Return what the contact does after a step: kind of phase, and the sign of slip."""
+    g = float(stack[-1, SLOPE])
+    if abs(g) < 1.0:
+        return {"phase_kind": "stick", "phase_sign": 0}
+    return {"phase_kind": "gross slip" if len(stack) == 2 else "slip", "phase_sign": int(g)}
+
+
+def load_path(
+    pair: Pair,
+    *,
+    normal_force: Given = None,
+    penetration: Given = None,
+    tangential_force: Given = None,
+    displacement: Given = None,
+) -> LoadPath:
+    """Follow a quasi-static load path of a contact exactly, slip and memory included.
+
+    While a spring sticks, q(s) = U + c(s); Coulomb's law |q| <= d - s cuts c where it slips; then
+    F_x is the integral of q (Mindlin & Deresiewicz 1953, J. Appl. Mech. 20:327, for any history).
+
+    Parameters
+    ----------
+    pair : Pair
+        The bodies and their friction, which must not be zero.
+    normal_force, penetration : array_like, shape (n,), or float or str
+        One of both: the normal force in N, not negative, or the penetration in m, negative where
+        the bodies are apart. The first entry is reached by a straight step from the first touch.
+    tangential_force, displacement : array_like, shape (n,), or float or str
+        One of both: F_x in N, or the tangential displacement since the start in m. One value serves
+        for all steps.
+
+    Returns
+    -------
+    LoadPath
+        The contact after each step, all quantities of shape (n,).
+
+    Raises
+    ------
+    InputError
+        If a control is missing, given twice, empty, not finite or of another length; or if a step
+        asks for more tangential force than Coulomb's law allows.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> loop = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.5, -1.5, 1.5])
+    >>> (loop.stick_radius / loop.contact_radius).round(4)
+    array([1.  , 0.63, 0.63, 0.63])
+    """
+    if not isinstance(pair, Pair):
+        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    if pair.friction == 0.0:
+        allowed = "a load path needs friction; without it there is no tangential force to follow"
+        raise refusal("friction", pair.friction, allowed)
+    steps = read_steps(pair, normal_force, penetration, tangential_force, displacement)
+    return _followed(pair, steps)
+
+
+def _followed(pair: Pair, steps: Steps) -> LoadPath:
+    scales = _scales(pair, float(steps.penetration.max()))
+    path = paths.follow_path(*steps.dimensionless(scales))
+    normal = np.maximum(steps.penetration / scales.length, 0.0) ** 1.5 * scales.force
+    if path.refused != paths.INSIDE:
+        n, most = path.refused, pair.friction * normal[path.refused]
+        allowed = f"step {n}: Coulomb's law allows at most {most:g} N at F_z = {normal[n]:g} N"
+        raise refusal("tangential_force", float(steps.target[n]), allowed)
+    energy = scales.tangential_force * scales.tangential_length
+    return LoadPath(
+        pair,
+        penetration=steps.penetration,
+        displacement=path.results[:, paths.DISPLACEMENT] * scales.tangential_length,
+        normal_force=normal,
+        tangential_force=path.results[:, paths.TRACTION] * scales.tangential_force,
+        contact_radius=np.sqrt(np.maximum(steps.penetration / scales.length, 0.0)) * scales.radius,
+        stick_radius=path.results[:, paths.STICK] * scales.radius,
+        frictional_work=path.results[:, paths.WORK] * energy,
+        tangential_elastic_energy=path.results[:, paths.STORED] * energy,
+        scales=scales,
+        _steps=steps,
+    )
+
+
+def _scales(pair: Pair, deepest: float) -> ContactScales:
+    """Return the scales of the deepest penetration; of any, where the bodies never touch."""
+    try:
+        scales = pair.contact_scales(deepest if deepest > 0.0 else pair.effective_radius)
+        values = [scales.length, scales.force, scales.tangential_length, scales.tangential_force]
+        fits = all(isfinite(value) and value > 0.0 for value in values)
+    except OverflowError:
+        fits = False
+    if not fits:
+        allowed = "floating point cannot hold the forces of it; check the units"
+        raise refusal("penetration", deepest, allowed)
+    return scales

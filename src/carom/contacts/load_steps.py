@@ -1,0 +1,78 @@
+"""What drives a load path: its steps, read from forces or displacements and checked."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from carom.bodies.pairs import ContactScales, Pair
+from carom.quantities.arrays import Array, numbers
+from carom.quantities.units import InputError, refusal
+
+Given = ArrayLike | str | None
+
+
+class Steps(NamedTuple):
+    """Steps of a path: penetrations in m, and displacements in m or, by force, forces in N."""
+
+    penetration: Array
+    target: Array
+    by_force: NDArray[np.bool_]
+
+    def followed_by(self, more: "Steps") -> "Steps":
+        """Return these steps and then more of them."""
+        return Steps(
+            np.append(self.penetration, more.penetration),
+            np.append(self.target, more.target),
+            np.append(self.by_force, more.by_force),
+        )
+
+    def first(self, n: int) -> "Steps":
+        """Return the first n steps."""
+        return Steps(self.penetration[:n], self.target[:n], self.by_force[:n])
+
+    def dimensionless(self, scales: ContactScales) -> "Steps":
+        """Return the steps as plain numbers: penetrations d, displacements U and forces Q."""
+        unit = np.where(self.by_force, scales.tangential_force, scales.tangential_length)
+        return Steps(self.penetration / scales.length, self.target / unit, self.by_force)
+
+
+def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved: Given) -> Steps:
+    """Return the steps that the four controls describe, or raise InputError."""
+    across = _one_of(normal_force=normal, penetration=depth)
+    along = _one_of(tangential_force=tangential, displacement=moved)
+    sizes = {values.size for _, values in (across, along) if values.ndim}
+    if len(sizes) > 1:
+        allowed = f"must be as many as those of {across[0]}, {across[1].size}, or a single one"
+        raise refusal(along[0], f"an array of {along[1].size} values", allowed)
+    n = max(sizes, default=1)
+    d, target = np.broadcast_to(across[1], n).copy(), np.broadcast_to(along[1], n).copy()
+    if across[0] == "normal_force":
+        if np.any(d < 0.0):
+            at = int(np.argmax(d < 0.0))
+            raise refusal("normal_force", float(d[at]), f"step {at}: it must not be negative")
+        unit = pair.contact_scales(1.0).force
+        d = np.cbrt(d / unit) ** 2
+    return Steps(d, target, np.full(n, along[0] == "tangential_force"))
+
+
+def _one_of(**controls: Given) -> tuple[str, Array]:
+    given = {name: value for name, value in controls.items() if value is not None}
+    if len(given) != 1:
+        raise InputError(
+            f"load path: give {' or '.join(controls)}, {'not both' if given else 'one of them'}"
+        )
+    name, value = next(iter(given.items()))
+    return name, _values(name, value)
+
+
+def _values(name: str, given: ArrayLike | str) -> Array:
+    """Return a control as numbers in SI units, without a dimension if it is a single one."""
+    allowed = "must be numbers in SI units, or texts with a unit, a single one or a list"
+    values = numbers(name, given, allowed)
+    if values.ndim > 1 or values.size == 0:
+        raise refusal(name, values, allowed)
+    if not np.all(np.isfinite(values)):
+        at = int(np.argmin(np.isfinite(values)))
+        raise refusal(name, float(values.flat[at]), f"step {at}: it must be finite")
+    return values

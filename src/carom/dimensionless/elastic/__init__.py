@@ -1,0 +1,1 @@
+"""Elastic impacts: the phase machine and its memory."""

@@ -1,0 +1,79 @@
+"""The memory of a contact: what is left of stick and slip, as a stack of annuli.
+
+From the centre outwards the memory consists of annuli that were laid in stick while the contact
+grew, and annuli that slip of one sign has brought to its limit (A or B constant there, so "flat").
+Slip enters at the edge and takes annuli off the top; nothing else ever changes the memory.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.dimensionless.elastic.motion import FLAT, LAID, PSI, PSI_A, Q_A, V_A, A, B, Q, Series, V
+from carom.dimensionless.numerics.jit import kernel
+
+Stack = NDArray[np.float64]
+
+# Columns: sign of the slip that made the annulus flat (0: laid in stick), its outer radius, the
+# loading state there (for a laid one), the number of steps recorded when it was made.
+SLIP_SIGN, OUTER, OUTER_V, OUTER_PSI, OUTER_Q, MADE = range(6)
+COLUMNS = 6
+
+
+@kernel
+def push_laid(stack: Stack, depth: int, s: Series, made: int) -> int:
+    """Add the annulus laid in the stick phase that has just ended at the state s."""
+    stack[depth, SLIP_SIGN] = 0.0
+    stack[depth, OUTER] = s[0, B]
+    stack[depth, OUTER_V] = s[0, V]
+    stack[depth, OUTER_PSI] = s[0, PSI]
+    stack[depth, OUTER_Q] = s[0, Q]
+    stack[depth, MADE] = made
+    return depth + 1
+
+
+@kernel
+def push_flat(stack: Stack, depth: int, s: Series, sign: int, made: int) -> int:
+    """Add the annulus that slip of this sign leaves between its front and the edge."""
+    stack[depth, SLIP_SIGN] = sign
+    stack[depth, OUTER] = s[0, B]
+    stack[depth, MADE] = made
+    return depth + 1
+
+
+@kernel
+def trim(stack: Stack, depth: int, s: Series) -> None:
+    """Cut the annulus in which the front stands down to the front."""
+    stack[depth - 1, OUTER] = s[0, A]
+    stack[depth - 1, OUTER_V] = s[0, V_A]
+    stack[depth - 1, OUTER_PSI] = s[0, PSI_A]
+    stack[depth - 1, OUTER_Q] = s[0, Q_A]
+
+
+@kernel
+def cross_flat(stack: Stack, depth: int, sign: int) -> int:
+    """Drop the annuli that are flat for slip of this sign: a front crosses them at once."""
+    for top in range(depth, 0, -1):
+        if stack[top - 1, SLIP_SIGN] != sign:
+            return top
+    return 0
+
+
+@kernel
+def place_front(stack: Stack, depth: int, s: Series) -> int:
+    """Put the front on the rim of the topmost annulus; return the mode of its retreat."""
+    top = depth - 1
+    s[0, A] = stack[top, OUTER]
+    if stack[top, SLIP_SIGN] == 0.0:
+        s[0, V_A] = stack[top, OUTER_V]
+        s[0, PSI_A] = stack[top, OUTER_PSI]
+        s[0, Q_A] = stack[top, OUTER_Q]
+        return LAID
+    return FLAT
+
+
+@kernel
+def inner_radius(stack: Stack, depth: int) -> float:
+    """Return the inner radius of the topmost annulus."""
+    if depth < 2:
+        return 0.0
+    return float(stack[depth - 2, OUTER])

@@ -1,0 +1,261 @@
+"""Which phase follows which: the whole impact as a machine of stick, slip and gross slip.
+
+`stretches` advances the motion from event to event; this module alone decides what comes next,
+from one table. The machine runs for psi_1 >= 0; negative psi_1 is its mirror image.
+"""
+
+from enum import IntEnum
+
+import numpy as np
+
+from carom.dimensionless.elastic.integration import (
+    FRONT_AT_BORDER,
+    RING_CLOSES,
+    UNRESOLVED,
+    Work,
+    run_stretch,
+)
+from carom.dimensionless.elastic.memory import (
+    COLUMNS as STACK_COLUMNS,
+    cross_flat,
+    inner_radius,
+    place_front,
+    push_flat,
+    push_laid,
+    trim,
+)
+from carom.dimensionless.elastic.motion import COLUMNS, CONTACT, LAID, ORDER, PSI, STICK, A, B, Q, V
+from carom.dimensionless.elastic.record import (
+    MAX_ANNULI,
+    MAX_PHASES,
+    Record,
+    note_change,
+    note_node,
+    note_stretch,
+)
+from carom.dimensionless.numerics.jit import kernel
+
+# Modes of a recorded step that need no integration.
+GROSS, RETRACED = 3, 4
+
+
+class Kind(IntEnum):
+    """What the contact does."""
+
+    STICK = 0
+    SLIP = 1
+    GROSS_SLIP = 2
+    APART = 3
+
+
+class Cause(IntEnum):
+    """What ends a phase."""
+
+    FIRST_TOUCH = 0
+    EDGE_AT_LIMIT = 1
+    SLIP_STOPS = 2
+    RING_CLOSES = 3
+    FRONT_AT_CENTRE = 4
+    SEPARATION = 5
+    UNRESOLVED = 6
+
+
+SAME, OPPOSITE, NONE, GIVEN = 1, -1, 0, 2  # sign of the next phase, seen from this one
+
+# (kind, cause, unloading) -> next kind and its sign. What is not listed ends the run.
+TRANSITIONS = {
+    (Kind.STICK, Cause.EDGE_AT_LIMIT, False): (Kind.SLIP, GIVEN),
+    (Kind.SLIP, Cause.SLIP_STOPS, False): (Kind.STICK, NONE),
+    (Kind.SLIP, Cause.SLIP_STOPS, True): (Kind.SLIP, OPPOSITE),
+    (Kind.SLIP, Cause.RING_CLOSES, True): (Kind.SLIP, OPPOSITE),
+    (Kind.SLIP, Cause.FRONT_AT_CENTRE, False): (Kind.GROSS_SLIP, SAME),
+    (Kind.SLIP, Cause.FRONT_AT_CENTRE, True): (Kind.GROSS_SLIP, SAME),
+    (Kind.GROSS_SLIP, Cause.SLIP_STOPS, False): (Kind.STICK, NONE),
+    (Kind.GROSS_SLIP, Cause.SLIP_STOPS, True): (Kind.SLIP, OPPOSITE),
+}
+
+
+def _table() -> np.ndarray:
+    table = np.full((len(Kind), len(Cause), 2, 2), int(Kind.APART), dtype=np.int64)
+    for (kind, cause, unloading), (following, sign) in TRANSITIONS.items():
+        table[kind, cause, int(unloading)] = following, sign
+    return table
+
+
+NEXT = _table()
+
+
+class Status(IntEnum):
+    """How a run ended; its `message` says so in words.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.Status(0).message
+    'solved'
+    """
+
+    SOLVED = 0
+    PSI_NOT_FINITE = 1
+    CHI_NOT_POSITIVE = 2
+    TOO_MANY_PHASES = 3
+    UNRESOLVED = 4
+
+    @property
+    def message(self) -> str:
+        """The status in words."""
+        return MESSAGES[self]
+
+
+MESSAGES = {
+    Status.SOLVED: "solved",
+    Status.PSI_NOT_FINITE: "psi must be a finite number",
+    Status.CHI_NOT_POSITIVE: "chi must be positive and finite",
+    Status.TOO_MANY_PHASES: f"not solved: more than {MAX_PHASES} phases (chi is too large)",
+    Status.UNRESOLVED: "not solved: a phase did not end within the bound on steps",
+}
+
+
+# A stick phase that lasts to within this speed of the turning point, times psi_1, goes back as it
+# came: the second where F is a polynomial, so that only rounding keeps it from the turning point.
+RETRACE, RETRACE_EXACTLY = 4e-12, 1e-7
+# Speeds nearer to 0 or -1 than this are the border between two regimes.
+ROUNDING = 1e-13
+# Below this psi_1 the series are not resolved any better.
+SMALLEST = 1e-6
+# A contact radius below which nothing of the impact is left: psi changes by less than 1e-28.
+TINY = 1e-6
+
+
+@kernel
+def is_polynomial(chi: float) -> bool:
+    """Tell whether F(alpha, beta; 3/5; x) is a polynomial: chi = ((11 + 20 n)^2 - 1)/240."""
+    square = 240.0 * chi + 1.0
+    n = np.round((np.sqrt(square) - 11.0) / 20.0)
+    return bool(n >= 0.0 and abs(square - (11.0 + 20.0 * n) ** 2) <= 4e-16 * square)
+
+
+@kernel
+def stick(
+    work: Work, record: Record, depth: int, psi_in: float, chi: float, tolerance: float
+) -> tuple[int, int, int]:
+    """Run a stick phase; return its cause of ending, the depth of the memory, the sign of slip."""
+    s = work.series
+    note_stretch(record, work.stack, depth)
+    s[0, A] = s[0, B]
+    event = run_stretch(work, record, STICK, 0, chi, 0.0, False, tolerance)
+    if event == UNRESOLVED:
+        return Cause.UNRESOLVED.value, depth, 0
+    slowest = psi_in * (RETRACE_EXACTLY if is_polynomial(chi) else RETRACE)
+    if depth == 0 and s[0, V] <= slowest + 1e-15:
+        note_node(record, RETRACED, CONTACT, 0, 0.0, s)
+        s[0, B], s[0, V], s[0, PSI], s[0, Q] = 0.0, -1.0, -psi_in, 0.0
+        return Cause.SEPARATION.value, depth, 0
+    s[0, V] = max(s[0, V], 1e-300)  # stick ends before the turning point; only rounding passes it
+    depth = push_laid(work.stack, depth, s, record.counts[0])
+    return Cause.EDGE_AT_LIMIT.value, depth, 1 if s[0, PSI] > 0.0 else -1
+
+
+@kernel
+def slip(
+    work: Work,
+    record: Record,
+    depth: int,
+    sign: int,
+    after_stick: bool,
+    chi: float,
+    tolerance: float,
+) -> tuple[int, int]:
+    """Run a slip ring through the annuli of the memory; return why it ends and the depth left."""
+    s = work.series
+    depth = cross_flat(work.stack, depth, sign)
+    for _ in range(MAX_ANNULI):
+        if depth == 0:
+            return Cause.FRONT_AT_CENTRE.value, 0
+        mode = place_front(work.stack, depth, s)
+        note_stretch(record, work.stack, depth)
+        inner = inner_radius(work.stack, depth)
+        event = run_stretch(
+            work, record, mode, sign, chi, inner, after_stick and mode == LAID, tolerance
+        )
+        after_stick = False
+        if event == FRONT_AT_BORDER:
+            depth = cross_flat(work.stack, depth - 1, sign)
+            continue
+        trim(work.stack, depth, s)
+        if event == UNRESOLVED:
+            break
+        if s[0, B] < TINY:
+            return Cause.SEPARATION.value, depth
+        if event == RING_CLOSES:
+            return Cause.RING_CLOSES.value, depth
+        return Cause.SLIP_STOPS.value, push_flat(work.stack, depth, s, sign, record.counts[0])
+    return Cause.UNRESOLVED.value, depth
+
+
+@kernel
+def gross_slip(work: Work, record: Record, sign: int, chi: float) -> tuple[int, int]:
+    """Follow gross slip, psi - 2 chi sigma v constant (33); return why it ends, and the depth."""
+    s = work.series
+    s[0, A] = 0.0
+    note_stretch(record, work.stack, 0)
+    note_node(record, GROSS, CONTACT, sign, 0.0, s)
+    excess = sign * s[0, PSI] - s[0, V]
+    fall = 2.0 * chi - 1.0  # of the excess, per fall in speed
+    if not excess < fall * (1.0 + s[0, V]) - ROUNDING:
+        s[0, PSI] -= 2.0 * chi * sign * (1.0 + s[0, V])
+        s[0, B], s[0, V], s[0, Q] = 0.0, -1.0, 0.0
+        return Cause.SEPARATION.value, 0
+    fallen = (1.0 - s[0, V]) + excess / fall
+    s[0, V] = 1.0 - fallen if abs(1.0 - fallen) > ROUNDING else 0.0
+    s[0, B] = (fallen * (2.0 - fallen)) ** 0.2
+    s[0, PSI] = sign * s[0, V]
+    s[0, Q] = sign * (2.0 / 3.0) * s[0, B] ** 3
+    return Cause.SLIP_STOPS.value, push_flat(work.stack, 0, s, sign, record.counts[0])
+
+
+@kernel
+def run_phases(psi: float, chi: float, tolerance: float, work: Work, record: Record) -> int:
+    """Run a whole impact, psi >= 0, to its last state in row 0 of the series; return its status."""
+    if not np.isfinite(psi):
+        return Status.PSI_NOT_FINITE.value
+    if not (0.0 < chi < np.inf):
+        return Status.CHI_NOT_POSITIVE.value
+    s = work.series
+    s[0] = 0.0
+    s[0, V] = 1.0
+    s[0, PSI] = psi
+    # psi and Q are of the order of psi_1; errors grow with the number of oscillations
+    tolerance *= min(1.0, max(psi, SMALLEST)) / max(1.0, chi)
+    depth = 0
+    slides = psi > 1.0 or (psi == 1.0 and chi < 0.5)
+    kind = Kind.GROSS_SLIP.value if slides else Kind.STICK.value
+    sign = 1 if slides else 0
+    cause = Cause.FIRST_TOUCH.value
+    for _ in range(MAX_PHASES):
+        note_change(record, kind, sign, cause, s)
+        given = 0
+        if kind == Kind.STICK:
+            cause, depth, given = stick(work, record, depth, psi, chi, tolerance)
+        elif kind == Kind.SLIP:
+            after_stick = cause == Cause.EDGE_AT_LIMIT.value
+            cause, depth = slip(work, record, depth, sign, after_stick, chi, tolerance)
+        else:
+            cause, depth = gross_slip(work, record, sign, chi)
+        following = NEXT[kind, cause, 1 if s[0, V] <= 0.0 else 0]
+        if following[0] == Kind.APART:
+            note_change(record, Kind.APART.value, 0, cause, s)
+            solved = cause == Cause.SEPARATION
+            return Status.SOLVED.value if solved else Status.UNRESOLVED.value
+        kind = following[0]
+        sign = given if following[1] == GIVEN else sign * following[1]
+    return Status.TOO_MANY_PHASES.value
+
+
+def new_work() -> Work:
+    """Return the arrays that an impact needs."""
+    return Work(
+        series=np.zeros((ORDER + 1, COLUMNS)),
+        gap=np.zeros(ORDER + 1),
+        stack=np.zeros((MAX_ANNULI, STACK_COLUMNS)),
+    )

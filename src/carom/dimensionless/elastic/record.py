@@ -1,0 +1,108 @@
+"""What an impact leaves behind for its dense solution: steps, memories, changes of phase."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.dimensionless.elastic.memory import COLUMNS, Stack
+from carom.dimensionless.elastic.motion import ORDER, SLOWER, B, Series, V
+from carom.dimensionless.numerics.jit import kernel
+
+MAX_NODES = 8000
+MAX_STRETCHES = 1000
+MAX_PHASES = 200
+MAX_ANNULI = 400
+
+# Columns of a node and of a change.
+MODE, CLOCK, SIGN, STEP, STRETCH = range(5)
+KIND, KIND_SIGN, CAUSE, AT_B, AT_V = range(5)
+KEPT = SLOWER + 1
+
+
+class Record(NamedTuple):
+    """Rows filled so far: `counts` of nodes, stretches, changes. Empty arrays keep nothing."""
+
+    nodes: NDArray[np.float64]
+    series: NDArray[np.float64]
+    stacks: NDArray[np.float64]
+    depths: NDArray[np.int64]
+    changes: NDArray[np.float64]
+    counts: NDArray[np.int64]
+
+
+def new_record(wanted: bool) -> Record:
+    """Return an empty record, with room for changes of phase only if not more is wanted."""
+    room = 1 if wanted else 0
+    return Record(
+        nodes=np.empty((room * MAX_NODES, 5)),
+        series=np.empty((room * MAX_NODES, ORDER + 1, KEPT)),
+        stacks=np.empty((room * MAX_STRETCHES, MAX_ANNULI, COLUMNS)),
+        depths=np.empty(room * MAX_STRETCHES, dtype=np.int64),
+        changes=np.empty((MAX_PHASES + 1, 5)),
+        counts=np.zeros(3, dtype=np.int64),
+    )
+
+
+@kernel
+def is_wanted(record: Record) -> bool:
+    """Tell whether the record has room at all."""
+    return bool(record.nodes.shape[0] > 0)
+
+
+@kernel
+def is_full(record: Record) -> bool:
+    """Tell whether a wanted record has no room for another step or stretch."""
+    if not is_wanted(record):
+        return False
+    steps, stretches = record.nodes.shape[0], record.depths.shape[0]
+    return bool(record.counts[0] >= steps - 2 or record.counts[1] >= stretches - 2)
+
+
+@kernel
+def note_stretch(record: Record, stack: Stack, depth: int) -> None:
+    """Keep the memory as it is below the front when a stretch starts."""
+    row = record.counts[1]
+    if is_wanted(record):
+        record.stacks[row, :depth] = stack[:depth]
+        record.depths[row] = depth
+    record.counts[1] = row + 1
+
+
+@kernel
+def note_node(record: Record, mode: int, clock: int, sign: int, h: float, series: Series) -> None:
+    """Keep the series of a step and how far it was taken."""
+    if is_wanted(record):
+        row = record.counts[0]
+        record.nodes[row, MODE] = mode
+        record.nodes[row, CLOCK] = clock
+        record.nodes[row, SIGN] = sign
+        record.nodes[row, STEP] = h
+        record.nodes[row, STRETCH] = record.counts[1] - 1
+        record.series[row] = series[:, :KEPT]
+        record.counts[0] = row + 1
+
+
+@kernel
+def note_change(record: Record, kind: int, sign: int, cause: int, series: Series) -> None:
+    """Keep the start of a phase and what brought it about."""
+    row = record.counts[2]
+    record.changes[row, KIND] = kind
+    record.changes[row, KIND_SIGN] = sign
+    record.changes[row, CAUSE] = cause
+    record.changes[row, AT_B] = series[0, B]
+    record.changes[row, AT_V] = series[0, V]
+    record.counts[2] = row + 1
+
+
+def trimmed(record: Record) -> Record:
+    """Return the filled part of a record."""
+    nodes, stretches, changes = (int(count) for count in record.counts)
+    return Record(
+        nodes=record.nodes[:nodes].copy(),
+        series=record.series[:nodes].copy(),
+        stacks=record.stacks[:stretches].copy(),
+        depths=record.depths[:stretches].copy(),
+        changes=record.changes[:changes].copy(),
+        counts=record.counts.copy(),
+    )

@@ -1,0 +1,1 @@
+"""Tractions, displacements and stresses of a contact."""

@@ -1,0 +1,54 @@
+"""The memory of a contact over its radius as piecewise polynomials: what every field is made of."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.dimensionless.numerics.arrays import Array
+from carom.dimensionless.numerics.chebyshev import nodes, transform
+from carom.dimensionless.numerics.jit import kernel
+
+TERMS = 17  # of a Chebyshev series on a panel
+
+
+class Profile(NamedTuple):
+    """q and g = -dq/ds of a contact at an instant, on panels between radii x = sqrt(s).
+
+    `edges` has shape (n + 1,) and runs from 0 to the contact radius; rows of `q` and `g`, shape
+    (n, TERMS), are Chebyshev coefficients on a panel mapped to [-1, 1].
+    """
+
+    edges: Array
+    q: Array
+    g: Array
+
+
+@kernel
+def is_constant(coefficients: Array) -> bool:
+    """Tell whether a series has no term but the first, as where slip or a straight step laid it."""
+    return not np.any(coefficients[1:])
+
+
+def radii(low: float, high: float) -> Array:
+    """Return the radii of a panel at which `coefficients` wants its values."""
+    return 0.5 * (low + high) + 0.5 * (high - low) * nodes(TERMS)
+
+
+def coefficients(values: Array) -> Array:
+    """Return the Chebyshev coefficients of a panel from the values at `radii`."""
+    return np.asarray(transform(TERMS) @ values, dtype=np.float64)
+
+
+def flat(low: float, high: float, g: float, q_high: float) -> tuple[Array, Array]:
+    """Return the rows of q and g of a panel on which g is constant."""
+    row = np.zeros(TERMS)
+    row[0] = g
+    return coefficients(q_high + g * (high**2 - radii(low, high) ** 2)), row
+
+
+def stacked(edges: list[float], rows: list[tuple[Array, Array]]) -> Profile:
+    """Return the profile made of panels, given their outer edges in order."""
+    if not rows:
+        return Profile(np.zeros(1), np.zeros((0, TERMS)), np.zeros((0, TERMS)))
+    q, g = zip(*rows, strict=True)
+    return Profile(np.array([0.0, *edges]), np.array(q), np.array(g))

@@ -1,0 +1,1 @@
+"""The memory of a contact under any history of loads."""

@@ -1,0 +1,1 @@
+"""Numerical tools: compiling, threads, Chebyshev series, Hertz."""

@@ -1,0 +1,6 @@
+"""What kernels take and give."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]

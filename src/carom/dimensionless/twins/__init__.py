@@ -1,0 +1,1 @@
+"""Independent solvers that the phase machine is compared with."""

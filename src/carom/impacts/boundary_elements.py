@@ -1,0 +1,256 @@
+"""Impacts solved by boundary elements: slip in any direction, unlike materials coupled."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from carom.bodies.kinematics import Tangential
+from carom.bodies.pairs import Pair
+from carom.contacts.fields import OUTSIDE, SLIP, STICK, ZONES
+from carom.dimensionless.states import SlipAngle
+from carom.halfspace.compliance import Materials
+from carom.halfspace.ledger import Entry, slipping
+from carom.halfspace.solution import HalfspaceSolution, Resolution, solve
+from carom.impacts.result import Course
+from carom.impacts.validity import judge_contact, judge_errors
+from carom.io.citations import ELEMENTS, bibtex
+from carom.io.labels import Validity, labelled_dataset
+from carom.io.progress import Progress, advancing
+from carom.quantities.units import InputError, Value, counted, refusal
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+MOST = 1000  # elements across
+LARGEST_CHI, LARGEST_PSI = 1e3, 1e9  # steps would be too many; the rest would be lost in rounding
+
+
+@dataclass(frozen=True)
+class BoundaryElements:
+    """How finely an impact is solved by boundary elements; what `impact` takes as its method.
+
+    Contact by influence coefficients (Love 1929), convolution by FFT, Coulomb's law as a vector
+    (Kalker 1990, section 4.2) and Verlet's steps; error of second order in both numbers together,
+    3/2 in gross slip.
+
+    Parameters
+    ----------
+    elements : int
+        Square elements across the largest contact, 8 to 1000; 64 take some 35 MB of memory,
+        128 take 135 MB, and so on with the square.
+    steps : int
+        Steps in the duration of Hertz's impact, 20 at least.
+
+    Raises
+    ------
+    InputError
+        If either is not a whole number in its range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> coarse = carom.BoundaryElements(elements=16, steps=75)
+    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg", method=coarse)
+    >>> exact = carom.impact(pair, speed=2.0, angle="30 deg")
+    >>> abs(hit.psi_out - exact.psi_out) < 0.01
+    True
+    """
+
+    elements: int = 64
+    steps: int = 300
+
+    def __post_init__(self) -> None:
+        if counted("elements", self.elements, 8) > MOST:
+            allowed = f"at most {MOST}: memory grows with the square, time with the cube"
+            raise refusal("elements", self.elements, allowed)
+        counted("steps", self.steps, 20)
+
+
+@dataclass(frozen=True, eq=False)
+class HalfspaceImpact(Course):
+    """The result of `impact` by boundary elements: what that of the theory is, and how sure it is.
+
+    Love (1929), Kalker (1990), section 4.2, as `BoundaryElements` tells. SI units, signs as in
+    `Impact`. Phases are as the grid shows them: short ones are left out, and
+    where little slips they may alternate.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="alumina")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="soda-lime-glass"), friction=0.5)
+    >>> coarse = carom.BoundaryElements(elements=10, steps=30)
+    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg", method=coarse)
+    >>> hit.normal_restitution < 1.0  # what couples costs normal velocity
+    True
+    >>> hit.psi_out_error < 0.1
+    True
+    """
+
+    solution: HalfspaceSolution = field(repr=False)
+    coarse_psi_out: float = field(kw_only=True)  # on a grid and steps half as fine
+
+    @property
+    def psi_out_error(self) -> float:
+        """Change of psi_out from a grid and steps half as fine: a guide to its error, no bound."""
+        return abs(self.solution.psi_out - self.coarse_psi_out)
+
+    @property
+    def dissipated_energy(self) -> float:
+        """Energy lost to friction, in J: for unlike materials of the normal motion, too."""
+        normal = super().lost_energy if self.pair.dundurs_beta else 0.0
+        return super().dissipated_energy + normal
+
+    @property
+    def lost_energy(self) -> float:
+        """Energy lost in the normal motion but to friction, in J: none, the bodies are elastic."""
+        return 0.0
+
+    @property
+    def energy_error(self) -> float:
+        """Largest change of the sum of all energies during the impact, as a share of it."""
+        return self.solution.energy_error
+
+    @property
+    def slip_angles(self) -> tuple[SlipAngle, ...]:
+        """Angle of slip against the direction of motion in each phase, in rad."""
+        return tuple(
+            SlipAngle(*self.solution.slip_angles(phase.start, phase.end))
+            for phase in self.solution.phases
+        )
+
+    @property
+    def validity(self) -> Validity:
+        """How far the assumptions hold that are left, and whether the grid is fine enough."""
+        assumed = judge_contact(self.pair, self.normal_speed, self.duration)
+        return Validity((*assumed, *judge_errors(self.psi_out_error, self.energy_error)))
+
+    def scalars(self) -> dict[str, float]:
+        """Return the numbers of the result by name."""
+        errors = {"psi_out_error": self.psi_out_error, "energy_error": self.energy_error}
+        return super().scalars() | errors
+
+    def inputs(self) -> dict[str, Any]:
+        """Return what the impact was made from, as plain numbers and words."""
+        return super().inputs() | {"method": "halfspace", **self.solution.resolution._asdict()}
+
+    def cite(self) -> str:
+        """Return what to cite for this result, as BibTeX."""
+        return bibtex(*ELEMENTS)
+
+    def fields(self, time: Value) -> xr.Dataset:
+        """Return tractions, zones and slip velocities on the grid, at the kept step next to a time.
+
+        Parameters
+        ----------
+        time : float or str
+            Time since the first touch in s, 0 to `duration`. About 60 steps are kept.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along (y, x): pressure, traction_x, traction_y, zone (0 outside, 1 stick, 2 slip; a
+            rim that touches since the middle of the step has no traction yet and is shown as what
+            is inside), slip_velocity_x, slip_velocity_y; and as numbers time (that of the step),
+            contact_radius, stick_radius, normal_force, tangential_force, penetration, displacement,
+            friction.
+
+        Raises
+        ------
+        InputError
+            If the time is outside the contact.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> coarse = carom.BoundaryElements(elements=16, steps=75)
+        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg", method=coarse)
+        >>> patch = hit.fields(0.6 * hit.duration)
+        >>> bool((abs(patch.traction_y) > 0.0).any())
+        True
+        """
+        shot = self.solution.snapshot(self._instant(time) / self.scales.time)
+        scales, state = self.scales, shot.step.state
+        traction = self.pair.friction * self._pressure_unit * state.traction
+        slip = self.pair.friction * self.normal_speed * shot.slip_velocity
+        slips = slipping(shot.step)
+        velocity = np.where(slips, slip, 0.0)
+        rest = STICK if np.any(shot.step.gripped & ~slips) else SLIP
+        touches = np.where(state.pressure > 0.0, rest, OUTSIDE)
+        zone = np.where(slips, SLIP, touches).astype(np.int8)
+        columns = {
+            "pressure": self._pressure_unit * state.pressure,
+            "traction_x": traction[0],
+            "traction_y": traction[1],
+            "slip_velocity_x": velocity[0],
+            "slip_velocity_y": velocity[1],
+        }
+        variables = {name: (("y", "x"), values.T) for name, values in columns.items()}
+        line = self.solution.patch.line * scales.radius
+        return labelled_dataset(
+            {**variables, "zone": (("y", "x"), zone.T, ZONES), **self._numbers(shot.entry)},
+            {"x": line, "y": line},
+            {"title": "contact seen from above", "inputs": self.inputs()},
+        )
+
+    @property
+    def _pressure_unit(self) -> float:
+        """E* d_max/a_max in Pa: Hertz's largest pressure is 2/pi of it."""
+        return 0.5 * np.pi * self.scales.pressure
+
+    def _numbers(self, entry: Entry) -> dict[str, float]:
+        scales, kappa = self.scales, self.pair.kappa
+        return {
+            "friction": self.pair.friction,
+            "time": entry.time * scales.time,
+            "penetration": entry.depth * scales.length,
+            "displacement": entry.displacement * kappa * scales.tangential_length,
+            "contact_radius": entry.contact_radius * scales.radius,
+            "stick_radius": entry.stick_radius * scales.radius,
+            "normal_force": entry.normal_force * scales.force,
+            "tangential_force": entry.tangential_force * scales.tangential_force,
+        }
+
+    def _columns(self, n: int) -> dict[str, Any]:
+        history = self.solution.history(n)
+        angles = {"slip_angle": history.slip_angle, "slip_angle_max": history.slip_angle_max}
+        return super()._columns(n) | angles
+
+    def _picture(self, time: float) -> xr.Dataset:
+        return self.fields(time)
+
+
+def solve_by_elements(
+    pair: Pair,
+    normal_speed: float,
+    motion: Tangential,
+    method: BoundaryElements,
+    progress: Progress,
+) -> HalfspaceImpact:
+    """Return an impact solved by boundary elements, on two grids; see `carom.impact`."""
+    if pair.friction == 0.0:
+        raise InputError(
+            "friction: without it nothing is tangential; leave method out, the answer is exact"
+        )
+    if pair.chi > LARGEST_CHI:
+        allowed = f"boundary elements take chi up to {LARGEST_CHI:g}; leave method out"
+        raise refusal("chi", pair.chi, allowed)
+    psi = pair.psi(motion.contact_velocity(pair), normal_speed)
+    if not abs(psi) <= LARGEST_PSI:
+        allowed = f"boundary elements take it up to {LARGEST_PSI:g}; leave method out"
+        raise refusal("psi_1", psi, allowed)
+    materials = Materials(pair.kappa, pair.dundurs_beta, pair.friction)
+    fine = Resolution(method.elements, method.steps)
+    coarse = fine.half
+    total = fine.steps + coarse.steps
+    with advancing("boundary elements", total, progress, unit="steps") as advance:
+        found = [solve(psi, pair.chi, materials, grid, progress=advance) for grid in (coarse, fine)]
+    return HalfspaceImpact(pair, normal_speed, *motion, found[1], coarse_psi_out=found[0].psi_out)

@@ -1,0 +1,194 @@
+"""Rebound curves: psi_2 and restitution against psi_1, with the borders between regimes."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from itertools import chain
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from carom.dimensionless.elastic.phases import Status
+from carom.dimensionless.lossy.normal import NormalLoss
+from carom.dimensionless.rebounds import rebound
+from carom.dimensionless.solution import solve
+from carom.io.labels import labelled_dataset
+from carom.io.progress import Progress, advancing
+from carom.quantities.arrays import finite_line, positive_line
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+SOLID_SPHERE = 2.0 / 7.0  # m_t/m_n of a solid sphere on a fixed body
+
+REGIMES = (
+    "stick from the first touch",
+    "gross slip, then stick",
+    "gross slip through maximum penetration, then microslip",
+    "gross slip throughout",
+)
+SIGNS = {0: "", 1: " +", -1: " -"}
+
+
+def borders(chi: float) -> tuple[float, float, float]:
+    """Return the |psi_1| at which the regime changes: 1, 2 chi, 4 chi - 1.
+
+    Up to the first the contact sticks from the first touch; up to the second it sticks after gross
+    slip; from the third on it slips throughout (Barber 1979, after (34)). For chi <= 1/2 all are 1:
+    what does not stick from the first touch slips throughout.
+
+    Parameters
+    ----------
+    chi : float
+        (kappa/2)(m_n/m_t), positive.
+
+    Returns
+    -------
+    tuple of float
+        The three borders, each in units of psi and not below the one before.
+
+    Examples
+    --------
+    >>> from carom.impacts.curves import borders
+    >>> borders(1.5)
+    (1.0, 3.0, 5.0)
+    """
+    if chi <= 0.5:
+        return 1.0, 1.0, 1.0
+    return 1.0, 2.0 * chi, 4.0 * chi - 1.0
+
+
+def curve(
+    chi: float | Sequence[float], psi: ArrayLike, *, normal: NormalLoss | None = None
+) -> xr.Dataset:
+    """Return psi_2 and restitutions against psi_1, one row per chi, as a labelled dataset.
+
+    psi_2 is exact (Maw, Barber & Fawcett 1976; Barber 1979).
+    e_c = psi_2/psi_1 is that of the contact point; e_t = 1 - (2/7)(1 - e_c) that of the centre of a
+    solid sphere without spin. At psi_1 = 0 both are limits.
+
+    Parameters
+    ----------
+    chi : float or sequence of float
+        Positive; one row for each.
+    psi : array_like
+        psi_1.
+    normal : KelvinVoigt, optional
+        What the normal motion loses energy to: a restitution is given. The `border` of regimes,
+        1, 2 chi, 4 chi - 1, is left out then, as it is that of elastic bodies.
+
+    Returns
+    -------
+    xarray.Dataset
+        psi_out, contact_restitution and tangential_restitution, pure numbers along (chi, psi_in);
+        without losses also border (chi, regime_border), the psi_1 at which the regime changes.
+
+    Raises
+    ------
+    InputError
+        If a chi is not positive, psi is empty, or the losses depend on the speed.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.curve(1.44, [0.0, 1.0, 6.0]).psi_out.values.round(4)
+    array([[ 0.    , -0.0612,  0.24  ]])
+    >>> carom.curve(1.44, [6.0], normal=carom.KelvinVoigt(restitution=0.9)).psi_out.values.round(4)
+    array([[0.5295]])
+    """
+    chis, incoming = positive_line("chi", chi), finite_line("psi", psi)
+    rows = chis[:, np.newaxis]
+    nonzero = np.where(incoming == 0.0, 1e-12, incoming)
+    outgoing = rebound(nonzero, rows, normal=normal)
+    contact = outgoing / nonzero
+    wide, elastic = ("chi", "psi_in"), normal is None
+    return labelled_dataset(
+        {
+            "psi_out": (wide, np.where(incoming == 0.0, 0.0, outgoing)),
+            "contact_restitution": (wide, contact),
+            "tangential_restitution": (
+                wide,
+                1.0 - SOLID_SPHERE * (1.0 - contact),
+                {"note": "solid sphere without spin"},
+            ),
+            **(_border(chis) if elastic else {}),
+        },
+        {
+            "chi": chis,
+            "psi_in": incoming,
+            **({"regime_border": ("regime_border", list(REGIMES[1:]), {})} if elastic else {}),
+        },
+        {"title": "rebound curve"} | ({} if elastic else {"normal": repr(normal)}),
+    )
+
+
+def _border(chis: Iterable[float]) -> dict[str, Any]:
+    meaning = {"units": "1", "long_name": "psi_in at which the regime changes"}
+    return {"border": (("chi", "regime_border"), [borders(chi) for chi in chis], meaning)}
+
+
+def regime_map(psi: ArrayLike, chi: ArrayLike, *, progress: Progress = None) -> xr.Dataset:
+    """Return which phases follow which for every psi_1 and chi, as a labelled dataset.
+
+    Bodies are elastic here, phases those of the exact impact (Maw, Barber & Fawcett 1976).
+    `sequence` (chi, psi_in) is the place of the sequence in `sequence_name`, the commonest first,
+    or -1 where an impact is not resolved. Beyond psi_1 = 4 chi - 1 the contact slips throughout.
+
+    Parameters
+    ----------
+    psi, chi : array_like
+        Values along either axis; chi positive.
+    progress : bool or callable, optional
+        Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
+        what is called with the rows of chi done so far and their number.
+
+    Returns
+    -------
+    xarray.Dataset
+        sequence (chi, psi_in), whole numbers, and sequence_name (sequence_name), the kinds of
+        phases in order with the sign of slip.
+
+    Raises
+    ------
+    InputError
+        If a chi is not positive, a psi not finite, or either is empty.
+
+    Examples
+    --------
+    >>> import carom
+    >>> found = carom.regime_map([0.5, 2.0, 6.0], [1.44])
+    >>> print(found.sequence_name.values[found.sequence.values[0, 1]])
+    gross slip +, stick, slip -, gross slip -
+    """
+    chis, incoming = positive_line("chi", chi), finite_line("psi", psi)
+    rows = []
+    with advancing("map of regimes", len(chis), progress, unit="rows") as advance:
+        for value in chis:
+            rows.append([_sequence(float(speed), float(value)) for speed in incoming])
+            advance(1)
+    names = [name for name, _ in Counter(chain(*rows)).most_common() if name]
+    places = {name: place for place, name in enumerate(names)} | {"": -1}
+    codes = np.array([[places[name] for name in row] for row in rows], dtype=np.int16)
+    return labelled_dataset(
+        {
+            "sequence": (
+                ("chi", "psi_in"),
+                codes,
+                {"units": "1", "long_name": "sequence of phases, its place in sequence_name"},
+            )
+        },
+        {"chi": chis, "psi_in": incoming, "sequence_name": ("sequence_name", names, {})},
+        {"title": "map of regimes"},
+    )
+
+
+def _sequence(psi: float, chi: float) -> str:
+    """Return the phases of an impact in one line, or nothing if it is not resolved."""
+    if abs(psi) > borders(chi)[2]:
+        return "gross slip " + ("+" if psi > 0.0 else "-")
+    solution = solve(psi, chi)
+    if solution.status is not Status.SOLVED:
+        return ""
+    return ", ".join(f"{phase.kind}{SIGNS[phase.sign]}" for phase in solution.phases)

@@ -1,0 +1,106 @@
+"""An impact in words and numbers: as text to read, and as what JSON can hold."""
+
+from __future__ import annotations
+
+from math import degrees, isnan
+from typing import Any, Protocol
+
+from carom.bodies.losses import NormalLaw
+from carom.bodies.pairs import Pair
+from carom.dimensionless.states import Phase, SlipAngle
+from carom.impacts.history import RESULTS
+from carom.io.labels import MARKS, Validity
+from carom.quantities.glossary import GLOSSARY
+
+OF_LOSSES = ("normal_restitution", "lost_energy")  # 1 and 0 without
+NOTES = {
+    "exact": "  * angle between slip and x in degrees, which the theory neglects",
+    "lossy": "  * angle between slip and x, which is known without losses only",
+    "halfspace": "  * angle between slip and x in degrees",
+}
+
+
+class Reported(Protocol):
+    """What a report needs of an impact."""
+
+    @property
+    def pair(self) -> Pair: ...
+    @property
+    def normal(self) -> NormalLaw | None: ...
+    @property
+    def phases(self) -> tuple[Phase, ...]: ...
+    @property
+    def slip_angles(self) -> tuple[SlipAngle, ...]: ...
+    @property
+    def validity(self) -> Validity: ...
+    def scalars(self) -> dict[str, float]: ...
+    def inputs(self) -> dict[str, Any]: ...
+
+
+def impact_record(hit: Reported) -> dict[str, Any]:
+    """Return the result as what JSON can hold; what is not a number becomes null."""
+    scalars = {name: _finite(value) for name, value in hit.scalars().items()}
+    return {
+        "inputs": hit.inputs(),
+        "result": scalars,
+        "phases": [
+            {
+                **phase._asdict(),
+                "slip_angle_max": _finite(angle.largest),
+                "slip_angle_mean": _finite(angle.mean),
+            }
+            for phase, angle in zip(hit.phases, hit.slip_angles, strict=True)
+        ],
+        "validity": [
+            {**finding._asdict(), "value": _finite(finding.value)}
+            for finding in hit.validity.findings
+        ],
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if abs(value) < float("inf") and not isnan(value) else None
+
+
+def impact_text(hit: Reported) -> str:
+    """Return the result as text to read."""
+    scalars, method = hit.scalars(), hit.inputs().get("method", "exact")
+    note = NOTES["lossy" if hit.normal is not None else method]
+    loses = hit.normal is not None or (method != "exact" and hit.pair.dundurs_beta != 0.0)
+    shown = ["chi", *(name for name in RESULTS if loses or name not in OF_LOSSES)]
+    shown += [name for name in ("psi_out_error", "energy_error") if name in scalars]
+    if len(hit.pair.moving) == 1:
+        shown.remove("spin2_out")
+    lines = [
+        f"  {GLOSSARY[name].meaning:58s} {GLOSSARY[name].text(scalars[name])}" for name in shown
+    ]
+    phases = [
+        f"  {_slip(p.kind, p.sign):14s}{p.start:12.4e} {p.end:12.4e}"
+        f" {_in_degrees(angle.mean)} {_in_degrees(angle.largest)}   {p.cause}"
+        for p, angle in zip(hit.phases, hit.slip_angles, strict=True)
+    ]
+    columns = f"{'from (s)':>12s} {'to (s)':>12s} {'mean*':>9s} {'max*':>9s}"
+    head = f"  {'':14s}{columns}   ended by"
+    findings = [
+        f"  {MARKS[f.holds]} {f.name + ' = ' + format(f.value, '.3g'):34s} {f.verdict}"
+        for f in hit.validity.findings
+    ]
+    parts = (
+        "Rebound",
+        *lines,
+        "Phases",
+        head,
+        *phases,
+        note,
+        "Validity",
+        *findings,
+    )
+    return "\n".join(parts)
+
+
+def _in_degrees(angle: float) -> str:
+    return "-".rjust(9) if isnan(angle) else f"{degrees(angle):9.2f}"
+
+
+def _slip(kind: str, sign: int) -> str:
+    return kind if sign == 0 else f"{kind} {'+' if sign > 0 else '-'}"

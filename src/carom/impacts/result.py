@@ -1,0 +1,232 @@
+"""An impact in the course of time: what every way of solving it has in common."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from carom.dimensionless.states import Phase, SlipAngle
+from carom.impacts.history import InTime, history_columns
+from carom.impacts.outcome import Outcome
+from carom.io.labels import Validity, labelled
+from carom.quantities.glossary import GLOSSARY
+from carom.quantities.units import Value, counted, number, refusal
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+
+SHOWN = (  # in a notebook
+    "psi_in",
+    "psi_out",
+    "rebound_speed",
+    "rebound_angle",
+    "spin_out",
+    "contact_restitution",
+    "normal_restitution",
+    "dissipated_energy",
+    "duration",
+    "max_force",
+    "max_radius",
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Course(Outcome):
+    """How two bodies leave an impact, and the way there: phases, history, validity."""
+
+    solution: InTime = field(repr=False)
+
+    @cached_property
+    def phases(self) -> tuple[Phase, ...]:
+        """The phases in order, times in s."""
+        if not isfinite(self.psi_in):
+            sign = 1 if self.psi_in > 0.0 else -1
+            return (Phase("gross slip", sign, 0.0, self.duration, "separation"),)
+        unit = self.scales.time
+        return tuple(
+            Phase(p.kind, p.sign, p.start * unit, p.end * unit, p.cause)
+            for p in self.solution.phases
+        )
+
+    @property
+    @abstractmethod
+    def slip_angles(self) -> tuple[SlipAngle, ...]:
+        """Angle of slip against the direction of motion in each phase, in rad."""
+
+    @property
+    @abstractmethod
+    def validity(self) -> Validity:
+        """How far the assumptions hold, as numbers with a verdict."""
+
+    def history(self, n: int = 200) -> xr.Dataset:
+        """Return the impact at n times: a dataset with forces, velocities, radii, energies.
+
+        The times are evenly spaced from the first touch to the last; maximum compression of elastic
+        bodies is in the middle, at half of `duration`.
+
+        Parameters
+        ----------
+        n : int
+            How many times, 2 at least.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along `time` in s; the attributes of each variable tell its unit and meaning.
+
+        Raises
+        ------
+        InputError
+            If there are fewer than 2.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> history = carom.impact(pair, speed=2.0, angle="30 deg").history(5)
+        >>> history.normal_force.units, history.normal_force.shape
+        ('N', (5,))
+        """
+        columns = self._columns(counted("n", n, 2))
+        return labelled(columns, self.scalars(), self.phases, self.inputs(), self._phase_columns())
+
+    def _columns(self, n: int) -> dict[str, Any]:
+        return history_columns(self.pair, self.normal_speed, self._before, self.solution, n)
+
+    def _phase_columns(self) -> dict[str, list[float]]:
+        angles = self.slip_angles
+        return {
+            "phase_slip_angle_max": [angle.largest for angle in angles],
+            "phase_slip_angle_mean": [angle.mean for angle in angles],
+        }
+
+    def _instant(self, time: Value) -> float:
+        """Return a time within the contact in s, or raise InputError."""
+        instant = number("time", time)
+        if not 0.0 <= instant <= self.duration:
+            allowed = f"must lie within the contact, from 0 to {self.duration:.6g} s"
+            raise refusal("time", time, allowed)
+        return instant
+
+    @abstractmethod
+    def cite(self) -> str:
+        """Return what to cite for this result, as BibTeX."""
+
+    def __str__(self) -> str:
+        from carom.impacts.report import impact_text
+
+        return impact_text(self)
+
+    def _repr_html_(self) -> str:
+        """Return a table and a picture for a notebook."""
+        from carom.plots.card import card
+
+        numbers = self.scalars()
+        rows = {GLOSSARY[name].meaning: GLOSSARY[name].text(numbers[name]) for name in SHOWN}
+        phases = (f"{p.start:10.3e} to {p.end:.3e} s  {p.kind}" for p in self.phases)
+        notes = "\n".join([*phases, "", str(self.validity)])
+        return card("Oblique impact", rows, self.plot(), notes)
+
+    def to_dataset(self) -> xr.Dataset:
+        """Return all of the result as one dataset, with a history of 400 times.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along `time` in s, as `history` has it; along `phase` kind, sign, start and end in s;
+            the numbers of the result without a dimension.
+        """
+        return self.history(400)
+
+    def plot(self, path: str | Path | None = None) -> Figure:
+        """Draw forces, velocities, radii and energies against time.
+
+        Parameters
+        ----------
+        path : str or Path, optional
+            Where the figure is stored, too: .png, .pdf or .svg.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure, 178 mm wide, of four axes.
+
+        Raises
+        ------
+        InputError
+            If the name ends otherwise or the file cannot be written.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> len(carom.impact(pair, speed=2.0, angle="30 deg").plot().axes)
+        4
+        """
+        from carom.plots import plot_impact, save_figure
+
+        figure = plot_impact(self.to_dataset())
+        if path is not None:
+            save_figure(figure, path)
+        return figure
+
+    def animate(
+        self,
+        path: str | Path,
+        frames: int = 60,
+        progress: bool | Callable[[], object] | None = None,
+    ) -> Path:
+        """Store an animation of the contact through the impact as .gif, or .mp4 with ffmpeg.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file, which is replaced whole or not at all.
+        frames : int
+            Number of instants, evenly spaced; 12 are shown a second.
+        progress : bool or callable, optional
+            Whether a bar is shown after two seconds, by default in a notebook and on a terminal;
+            or what is called after every frame.
+
+        Returns
+        -------
+        pathlib.Path
+            The file that was written.
+
+        Raises
+        ------
+        InputError
+            If the name ends otherwise, ffmpeg is missing, or the file cannot be written.
+
+        Examples
+        --------
+        >>> import carom, tempfile
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     hit.animate(f"{folder}/hit.gif", frames=2).name
+        'hit.gif'
+        """
+        from carom.plots.animation import animate, drawing
+
+        count = counted("frames", frames, 1)
+        times = (np.arange(count) + 0.5) / count * self.duration
+        with drawing(count, progress) as advance:
+            pictures = map(self._picture, times)
+            return animate(self.history(), pictures, path, progress=lambda: advance(1))
+
+    @abstractmethod
+    def _picture(self, time: float) -> xr.Dataset:
+        """Return the fields on a grid over the whole contact at a time."""

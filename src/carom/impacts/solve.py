@@ -1,0 +1,165 @@
+"""One oblique impact with units: two bodies and their velocities in, the rebound out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, TypedDict, Unpack, overload
+
+from carom.bodies.kinematics import Tangential, approach
+from carom.bodies.losses import NormalLaw
+from carom.bodies.pairs import Pair, representable
+from carom.bodies.shapes import Sphere
+from carom.impacts.exact import Impact, solve_exactly
+from carom.io.progress import Progress
+from carom.quantities.units import InputError, Value, finite, refusal
+
+if TYPE_CHECKING:
+    from carom.impacts.boundary_elements import BoundaryElements, HalfspaceImpact
+
+
+class Motion(TypedDict, total=False):
+    """How two bodies meet, by the names of `impact`."""
+
+    speed: Value | None
+    angle: Value | None
+    normal_speed: Value | None
+    tangential_speed: Value | None
+    spin: Value
+    spin2: Value
+
+
+@overload
+def impact(
+    pair: Pair,
+    *,
+    normal: NormalLaw | None = None,
+    method: Literal["exact"] = "exact",
+    progress: Progress = None,
+    **motion: Unpack[Motion],
+) -> Impact: ...
+@overload
+def impact(
+    pair: Pair,
+    *,
+    normal: None = None,
+    method: Literal["halfspace"] | BoundaryElements,
+    progress: Progress = None,
+    **motion: Unpack[Motion],
+) -> HalfspaceImpact: ...
+@overload
+def impact(
+    pair: Pair,
+    *,
+    normal: NormalLaw | None = None,
+    method: str | BoundaryElements,
+    progress: Progress = None,
+    **motion: Unpack[Motion],
+) -> Impact | HalfspaceImpact: ...
+def impact(
+    pair: Pair,
+    *,
+    speed: Value | None = None,
+    angle: Value | None = None,
+    normal_speed: Value | None = None,
+    tangential_speed: Value | None = None,
+    spin: Value = 0.0,
+    spin2: Value = 0.0,
+    normal: NormalLaw | None = None,
+    method: str | BoundaryElements = "exact",
+    progress: Progress = None,
+) -> Impact | HalfspaceImpact:
+    """Solve one oblique impact of two bodies: exactly, within the theory, or by boundary elements.
+
+    V_1 = speed cos(angle), v_t = speed sin(angle), V_x = v_t + R spin + R_2 spin2,
+    psi_1 = kappa V_x/(mu V_1) (Maw, Barber & Fawcett 1976; Barber 1979, stick (15), gross slip
+    (33); boundary elements Love 1929 and Kalker 1990, section 4.2).
+
+    Parameters
+    ----------
+    pair : Pair
+        The bodies and their friction.
+    speed : float or str
+        Speed of approach of the centres, in m/s.
+    angle : float or str
+        Its angle from the normal; a bare number is in radians.
+    normal_speed, tangential_speed : float or str
+        The same as components, instead of speed and angle; relative, of the first to the second.
+    spin, spin2 : float or str
+        Spin of the first body, and of the second if it is a sphere, in rad/s; positive spin adds
+        to the tangential speed of the contact point.
+    normal : KelvinVoigt or ElasticPlastic, optional
+        What the normal motion loses energy to; by default nothing, the bodies are elastic.
+    method : "exact", "halfspace" or BoundaryElements
+        The theory, in which slip is parallel to x and unlike materials do not couple; or the full
+        contact in three dimensions, which assumes neither and takes ten seconds, a minute for
+        unlike materials. BoundaryElements says how finely.
+    progress : bool or callable, optional
+        Whether the boundary elements show a bar, by default in a notebook and on a terminal; or
+        what is called with the steps done and their number.
+
+    Returns
+    -------
+    Impact or HalfspaceImpact
+        The rebound (psi_out, rebound_angle, spin_out, restitutions, energies), the phases, and what
+        gives the rest: history, fields, validity, plot, animate, to_dataset, cite.
+
+    Raises
+    ------
+    InputError
+        If a value is missing, given twice, out of range, or the bodies do not approach.
+    RuntimeError
+        If the solvers of the boundary elements fail; with friction times Dundurs' beta above 1.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+    >>> [phase.kind for phase in hit.phases]
+    ['gross slip', 'stick', 'slip', 'gross slip']
+    >>> round(hit.rebound_angle * 180 / 3.141592653589793, 2)
+    18.6
+    """
+    if not isinstance(pair, Pair):
+        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    approaching, tangential = approach(speed, angle, normal_speed, tangential_speed)
+    first_spin, second_spin = finite("spin", spin), finite("spin2", spin2)
+    if second_spin and not isinstance(pair.second, Sphere):
+        raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
+    motion = Tangential(tangential, first_spin, second_spin)
+    _refuse_overflow(pair, approaching, motion.contact_velocity(pair))
+    if method == "exact":
+        return solve_exactly(pair, approaching, motion, normal)
+    return _by_elements(pair, approaching, motion, method, normal, progress)
+
+
+def _by_elements(
+    pair: Pair,
+    normal_speed: float,
+    motion: Tangential,
+    method: str | BoundaryElements,
+    normal: NormalLaw | None,
+    progress: Progress,
+) -> HalfspaceImpact:
+    from carom.impacts.boundary_elements import BoundaryElements, solve_by_elements
+
+    elements = BoundaryElements() if method == "halfspace" else method
+    if not isinstance(elements, BoundaryElements):
+        allowed = "must be 'exact', 'halfspace' or carom.BoundaryElements(elements=, steps=)"
+        raise refusal("method", method, allowed)
+    if normal is not None:
+        raise refusal("normal", normal, "boundary elements are elastic; leave it or method out")
+    return solve_by_elements(pair, normal_speed, motion, elements, progress)
+
+
+def _refuse_overflow(pair: Pair, normal: float, velocity: float) -> None:
+    """Refuse sizes and speeds whose scales leave the range of floating-point numbers."""
+    try:
+        fits = representable(pair.scales(normal), velocity)
+    except (OverflowError, ZeroDivisionError):
+        fits = False
+    if not fits:
+        raise InputError(
+            f"speed: {normal:g} m/s at a radius of {pair.first.radius:g} m gives numbers that "
+            "floating point cannot hold; check the units"
+        )

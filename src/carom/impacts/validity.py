@@ -1,0 +1,125 @@
+"""Whether the assumptions of the theory hold for an impact, as numbers with a verdict."""
+
+from math import inf, isfinite, isinf, sqrt
+
+from carom.bodies.materials import Material
+from carom.bodies.pairs import Pair
+from carom.io.labels import Finding, Validity
+
+SMALL_CONTACT = 0.1  # a_max/R*: Hertz's parabolic gap against the sphere (Johnson 1985, 4.2)
+YIELD_PRESSURE = 1.60  # p_0/Y at first yield of a sphere, von Mises (Johnson 1985, 6.1)
+SLOW_CONTACT = 3.0  # contact time in transits of a wave through the sphere and back (Love 1927)
+WEAK_COUPLING = 0.01  # |Dundurs' beta|: what is left uncoupled is below a hundredth
+CLOSE_REBOUND = 0.01  # of psi_2, also against the full contact in three dimensions
+LATERAL, RADIAL, COUPLED = 0.008, 0.22, 0.8  # of its bound, docs/halfspace_study.csv
+
+
+def judge(pair: Pair, normal_speed: float, duration: float, psi: float) -> Validity:
+    """Return the findings on an impact: small contact, no yield, slow contact, no coupling."""
+    error = rebound_error(pair.kappa, pair.dundurs_beta, pair.friction, pair.chi, psi)
+    uncoupled = (_coupling(pair.dundurs_beta), _close_rebound(error))
+    return Validity((*judge_contact(pair, normal_speed, duration), *uncoupled))
+
+
+def judge_contact(pair: Pair, normal_speed: float, duration: float) -> tuple[Finding, ...]:
+    """Return the findings on what does not depend on friction: small contact, no yield, slow."""
+    scales = pair.scales(normal_speed)
+    return (
+        _small_contact(scales.radius / pair.effective_radius),
+        *_yield(pair, scales.pressure),
+        _slow_contact(duration / max(_transit(pair), 1e-300)),
+    )
+
+
+def _small_contact(ratio: float) -> Finding:
+    holds = ratio <= SMALL_CONTACT
+    verdict = (
+        "the contact is small against the bodies"
+        if holds
+        else f"the contact is too large for Hertz's theory, which wants {SMALL_CONTACT} at most"
+    )
+    return Finding("a_max/R*", ratio, SMALL_CONTACT, holds, verdict)
+
+
+def _yield(pair: Pair, pressure: float) -> tuple[Finding, ...]:
+    strengths = [
+        m.yield_strength for m in (pair.first.material, pair.second.material) if m.yield_strength
+    ]
+    if not strengths:
+        unknown = "yield strength not known, so not judged"
+        return (Finding("p_0/Y", float("nan"), YIELD_PRESSURE, None, unknown),)
+    ratio = pressure / min(strengths)
+    holds = ratio <= YIELD_PRESSURE
+    body = "the softer body" if len(strengths) == 2 else "the body whose strength is known"
+    verdict = (
+        f"{body} stays elastic"
+        if holds
+        else f"{body} yields from {YIELD_PRESSURE} on: real restitution is below 1"
+    )
+    return (Finding("p_0/Y", ratio, YIELD_PRESSURE, holds, verdict),)
+
+
+def _transit(pair: Pair) -> float:
+    """Return the time of a bar wave through the slower sphere and back, 4 R sqrt(rho/E)."""
+    return max(4.0 * body.radius / _wave_speed(body.material) for body in pair.moving)
+
+
+def _wave_speed(material: Material) -> float:
+    return inf if isinf(material.young) else sqrt(material.young / (material.density or 1.0))
+
+
+def _slow_contact(ratio: float) -> Finding:
+    holds = ratio >= SLOW_CONTACT
+    verdict = (
+        "the contact lasts long enough to be quasi-static"
+        if holds
+        else f"elastic waves matter: the contact should last {SLOW_CONTACT:g} transits at least"
+    )
+    return Finding("contact time/wave transit", ratio, SLOW_CONTACT, holds, verdict)
+
+
+def _coupling(beta: float) -> Finding:
+    holds = abs(beta) <= WEAK_COUPLING
+    verdict = (
+        "normal and tangential contact do not couple"
+        if holds
+        else "unlike materials: the answer is the uncoupled one, an approximation"
+    )
+    return Finding("Dundurs beta", beta, WEAK_COUPLING, holds, verdict)
+
+
+def rebound_error(kappa: float, beta: float, friction: float, chi: float, psi: float) -> float:
+    """Return how far psi_2 of the theory may be from that of the full contact.
+
+    [0.008 nu^2 + 0.22 rho^2/(1 + rho) + 0.8 beta^2] min(1, 2 |psi_1|)/(1 + e)^2 with nu of like
+    materials of the same kappa, rho = |beta|/mu, and e what |psi_1| exceeds 4 chi - 1 by; 2 |psi_1|
+    at most, and nothing without friction. An envelope of boundary element solutions with kappa from
+    2/3 to 1, |beta| up to 0.45, mu from 0.02 to 1 (docs/halfspace_study.md); a guide beyond.
+    """
+    if friction == 0.0 or not isfinite(psi):
+        return 0.0
+    poisson, radial = 2.0 * (1.0 - kappa) / (2.0 - kappa), abs(beta) / friction
+    turned = RADIAL * radial * abs(beta) / (friction + abs(beta))  # rho^2/(1 + rho)
+    size = LATERAL * poisson**2 + turned + COUPLED * beta**2
+    beyond = 1.0 + max(abs(psi) - max(4.0 * chi - 1.0, 1.0), 0.0)
+    return min(size * min(1.0, 2.0 * abs(psi)) / beyond / beyond, 2.0 * abs(psi))
+
+
+def judge_errors(psi_out: float, energy: float) -> tuple[Finding, ...]:
+    """Return the findings on what a grid and steps leave of psi_2 and of the energy."""
+    findings = []
+    for name, value in (("error of psi_2", psi_out), ("error of energy", energy)):
+        holds = value <= CLOSE_REBOUND
+        verdict = "grid and steps are fine enough" if holds else "take more elements and steps"
+        findings.append(Finding(name, value, CLOSE_REBOUND, holds, verdict))
+    return tuple(findings)
+
+
+def _close_rebound(error: float) -> Finding:
+    holds = error <= CLOSE_REBOUND
+    verdict = (
+        "psi_2 is as close as this to the full contact in three dimensions"
+        if holds
+        else "coupling may turn psi_2 by as much; method='halfspace' solves the full contact"
+    )
+    return Finding("error of psi_2", error, CLOSE_REBOUND, holds, verdict)

@@ -1,0 +1,1 @@
+"""Files, tables, labels, progress and citations."""

@@ -1,0 +1,52 @@
+"""What to cite for a result, as BibTeX."""
+
+import re
+from functools import cache
+from importlib.resources import files
+
+from carom.io.labels import carom_version
+
+IMPACT = ("carom", "barber1979", "maw1976")  # the theory of impacts
+LOADS = ("carom", "mindlin1953", "maw1976")
+ELEMENTS = ("carom", "kalker1990", "love1929")
+FITS = (*IMPACT, "newville2014")
+SAMPLES = ("foremanmackey2013",)
+VISCOUS = "kuwabara1987"
+
+
+def bibtex(*keys: str) -> str:
+    """Return entries of data/citations.bib by key, in this order.
+
+    Examples
+    --------
+    >>> from carom.io.citations import bibtex
+    >>> print(bibtex("maw1976").splitlines()[2])
+      author = {Maw, N. and Barber, J. R. and Fawcett, J. N.},
+    """
+    return "\n".join(_entries()[key] for key in keys)
+
+
+def with_doi(doi: str) -> str:
+    """Return the entry of a publication by its DOI; of one that is not known the DOI alone.
+
+    Examples
+    --------
+    >>> from carom.io.citations import with_doi
+    >>> print(with_doi("10.1000/182"), end="")
+    @misc{data,
+      doi = {10.1000/182},
+    }
+    """
+    known = (entry for entry in _entries().values() if f"doi = {{{doi}}}" in entry)
+    return next(known, f"@misc{{data,\n  doi = {{{doi}}},\n}}\n")
+
+
+@cache
+def _entries() -> dict[str, str]:
+    text = (files("carom") / "data" / "citations.bib").read_text(encoding="utf-8")
+    entries = re.split(r"(?m)^(?=@)", text.replace("VERSION", carom_version()))[1:]
+    return {_key(entry): entry.rstrip() + "\n" for entry in entries}
+
+
+def _key(entry: str) -> str:
+    return entry[entry.index("{") + 1 : entry.index(",")]

@@ -1,0 +1,16 @@
+"""Packages that only some tasks need."""
+
+from importlib import import_module
+from types import ModuleType
+
+from carom.quantities.units import InputError
+
+
+def extra(name: str, purpose: str, group: str = "cluster") -> ModuleType:
+    """Return a package of an extra, or raise InputError that says how to get it."""
+    try:
+        return import_module(name)
+    except ImportError:
+        package = name.partition(".")[0]
+        hint = f"pip install 'carom[{group}]'"
+        raise InputError(f"{purpose} needs the package {package}; {hint}") from None

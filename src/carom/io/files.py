@@ -1,0 +1,228 @@
+"""Storing results as NetCDF or CSV and reading them again; files are replaced whole or not."""
+
+import errno
+import os
+import shutil
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
+
+from carom.io.csv_format import as_csv, from_csv
+from carom.io.extras import extra
+from carom.quantities.units import InputError, refusal
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+TABLES = (".nc", ".csv")
+STORE, STATUS = ".zarr", "status"  # of a sweep
+OVERHEAD = 200_000  # bytes of a NetCDF file besides its values
+FIGURES = (".png", ".pdf", ".svg")
+ANIMATIONS = (".gif", ".mp4")
+
+
+class Result(Protocol):
+    """What can be made a dataset: an impact, a load path."""
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return all of it as one dataset."""
+
+
+def save(result: "xr.Dataset | Result", path: str | Path) -> Path:
+    """Store a dataset or a result as .nc or .csv and return its path; `read` gives it back.
+
+    A file that is there is replaced whole or not at all. CSV is one table, with everything else in
+    comments before it: `pandas.read_csv(path, comment="#")` reads it, too.
+
+    Parameters
+    ----------
+    result : xarray.Dataset or a result
+        A dataset, or what has a `to_dataset()`: an Impact, a Fit, a Ranking.
+    path : str or Path
+        A name that ends in .nc or .csv.
+
+    Returns
+    -------
+    pathlib.Path
+        The file that was written.
+
+    Raises
+    ------
+    InputError
+        If the name ends otherwise, the file cannot be written, or there is no dataset to store.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> import carom
+    >>> with TemporaryDirectory() as folder:
+    ...     carom.save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.csv").name
+    'curve.csv'
+    """
+    target, dataset = checked_output(path, TABLES), _dataset(result)
+
+    def write(where: Path) -> None:
+        if target.suffix.lower() == ".nc":
+            _require_room(where, dataset.nbytes)
+            # what has no missing values declares none: CF forbids it of coordinates
+            plain = {name: {"_FillValue": None} for name in dataset.variables}
+            dataset.drop_encoding().to_netcdf(where, engine="h5netcdf", encoding=plain)
+        else:
+            where.write_text(as_csv(dataset), encoding="utf-8", newline="\n")
+
+    return replace_whole(target, write)
+
+
+def _require_room(where: Path, size: int) -> None:
+    """Raise OSError if a NetCDF file of this size does not fit: HDF5 crashes on a full disk."""
+    needed = size + size // 20 + OVERHEAD
+    if shutil.disk_usage(where.parent).free < needed:
+        raise OSError(
+            errno.ENOSPC, f"{os.strerror(errno.ENOSPC)}, {needed / 1e6:.2g} MB are needed"
+        )
+
+
+def _dataset(result: "xr.Dataset | Result") -> "xr.Dataset":
+    import xarray as xr
+
+    if isinstance(result, xr.Dataset):
+        return result
+    if not hasattr(result, "to_dataset"):
+        raise refusal("result", result, "must be a dataset, an impact or a load path")
+    return result.to_dataset()
+
+
+def read(path: str | Path) -> "xr.Dataset":
+    """Return the dataset that Carom stored as .nc, .csv or .zarr, every value to the last bit.
+
+    Parameters
+    ----------
+    path : str or Path
+        A file that `save` or the option --output of a command has written, or the store of a sweep,
+        .zarr, whose values are read when they are used.
+
+    Returns
+    -------
+    xarray.Dataset
+        Variables and coordinates as they were stored, with their units and meanings as attributes.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, damaged, or not one of Carom's.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> import carom
+    >>> with TemporaryDirectory() as folder:
+    ...     stored = carom.save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.csv")
+    ...     carom.read(stored).psi_out.values.round(4)
+    array([[ 0.0471, -0.839 ]])
+    """
+    source = _as_path("file", path)
+    if source.suffix.lower() == STORE and source.is_dir():
+        return read_store(source)
+    if source.suffix.lower() not in TABLES:
+        allowed = f"must end in {' or '.join(TABLES)}, or be the store of a sweep, {STORE}"
+        raise refusal("file", str(path), allowed)
+    if not source.is_file():
+        raise refusal("file", str(path), "there is no such file")
+    return _from_netcdf(source) if source.suffix.lower() == ".nc" else _from_csv(source)
+
+
+def read_store(path: Path) -> "xr.Dataset":
+    """Return the sweep in a store of Carom's, its values read when they are used.
+
+    Raises InputError if it is not one.
+    """
+    extra("zarr", "a store")
+    import numpy as np
+    import xarray as xr
+
+    try:
+        dataset: xr.Dataset = xr.open_zarr(path, chunks=None, consolidated=True, decode_times=False)
+    except Exception:  # zarr and xarray raise what they like at a damaged store
+        raise refusal("store", str(path), "it is damaged, or not a Zarr store") from None
+    is_ours = str(dataset.attrs.get("source")).startswith("carom ") and STATUS in dataset
+    if not is_ours or "inputs" not in dataset.attrs:
+        raise refusal("store", str(path), "it was not stored by Carom")
+    for variable in dataset.variables.values():  # what JSON has made a list
+        if "flag_values" in variable.attrs:
+            flags = np.asarray(variable.attrs["flag_values"], variable.dtype)
+            variable.attrs["flag_values"] = flags
+    return dataset
+
+
+def _as_path(name: str, path: str | Path) -> Path:
+    try:
+        return Path(path)
+    except TypeError:
+        raise refusal(name, path, "must be the name of a file") from None
+
+
+def _from_netcdf(path: Path) -> "xr.Dataset":
+    import numpy as np
+    import xarray as xr
+
+    try:
+        dataset = xr.load_dataset(path, engine="h5netcdf", decode_times=False)
+    except PermissionError as error:
+        raise refusal("file", str(path), f"cannot be read; {error.strerror}") from None
+    except Exception:  # h5py and xarray raise what they like at a damaged file
+        raise refusal("file", str(path), "it is damaged, or not NetCDF-4") from None
+    if not str(dataset.attrs.get("source")).startswith("carom "):
+        raise refusal("file", str(path), "it was not stored by Carom")
+    dataset.attrs = {
+        name: value.item() if isinstance(value, np.generic) else value
+        for name, value in dataset.attrs.items()
+    }
+    return dataset.drop_encoding()
+
+
+def _from_csv(path: Path) -> "xr.Dataset":
+    try:
+        return from_csv(path.read_bytes().decode("utf-8-sig"))
+    except OSError as error:
+        raise refusal("file", str(path), f"cannot be read; {error.strerror or error}") from None
+    except UnicodeDecodeError:
+        raise refusal("file", str(path), "it is not text") from None
+    except InputError as error:
+        raise refusal("file", str(path), str(error)) from None
+
+
+def checked_output(path: str | Path, endings: tuple[str, ...]) -> Path:
+    """Return the path of an output file, or raise InputError if it cannot become one."""
+    target = _as_path("output file", path)
+    if target.suffix.lower() not in endings:
+        raise refusal("output file", str(path), f"must end in {' or '.join(endings)}")
+    if target.is_dir() or not target.parent.is_dir():
+        raise refusal("output file", str(path), "its folder must exist; make it first")
+    return target
+
+
+def replace_whole(target: Path, write: Callable[[Path], object]) -> Path:
+    """Call `write` on a temporary file beside the target, then put it in the target's place."""
+    try:
+        handle, name = tempfile.mkstemp(
+            prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent
+        )
+        os.close(handle)
+        temporary = Path(name)
+        try:
+            write(temporary)
+            temporary.chmod(0o666 & ~_umask())
+            temporary.replace(target)
+        finally:
+            temporary.unlink(missing_ok=True)
+    except OSError as error:
+        reason = error.strerror or error
+        raise InputError(f"output file: {str(target)!r} cannot be written; {reason}") from None
+    return target
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

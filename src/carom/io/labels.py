@@ -1,0 +1,148 @@
+"""Results as records and as labelled datasets."""
+
+import json
+from collections.abc import Mapping, Sequence
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from carom.quantities.glossary import GLOSSARY
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from carom.dimensionless.states import Phase
+
+
+CONVENTIONS = "CF-1.11"
+AXES = {"x": {"axis": "X"}, "y": {"axis": "Y"}, "z": {"axis": "Z", "positive": "down"}}
+MARKS = {True: "ok ", False: "NO ", None: " ? "}
+
+
+class Finding(NamedTuple):
+    """One number that tells whether the theory holds: value, limit, and a plain verdict."""
+
+    name: str
+    value: float
+    limit: float
+    holds: bool | None  # None: cannot be judged
+    verdict: str
+
+
+class Validity(NamedTuple):
+    """All findings on one impact."""
+
+    findings: tuple[Finding, ...]
+
+    @property
+    def holds(self) -> bool:
+        """Whether no finding is beyond its limit."""
+        return all(finding.holds is not False for finding in self.findings)
+
+    def __str__(self) -> str:
+        return "\n".join(
+            f"{MARKS[f.holds]} {f.name} = {f.value:.3g}: {f.verdict}" for f in self.findings
+        )
+
+
+def flags(meanings: Sequence[str], first: int = 0) -> dict[str, Any]:
+    """Return the CF attributes of an int8 variable whose values count through these meanings."""
+    values = np.arange(first, first + len(meanings), dtype=np.int8)
+    words = " ".join(meaning.replace(" ", "_") for meaning in meanings)
+    return {"units": "1", "flag_values": values, "flag_meanings": words}
+
+
+SIGNS = flags(("slip along -x", "stick", "slip along +x"), first=-1)
+
+
+@cache
+def carom_version() -> str:
+    """Return the version of the package."""
+    try:
+        return version("carom")
+    except PackageNotFoundError:
+        return "unknown"
+
+
+def labelled_dataset(
+    variables: Mapping[str, Any],
+    coords: Mapping[str, Any],
+    attrs: Mapping[str, Any],
+) -> "xr.Dataset":
+    """Return a dataset whose variables carry unit and meaning, after the CF conventions 1.11.
+
+    Parameters
+    ----------
+    variables, coords : mapping
+        By name: a number, values along themselves, (dims, values), or (dims, values, attributes).
+        What has no entry in the glossary brings its attributes along.
+    attrs : mapping
+        Attributes of the whole, a title among them; what is a mapping is stored as JSON.
+
+    Examples
+    --------
+    >>> from carom.io.labels import labelled_dataset
+    >>> force = labelled_dataset({"normal_force": ("time", [0.0, 2.0])}, {"time": [0.0, 1e-6]}, {})
+    >>> force.normal_force.units, force.time.long_name
+    ('N', 'time since the first touch')
+    """
+    import xarray as xr
+
+    words = {
+        name: json.dumps(dict(value)) if isinstance(value, Mapping) else value
+        for name, value in attrs.items()
+    }
+    return xr.Dataset(
+        {name: _variable(name, entry) for name, entry in variables.items()},
+        coords={name: _variable(name, entry) for name, entry in coords.items()},
+        attrs={"Conventions": CONVENTIONS, "source": f"carom {carom_version()}"} | words,
+    )
+
+
+def labelled(
+    columns: Mapping[str, ArrayLike],
+    scalars: Mapping[str, float],
+    phases: "Sequence[Phase]",
+    inputs: Mapping[str, Any],
+    phase_columns: Mapping[str, ArrayLike] | None = None,
+) -> "xr.Dataset":
+    """Return a history as a dataset: columns along time, more of them along phase, and numbers."""
+    along_time: dict[str, Any] = {name: ("time", values) for name, values in columns.items()}
+    along_phase = {name: ("phase", values) for name, values in (phase_columns or {}).items()}
+    time = along_time.pop("time")
+    return labelled_dataset(
+        along_time | dict(scalars) | _phase_variables(phases) | along_phase,
+        {"time": time},
+        {"title": "oblique impact of elastic spheres", "inputs": inputs},
+    )
+
+
+def _phase_variables(phases: "Sequence[Phase]") -> dict[str, Any]:
+    signs = np.array([phase.sign for phase in phases], dtype=np.int8)
+    return {
+        "phase_kind": ("phase", [p.kind for p in phases], {"long_name": "kind of phase"}),
+        "phase_sign": ("phase", signs, SIGNS),
+        "phase_start": ("phase", [p.start for p in phases]),
+        "phase_end": ("phase", [p.end for p in phases]),
+        "phase_cause": ("phase", [p.cause for p in phases], {"long_name": "what ended the phase"}),
+    }
+
+
+def attributes(name: str) -> dict[str, str]:
+    """Return the attributes of a variable: its unit, meaning and symbol."""
+    entry = GLOSSARY[name]
+    return {"units": entry.unit, "long_name": entry.meaning, "symbol": entry.symbol}
+
+
+def _variable(name: str, entry: Any) -> tuple[Any, Any, dict[str, Any]]:
+    if isinstance(entry, tuple):
+        dims, values, *more = entry
+    else:
+        dims, values, more = (name,) if np.ndim(entry) else (), entry, []
+    known: dict[str, Any] = attributes(name) if name in GLOSSARY or not more else {}
+    if dims in (name, (name,)):
+        known |= AXES.get(name, {})
+    return dims, np.asarray(values), known | dict(*more)

@@ -1,0 +1,92 @@
+"""How near Walton's law can come to the exact one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from carom.bodies.pairs import Pair
+from carom.laws.exact import law_of
+from carom.laws.rigid import WaltonLaw
+from carom.quantities.arrays import Array
+from carom.quantities.units import positive, refusal
+
+POINTS = 2001
+
+
+@dataclass(frozen=True)
+class WaltonFit:
+    """Walton's law fitted to the exact one, and the error in psi_2 that remains over the span.
+
+    `law` is the fitted `WaltonLaw`, `rms_error` and `max_error` those of psi_2, `span` the largest
+    psi_1 that counts; made by `fit_walton`.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> fit = carom.fit_walton(pair)
+    >>> round(fit.law.friction, 3), round(fit.max_error, 2), round(fit.span, 2)
+    (0.199, 0.35, 5.76)
+    """
+
+    law: WaltonLaw
+    rms_error: float
+    max_error: float
+    span: float
+
+
+def fit_walton(pair: Pair, span: float | None = None) -> WaltonFit:
+    """Return Walton's friction and beta_0 that come closest to the exact rebound of a pair.
+
+    Least squares in psi_2, evenly over psi_1 from 0 to the span, of psi_1 - min((1 + beta_0) psi_1,
+    4 chi mu_W/mu) against the exact psi_2 (Walton 1993; Maw, Barber & Fawcett 1976).
+
+    Parameters
+    ----------
+    pair : Pair
+        The bodies; their friction must not be zero.
+    span : float, optional
+        Largest psi_1, by default 4 chi: nearly up to gross slip throughout and a little beyond.
+
+    Returns
+    -------
+    WaltonFit
+        `law`, a WaltonLaw with e = 1; rms_error and max_error of its psi_2 over the span; `span`
+        itself.
+
+    Raises
+    ------
+    InputError
+        If the pair has no friction, or the span is not positive.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> fit = carom.fit_walton(pair)
+    >>> round(fit.law.tangential_restitution, 2), round(fit.rms_error, 2)
+    (0.41, 0.16)
+    """
+    if not isinstance(pair, Pair):
+        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    if pair.friction == 0.0:
+        raise refusal("friction", pair.friction, "must be positive: without it nothing is to fit")
+    reach = 4.0 * pair.chi if span is None else positive("psi_in", span)
+    psi = np.linspace(0.0, reach, POINTS)
+    exact, limit = law_of(pair.chi)(psi), 4.0 * pair.chi
+
+    def residual(parameters: Array) -> Array:
+        one_plus_beta, ratio = parameters
+        return np.asarray(psi - np.minimum(one_plus_beta * psi, limit * ratio) - exact)
+
+    found = least_squares(residual, (1.3, 1.0), bounds=((0.0, 0.0), (2.0, inf)), x_scale=0.1)
+    beta, ratio = float(found.x[0]) - 1.0, float(found.x[1])
+    law = WaltonLaw(friction=ratio * pair.friction, tangential_restitution=beta)
+    error = residual(found.x)
+    return WaltonFit(law, float(np.sqrt(np.mean(error**2))), float(np.max(np.abs(error))), reach)

@@ -1,0 +1,1 @@
+"""What people measure of rebounds, and what they have published."""

@@ -1,0 +1,154 @@
+"""Measured rebounds that come with Carom: tables with units, definitions, errors and sources.
+
+Examples
+--------
+>>> import carom
+>>> carom.datasets.names()
+('kharaz2001', 'kharaz2001_kratos', 'kharaz2001_mfix')
+"""
+
+from functools import lru_cache
+from importlib.resources import files
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from carom.io.columns import ERROR, Results, entry, in_units
+from carom.io.labels import attributes, labelled_dataset
+from carom.io.tables import Table, read_table
+from carom.measurements.observables import OBSERVABLES
+from carom.quantities.units import nearest, refusal
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def names() -> tuple[str, ...]:
+    """Return the names of the datasets.
+
+    Returns
+    -------
+    tuple of str
+        Names that `path`, `table` and `load` take.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.datasets.names()
+    ('kharaz2001', 'kharaz2001_kratos', 'kharaz2001_mfix')
+    """
+    return tuple(sorted(file.stem for file in _folder().glob("*.csv")))
+
+
+def path(name: str) -> Path:
+    """Return the file of a dataset, for `carom fit` and for any program that reads CSV.
+
+    Parameters
+    ----------
+    name : str
+        One of `names()`.
+
+    Returns
+    -------
+    pathlib.Path
+        The CSV file.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name; the message offers the nearest.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.datasets.path("kharaz2001").name
+    'kharaz2001.csv'
+    """
+    if name not in names():
+        hint = nearest(str(name), names()) or f"there are {', '.join(names())}"
+        raise refusal("dataset", name, f"none of that name; {hint}")
+    return _folder() / f"{name}.csv"
+
+
+def table(name: str) -> Results:
+    """Return the columns of a dataset in SI units, NaN where nothing was measured.
+
+    Parameters
+    ----------
+    name : str
+        One of `names()`.
+
+    Returns
+    -------
+    Results
+        `columns`: arrays of shape (n,) by name, which `table[name]` gives, too; `rows`, the lines
+        of the file, shape (n,).
+
+    Raises
+    ------
+    InputError
+        If there is none of that name; the message offers the nearest.
+
+    Examples
+    --------
+    >>> import carom
+    >>> measured = carom.datasets.table("kharaz2001")
+    >>> measured["spin_out"][8:10].round(1), measured["rebound_angle"][8:10]
+    (array([-136.2, -265.7]), array([nan, nan]))
+    """
+    cells = _read(name)
+    return in_units(cells, cells.names, gaps=OBSERVABLES)
+
+
+def load(name: str) -> "xr.Dataset":
+    """Return a dataset along `point`, in SI units, NaN where nothing was measured.
+
+    Columns that end in _error are standard deviations. The attributes tell the source
+    ("references", "doi"), who digitised it, definitions, signs, what the errors are, and "case",
+    the bodies as JSON: `carom.bodies.cases.pair_of(json.loads(data.case))` is the pair.
+
+    Parameters
+    ----------
+    name : str
+        One of `names()`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Along `point`: one variable a column, with its unit and meaning as attributes.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name; the message offers the nearest.
+
+    Examples
+    --------
+    >>> import carom
+    >>> data = carom.datasets.load("kharaz2001")
+    >>> data.spin_out.units, int(data.spin_out.notnull().sum()), data.doi
+    ('rad/s', 7, '10.1016/S0032-5910(01)00283-2')
+    """
+    columns = table(name).columns
+    variables = {key: ("point", values, _attributes(key)) for key, values in columns.items()}
+    told = dict(_read(name).comments)
+    told["references"] = told.pop("source")  # "source" is the version of Carom, as everywhere
+    return labelled_dataset(variables, {}, {"name": name, **told})
+
+
+def _attributes(name: str) -> dict[str, Any]:
+    known = attributes(entry(name))
+    if not name.endswith(ERROR):
+        return known
+    return known | {
+        "long_name": f"standard deviation of {known['long_name']}",
+        "symbol": rf"$\sigma$ of {known['symbol']}",
+    }
+
+
+@lru_cache
+def _read(name: str) -> Table:
+    return read_table(path(name))
+
+
+def _folder() -> Path:
+    return Path(str(files("carom").joinpath("data/measured")))

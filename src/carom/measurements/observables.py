@@ -1,0 +1,211 @@
+"""What people publish of rebounds, from one another: restitutions, angles, spins, impulses."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from math import nan, pi
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from carom.bodies.kinematics import Rebound, Tangential, components, inertia
+from carom.bodies.pairs import Pair
+from carom.bodies.shapes import Sphere
+from carom.quantities.arrays import Array, numbers
+from carom.quantities.units import InputError, nearest, refusal
+
+Given = Mapping[str, Any]  # arrays by name
+
+INCIDENCE = ("tangential_speed", "angle", "contact_angle", "psi_in")
+BEFORE = ("speed", "normal_speed", *INCIDENCE, "spin", "spin2")
+NORMAL = ("normal_restitution", "normal_speed_out")
+IMPULSE: dict[str, Callable[[Rebound, Array], Any]] = {  # J_t, from what is known of after
+    "tangential_speed_out": lambda r, x: r.pair.normal_mass * (r.tangential_speed - x),
+    "tangential_restitution": lambda r, x: r.pair.normal_mass * r.tangential_speed * (1.0 - x),
+    "rebound_angle": lambda r, x: (
+        r.pair.normal_mass * (r.tangential_speed - np.tan(x) * r.normal_speed_out)
+    ),
+    "spin_out": lambda r, x: _turning(r.pair.first, r.spin - x),
+    "spin2_out": lambda r, x: _turning(r.pair.second, r.spin2 - x),
+    "contact_restitution": lambda r, x: r.pair.tangential_mass * r.contact_velocity * (1.0 - x),
+    "contact_beta": lambda r, x: r.pair.tangential_mass * r.contact_velocity * (1.0 + x),
+    "contact_rebound_angle": lambda r, x: (
+        r.pair.tangential_mass * (r.contact_velocity - np.tan(x) * r.normal_speed_out)
+    ),
+    "impulse_ratio": lambda r, x: x * r.normal_impulse,
+    "psi_out": lambda r, x: (
+        r.pair.tangential_mass * (r.contact_velocity - x * _psi_unit(r.pair, r.normal_speed))
+    ),
+}
+OBSERVABLES = (*NORMAL, *IMPULSE)
+NAMES = (*BEFORE, *OBSERVABLES)
+SCALED = {name for name in NAMES if "spin" in name or "speed" in name}  # not a ratio or an angle
+RECEDING = ("rebound_angle", "contact_rebound_angle", "impulse_ratio", *NORMAL)  # these need e
+RELATIVE = {  # these say nothing where there was nothing before
+    "tangential_restitution": "tangential_speed",
+    "contact_restitution": "contact_velocity",
+    "contact_beta": "contact_velocity",
+}
+
+
+def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
+    """Return one quantity of a rebound from others that determine it.
+
+    Any one tangential observable after, and the normal restitution where it enters, give the
+    tangential impulse, from which all others follow: m_n (v_t - v_t') = I_1 (omega - omega')/R_1 =
+    I_2 (omega_2 - omega_2')/R_2 = m_t (V_x - V_x') = J_t. psi = kappa V_x/(mu V_1) is that of Maw,
+    Barber & Fawcett (1976).
+
+    Parameters
+    ----------
+    pair : Pair
+        The bodies. Their friction and stiffness matter for psi alone.
+    known : mapping
+        By name, numbers or arrays that broadcast, SI or text with a unit; NaN stays NaN. The motion
+        before: speed and angle; or normal_speed and one of tangential_speed, angle, contact_angle,
+        psi_in; spin and spin2, else zero. Between ratios and angles no speed is needed.
+        After: normal_restitution or normal_speed_out; and one of tangential_speed_out, spin_out,
+        spin2_out, rebound_angle (of the centre), contact_rebound_angle (of the contact point),
+        tangential_restitution (v_t'/v_t), contact_restitution (V_x'/V_x), contact_beta (-V_x'/V_x),
+        impulse_ratio (J_t/J_n), psi_out.
+    wanted : str
+        Any of these names.
+
+    Returns
+    -------
+    float or numpy.ndarray
+        The wanted quantity in SI units, angles in rad; of the broadcast shape, a number if all are
+        numbers.
+
+    Raises
+    ------
+    InputError
+        If a name is not known, a value is out of range, or what is known leaves the wanted open or
+        says it twice.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="2.5 mm", material="alumina")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="soda-lime-glass"), friction=0.092)
+    >>> known = {"speed": 3.9, "angle": ["20 deg", "40 deg"], "tangential_restitution": [0.6, 0.78]}
+    >>> carom.convert(pair, known=known, wanted="spin_out").round(1)
+    array([-533.6, -551.5])
+    """
+    given = {name: _values(name, value) for name, value in known.items()}
+    if wanted not in NAMES:
+        hint = nearest(str(wanted), NAMES) or f"known are {', '.join(NAMES)}"
+        raise InputError(f"{wanted}: unknown quantity; {hint}")
+    _check_bodies(pair, {*given, wanted})
+    try:
+        shape = np.broadcast_shapes(*(values.shape for values in given.values()))
+    except ValueError:
+        raise InputError("known: arrays of shapes that do not fit each other") from None
+    rebound = _rebound(pair, given, wanted)
+    result = np.broadcast_to(np.asarray(getattr(rebound, wanted)), shape)
+    return result.copy() if shape else result.item()
+
+
+def _values(name: str, value: Any) -> Array:
+    """Return what is known of one quantity, or raise InputError."""
+    if name not in NAMES:
+        hint = nearest(name, NAMES) or f"known are {', '.join(NAMES)}"
+        raise InputError(f"{name}: unknown quantity; {hint}")
+    values = numbers(name, value, "must be numbers, or text with a unit")
+    if "angle" in name:
+        _refuse(name, values, abs(values) >= 0.5 * pi, "must be below pi/2, '90 deg'")
+    elif name in ("speed", "normal_speed", *NORMAL):
+        _refuse(name, values, values <= 0.0, "must be positive")
+    _refuse(name, values, np.isinf(values), "must be finite")
+    return values
+
+
+def _refuse(name: str, values: Array, bad: NDArray[np.bool_], allowed: str) -> None:
+    if bad.any():
+        raise refusal(name, float(values[bad][0]), allowed)
+
+
+def _check_bodies(pair: Pair, names: set[str]) -> None:
+    """Raise InputError for quantities that such bodies do not have."""
+    spins = sorted(names & {"spin2", "spin2_out"})
+    if spins and not isinstance(pair.second, Sphere):
+        raise InputError(f"{spins[0]}: only a second sphere can spin; leave it out")
+    psis = sorted(names & {"psi_in", "psi_out"})
+    if psis and pair.friction == 0.0:
+        raise InputError(f"{psis[0]}: infinite without friction; give the pair a friction")
+
+
+def _rebound(pair: Pair, given: Given, wanted: str) -> Rebound:
+    """Return the rebound, with NaN for what is not known of it and not wanted."""
+    normal, before = _before(pair, given, wanted)
+    start = Rebound(pair, normal, before, _restitution(normal, given), 0.0)
+    if wanted in BEFORE:
+        return start
+    ways = _one_of("the rebound", given, tuple(IMPULSE)) if wanted not in NORMAL else ""
+    needing = [name for name in (ways, wanted) if name in RECEDING]
+    if needing and not given.keys() & set(NORMAL):
+        raise InputError(f"normal_restitution: missing; {needing[0]} needs it, e.g. 0.98")
+    if not ways:
+        return start
+    if ways in RELATIVE:
+        nothing = np.asarray(getattr(start, RELATIVE[ways])) == 0.0
+        if nothing.any():
+            raise InputError(
+                f"{ways}: says nothing where {RELATIVE[ways]} is zero before; give another, "
+                "e.g. spin_out"
+            )
+    return replace(start, impulse=IMPULSE[ways](start, given[ways]))
+
+
+def _one_of(what: str, given: Given, names: tuple[str, ...]) -> str:
+    """Return the one of some names that is given, or raise InputError."""
+    found = [name for name in names if name in given]
+    if len(found) != 1:
+        problem = f"{' and '.join(found)} are too much" if found else "it is not determined"
+        raise InputError(f"known: {problem} for {what}; give one of {', '.join(names)}")
+    return found[0]
+
+
+def _before(pair: Pair, given: Given, wanted: str) -> tuple[Any, Tangential]:
+    """Return the normal speed and the tangential motion before."""
+    spins = (given.get("spin", np.zeros(())), given.get("spin2", np.zeros(())))
+    way = _one_of("the tangential motion before", given, INCIDENCE)
+    if "speed" in given:
+        if way != "angle" or "normal_speed" in given:
+            raise InputError("speed: give it with angle alone, or give normal_speed instead")
+        normal, tangential = components(given["speed"], given["angle"])
+        return normal, Tangential(tangential, *spins)
+    scaled = sorted(SCALED & {*given, wanted})
+    if scaled and "normal_speed" not in given:
+        raise InputError(f"speed: missing; {scaled[0]} needs speed and angle, or normal_speed")
+    normal = given.get("normal_speed", np.ones(()))
+    moved = _moved(pair, normal, way, given[way])
+    if way in ("contact_angle", "psi_in"):
+        moved = moved - Tangential(0.0, *spins).contact_velocity(pair)
+    return normal, Tangential(moved, *spins)
+
+
+def _moved(pair: Pair, normal: Any, name: str, value: Array) -> Any:
+    """Return the tangential velocity before, of the centre or the contact point."""
+    if name == "psi_in":
+        return value * _psi_unit(pair, normal)
+    return value if name == "tangential_speed" else normal * np.tan(value)
+
+
+def _restitution(normal: Any, given: Given) -> Any:
+    """Return the normal restitution, NaN if nothing is known of it."""
+    if given.keys() >= set(NORMAL):
+        raise InputError(f"known: {' and '.join(NORMAL)} are too much; give one of them")
+    if "normal_speed_out" in given:
+        return given["normal_speed_out"] / normal
+    return given.get("normal_restitution", nan)
+
+
+def _turning(body: Any, change: Any) -> Any:
+    """Return the tangential impulse that changes the spin of a body by this."""
+    return inertia(body) * change / body.radius
+
+
+def _psi_unit(pair: Pair, normal_speed: Any) -> Any:
+    """Return the velocity of the contact point at psi = 1."""
+    return pair.scales(normal_speed).tangential_speed

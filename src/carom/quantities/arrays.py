@@ -1,0 +1,99 @@
+"""Reading arrays that users give: numbers, points, the lines of a grid."""
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from carom.quantities.units import positive, refusal, without_units
+
+Array = NDArray[np.float64]
+
+
+class Places(NamedTuple):
+    """Places of a dataset: its dimensions and coordinates, and an array of shape (..., columns)."""
+
+    dims: tuple[str, ...]
+    coords: dict[str, Any]
+    at: Array
+
+
+def numbers(name: str, given: ArrayLike, allowed: str) -> Array:
+    """Return real numbers as an array, texts with units in SI units, or raise InputError."""
+    plain = without_units(name, given)
+    try:
+        values = np.asarray(plain)
+    except ValueError:
+        raise refusal(name, given, allowed) from None
+    if values.dtype.kind not in "iuf" or isinstance(plain, np.ma.MaskedArray):
+        raise refusal(name, given, allowed)
+    return values.astype(np.float64)
+
+
+def scattered(name: str, given: ArrayLike, columns: int) -> Array:
+    """Return points as an array of shape (n, columns), or raise InputError."""
+    allowed = f"must be finite numbers in m, of shape (n, {columns})"
+    if isinstance(given, str):
+        raise refusal(name, given, allowed)
+    points = numbers(name, given, allowed)
+    if points.ndim != 2 or points.shape[1] != columns or points.shape[0] == 0:
+        raise refusal(name, points, allowed)
+    if not np.all(np.isfinite(points)):
+        row = int(np.argwhere(~np.isfinite(points))[0, 0])
+        raise refusal(name, points[row].tolist(), f"row {row} is not finite; {allowed}")
+    return points
+
+
+def line(name: str, given: ArrayLike) -> Array:
+    """Return positions along an axis as an array of shape (n,), or raise InputError."""
+    allowed = "must be a list of finite numbers in m"
+    values = np.atleast_1d(numbers(name, given, allowed))
+    if values.ndim != 1 or values.size == 0 or not np.all(np.isfinite(values)):
+        raise refusal(name, given, allowed)
+    return values
+
+
+def finite_line(name: str, given: ArrayLike) -> Array:
+    """Return a list of finite numbers as an array of shape (n,), or raise InputError."""
+    try:
+        values = np.atleast_1d(np.asarray(given, dtype=np.float64))
+    except (TypeError, ValueError):
+        raise refusal(name, given, "must be a list of finite numbers") from None
+    if values.size == 0 or values.ndim > 1 or not np.all(np.isfinite(values)):
+        raise refusal(name, given, "must be a list of finite numbers")
+    return values
+
+
+def positive_line(name: str, given: ArrayLike) -> Array:
+    """Return one positive number or more as an array of shape (n,), or raise InputError."""
+    values = [positive(name, value) for value in np.atleast_1d(np.asarray(given, dtype=object))]
+    if not values:
+        raise refusal(name, given, "must be one positive number or more")
+    return np.array(values)
+
+
+def places(
+    space: str,
+    grid: Mapping[str, ArrayLike | None],
+    default: Mapping[str, Array],
+    points: ArrayLike | None,
+) -> Places:
+    """Return points, or a grid along two of the axes of space, the others zero there.
+
+    Raises InputError if both are given, or one cannot be used.
+    """
+    if points is not None:
+        if any(given is not None for given in grid.values()):
+            wanted = " and ".join(grid)
+            raise refusal("points", f"points with {wanted}", f"give a grid by {wanted}, or points")
+        at = scattered("points", points, len(space))
+        return Places(("point",), {name: ("point", at[:, i]) for i, name in enumerate(space)}, at)
+    lines = {
+        name: default[name] if given is None else line(name, given) for name, given in grid.items()
+    }
+    columns = dict(zip(lines, np.meshgrid(*lines.values()), strict=True))
+    zero = np.zeros_like(next(iter(columns.values())))
+    at = np.stack([columns.get(name, zero) for name in space], axis=-1)
+    coords = {name: lines.get(name, 0.0) for name in space}
+    return Places(tuple(reversed(lines)), coords, at)

@@ -1,0 +1,189 @@
+"""The glossary: symbol, unit and meaning of every quantity; labels and attributes come from it."""
+
+from math import degrees, isnan
+from typing import NamedTuple
+
+
+class Quantity(NamedTuple):
+    """An entry of the glossary: mathematical symbol, SI unit, meaning."""
+
+    symbol: str
+    unit: str
+    meaning: str
+
+    def label(self) -> str:
+        """Return the label of an axis."""
+        unit = "" if self.unit == "1" else f" ({self.unit})"
+        return f"{self.meaning}, {self.symbol}{unit}"
+
+    def text(self, value: float) -> str:
+        """Return a value with its unit, to read; angles in degrees, a dash for what is no number.
+
+        >>> from carom.quantities.glossary import GLOSSARY
+        >>> GLOSSARY["speed"].text(2.0), GLOSSARY["angle"].text(0.5)
+        ('2 m/s', '28.648 deg')
+        >>> GLOSSARY["spin"].text(-0.0)
+        '0 rad/s'
+        """
+        if isnan(value):
+            return "-"
+        value += 0.0  # makes -0.0 a plain zero
+        if self.unit == "rad":
+            return f"{degrees(value):.5g} deg"
+        return f"{value:.6g}" + ("" if self.unit == "1" else f" {self.unit}")
+
+
+GLOSSARY = {
+    # what is given
+    "radius": Quantity("$R$", "m", "radius"),
+    "inner_radius": Quantity("$R_i$", "m", "inner radius of a hollow sphere"),
+    "gyration_radius": Quantity("$K$", "m", "radius of gyration about the centre"),
+    "young": Quantity("$E$", "Pa", "Young's modulus"),
+    "poisson": Quantity(r"$\nu$", "1", "Poisson's ratio"),
+    "density": Quantity(r"$\rho$", "kg/m^3", "density"),
+    "yield_strength": Quantity("$Y$", "Pa", "yield strength"),
+    "friction": Quantity(r"$\mu$", "1", "coefficient of friction"),
+    "speed": Quantity("$V$", "m/s", "speed of approach of the centres"),
+    "angle": Quantity(r"$\theta$", "rad", "angle of incidence from the normal"),
+    "normal_speed": Quantity("$V_1$", "m/s", "normal speed of approach"),
+    "tangential_speed": Quantity("$v_t$", "m/s", "tangential speed of the centres"),
+    "spin": Quantity(r"$\omega$", "rad/s", "spin of the first body"),
+    "spin2": Quantity(r"$\omega_2$", "rad/s", "spin of the second body"),
+    # of a pair
+    "effective_modulus": Quantity("$E^*$", "Pa", "effective modulus of both bodies"),
+    "effective_shear_modulus": Quantity("$G^*$", "Pa", "effective shear modulus of both bodies"),
+    "effective_radius": Quantity("$R^*$", "m", "effective radius of both bodies"),
+    "normal_mass": Quantity("$m_n$", "kg", "effective mass in the normal direction"),
+    "tangential_mass": Quantity("$m_t$", "kg", "effective mass of the contact point, tangentially"),
+    "kappa": Quantity(r"$\kappa$", "1", "ratio of tangential to normal contact stiffness"),
+    "chi": Quantity(r"$\chi$", "1", "ratio of inertia to stiffness, tangential against normal"),
+    "dundurs_beta": Quantity(r"$\beta$", "1", "Dundurs' second parameter"),
+    # dimensionless impact
+    "psi_in": Quantity(r"$\psi_1$", "1", "dimensionless velocity of the contact point before"),
+    "psi_out": Quantity(r"$\psi_2$", "1", "dimensionless velocity of the contact point after"),
+    "contact_restitution": Quantity(
+        "$e_c$", "1", "tangential velocity of the contact point, after to before"
+    ),
+    "tangential_restitution": Quantity(
+        "$e_t$", "1", "tangential velocity of the centres, after to before"
+    ),
+    "time_limit": Quantity("$t_{max}$", "s", "time after which a program is killed"),
+    "tolerance": Quantity(r"$\epsilon$", "1", "largest error that is allowed"),
+    "restitution": Quantity("$e$", "1", "normal restitution that a law is made for"),
+    "stiffness_ratio": Quantity("$k_t/k_n$", "1", "ratio of tangential to normal spring stiffness"),
+    "stiffness": Quantity(
+        "$k_t/(2 G^* a)$", "1", "tangential stiffness in units of that of elastic bodies"
+    ),
+    "tangential_damping": Quantity(
+        "$c_t/c_n$", "1", "tangential damping in units of the normal one"
+    ),
+    "normal_restitution": Quantity("$e$", "1", "normal velocity, after to before"),
+    "contact_beta": Quantity(
+        r"$\beta$", "1", "tangential restitution of the contact point, $-V_x'/V_x$"
+    ),
+    "contact_angle": Quantity(
+        r"$\theta_c$", "rad", "angle of incidence of the contact point, from the normal"
+    ),
+    "contact_rebound_angle": Quantity(
+        r"$\theta_c'$", "rad", "angle of rebound of the contact point, from the normal"
+    ),
+    "spin_offset": Quantity(r"$\delta\omega$", "rad/s", "initial spin besides what was meant"),
+    "loss_time": Quantity(r"$\tau$", "s", "time of loss of a Kelvin-Voigt sphere"),
+    "yield_velocity": Quantity("$V_y$", "m/s", "normal velocity from which on a body yields"),
+    "lost_energy": Quantity("$W_n$", "J", "energy lost in the normal motion"),
+    "impulse_ratio": Quantity("$J_t/J_n$", "1", "tangential impulse to normal impulse"),
+    "normal_speed_out": Quantity("$V_1'$", "m/s", "normal speed of the centres after"),
+    "tangential_impulse": Quantity("$J_t$", "N s", "impulse of the tangential force, against $x$"),
+    "contact_velocity_out": Quantity(
+        "$V_x'$", "m/s", "tangential velocity of the contact point after"
+    ),
+    # a history
+    "time": Quantity("$t$", "s", "time since the first touch"),
+    "penetration": Quantity("$d$", "m", "normal approach of the bodies"),
+    "normal_velocity": Quantity("$V_z$", "m/s", "normal velocity, positive while approaching"),
+    "contact_velocity": Quantity("$V_x$", "m/s", "tangential velocity of the contact point"),
+    "displacement": Quantity("$U$", "m", "tangential displacement of the bodies since the start"),
+    "normal_force": Quantity("$F_z$", "N", "normal force"),
+    "tangential_force": Quantity("$F_x$", "N", "tangential force, positive against $V_x$"),
+    "contact_radius": Quantity("$b$", "m", "radius of the contact"),
+    "stick_radius": Quantity("$a$", "m", "radius of the stick zone"),
+    "normal_kinetic_energy": Quantity("$T_n$", "J", "kinetic energy of the normal motion"),
+    "tangential_kinetic_energy": Quantity(
+        "$T_t$", "J", "kinetic energy of the tangential motion of the centres"
+    ),
+    "normal_elastic_energy": Quantity("$E_n$", "J", "elastic energy of normal deformation"),
+    "tangential_elastic_energy": Quantity("$E_t$", "J", "elastic energy of tangential deformation"),
+    "normal_loss": Quantity("$W_n$", "J", "energy lost in the normal motion so far"),
+    "frictional_work": Quantity("$W$", "J", "energy dissipated by slip so far"),
+    "spin_kinetic_energy": Quantity(r"$T_\omega$", "J", "kinetic energy of the spins"),
+    "contact_kinetic_energy": Quantity(
+        "$T_c$", "J", "kinetic energy of the contact point, on which friction can act"
+    ),
+    "phase_sign": Quantity(r"$\sigma$", "1", "sign of slip, 0 in stick"),
+    "phase_start": Quantity("$t_s$", "s", "start of the phase"),
+    "phase_end": Quantity("$t_e$", "s", "end of the phase"),
+    "phase_slip_angle_max": Quantity(
+        r"$\beta_{max}$", "rad", "largest angle between slip and $x$ in the phase"
+    ),
+    "phase_slip_angle_mean": Quantity(
+        r"$\bar\beta$", "rad", "angle between slip and $x$, mean weighted with frictional work"
+    ),
+    "slip_angle": Quantity(r"$\beta$", "rad", "angle between slip and $x$, mean over the work"),
+    "slip_angle_max": Quantity(r"$\beta_{max}$", "rad", "largest angle between slip and $x$"),
+    # inside the contact
+    "x": Quantity("$x$", "m", "position along the tangential motion"),
+    "y": Quantity("$y$", "m", "position across the tangential motion"),
+    "z": Quantity("$z$", "m", "depth below the surface"),
+    "distance": Quantity("$r$", "m", "distance from the centre of the contact"),
+    "pressure": Quantity("$p$", "Pa", "contact pressure"),
+    "traction_x": Quantity("$f$", "Pa", "tangential traction, positive against $V_x$"),
+    "traction_y": Quantity("$f_y$", "Pa", "tangential traction across the motion"),
+    "friction_limit": Quantity(r"$\mu p$", "Pa", "largest traction that friction allows"),
+    "memory_g": Quantity("$g$", "1", "memory, $-dq/ds$"),
+    "memory_q": Quantity("$q$", "m", "deflection of tangential spring"),
+    "memory_limit": Quantity(r"$q_{max}$", "m", "largest deflection that friction allows"),
+    "displacement_x": Quantity("$u_x$", "m", "surface displacement, relative, along $x$"),
+    "displacement_y": Quantity("$u_y$", "m", "surface displacement, relative, along $y$"),
+    "displacement_z": Quantity("$u_z$", "m", "surface displacement, relative, along $z$"),
+    "slip_x": Quantity("$w_x$", "m", "slip along $x$, since the points met"),
+    "slip_y": Quantity("$w_y$", "m", "slip along $y$, since the points met"),
+    "slip_velocity_x": Quantity(r"$\dot w_x$", "m/s", "slip velocity along $x$"),
+    "slip_velocity_y": Quantity(r"$\dot w_y$", "m/s", "slip velocity along $y$"),
+    "sigma_xx": Quantity(r"$\sigma_{xx}$", "Pa", "stress along x, tension positive"),
+    "sigma_yy": Quantity(r"$\sigma_{yy}$", "Pa", "stress along y, tension positive"),
+    "sigma_zz": Quantity(r"$\sigma_{zz}$", "Pa", "stress along the depth, tension positive"),
+    "sigma_xy": Quantity(r"$\sigma_{xy}$", "Pa", "shear stress in planes parallel to the surface"),
+    "sigma_xz": Quantity(r"$\sigma_{xz}$", "Pa", "shear stress in planes across y"),
+    "sigma_yz": Quantity(r"$\sigma_{yz}$", "Pa", "shear stress in planes across x"),
+    "principal_1": Quantity(r"$\sigma_1$", "Pa", "largest principal stress"),
+    "principal_2": Quantity(r"$\sigma_2$", "Pa", "middle principal stress"),
+    "principal_3": Quantity(r"$\sigma_3$", "Pa", "smallest principal stress"),
+    "von_mises": Quantity(r"$\sigma_M$", "Pa", "von Mises stress"),
+    "max_shear": Quantity(r"$\tau_{max}$", "Pa", "largest shear stress at the point"),
+    "max_von_mises": Quantity(r"$\max\sigma_M$", "Pa", "largest von Mises stress in the body"),
+    "max_von_mises_x": Quantity("$x_M$", "m", "where the von Mises stress is largest, along x"),
+    "max_von_mises_y": Quantity("$y_M$", "m", "where the von Mises stress is largest, along y"),
+    "max_von_mises_z": Quantity("$z_M$", "m", "depth where the von Mises stress is largest"),
+    "max_tension": Quantity(r"$\max\sigma_1$", "Pa", "largest tensile stress on the surface"),
+    "max_tension_x": Quantity("$x_t$", "m", "where the surface tension is largest, along x"),
+    "max_tension_y": Quantity("$y_t$", "m", "where the surface tension is largest, along y"),
+    "max_tension_z": Quantity("$z_t$", "m", "depth of the largest surface tension: zero"),
+    # a result
+    "duration": Quantity("$t_c$", "s", "duration of the contact"),
+    "max_penetration": Quantity("$d_{max}$", "m", "largest penetration"),
+    "max_force": Quantity("$P_{max}$", "N", "largest normal force"),
+    "max_radius": Quantity("$a_{max}$", "m", "largest radius of the contact"),
+    "max_pressure": Quantity("$p_0$", "Pa", "largest contact pressure"),
+    "rebound_speed": Quantity("$V'$", "m/s", "speed of the centres after the impact"),
+    "rebound_angle": Quantity(
+        r"$\theta'$", "rad", "angle of rebound of the centres, from the normal"
+    ),
+    "tangential_speed_out": Quantity("$v_t'$", "m/s", "tangential speed of the centres after"),
+    "spin_out": Quantity(r"$\omega'$", "rad/s", "spin of the first body after"),
+    "spin2_out": Quantity(r"$\omega_2'$", "rad/s", "spin of the second body after"),
+    "dissipated_energy": Quantity("$W$", "J", "energy lost to friction"),
+    "psi_out_error": Quantity(r"$\delta\psi_2$", "1", "change of psi_2 from a grid half as fine"),
+    "energy_error": Quantity(
+        r"$\delta E$", "1", "largest change of the sum of all energies, as a share"
+    ),
+}

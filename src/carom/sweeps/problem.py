@@ -1,0 +1,196 @@
+"""What a sweep computes: a case, its design, its outputs; any block of it, alone."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from math import isnan, prod
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.bodies.cases import FROM_STRENGTH, Case
+from carom.impacts.history import PAIR, RESULTS
+from carom.io.labels import attributes, flags
+from carom.quantities.units import InputError, nearest, refusal
+from carom.sweeps.blocks import chunk_shape
+from carom.sweeps.columns import AT_REST, Common, common
+from carom.sweeps.designs import Box, Design
+from carom.sweeps.inputs import (
+    CODE,
+    STRENGTH,
+    UNREADABLE,
+    Choice,
+    fill_record,
+    input_attributes,
+    leaf,
+    variable,
+)
+from carom.sweeps.points import NOT_RUN, PointStatus, evaluate
+
+__all__ = ["NOT_RUN", "OUTPUTS", "PointStatus", "Problem", "VariableInfo"]
+
+OUTPUTS = (
+    "psi_in",
+    "psi_out",
+    "chi",
+    "rebound_speed",
+    "rebound_angle",
+    "tangential_speed_out",
+    "spin_out",
+    "spin2_out",
+    "tangential_restitution",
+    "contact_restitution",
+    "dissipated_energy",
+    "duration",
+    "max_force",
+    "max_penetration",
+    "max_radius",
+    "max_pressure",
+)
+OF_LOSSES = ("normal_restitution", "lost_energy")
+COSTLIER = 16  # an impact with losses than one without, about: blocks are smaller by so much
+
+
+class VariableInfo(NamedTuple):
+    """Type and attributes of a variable of a sweep."""
+
+    dtype: str
+    attributes: dict[str, Any]
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Problem:
+    """A sweep: what all impacts have in common, in what they differ, and what is wanted of them.
+
+    Parameters
+    ----------
+    case : mapping
+        As a case file: friction, speeds, spins, first and second; what the design gives takes the
+        place of what stands here.
+    design : Grid, LatinHypercube or Table
+        In what the impacts differ.
+    outputs : sequence of str, optional
+        Names of results of an impact or of quantities of its pair; by default `OUTPUTS`, spin2_out
+        only if the second body is a sphere, and with losses `OF_LOSSES`.
+
+    Raises
+    ------
+    InputError
+        If the case or an output is not known, something is missing or given in two ways.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.sweeps.problem import Problem
+    >>> case = {"friction": 0.2, "speed": 2.0, "first": {"radius": "5 mm", "material": "steel"}}
+    >>> grid = carom.Grid({"angle": ["20 deg", "40 deg", "100 deg"]})
+    >>> problem = Problem(case, grid, ["psi_out"])
+    >>> found = problem.block((slice(0, 3),))
+    >>> found["psi_out"].round(4).tolist()
+    [-0.4269, -1.4738, nan]
+    >>> [carom.PointStatus(status).message for status in found["status"]]
+    ['solved', 'solved', 'bodies do not approach']
+    """
+
+    case: Case
+    design: Design
+    outputs: tuple[str, ...]
+    _common: Common = field(repr=False)
+
+    def __init__(
+        self, case: Mapping[str, Any], design: Design, outputs: Sequence[str] | None = None
+    ) -> None:
+        if isinstance(design, type) or not hasattr(design, "inputs"):
+            raise refusal("design", design, "must be a Grid, LatinHypercube or Table")
+        if not isinstance(case, Mapping):
+            raise refusal("case", case, "must be a mapping like a case file, {'friction': 0.2}")
+        shared = common(dict(case), design)
+        wanted = tuple(name for name in OUTPUTS if name != "spin2_out" or "sphere" in shared.kinds)
+        wanted += OF_LOSSES if shared.loss else ()
+        wanted = wanted if outputs is None else _checked_outputs(outputs, design.names)
+        fill_record(self, case=dict(case), design=design, outputs=wanted, _common=shared)
+
+    @property
+    def loses(self) -> bool:
+        """Whether the normal motion loses energy."""
+        return self._common.loss is not None
+
+    def chunks(self) -> tuple[int, ...]:
+        """Return the shape of the blocks into which the sweep is cut."""
+        return chunk_shape(self.design.shape, COSTLIER if self.loses else 1)
+
+    def block(self, box: Box, threads: int | None = 1) -> dict[str, NDArray[Any]]:
+        """Return the outputs, sampled inputs and status of a box of points, in its shape.
+
+        The numbers of a point do not depend on the box. NaN where the status is not SOLVED.
+        """
+        shape = tuple(
+            len(range(*part.indices(n))) for part, n in zip(box, self.design.shape, strict=True)
+        )
+        size, given = prod(shape), self.design.inputs(box)
+        status = np.full(size, PointStatus.NOT_A_NUMBER, dtype=np.int8)
+        found = {name: np.full(size, np.nan) for name in self.outputs}
+        for kind, where in self._common.groups(given, self.design):
+            part = {name: values[where] for name, values in given.items()}
+            columns, loss = self._common.columns(part, self.design, kind), self._common.loss
+            values, status[where] = evaluate(
+                columns, kind, loss, status[where].size, self.outputs, threads
+            )
+            for name in self.outputs:
+                found[name][where] = values[name]
+        inputs = {variable(name): given[name] for name in given} if self.design.sampled else {}
+        whole = {**inputs, **found, "status": status}
+        return {name: values.reshape(shape) for name, values in whole.items()}
+
+    def variables(self) -> dict[str, VariableInfo]:
+        """Return type and attributes of everything that `block` returns."""
+        sampled = self.design.names if self.design.sampled else ()
+        inputs = {variable(name): self._input_info(name) for name in sampled}
+        found = {name: VariableInfo("float64", dict(attributes(name))) for name in self.outputs}
+        meanings = flags([status.message for status in PointStatus], first=NOT_RUN)
+        status = VariableInfo("int8", {"long_name": "what became of the point", **meanings})
+        return {**inputs, **found, "status": status}
+
+    def description(self) -> dict[str, Any]:
+        """Return what tells this sweep from others, as JSON can hold it, in SI units."""
+        names = self.design.names
+        at_rest = {name: value for name, value in AT_REST.items() if name not in names}
+        numbers = Choice("", {**at_rest, **self._common.fixed}).description()
+        del numbers["label"]
+        if self._common.yields:
+            numbers["yield_velocity"] = FROM_STRENGTH
+            numbers |= self._strengths()
+        return {
+            "case": dict(sorted(numbers.items())),
+            "second": list(self._common.kinds),
+            "design": self.design.description(),
+            "outputs": list(self.outputs),
+        }
+
+    def _strengths(self) -> dict[str, Any]:
+        """Return the yield strengths of the materials that are inputs, None where not known."""
+        return {
+            f"{name}.{STRENGTH}": [None if isnan(x.strength) else x.strength for x in choices]
+            for name, choices in self.design.choices.items()
+            if leaf(name) == "material"
+        }
+
+    def _input_info(self, name: str) -> VariableInfo:
+        known = input_attributes(name, self.design.choices)
+        if name not in self.design.choices:
+            return VariableInfo("float64", known)
+        labels = ["unreadable", *(choice.label for choice in self.design.choices[name])]
+        return VariableInfo(np.dtype(CODE).name, {**known, **flags(labels, first=UNREADABLE)})
+
+
+def _checked_outputs(outputs: Sequence[str], names: Sequence[str]) -> tuple[str, ...]:
+    known = tuple(dict.fromkeys((*RESULTS, *PAIR)))
+    if not isinstance(outputs, list | tuple) or not outputs:
+        raise refusal("outputs", outputs, "must be a list of names, e.g. ['rebound_angle']")
+    for name in outputs:
+        if name not in known:
+            hint = nearest(str(name), known) or f"known are {', '.join(known)}"
+            raise InputError(f"outputs: {name!r} is not a result of an impact; {hint}")
+        if name in names or list(outputs).count(name) > 1:
+            raise InputError(f"outputs: {name!r} is there already, as input or output")
+    return tuple(outputs)

@@ -1,0 +1,227 @@
+"""A DEM program on the bench: its impacts against the exact answer, law by law."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from carom.bodies.cases import case_of
+from carom.bodies.pairs import Pair
+from carom.bodies.shapes import HalfSpace, Sphere
+from carom.dimensionless.rebounds import rebound
+from carom.io.columns import CASE
+from carom.io.progress import Progress, advancing
+from carom.laws.dem import ContactLaw, Law
+from carom.quantities.arrays import finite_line
+from carom.quantities.units import InputError, refusal
+from carom.verify.catalogue import CATALOGUE, Entry, as_entry
+from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
+from carom.verify.engines.running import Engine, EngineError, EngineKilled, run
+from carom.verify.errors import INCIDENCES, in_words
+
+STEPS = 2000  # per duration of Hertz's contact
+OVERLAP = 1e-6  # d_max/R*: so small that the turning of a normal costs some 2e-5 in psi_2
+
+
+class Measured(NamedTuple):
+    """How a law of a program came out: errors in psi_2, and why it did not, if so.
+
+    `max_error` and `rms_error` against the exact impact; `law_error` the largest difference from
+    Carom's own law at the same steps.
+    """
+
+    entry: Entry
+    max_error: float
+    worst: float
+    rms_error: float
+    law_error: float
+    seconds: float
+    failure: str | None
+
+
+@dataclass(frozen=True)
+class Bench:
+    """What a DEM program made of impacts, the best law first; made by `bench`."""
+
+    engine: str
+    version: str
+    pair: Pair
+    psi: tuple[float, ...]
+    steps: int
+    measured: tuple[Measured, ...]
+    outcomes: dict[str, tuple[Experiment, Outcomes]]
+
+    @property
+    def failed(self) -> bool:
+        """Whether the program failed on any law."""
+        return any(one.failure for one in self.measured)
+
+    def results(self) -> str:
+        """Return the impacts with the best law as the scorer reads them, bodies in a comment."""
+        rows = results_csv(*self.outcomes[self.measured[0].entry.label])
+        return f"{CASE} {json.dumps(case_of(self.pair))}\n{rows}"
+
+    def as_record(self) -> dict[str, Any]:
+        """Return the measurements as what JSON can hold."""
+        return {
+            "engine": self.engine,
+            "version": self.version or None,
+            "chi": self.pair.chi,
+            "psi_in": list(self.psi),
+            "steps": self.steps,
+            "laws": [_record(one) for one in self.measured],
+        }
+
+    def __str__(self) -> str:
+        head = f"{'max':>7s} {'at':>5s} {'rms':>7s} {'law':>8s} {'seconds':>8s}"
+        what = f"{self.engine} {self.version}".strip()
+        return "\n".join(
+            [
+                f"|error in psi_2| of {what}, chi = {self.pair.chi:.5g},"
+                f" {in_words(self.psi)}, {self.steps} steps a contact",
+                f"  {'':32s} {head}",
+                *(_row(one) for one in self.measured),
+                "law: largest difference from the same law in Carom at the same steps",
+            ]
+        )
+
+
+def steel_on_steel() -> Pair:
+    """Return the pair of the published comparison: nu = 0.3, hence chi = 1.4412."""
+    return Pair(Sphere(radius=0.005, material="steel"), HalfSpace(material="steel"), friction=0.2)
+
+
+def bench(
+    engine: Engine,
+    entries: Sequence[Entry | Law] = CATALOGUE,
+    *,
+    pair: Pair | None = None,
+    psi: ArrayLike = INCIDENCES,
+    steps: int = STEPS,
+    time_limit: float = 120.0,
+    progress: Progress = None,
+) -> Bench:
+    """Return how far a DEM program is from the exact impact with each law that it has.
+
+    Parameters
+    ----------
+    engine : Engine
+        `carom.verify.Lammps()`, `carom.verify.Liggghts()` or `carom.verify.Yade()`.
+    entries : sequence of Entry or Law
+        Laws; those that the program lacks, and the same law twice, are left out.
+    pair : Pair, optional
+        By default a steel ball on a steel half-space, chi = 1.4412.
+    psi : array_like
+        Incidences psi_1.
+    steps : int
+        Time steps per duration of Hertz's contact.
+    time_limit : float
+        Seconds for each run of the program.
+    progress : bool or callable, optional
+        Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
+        what is called with the laws done so far and their number.
+
+    Returns
+    -------
+    Bench
+        `measured`, a law each, the best first: its `entry`, max_error and rms_error in psi_2,
+        `worst`, the psi_1 of the largest, law_error against the same law in Carom, seconds, and the
+        `failure` or None; `version` of the program, `psi`, `steps`, `outcomes`.
+
+    Raises
+    ------
+    InputError
+        If the program is absent, has none of the laws, or a value is out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.verify.bench(carom.verify.Lammps("/nowhere/lmp"))
+    Traceback (most recent call last):
+    carom.InputError: LAMMPS: '/nowhere/lmp' is not an executable; give another path
+    """
+    bodies, psis = steel_on_steel() if pair is None else pair, finite_line("psi", psi)
+    if engine.executable() is None:
+        raise InputError(f"{engine.name}: {engine.remedy}")
+    known = _supported(engine, [as_entry(given) for given in entries])
+    slow = (OVERLAP * bodies.effective_radius / bodies.scales(1.0).length) ** 1.25
+    speed = psis * bodies.scales(slow).tangential_speed
+    version, measured, outcomes = "", [], {}
+    with advancing(engine.name, len(known), progress, unit="laws") as advance:
+        for done, entry in enumerate(known, start=1):
+            assert isinstance(entry.law, ContactLaw)
+            experiment = Experiment(
+                pair=bodies,
+                law=entry.law,
+                normal_speed=slow,
+                tangential_speed=tuple(speed.tolist()),
+                steps=steps,
+            )
+            try:
+                found = run(engine, experiment, time_limit=time_limit)
+            except EngineError as error:
+                measured.append(Measured(entry, *(np.nan,) * 5, str(error)))
+                if isinstance(error, EngineKilled):
+                    measured += [Measured(e, *(np.nan,) * 5, "not run") for e in known[done:]]
+                    break
+            else:
+                version = found.version
+                outcomes[entry.label] = (experiment, found.outcomes)
+                measured.append(_measured(entry, experiment, found.outcomes, found.seconds))
+            advance(1)
+    ordered = sorted(measured, key=lambda one: (one.failure is not None, one.max_error))
+    return Bench(
+        engine.name, version, bodies, tuple(psis.tolist()), steps, tuple(ordered), outcomes
+    )
+
+
+def _has(engine: Engine, entry: Entry) -> bool:
+    return isinstance(entry.law, ContactLaw) and engine.supports(entry.law)
+
+
+def _supported(engine: Engine, entries: Sequence[Entry]) -> list[Entry]:
+    known: list[Entry] = []
+    for entry in entries:
+        if _has(engine, entry) and entry.law not in (other.law for other in known):
+            known.append(entry)
+    if not known:
+        has = [entry.label for entry in CATALOGUE if _has(engine, entry)]
+        labels = ", ".join(entry.label for entry in entries)
+        raise refusal("law", labels, f"{engine.name} does not have it, but {'; '.join(has)}")
+    return known
+
+
+def _measured(entry: Entry, experiment: Experiment, outcomes: Outcomes, seconds: float) -> Measured:
+    psi, pair = experiment.psi_in, experiment.pair
+    given = psi_out(experiment, outcomes)
+    error = given - rebound(psi, pair.chi)
+    same = entry.law.rebound(psi, pair.chi, kappa=pair.kappa, steps=experiment.steps)
+    return Measured(
+        entry,
+        float(np.max(np.abs(error))),
+        float(psi[int(np.argmax(np.abs(error)))]),
+        float(np.sqrt(np.mean(error**2))),
+        float(np.max(np.abs(given - same))),
+        seconds,
+        None,
+    )
+
+
+def _row(one: Measured) -> str:
+    if one.failure:
+        return f"  {one.entry.label:32s} {one.failure}"
+    return (
+        f"  {one.entry.label:32s} {one.max_error:7.3f} {one.worst:5.2f} {one.rms_error:7.3f}"
+        f" {one.law_error:8.1e} {one.seconds:8.2f}"
+    )
+
+
+def _record(one: Measured) -> dict[str, Any]:
+    if one.failure:
+        return {"law": one.entry.label, "failure": one.failure}
+    values = one._asdict()
+    numbers = {name: values[name] for name in values if name not in ("entry", "failure")}
+    return {"law": one.entry.label, **numbers}
