@@ -13,8 +13,8 @@ HEAD = """\
 # Diagram of the phases
 
 Drawn by `python docs/make_phase_diagram.py` from `TRANSITIONS` in
-`src/carom/dimensionless/elastic/phases.py`, the one place that decides it. Any phase may also end by
-separation; gross slip and slip end so, stick only where the load retraces its path.
+`src/carom/dimensionless/elastic/phases.py`, the one place that decides it. Any phase may also end
+by separation; gross slip and slip end so, stick only where the load retraces its path.
 """
 
 

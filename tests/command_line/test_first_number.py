@@ -44,9 +44,9 @@ def test_one_impact_needs_no_compiler_and_gives_the_compiled_number(loss, tmp_pa
 def test_who_waits_for_compilers_is_told_once(tmp_path):
     """On a terminal; nothing is written where nobody watches."""
     script = (
-        "import sys, time; from carom.dimensionless import _compiling as c; "
+        "import sys, time; from carom.dimensionless.numerics import jit as c; "
         "c.is_watched = lambda: True; c.PATIENCE = 0.0; "
-        "from carom.dimensionless import hertz; print(*hertz.penetration_and_speed(hertz.HALF))"
+        "from carom.dimensionless.numerics import hertz; print(*hertz.penetration_and_speed(hertz.HALF))"
     )
     ran = subprocess.run(
         [sys.executable, "-c", script],

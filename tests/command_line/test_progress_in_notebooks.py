@@ -11,7 +11,7 @@ pytest.importorskip("ipywidgets")
 
 pytestmark = pytest.mark.filterwarnings("ignore::DeprecationWarning:jupyter_client")
 
-SOON = "import time, carom, carom.io.progress\ncarom.progress.PATIENCE = 0.2"
+SOON = "import time, carom.io.progress\ncarom.io.progress.PATIENCE = 0.2"
 WORK = """
 with carom.io.progress.advancing("impacts", 20, {progress}, unit="steps") as advance:
     for step in range(20):

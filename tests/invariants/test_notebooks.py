@@ -11,7 +11,7 @@ from PIL import Image
 
 import carom
 from carom.io.citations import ELEMENTS, FITS, IMPACT, LOADS, SAMPLES, VISCOUS, bibtex
-from carom.plots.card import card
+from carom.plots.result import card
 
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)

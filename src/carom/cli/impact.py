@@ -122,11 +122,9 @@ def impact_command(
         interpret()
     _check_outputs(files, elastic=normal_of(content) is None)
     solver = _method(method, elements, steps)
-    from carom.impacts.report import impact_record
-
     hit = solve_case(content, solver)
     stored = _store(hit, files)
-    typer.echo(json.dumps(impact_record(hit), indent=2) if as_json else str(hit))
+    typer.echo(json.dumps(hit.to_dict(), indent=2) if as_json else str(hit))
     for path in stored:
         typer.echo(f"stored {path}", err=True)
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Sphere
+from carom.plots.result import card
 from carom.quantities.units import InputError, refusal
 
 SKEW = 1e-5  # of a normal's squared length from 1; so much is rounding, and made up for
@@ -82,8 +83,6 @@ class Collisions(NamedTuple):
 
     def _repr_html_(self) -> str:
         """Return a table for a notebook."""
-        from carom.plots.card import card
-
         rows = _counted(self.status)
         return card(f"{sum(rows.values()):,} collisions", {k: f"{n:,}" for k, n in rows.items()})
 

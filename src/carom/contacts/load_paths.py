@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from carom import plots
 from carom.bodies.pairs import ContactScales, Pair
 from carom.bodies.shapes import describe
 from carom.contacts.contact import Contact
@@ -20,12 +21,14 @@ from carom.dimensionless.load_paths import paths
 from carom.dimensionless.load_paths.memory import SLOPE, profile_of
 from carom.io.citations import LOADS, bibtex
 from carom.io.labels import labelled_dataset
+from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import counted, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.figure import Figure
 
 
 COLUMNS = (
@@ -41,7 +44,7 @@ COLUMNS = (
 
 
 @dataclass(frozen=True, eq=False)
-class LoadPath:
+class LoadPath(Result):
     """A contact after each step of a load path; made by `load_path`. SI units, shapes (n,).
 
     A step is a straight line in penetration and displacement. `frictional_work` is the energy lost
@@ -300,12 +303,12 @@ class LoadPath:
 
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
-        from carom.plots import plot_cone
-        from carom.plots.card import card
-
         rows = {GLOSSARY[name].meaning: _span(name, getattr(self, name)) for name in COLUMNS}
-        figure = plot_cone(self.to_dataset()) if len(self) > 1 else None
+        figure = self.plot() if len(self) > 1 else None
         return card(f"Load path of {len(self)} steps", rows, figure)
+
+    def _draw(self, dataset: xr.Dataset) -> Figure:
+        return plots.plot_cone(dataset)
 
     def to_dataset(self) -> xr.Dataset:
         """Return the path as a dataset along `step`, which `carom.save` can store.

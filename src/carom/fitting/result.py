@@ -267,7 +267,7 @@ class Fit:
 
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
-        from carom.plots.card import card
+        from carom.plots.result import card
 
         rows = {name: str(estimate) for name, estimate in self.estimates.items()}
         return card("Parameters from rebounds", rows, self.plot(), "\n".join(self.notes))

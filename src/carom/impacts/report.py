@@ -1,4 +1,4 @@
-"""An impact in words and numbers: as text to read, and as what JSON can hold."""
+"""An impact in words: the text that is printed."""
 
 from __future__ import annotations
 
@@ -35,31 +35,6 @@ class Reported(Protocol):
     def validity(self) -> Validity: ...
     def scalars(self) -> dict[str, float]: ...
     def inputs(self) -> dict[str, Any]: ...
-
-
-def impact_record(hit: Reported) -> dict[str, Any]:
-    """Return the result as what JSON can hold; what is not a number becomes null."""
-    scalars = {name: _finite(value) for name, value in hit.scalars().items()}
-    return {
-        "inputs": hit.inputs(),
-        "result": scalars,
-        "phases": [
-            {
-                **phase._asdict(),
-                "slip_angle_max": _finite(angle.largest),
-                "slip_angle_mean": _finite(angle.mean),
-            }
-            for phase, angle in zip(hit.phases, hit.slip_angles, strict=True)
-        ],
-        "validity": [
-            {**finding._asdict(), "value": _finite(finding.value)}
-            for finding in hit.validity.findings
-        ],
-    }
-
-
-def _finite(value: float) -> float | None:
-    return value if abs(value) < float("inf") and not isnan(value) else None
 
 
 def impact_text(hit: Reported) -> str:

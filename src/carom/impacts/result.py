@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import isfinite
@@ -12,10 +12,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from carom import plots
 from carom.dimensionless.states import Phase, SlipAngle
 from carom.impacts.history import InTime, history_columns
 from carom.impacts.outcome import Outcome
+from carom.impacts.report import impact_text
 from carom.io.labels import Validity, labelled
+from carom.plots.result import Result, card
+from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import Value, counted, number, refusal
 
@@ -39,8 +43,22 @@ SHOWN = (  # in a notebook
 )
 
 
+@dataclass(frozen=True)
+class Film:
+    """Pictures of the contact at times, each solved when it is drawn."""
+
+    picture: Callable[[float], xr.Dataset]
+    times: Array
+
+    def __len__(self) -> int:
+        return self.times.size
+
+    def __iter__(self) -> Iterator[xr.Dataset]:
+        return map(self.picture, self.times)
+
+
 @dataclass(frozen=True, eq=False)
-class Course(Outcome):
+class Course(Outcome, Result):
     """How two bodies leave an impact, and the way there: phases, history, validity."""
 
     solution: InTime = field(repr=False)
@@ -118,19 +136,11 @@ class Course(Outcome):
             raise refusal("time", time, allowed)
         return instant
 
-    @abstractmethod
-    def cite(self) -> str:
-        """Return what to cite for this result, as BibTeX."""
-
     def __str__(self) -> str:
-        from carom.impacts.report import impact_text
-
         return impact_text(self)
 
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
-        from carom.plots.card import card
-
         numbers = self.scalars()
         rows = {GLOSSARY[name].meaning: GLOSSARY[name].text(numbers[name]) for name in SHOWN}
         phases = (f"{p.start:10.3e} to {p.end:.3e} s  {p.kind}" for p in self.phases)
@@ -148,38 +158,33 @@ class Course(Outcome):
         """
         return self.history(400)
 
-    def plot(self, path: str | Path | None = None) -> Figure:
-        """Draw forces, velocities, radii and energies against time.
+    def _draw(self, dataset: xr.Dataset) -> Figure:
+        return plots.plot_impact(dataset)
 
-        Parameters
-        ----------
-        path : str or Path, optional
-            Where the figure is stored, too: .png, .pdf or .svg.
+    def to_dict(self) -> dict[str, Any]:
+        """Return the result as plain numbers, texts and lists, for JSON; no number becomes None.
 
         Returns
         -------
-        matplotlib.figure.Figure
-            The figure, 178 mm wide, of four axes.
-
-        Raises
-        ------
-        InputError
-            If the name ends otherwise or the file cannot be written.
-
-        Examples
-        --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> len(carom.impact(pair, speed=2.0, angle="30 deg").plot().axes)
-        4
+        dict
+            inputs, result (all numbers by name, SI units), phases and validity.
         """
-        from carom.plots import plot_impact, save_figure
-
-        figure = plot_impact(self.to_dataset())
-        if path is not None:
-            save_figure(figure, path)
-        return figure
+        return {
+            "inputs": self.inputs(),
+            "result": {name: _finite(value) for name, value in self.scalars().items()},
+            "phases": [
+                {
+                    **phase._asdict(),
+                    "slip_angle_max": _finite(angle.largest),
+                    "slip_angle_mean": _finite(angle.mean),
+                }
+                for phase, angle in zip(self.phases, self.slip_angles, strict=True)
+            ],
+            "validity": [
+                {**finding._asdict(), "value": _finite(finding.value)}
+                for finding in self.validity.findings
+            ],
+        }
 
     def animate(
         self,
@@ -219,14 +224,14 @@ class Course(Outcome):
         ...     hit.animate(f"{folder}/hit.gif", frames=2).name
         'hit.gif'
         """
-        from carom.plots.animation import animate, drawing
-
         count = counted("frames", frames, 1)
         times = (np.arange(count) + 0.5) / count * self.duration
-        with drawing(count, progress) as advance:
-            pictures = map(self._picture, times)
-            return animate(self.history(), pictures, path, progress=lambda: advance(1))
+        return plots.animate(self.history(), Film(self._picture, times), path, progress)
 
     @abstractmethod
     def _picture(self, time: float) -> xr.Dataset:
         """Return the fields on a grid over the whole contact at a time."""
+
+
+def _finite(value: float) -> float | None:
+    return value if isfinite(value) else None

@@ -1,3 +1,4 @@
+from . import style as style
 from .animation import (
     animate as animate,
     checked_animation as checked_animation,

@@ -3,7 +3,7 @@
 import shutil
 import subprocess
 from collections.abc import Callable, Iterable, Iterator, Sized
-from contextlib import AbstractContextManager, suppress
+from contextlib import suppress
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -92,19 +92,15 @@ def animate(
     """
     target = checked_animation(path)
     ending = target.suffix.lower()
-    with drawing(len(frames) if isinstance(frames, Sized) else None, progress) as advance:
+    total = len(frames) if isinstance(frames, Sized) else None
+    told = (lambda *_: progress()) if callable(progress) else progress
+    with advancing("animation", total, told, unit="frames") as advance:
         pictures = _pictures(history, frames, RESOLUTION[ending], advance)
         first = next(pictures, None)
         if first is None:
             raise InputError("frames: an animation needs the fields of one instant or more")
         write = _write_gif if ending == ".gif" else _write_mp4
         return replace_whole(target, lambda where: write(where, chain([first], pictures)))
-
-
-def drawing(total: int | None, progress: Progress) -> AbstractContextManager[Advance]:
-    """Return the context in which frames are drawn, and told or shown one by one."""
-    told = (lambda *_: progress()) if callable(progress) else progress
-    return advancing("animation", total, told, unit="frames")
 
 
 def checked_animation(path: str | Path) -> Path:

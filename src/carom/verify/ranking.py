@@ -72,7 +72,7 @@ class Ranking:
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
         from carom.plots import plot_laws
-        from carom.plots.card import card
+        from carom.plots.result import card
 
         rows = {s.entry.label: f"{s.max_error:.3f} at psi_1 = {s.worst:g}" for s in self.standings}
         title = f"Largest |error in psi_2| at chi = {self.chi:g}"

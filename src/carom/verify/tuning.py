@@ -116,7 +116,7 @@ class Tuning:
 
     def _repr_html_(self) -> str:
         """Return a table for a notebook."""
-        from carom.plots.card import card
+        from carom.plots.result import card
 
         rows = {called(one.law): _told(one) for one in self.advice}
         return card(f"Closest to the exact psi_2 at chi = {self.chi:g}", rows)

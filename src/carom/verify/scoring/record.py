@@ -96,7 +96,7 @@ class Score:
 
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
-        from carom.plots.card import card
+        from carom.plots.result import card
         from carom.verify.scoring.report import verdict
 
         rows = {group.name: f"{group.max_error:.3g}" for group in (self.overall, *self.groups)}

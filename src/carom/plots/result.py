@@ -1,0 +1,99 @@
+"""What every result offers: a dataset, its figure, a table in notebooks, what to cite."""
+
+from abc import ABC, abstractmethod
+from base64 import b64encode
+from collections.abc import Mapping
+from html import escape
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from carom import plots
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+DPI = 80
+
+
+class Result(ABC):
+    """A result that is stored and drawn from one dataset, shown in notebooks, and cited."""
+
+    @abstractmethod
+    def to_dataset(self) -> "xr.Dataset":
+        """Return the result as one dataset, which `plot` draws and `carom.save` stores."""
+
+    @abstractmethod
+    def cite(self) -> str:
+        """Return what to cite for this result, as BibTeX."""
+
+    @abstractmethod
+    def _draw(self, dataset: Any) -> "Figure":
+        """Return the figure of the dataset."""
+
+    @abstractmethod
+    def _repr_html_(self) -> str:
+        """Return a table and a picture for a notebook."""
+
+    def plot(self, path: str | Path | None = None) -> "Figure":
+        """Draw the result from its dataset.
+
+        Parameters
+        ----------
+        path : str or Path, optional
+            Where the figure is stored, too: .png, .pdf or .svg.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure, as wide as one column of a paper, 86 mm, or two, 178 mm.
+
+        Raises
+        ------
+        InputError
+            If the name ends otherwise or the file cannot be written.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> len(carom.impact(pair, speed=2.0, angle="30 deg").plot().axes)
+        4
+        """
+        figure = self._draw(self.to_dataset())
+        if path is not None:
+            plots.save_figure(figure, path)
+        return figure
+
+
+def card(
+    title: str, rows: Mapping[str, str], figure: "Figure | None" = None, notes: str = ""
+) -> str:
+    """Return HTML with a table of named texts, beside a picture if any, and lines of text below.
+
+    Colours are those of the notebook; the picture brings its own, light ground.
+    """
+    cells = "".join(
+        f"<tr><th style='text-align:left;padding-right:1em'>{escape(name.replace('$', ''))}</th>"
+        f"<td style='text-align:left'>{escape(text)}</td></tr>"
+        for name, text in rows.items()
+    )
+    below = f"<pre style='margin:0.5em 0'>{escape(notes)}</pre>" if notes else ""
+    return (
+        f"<div><strong>{escape(title)}</strong>"
+        "<div style='display:flex;flex-wrap:wrap;gap:1em;align-items:center'>"
+        f"<table style='font-size:90%'>{cells}</table>"
+        f"{_image(title, figure)}</div>{below}</div>"
+    )
+
+
+def _image(title: str, figure: "Figure | None") -> str:
+    if figure is None:
+        return ""
+    stream = BytesIO()
+    with plots.style.style():
+        figure.savefig(stream, format="png", dpi=DPI)
+    data = f"data:image/png;base64,{b64encode(stream.getvalue()).decode('ascii')}"
+    return f"<img alt='{escape(title)}' style='max-width:100%;background:white' src='{data}'>"
