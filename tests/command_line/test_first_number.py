@@ -46,7 +46,8 @@ def test_who_waits_for_compilers_is_told_once(tmp_path):
     script = (
         "import sys, time; from carom.dimensionless.numerics import jit as c; "
         "c.is_watched = lambda: True; c.PATIENCE = 0.0; "
-        "from carom.dimensionless.numerics import hertz; print(*hertz.penetration_and_speed(hertz.HALF))"
+        "from carom.dimensionless.numerics import hertz as h; "
+        "print(*h.penetration_and_speed(h.HALF))"
     )
     ran = subprocess.run(
         [sys.executable, "-c", script],

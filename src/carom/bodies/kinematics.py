@@ -1,6 +1,8 @@
-"""A rebound seen from outside: the motion before, two impulses, and what is published of it."""
+"""How bodies approach, what two impulses make of their motion, and what is published of it."""
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import zip_longest
 from math import inf, nan, pi
 from typing import Any, NamedTuple
@@ -88,19 +90,104 @@ def inertia(body: Sphere) -> float:
     return body.mass * body.gyration_ratio * body.radius**2
 
 
+@dataclass(frozen=True, eq=False)
+class Kinematics(ABC):
+    """What two impulses make of two rigid bodies; SI units, numbers or arrays of one shape.
+
+    Tangential speeds are those of the first body relative to the second, positive spin adds to the
+    tangential speed of the contact point: V_x = v_t + R spin + R_2 spin2.
+    """
+
+    pair: Pair
+    normal_speed: float
+
+    @property
+    @abstractmethod
+    def _before(self) -> Tangential:
+        """The motion before."""
+
+    @property
+    @abstractmethod
+    def tangential_impulse(self) -> float:
+        """Impulse of the tangential force on the first body, against +x, in N s."""
+
+    @property
+    @abstractmethod
+    def normal_restitution(self) -> float:
+        """Normal velocity after to before: 1 for elastic bodies."""
+
+    @property
+    @abstractmethod
+    def contact_velocity_out(self) -> float:
+        """Tangential velocity of the contact point after, in m/s."""
+
+    @cached_property
+    def contact_velocity(self) -> float:
+        """Tangential velocity of the contact point before, V_x in m/s."""
+        return self._before.contact_velocity(self.pair)
+
+    @cached_property
+    def psi_in(self) -> float:
+        """Dimensionless velocity kappa V_x/(mu V_1) before; infinite without friction."""
+        return self.pair.psi(self.contact_velocity, self.normal_speed)
+
+    @cached_property
+    def _after(self) -> Tangential:
+        """Tangential speed of the centre and spins after."""
+        return self._before.after(self.pair, self.tangential_impulse)
+
+    @property
+    def normal_speed_out(self) -> float:
+        """Normal speed of the centres after, in m/s."""
+        return self.normal_restitution * self.normal_speed
+
+    @property
+    def tangential_speed_out(self) -> float:
+        """Tangential speed of the first centre relative to the second after, in m/s."""
+        return self._after.tangential_speed
+
+    @property
+    def spin_out(self) -> float:
+        """Spin of the first body after, in rad/s."""
+        return self._after.spin
+
+    @property
+    def spin2_out(self) -> float:
+        """Spin of the second body after, in rad/s; zero for a half-space or cup."""
+        return self._after.spin2
+
+    @property
+    def rebound_speed(self) -> float:
+        """Relative speed of the centres after, in m/s."""
+        return hypot(self.normal_speed_out, self.tangential_speed_out)
+
+    @property
+    def rebound_angle(self) -> float:
+        """Angle of rebound of the centre from the normal, in rad; negative if it goes back."""
+        return arctan2(self.tangential_speed_out, self.normal_speed_out)
+
+    @property
+    def tangential_restitution(self) -> float:
+        """Tangential velocity of the centres after to before, v_t'/v_t; NaN if there was none."""
+        return _ratio(self.tangential_speed_out, self._before.tangential_speed)
+
+    @property
+    def contact_restitution(self) -> float:
+        """Tangential velocity of the contact point after to before; NaN if there was none."""
+        return _ratio(self.contact_velocity_out, self.contact_velocity)
+
+
 @dataclass(frozen=True)
-class Rebound:
+class Rebound(Kinematics):
     """An impact known from outside: the motion before, and the two impulses as what they do.
 
     The tangential impulse J_t acts on the first body against +x; the normal one is
-    J_n = m_n (1 + e) V_1. SI units; numbers or arrays of one shape. Signs are those of `impact`:
-    positive spin adds to the tangential speed of the contact point, V_x = v_t + R spin + R_2 spin2.
+    J_n = m_n (1 + e) V_1.
 
     Examples
     --------
     >>> import carom
-    >>> from carom.bodies.kinematics import Tangential
-    >>> from carom.bodies.kinematics import Rebound
+    >>> from carom.bodies.kinematics import Rebound, Tangential
     >>> ball = carom.Sphere(radius="2.5 mm", material="alumina")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="soda-lime-glass"), friction=0.092)
     >>> rebound = Rebound(pair, 2.0, Tangential(2.0, 0.0, 0.0), restitution=0.98, impulse=0.0)
@@ -108,16 +195,29 @@ class Rebound:
     (1.0, 0.7955)
     """
 
-    pair: Pair
     normal_speed: Any
     before: Tangential
     restitution: Any
     impulse: Any
 
     @property
-    def after(self) -> Tangential:
-        """Tangential speed of the centre and spins after."""
-        return self.before.after(self.pair, self.impulse)
+    def _before(self) -> Tangential:
+        return self.before
+
+    @property
+    def tangential_impulse(self) -> Any:
+        """Impulse of the tangential force on the first body, against +x, in N s."""
+        return self.impulse
+
+    @property
+    def normal_restitution(self) -> Any:
+        """Normal velocity after to before, e."""
+        return self.restitution
+
+    @property
+    def contact_velocity_out(self) -> Any:
+        """Tangential velocity of the contact point after, V_x' in m/s."""
+        return self.contact_velocity - self.impulse / self.pair.tangential_mass
 
     @property
     def tangential_speed(self) -> Any:
@@ -145,59 +245,9 @@ class Rebound:
         return arctan2(self.tangential_speed, self.normal_speed)
 
     @property
-    def contact_velocity(self) -> Any:
-        """Tangential velocity of the contact point before, V_x in m/s."""
-        return self.before.contact_velocity(self.pair)
-
-    @property
     def contact_angle(self) -> Any:
         """Angle of incidence of the contact point from the normal, tan = V_x/V_1."""
         return arctan2(self.contact_velocity, self.normal_speed)
-
-    @property
-    def psi_in(self) -> Any:
-        """kappa V_x/(mu V_1)."""
-        return self.pair.psi(self.contact_velocity, self.normal_speed)
-
-    @property
-    def normal_restitution(self) -> Any:
-        """Normal speed after to before, e."""
-        return self.restitution
-
-    @property
-    def normal_speed_out(self) -> Any:
-        """Normal speed after, e V_1 in m/s."""
-        return self.restitution * self.normal_speed
-
-    @property
-    def normal_impulse(self) -> Any:
-        """J_n = m_n (1 + e) V_1, in N s."""
-        return self.pair.normal_mass * (1.0 + self.restitution) * self.normal_speed
-
-    @property
-    def tangential_speed_out(self) -> Any:
-        """Tangential speed of the centre after, v_t' in m/s."""
-        return self.after.tangential_speed
-
-    @property
-    def spin_out(self) -> Any:
-        """Spin of the first body after, in rad/s."""
-        return self.after.spin
-
-    @property
-    def spin2_out(self) -> Any:
-        """Spin of the second body after, in rad/s."""
-        return self.after.spin2
-
-    @property
-    def contact_velocity_out(self) -> Any:
-        """Tangential velocity of the contact point after, V_x' in m/s."""
-        return self.contact_velocity - self.impulse / self.pair.tangential_mass
-
-    @property
-    def rebound_angle(self) -> Any:
-        """Angle of rebound of the centre from the normal, tan = v_t'/(e V_1)."""
-        return arctan2(self.tangential_speed_out, self.normal_speed_out)
 
     @property
     def contact_rebound_angle(self) -> Any:
@@ -205,19 +255,14 @@ class Rebound:
         return arctan2(self.contact_velocity_out, self.normal_speed_out)
 
     @property
-    def tangential_restitution(self) -> Any:
-        """v_t'/v_t of the centre; NaN if there was none."""
-        return _ratio(self.tangential_speed_out, self.tangential_speed)
-
-    @property
-    def contact_restitution(self) -> Any:
-        """V_x'/V_x of the contact point; NaN if there was none."""
-        return _ratio(self.contact_velocity_out, self.contact_velocity)
-
-    @property
     def contact_beta(self) -> Any:
         """-V_x'/V_x of the contact point, beta of Foerster et al. (1994), Walton's beta."""
         return -self.contact_restitution
+
+    @property
+    def normal_impulse(self) -> Any:
+        """J_n = m_n (1 + e) V_1, in N s."""
+        return self.pair.normal_mass * (1.0 + self.restitution) * self.normal_speed
 
     @property
     def impulse_ratio(self) -> Any:
@@ -230,5 +275,5 @@ class Rebound:
         return self.pair.psi(self.contact_velocity_out, self.normal_speed)
 
 
-def _ratio(after: Any, before: Any) -> Any:
+def _ratio(after: float, before: float) -> float:
     return where(before == 0.0, nan, quotient(after, before))

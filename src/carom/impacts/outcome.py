@@ -2,48 +2,44 @@
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import nan
 from typing import Any
 
-from carom.bodies.kinematics import Tangential
+from carom.bodies.kinematics import Kinematics, Tangential
 from carom.bodies.losses import NormalLaw
-from carom.bodies.pairs import Pair, Scales
+from carom.bodies.pairs import Scales
 from carom.bodies.shapes import describe
 from carom.impacts.history import PAIR, RESULTS, Solved
-from carom.quantities.elementwise import arctan2, hypot, isfinite, quotient, where
+from carom.quantities.elementwise import isfinite, where
 
 
 @dataclass(frozen=True, eq=False)
-class Outcome:
+class Outcome(Kinematics):
     """How two bodies leave an impact; SI units. Every field but the bodies may be an array.
 
     Tangential speeds are those of the first body relative to the second, positive spin adds to the
     tangential speed of the contact point: V_x = v_t + R spin + R_2 spin2.
     """
 
-    pair: Pair
-    normal_speed: float
     tangential_speed: float
     spin: float
     spin2: float
     solution: Solved = field(repr=False)
     normal: NormalLaw | None = None
 
-    @cached_property
-    def contact_velocity(self) -> float:
-        """Tangential velocity of the contact point before, V_x in m/s."""
-        return self._before.contact_velocity(self.pair)
+    @property
+    def _before(self) -> Tangential:
+        return Tangential(self.tangential_speed, self.spin, self.spin2)
+
+    @property
+    def normal_restitution(self) -> float:
+        """Normal velocity after to before: 1 for elastic bodies."""
+        return self.solution.restitution
 
     @cached_property
     def contact_velocity_out(self) -> float:
         """Tangential velocity of the contact point after, in m/s."""
         slowed = self.psi_out * self.scales.tangential_speed
         return where(isfinite(self.psi_in), slowed, self.contact_velocity)
-
-    @cached_property
-    def psi_in(self) -> float:
-        """Dimensionless velocity kappa V_x/(mu V_1) before; infinite without friction."""
-        return self.pair.psi(self.contact_velocity, self.normal_speed)
 
     @cached_property
     def psi_out(self) -> float:
@@ -54,59 +50,6 @@ class Outcome:
     def tangential_impulse(self) -> float:
         """Impulse of the tangential force on the first body, against +x, in N s."""
         return self.pair.tangential_mass * (self.contact_velocity - self.contact_velocity_out)
-
-    @property
-    def tangential_speed_out(self) -> float:
-        """Tangential speed of the first centre relative to the second after, in m/s."""
-        return self._after.tangential_speed
-
-    @property
-    def spin_out(self) -> float:
-        """Spin of the first body after, in rad/s."""
-        return self._after.spin
-
-    @property
-    def spin2_out(self) -> float:
-        """Spin of the second body after, in rad/s; zero for a half-space or cup."""
-        return self._after.spin2
-
-    @property
-    def _before(self) -> Tangential:
-        return Tangential(self.tangential_speed, self.spin, self.spin2)
-
-    @cached_property
-    def _after(self) -> Tangential:
-        return self._before.after(self.pair, self.tangential_impulse)
-
-    @property
-    def rebound_speed(self) -> float:
-        """Relative speed of the centres after, in m/s."""
-        return hypot(self.normal_speed_out, self.tangential_speed_out)
-
-    @property
-    def rebound_angle(self) -> float:
-        """Angle of rebound of the centre from the normal, in rad; negative if it goes back."""
-        return arctan2(self.tangential_speed_out, self.normal_speed_out)
-
-    @property
-    def normal_restitution(self) -> float:
-        """Normal velocity after to before: 1 for elastic bodies."""
-        return self.solution.restitution
-
-    @property
-    def normal_speed_out(self) -> float:
-        """Normal speed of the centres after, in m/s."""
-        return self.normal_restitution * self.normal_speed
-
-    @property
-    def tangential_restitution(self) -> float:
-        """Tangential velocity of the centres after to before, v_t'/v_t; NaN if there was none."""
-        return _ratio(self.tangential_speed_out, self.tangential_speed)
-
-    @property
-    def contact_restitution(self) -> float:
-        """Tangential velocity of the contact point after to before; NaN if there was none."""
-        return _ratio(self.contact_velocity_out, self.contact_velocity)
 
     @property
     def dissipated_energy(self) -> float:
@@ -166,7 +109,3 @@ class Outcome:
             **self._before._asdict(),
             **({} if self.normal is None else {"normal": self.normal.describe()}),
         }
-
-
-def _ratio(after: float, before: float) -> float:
-    return where(before == 0.0, nan, quotient(after, before))
