@@ -8,7 +8,7 @@ import pytest
 from scipy.special import beta
 
 from carom.dimensionless.lossy.normal import Loss
-from carom.dimensionless.lossy.rebounds import Rebounds, lossy_rebounds
+from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds
 from carom.dimensionless.lossy.stages import restitution, viscous_loss
 from carom.dimensionless.lossy.work import new_work
 
@@ -30,7 +30,7 @@ TABLE = np.array(
 )
 
 
-def impacts(psi: float, chi: float = 1.44) -> Rebounds:
+def impacts(psi: float, chi: float = 1.44) -> LossyRebounds:
     """Return the impacts of the table at one psi_1."""
     rows = np.ones(len(TABLE))
     return lossy_rebounds(psi * rows, chi * rows, Loss.VISCOUS.value, TABLE[:, 0])

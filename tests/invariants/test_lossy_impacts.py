@@ -15,7 +15,7 @@ from scipy.integrate import cumulative_simpson
 import carom
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.normal import Loss
-from carom.dimensionless.lossy.rebounds import Rebounds, lossy_rebounds, outgoing
+from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds, outgoing
 from carom.dimensionless.lossy.record import NUMBERS, PSI_OUT, new_record
 from carom.dimensionless.lossy.solution import LossySolution, solve_with_losses
 from carom.dimensionless.lossy.work import new_work
@@ -40,7 +40,7 @@ def impacts(loss: Loss, seed: int, count: int) -> tuple[Array, Array, Array]:
     return psi, chi, parameters(loss, rng, count)
 
 
-def solved(psi: Array, chi: Array, loss: Loss, parameter: Array) -> Rebounds:
+def solved(psi: Array, chi: Array, loss: Loss, parameter: Array) -> LossyRebounds:
     """Return impacts, all of which must be solved."""
     found = lossy_rebounds(psi, chi, loss.value, parameter)
     failed = np.flatnonzero(found.status != Status.SOLVED)

@@ -11,7 +11,7 @@ import pytest
 
 import carom
 from carom.dimensionless.lossy.normal import Loss
-from carom.dimensionless.lossy.rebounds import Rebounds, lossy_rebounds
+from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds
 from carom.dimensionless.lossy.solution import solve_with_losses
 
 IMPACTS = (
@@ -60,7 +60,7 @@ def many(seed: int, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return rng.uniform(-8, 8, count), rng.uniform(0.3, 3, count), rng.uniform(0.0, 0.46, count)
 
 
-def same(first: Rebounds, second: Rebounds) -> bool:
+def same(first: LossyRebounds, second: LossyRebounds) -> bool:
     return all(np.array_equal(a, b, equal_nan=True) for a, b in zip(first, second, strict=True))
 
 
@@ -78,11 +78,11 @@ def test_impacts_do_not_depend_on_those_before_them() -> None:
     psi, chi, alpha = many(4, 60)
     forth = lossy_rebounds(psi, chi, Loss.VISCOUS.value, alpha, 1)
     back = lossy_rebounds(psi[::-1], chi[::-1], Loss.VISCOUS.value, alpha[::-1], 1)
-    assert same(forth, Rebounds(*(column[::-1] for column in back)))
+    assert same(forth, LossyRebounds(*(column[::-1] for column in back)))
     psi[::2] = np.nan
     chi[1::4] = -1.0
     broken = lossy_rebounds(psi, chi, Loss.VISCOUS.value, alpha, 1)
-    assert same(Rebounds(*(c[3::4] for c in forth)), Rebounds(*(c[3::4] for c in broken)))
+    assert same(LossyRebounds(*(c[3::4] for c in forth)), LossyRebounds(*(c[3::4] for c in broken)))
 
 
 @pytest.mark.parametrize("impact", IMPACTS, ids=str)
@@ -90,7 +90,7 @@ def test_a_record_leaves_every_bit(impact: tuple[float, float, Loss, float]) -> 
     psi, chi, loss, parameter = impact
     kept = solve_with_losses(psi, chi, loss, parameter)
     bare = lossy_rebounds(np.array([psi]), np.array([chi]), loss.value, np.array([parameter]))
-    for name in set(Rebounds._fields) - {"status"}:
+    for name in set(LossyRebounds._fields) - {"status"}:
         assert getattr(kept, name) == getattr(bare, name)[0], name
 
 

@@ -1,7 +1,6 @@
 """One impact in plain numbers: its phases, and its state at any time."""
 
 from dataclasses import dataclass, field
-from operator import index
 from typing import ClassVar, overload
 
 import numpy as np
@@ -20,7 +19,15 @@ from carom.dimensionless.lossy.solution import LossySolution, solve_with_losses
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.rebounds import refused
-from carom.dimensionless.states import KIND_NAMES, History, Phase, SlipAngle, now_at, times_within
+from carom.dimensionless.states import (
+    KIND_NAMES,
+    History,
+    Phase,
+    SlipAngle,
+    Trajectory,
+    now_at,
+    times_within,
+)
 
 CAUSE_NAMES = {
     Cause.EDGE_AT_LIMIT: "edge reaches friction limit",
@@ -35,7 +42,7 @@ SHORTEST = 1e-12  # of a phase, in units of d_max/V_1; what is shorter is roundi
 
 
 @dataclass(frozen=True, eq=False)
-class Solution:
+class Solution(Trajectory):
     """One oblique impact solved exactly; made by `solve`.
 
     Time in units of d_max/V_1, penetration and squares of radii in units of d_max and R* d_max,
@@ -64,8 +71,8 @@ class Solution:
     _times: Array = field(repr=False)
     _moved: Array = field(repr=False)
 
+    duration: float = field(default=hertz.DURATION, init=False, repr=False)
     restitution: ClassVar[float] = 1.0
-    duration: ClassVar[float] = hertz.DURATION
     max_penetration: ClassVar[float] = 1.0
     max_force: ClassVar[float] = 1.0
     max_radius: ClassVar[float] = 1.0
@@ -127,34 +134,6 @@ class Solution:
             normal_stored=rows[:, dense.AT_D] ** 2.5,
             normal_lost=np.zeros(wanted.size),
         )
-
-    def history(self, n: int = 200) -> History:
-        """Return the impact at evenly spaced times from the first touch to the last.
-
-        Parameters
-        ----------
-        n : int
-            How many times, 2 at least.
-
-        Returns
-        -------
-        History
-            Arrays of shape (n,), as of `at`.
-
-        Raises
-        ------
-        ValueError
-            If there are fewer, or the impact is not solved.
-
-        Examples
-        --------
-        >>> import carom
-        >>> carom.solve(0.5, 1.44).history(3).penetration.round(9)
-        array([0., 1., 0.])
-        """
-        if index(n) < 2:
-            raise ValueError(f"n: {n} cannot be used; must be a whole number of at least 2")
-        return self.at(np.linspace(0.0, self.duration, n))
 
     def memory(self, time: float) -> Memory:
         """Return the memory of the contact at a time: g(s), q(s) and the annuli it consists of.

@@ -1,6 +1,8 @@
 """What a solved impact is told in: phases, and states at some times."""
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, fields
+from operator import index
 from typing import NamedTuple
 
 import numpy as np
@@ -52,6 +54,44 @@ class History:
 
     def __len__(self) -> int:
         return len(self.time)
+
+
+class Trajectory(ABC):
+    """A solved impact: what its state at any time gives."""
+
+    duration: float
+
+    @abstractmethod
+    def at(self, time: ArrayLike) -> History:
+        """Return the state at the given times, one row for each."""
+
+    def history(self, n: int = 200) -> History:
+        """Return the impact at evenly spaced times from the first touch to the last.
+
+        Parameters
+        ----------
+        n : int
+            How many times, 2 at least.
+
+        Returns
+        -------
+        History
+            Arrays of shape (n,), as of `at`.
+
+        Raises
+        ------
+        ValueError
+            If there are fewer, or the impact is not solved.
+
+        Examples
+        --------
+        >>> import carom
+        >>> carom.solve(0.5, 1.44).history(3).penetration.round(9)
+        array([0., 1., 0.])
+        """
+        if index(n) < 2:
+            raise ValueError(f"n: {n} cannot be used; must be a whole number of at least 2")
+        return self.at(np.linspace(0.0, self.duration, n))
 
 
 def times_within(duration: float, time: ArrayLike) -> Array:

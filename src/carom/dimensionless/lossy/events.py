@@ -7,7 +7,7 @@ from carom.dimensionless.lossy.collocation import FLAT_ENDS, FLAT_START, NODES, 
 from carom.dimensionless.lossy.memory import MOVED, RADIUS
 from carom.dimensionless.lossy.normal import Motion, Stage
 from carom.dimensionless.lossy.panels import Panel, State, cut_memory, state_at_node
-from carom.dimensionless.lossy.work import PSI, SPEED, Work
+from carom.dimensionless.lossy.work import PSI, SPEED, Arrays
 from carom.dimensionless.numerics.jit import kernel
 
 EARLY = 5e-4  # part of a panel in which zones that begin with it are too thin to be told
@@ -32,7 +32,7 @@ def signs(motion: Motion, zones: int, now: State) -> int:
 
 
 @kernel
-def state_at(work: Work, panel: Panel, x: float) -> State:
+def state_at(work: Arrays, panel: Panel, x: float) -> State:
     """Return the state at a place of a solved panel."""
     table, n = work.series, panel.number
     b, v = evaluate(table, n, RADIUS, x), evaluate(table, n, SPEED, x)
@@ -40,19 +40,19 @@ def state_at(work: Work, panel: Panel, x: float) -> State:
 
 
 @kernel
-def zones_at(work: Work, motion: Motion, panel: Panel, x: float) -> int:
+def zones_at(work: Arrays, motion: Motion, panel: Panel, x: float) -> int:
     """Return a number for the zones at a place of a solved panel."""
     return cut_memory(work, motion, panel, x, state_at(work, panel, x)).zones
 
 
 @kernel
-def structure(work: Work, motion: Motion, panel: Panel, x: float) -> int:
+def structure(work: Arrays, motion: Motion, panel: Panel, x: float) -> int:
     """Return a number for what happens at a place of a solved panel."""
     return signs(motion, zones_at(work, motion, panel, x), state_at(work, panel, x))
 
 
 @kernel
-def first_change(work: Work, motion: Motion, panel: Panel) -> float:
+def first_change(work: Arrays, motion: Motion, panel: Panel) -> float:
     """Return where in a solved panel the structure first changes, 2 if nowhere inside."""
     flat = panel.clock == FLAT_START or panel.clock == FLAT_ENDS
     low = 2.0 * (np.sqrt(EARLY) if flat else EARLY) - 1.0
@@ -73,7 +73,7 @@ def first_change(work: Work, motion: Motion, panel: Panel) -> float:
 
 @kernel
 def change_between(
-    work: Work, motion: Motion, panel: Panel, low: float, high: float, own: int
+    work: Arrays, motion: Motion, panel: Panel, low: float, high: float, own: int
 ) -> float:
     """Return where between two places the structure ceases to be this, by bisection."""
     zones = zones_at(work, motion, panel, low)

@@ -18,9 +18,9 @@ from carom.dimensionless.lossy.events import first_change
 from carom.dimensionless.lossy.memory import MOVED
 from carom.dimensionless.lossy.normal import Motion, Stage
 from carom.dimensionless.lossy.panels import Panel, commit, solve_panel
-from carom.dimensionless.lossy.record import Record, note_panel
+from carom.dimensionless.lossy.record import Trace, note_panel
 from carom.dimensionless.lossy.stages import cut_to_stage, next_stage
-from carom.dimensionless.lossy.work import MAX_PANELS, PSI, SPEED, Work
+from carom.dimensionless.lossy.work import MAX_PANELS, PSI, SPEED, Arrays
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.jit import kernel
 
@@ -98,9 +98,9 @@ def run(
     loss: int,
     parameter: float,
     tolerance: float,
-    work: Work,
+    work: Arrays,
     numbers: Array,
-    record: Record,
+    record: Trace,
 ) -> tuple[int, int]:
     """Run a whole impact, psi_1 of either sign; return its status and the number of panels."""
     if not np.isfinite(psi):
@@ -134,7 +134,7 @@ def run(
 
 @kernel
 def solved_panel(
-    work: Work, motion: Motion, number: int, pieces: int, plan: Plan, tolerance: float
+    work: Arrays, motion: Motion, number: int, pieces: int, plan: Plan, tolerance: float
 ) -> tuple[Plan, float]:
     """Solve the next panel, cut where the structure changes; return how, and its error.
 

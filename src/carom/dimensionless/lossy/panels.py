@@ -37,7 +37,7 @@ from carom.dimensionless.lossy.memory import (
     Pieces,
 )
 from carom.dimensionless.lossy.normal import Motion, Stage
-from carom.dimensionless.lossy.work import PSI, SPEED, Work
+from carom.dimensionless.lossy.work import PSI, SPEED, Arrays
 from carom.dimensionless.numerics.jit import kernel
 
 MAX_ITERATIONS = 30
@@ -65,7 +65,7 @@ class State(NamedTuple):
 
 
 @kernel
-def state_at_node(work: Work, j: int) -> State:
+def state_at_node(work: Arrays, j: int) -> State:
     """Return the state at a node."""
     values = work.values
     return State(values[RADIUS, j], values[SPEED, j], values[MOVED, j], values[PSI, j])
@@ -86,7 +86,7 @@ class Cut(NamedTuple):
 
 
 @kernel
-def lay(work: Work, panel: Panel, x: float, b: float, u: float) -> None:
+def lay(work: Arrays, panel: Panel, x: float, b: float, u: float) -> None:
     """Write the piece that the panel has laid up to x behind the others."""
     pieces, i, b0, u0 = work.pieces, panel.pieces, work.values[RADIUS, 0], work.values[MOVED, 0]
     pieces[i, SIGN], pieces[i, PANEL] = 0.0, panel.number
@@ -99,7 +99,7 @@ def lay(work: Work, panel: Panel, x: float, b: float, u: float) -> None:
 
 
 @kernel
-def cut_memory(work: Work, motion: Motion, panel: Panel, x: float, now: State) -> Cut:
+def cut_memory(work: Arrays, motion: Motion, panel: Panel, x: float, now: State) -> Cut:
     """Return the memory at a place of a panel, in this state."""
     b, u = now.radius, now.moved
     pieces, parts, series = work.pieces, work.parts, work.series
@@ -135,7 +135,7 @@ def cut_memory(work: Work, motion: Motion, panel: Panel, x: float, now: State) -
 
 
 @kernel
-def solve_panel(work: Work, motion: Motion, panel: Panel, before: Panel) -> bool:
+def solve_panel(work: Arrays, motion: Motion, panel: Panel, before: Panel) -> bool:
     """Solve for U and psi at the nodes, b and v being there; tell whether the iteration settled.
 
     `before` is the same panel as it was tried last, its length 0 if it was not.
@@ -178,7 +178,7 @@ def solve_panel(work: Work, motion: Motion, panel: Panel, before: Panel) -> bool
 
 
 @kernel
-def guess(work: Work, panel: Panel, before: Panel) -> bool:
+def guess(work: Arrays, panel: Panel, before: Panel) -> bool:
     """Write psi as it was when the panel was tried last, if it was longer; tell whether so."""
     if before.length < panel.length:
         return False
@@ -191,7 +191,7 @@ def guess(work: Work, panel: Panel, before: Panel) -> bool:
 
 
 @kernel
-def follow(work: Work, motion: Motion, panel: Panel, u0: float) -> None:
+def follow(work: Arrays, motion: Motion, panel: Panel, u0: float) -> None:
     """Write U that follows from psi, and the series of what is laid."""
     values, rates, series = work.values, work.rates, work.series[panel.number]
     b, u, h = values[RADIUS], values[MOVED], panel.length
@@ -213,7 +213,7 @@ def follow(work: Work, motion: Motion, panel: Panel, u0: float) -> None:
 
 
 @kernel
-def factorise(work: Work, panel: Panel) -> None:
+def factorise(work: Arrays, panel: Panel) -> None:
     """Write I - h^2 S diag(-(15/2) chi b X) S diag(2 b) as L R, S being the integral."""
     s, h, b, matrix = INTEGRALS[panel.clock], panel.length, work.values[RADIUS], work.matrix
     for i in range(NODES):
@@ -231,7 +231,7 @@ def factorise(work: Work, panel: Panel) -> None:
 
 
 @kernel
-def back_substitute(work: Work) -> None:
+def back_substitute(work: Arrays) -> None:
     """Solve L R x = y; y is the first row of the rates, and so is x."""
     matrix, y = work.matrix, work.rates[0]
     for i in range(NODES):
@@ -244,7 +244,7 @@ def back_substitute(work: Work) -> None:
 
 
 @kernel
-def commit(work: Work, motion: Motion, panel: Panel) -> int:
+def commit(work: Arrays, motion: Motion, panel: Panel) -> int:
     """Cut the memory for good at the end of a panel; return how many pieces are left."""
     now = state_at_node(work, NODES - 1)
     b, d = now.radius, normal.limit(motion, now.radius, now.speed)

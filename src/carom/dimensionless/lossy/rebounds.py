@@ -17,10 +17,10 @@ from carom.dimensionless.lossy.record import (
     STRONGEST,
     TIME,
     WIDEST,
-    Record,
+    Trace,
     new_record,
 )
-from carom.dimensionless.lossy.work import Work, new_work
+from carom.dimensionless.lossy.work import Arrays, new_work
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.jit import kernel
@@ -40,7 +40,7 @@ def is_elastic(loss: int, parameter: float) -> bool:
     return loss == Loss.NONE or parameter > 1.0 - NEARLY_YIELDING
 
 
-class Rebounds(NamedTuple):
+class LossyRebounds(NamedTuple):
     """What impacts with losses come to, in the units of elastic ones; arrays of one shape."""
 
     psi_out: Array
@@ -54,7 +54,13 @@ class Rebounds(NamedTuple):
 
 @kernel
 def outgoing(
-    psi: float, chi: float, loss: int, parameter: float, work: Work, record: Record, numbers: Array
+    psi: float,
+    chi: float,
+    loss: int,
+    parameter: float,
+    work: Arrays,
+    record: Trace,
+    numbers: Array,
 ) -> tuple[int, int]:
     """Run an impact of any psi_1; return its status and the number of panels.
 
@@ -80,7 +86,13 @@ def outgoing(
 
 @kernel
 def run_beside(
-    psi: float, chi: float, loss: int, parameter: float, work: Work, record: Record, numbers: Array
+    psi: float,
+    chi: float,
+    loss: int,
+    parameter: float,
+    work: Arrays,
+    record: Trace,
+    numbers: Array,
 ) -> tuple[int, int]:
     """Run an impact, psi_1 > 0, beside the border of stick if it lies on it."""
     beside = 0.0
@@ -97,8 +109,8 @@ def fill(
     chi: Array,
     loss: int,
     parameter: Array,
-    work: Work,
-    record: Record,
+    work: Arrays,
+    record: Trace,
     numbers: Array,
     status: NDArray[np.int8],
 ) -> None:
@@ -109,7 +121,7 @@ def fill(
 
 def lossy_rebounds(
     psi: Array, chi: Array, loss: int, parameter: Array, threads: int | None = None
-) -> Rebounds:
+) -> LossyRebounds:
     """Return what impacts with losses come to, all arguments of one length, in threads.
 
     NaN where the status is not SOLVED.
@@ -129,7 +141,7 @@ def lossy_rebounds(
 
     in_blocks(block, lossy.size, BLOCK, SMALLEST_BLOCK, threads)
     numbers[lossy], status[lossy] = found, codes
-    return Rebounds(
+    return LossyRebounds(
         psi_out=numbers[:, PSI_OUT],
         restitution=numbers[:, RESTITUTION],
         duration=numbers[:, TIME],

@@ -16,7 +16,7 @@ from carom.dimensionless.lossy.collocation import (
 from carom.dimensionless.lossy.memory import RADIUS
 from carom.dimensionless.lossy.normal import Loss, Motion
 from carom.dimensionless.lossy.panels import Panel, cut_memory, state_at_node
-from carom.dimensionless.lossy.work import MAX_PANELS, PSI, SPEED, Work
+from carom.dimensionless.lossy.work import MAX_PANELS, PSI, SPEED, Arrays
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.jit import kernel
 
@@ -32,21 +32,21 @@ STICK, SLIP, GROSS_SLIP = range(3)  # what a panel does
 SEARCH = 40
 
 
-class Record(NamedTuple):
+class Trace(NamedTuple):
     """Panels kept so far; empty arrays keep nothing."""
 
     rows: Array  # (panels, ROWS, NODES)
     kinds: NDArray[np.int8]  # (panels, 2): what the panel does, sign of slip
 
 
-def new_record(wanted: bool) -> Record:
+def new_record(wanted: bool) -> Trace:
     """Return an empty record."""
     room = MAX_PANELS if wanted else 0
-    return Record(np.zeros((room, ROWS, NODES)), np.zeros((room, 2), dtype=np.int8))
+    return Trace(np.zeros((room, ROWS, NODES)), np.zeros((room, 2), dtype=np.int8))
 
 
 @kernel
-def note_panel(work: Work, motion: Motion, panel: Panel, numbers: Array, record: Record) -> None:
+def note_panel(work: Arrays, motion: Motion, panel: Panel, numbers: Array, record: Trace) -> None:
     """Add a solved panel to the numbers, and to the record if that is wanted."""
     if record.rows.shape[0] > 0:
         keep(work, motion, panel, numbers, record)
@@ -66,7 +66,7 @@ def note_panel(work: Work, motion: Motion, panel: Panel, numbers: Array, record:
 
 
 @kernel
-def strongest(work: Work, motion: Motion, panel: Panel) -> float:
+def strongest(work: Arrays, motion: Motion, panel: Panel) -> float:
     """Return the largest normal force in a panel, by bisection between its nodes."""
     values, best = work.values, 0
     force = np.empty(NODES)
@@ -95,7 +95,7 @@ def force_at(motion: Motion, series: Array, n: int, x: float) -> float:
 
 
 @kernel
-def keep(work: Work, motion: Motion, panel: Panel, numbers: Array, record: Record) -> None:
+def keep(work: Arrays, motion: Motion, panel: Panel, numbers: Array, record: Trace) -> None:
     """Keep a panel: what there is at its nodes, and what it does."""
     rows, rates, h = record.rows[panel.number], work.rates, panel.length
     b, v = work.values[RADIUS], work.values[SPEED]
@@ -115,7 +115,7 @@ def keep(work: Work, motion: Motion, panel: Panel, numbers: Array, record: Recor
 
 @kernel
 def keep_node(
-    work: Work, motion: Motion, panel: Panel, j: int, rows: Array, kind: NDArray[np.int8]
+    work: Arrays, motion: Motion, panel: Panel, j: int, rows: Array, kind: NDArray[np.int8]
 ) -> None:
     """Keep what there is at a node, and at the middle one what the panel does."""
     now = state_at_node(work, j)

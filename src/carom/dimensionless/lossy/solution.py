@@ -1,7 +1,6 @@
 """One impact with losses in plain numbers: its phases, and its state at any time."""
 
 from dataclasses import dataclass, field
-from operator import index
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,12 +28,12 @@ from carom.dimensionless.lossy.record import (
     STRONGEST,
     TIME,
     WIDEST,
-    Record,
+    Trace,
     new_record,
 )
 from carom.dimensionless.lossy.work import new_work
 from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.states import KIND_NAMES, History, Phase, times_within
+from carom.dimensionless.states import KIND_NAMES, History, Phase, Trajectory, times_within
 
 SHORTEST = 1e-6  # of a phase, in units of d_max/V_1: structure is not told any finer
 CAUSES = {
@@ -50,7 +49,7 @@ CAUSES = {
 
 
 @dataclass(frozen=True, eq=False)
-class LossySolution:
+class LossySolution(Trajectory):
     """One oblique impact with losses in the normal motion, solved; made by `solve`.
 
     Units are those of `Solution`, of the elastic impact at the same speed. Kinetic energy of the
@@ -74,7 +73,7 @@ class LossySolution:
     max_penetration: float
     max_force: float
     max_radius: float
-    _record: Record = field(repr=False)
+    _record: Trace = field(repr=False)
     _scale: float = field(repr=False)
 
     def at(self, time: ArrayLike) -> History:
@@ -105,12 +104,6 @@ class LossySolution:
             normal_lost=rows[AT_LOST],
         )
 
-    def history(self, n: int = 200) -> History:
-        """Return the impact at n >= 2 times, evenly spaced from the first touch to the last."""
-        if index(n) < 2:
-            raise ValueError(f"n: {n} cannot be used; must be a whole number of at least 2")
-        return self.at(np.linspace(0.0, self.duration, n))
-
     def _sampled(self, wanted: Array) -> Array:
         """Return all rows of the record at these times, shape (rows, times)."""
         rows, starts = self._record.rows, self._record.rows[:, AT_TIME, 0]
@@ -130,7 +123,7 @@ def solve_with_losses(psi: float, chi: float, loss: int, parameter: float) -> Lo
     if status in (Status.PSI_NOT_FINITE, Status.CHI_NOT_POSITIVE):
         name, value = ("psi", psi) if status is Status.PSI_NOT_FINITE else ("chi", chi)
         raise ValueError(f"{name}: {value:g} is not allowed; {status.message}")
-    kept = Record(record.rows[:panels].copy(), record.kinds[:panels].copy())
+    kept = Trace(record.rows[:panels].copy(), record.kinds[:panels].copy())
     first = float(kept.rows[0, AT_PSI, 0]) if panels else 1.0
     return LossySolution(
         psi_in=psi,
@@ -148,7 +141,7 @@ def solve_with_losses(psi: float, chi: float, loss: int, parameter: float) -> Lo
     )
 
 
-def _phases(record: Record, mirror: int) -> tuple[Phase, ...]:
+def _phases(record: Trace, mirror: int) -> tuple[Phase, ...]:
     """Return the phases that the panels make up; what is too short goes to the one before."""
     found: list[Phase] = []
     for rows, (kind, sign) in zip(record.rows, record.kinds.tolist(), strict=True):

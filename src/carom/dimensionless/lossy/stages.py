@@ -6,7 +6,7 @@ from carom.dimensionless.lossy import normal
 from carom.dimensionless.lossy.collocation import CLOCKS, EVEN, NODES, PLACES, integrate
 from carom.dimensionless.lossy.memory import RADIUS
 from carom.dimensionless.lossy.normal import Loss, Motion, Stage
-from carom.dimensionless.lossy.work import MAX_PANELS, SPEED, Work, new_work
+from carom.dimensionless.lossy.work import MAX_PANELS, SPEED, Arrays, new_work
 from carom.dimensionless.numerics.jit import kernel
 
 MAX_ITERATIONS = 40
@@ -19,7 +19,7 @@ LENGTH = 0.1  # of a panel on which the normal motion is good to rounding
 
 
 @kernel
-def solve_normal(work: Work, motion: Motion, kind: int, h: float) -> None:
+def solve_normal(work: Arrays, motion: Motion, kind: int, h: float) -> None:
     """Solve for b and v at the nodes, from their values at the first."""
     b, v, rates = work.values[RADIUS], work.values[SPEED], work.rates
     b0, v0 = b[0], v[0]
@@ -49,7 +49,7 @@ def beyond_stage(motion: Motion, b: float, v: float) -> float:
 
 
 @kernel
-def stage_end(work: Work, motion: Motion) -> float:
+def stage_end(work: Arrays, motion: Motion) -> float:
     """Return the part of a panel with an even clock after which its stage ends, 1 if not in it."""
     last = NODES - 1
     b, v = work.values[RADIUS], work.values[SPEED]
@@ -81,7 +81,7 @@ def until_stage_end(motion: Motion, b: float, v: float) -> float:
 
 
 @kernel
-def cut_to_stage(work: Work, motion: Motion, kind: int, h: float) -> tuple[float, bool]:
+def cut_to_stage(work: Arrays, motion: Motion, kind: int, h: float) -> tuple[float, bool]:
     """Solve for the normal motion on a panel, cut at the end of its stage.
 
     Return its length, and whether it was cut.
@@ -106,7 +106,7 @@ def cut_to_stage(work: Work, motion: Motion, kind: int, h: float) -> tuple[float
 
 
 @kernel
-def next_stage(work: Work, motion: Motion) -> Motion:
+def next_stage(work: Arrays, motion: Motion) -> Motion:
     """Return what rules the motion after a stage, whose end the state is put to exactly."""
     loss, stage, parameter, _, chi = motion
     b, v = work.values[RADIUS, 0], work.values[SPEED, 0]
@@ -119,7 +119,7 @@ def next_stage(work: Work, motion: Motion) -> Motion:
 
 
 @kernel
-def restitution(loss: int, parameter: float, work: Work) -> float:
+def restitution(loss: int, parameter: float, work: Arrays) -> float:
     """Return the normal speed after to before, normal motion alone; NaN if without end."""
     values = work.values
     values[RADIUS, 0], values[SPEED, 0] = 0.0, 1.0

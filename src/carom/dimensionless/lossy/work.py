@@ -13,7 +13,7 @@ MAX_PANELS = 600
 SPEED, PSI, VALUES = 6, 7, 8  # rows beyond those of the memory: v, psi
 
 
-class Work(NamedTuple):
+class Arrays(NamedTuple):
     """Arrays that an impact needs, made once and used for many."""
 
     series: Pieces  # (panels, VALUES, NODES)
@@ -26,9 +26,9 @@ class Work(NamedTuple):
     zones: NDArray[np.int64]  # (NODES,)
 
 
-def new_work() -> Work:
+def new_work() -> Arrays:
     """Return the arrays that an impact needs."""
-    return Work(
+    return Arrays(
         series=np.zeros((MAX_PANELS, VALUES, NODES)),
         values=np.zeros((VALUES, NODES)),
         rates=np.zeros((3, NODES)),
