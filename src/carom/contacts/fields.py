@@ -32,7 +32,7 @@ def surface_fields(
 ) -> "xr.Dataset":
     """Return tractions, zones, displacements and slip on a grid or at points of the surface.
 
-    Arguments, result and errors as `Impact.fields`.
+    Arguments, result and errors as `InContact.fields`.
     """
     reach = REACH * (contact.radius or contact.scales.radius)
     side = np.linspace(-reach, reach, GRID)

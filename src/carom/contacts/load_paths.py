@@ -14,9 +14,8 @@ from carom import plots
 from carom.bodies.pairs import ContactScales, Pair
 from carom.bodies.shapes import describe
 from carom.contacts.contact import Contact
-from carom.contacts.fields import radial_fields, surface_fields
+from carom.contacts.in_contact import InContact
 from carom.contacts.load_steps import Given, Steps, read_steps
-from carom.contacts.stress import stress_dataset
 from carom.dimensionless.load_paths import paths
 from carom.dimensionless.load_paths.memory import SLOPE, profile_of
 from carom.io.citations import LOADS, bibtex
@@ -24,7 +23,7 @@ from carom.io.labels import labelled_dataset
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.units import counted, refusal
+from carom.quantities.units import refusal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -44,7 +43,7 @@ COLUMNS = (
 
 
 @dataclass(frozen=True, eq=False)
-class LoadPath(Result):
+class LoadPath(InContact, Result):
     """A contact after each step of a load path; made by `load_path`. SI units, shapes (n,).
 
     A step is a straight line in penetration and displacement. `frictional_work` is the energy lost
@@ -137,33 +136,6 @@ class LoadPath(Result):
         return bibtex(*LOADS)
 
     def contact(self, step: int = -1) -> Contact:
-        """Return the contact after a step: what fields and stresses are made from.
-
-        Parameters
-        ----------
-        step : int
-            Its number, or from the end if negative.
-
-        Returns
-        -------
-        Contact
-            `numbers()` are its quantities in SI units; penetration, displacement and stick_radius
-            are dimensionless, `scales` gives them units.
-
-        Raises
-        ------
-        InputError
-            If there is no such step, or the bodies are apart then.
-
-        Examples
-        --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
-        >>> path.contact().attributes["phase_kind"]
-        'slip'
-        """
         k = self._step(step)
         d, u = self.penetration[: k + 1], self.displacement[: k + 1]
         if not d[k] > 0.0:
@@ -191,39 +163,7 @@ class LoadPath(Result):
         *,
         points: ArrayLike | None = None,
     ) -> xr.Dataset:
-        """Return tractions, zones, displacements and slip after a step, as `Impact.fields`.
-
-        Parameters
-        ----------
-        step : int
-            Its number, or from the end if negative.
-        x, y : array_like, shapes (nx,) and (ny,)
-            Positions in m of a grid around the centre of the contact.
-        points : array_like, shape (n, 2)
-            Points (x, y) in m, instead of a grid.
-
-        Returns
-        -------
-        xarray.Dataset
-            Along (y, x), or along `point`: pressure and traction_x in Pa, zone (0 outside, 1 stick,
-            2 slip), displacement_x to displacement_z, slip_x and slip_y in m; and the forces,
-            radii, penetration and displacement of the step as numbers.
-
-        Raises
-        ------
-        InputError
-            If there is no such step, the bodies are apart then, or positions have another shape.
-
-        Examples
-        --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
-        >>> round(float(path.fields(points=[[0.0, 0.0]]).pressure[0]) / 1e9, 2)  # in GPa
-        1.01
-        """
-        return surface_fields(self.contact(step), x, y, points=points)
+        return super().fields(step, x, y, points=points)
 
     def stress(
         self,
@@ -234,72 +174,10 @@ class LoadPath(Result):
         points: ArrayLike | None = None,
         body: str = "second",
     ) -> xr.Dataset:
-        """Return the stress below the surface of one body after a step, as `Impact.stress`.
-
-        Parameters
-        ----------
-        step : int
-            Its number, or from the end if negative.
-        x, z : array_like, shapes (nx,) and (nz,)
-            Positions in m of a grid in the plane y = 0, z the depth.
-        points : array_like, shape (n, 3)
-            Points (x, y, z) in m, instead of a grid.
-        body : str
-            "first" or "second".
-
-        Returns
-        -------
-        xarray.Dataset
-            Along (z, x), or along `point`, as `Impact.stress`: stresses in Pa, positive in tension.
-
-        Raises
-        ------
-        InputError
-            If there is no such step, the bodies are apart then, positions have another shape, or
-            the body is rigid.
-
-        Examples
-        --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
-        >>> bool(path.stress(points=[[0.0, 0.0, 0.0]]).sigma_zz[0] < 0.0)  # pressed
-        True
-        """
-        return stress_dataset(self.contact(step), x=x, z=z, points=points, body=body)
+        return super().stress(step, x, z, points=points, body=body)
 
     def radial(self, step: int = -1, n: int = 401) -> xr.Dataset:
-        """Return pressure, traction and the memory g, q along a radius after a step.
-
-        Parameters
-        ----------
-        step : int
-            Its number, or from the end if negative.
-        n : int
-            How many distances from the centre.
-
-        Returns
-        -------
-        xarray.Dataset
-            Along `distance` in m, n of them: pressure, friction_limit and traction_x in Pa,
-            memory_g, memory_q and memory_limit in m, zone.
-
-        Raises
-        ------
-        InputError
-            If there is no such step, the bodies are apart then, or n is below 2.
-
-        Examples
-        --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
-        >>> path.radial(n=11).sizes["distance"]
-        11
-        """
-        return radial_fields(self.contact(step), counted("n", n, 2))
+        return super().radial(step, n)
 
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""

@@ -37,7 +37,7 @@ def stress_dataset(
 ) -> "xr.Dataset":
     """Return the stress in one body, on a grid in the plane y = 0 or at points.
 
-    Arguments, result and errors as `Impact.stress`.
+    Arguments, result and errors as `InContact.stress`.
     """
     friction, poisson = _of_body(contact, body)
     reach = REACH * (contact.radius or contact.scales.radius)

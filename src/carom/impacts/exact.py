@@ -13,8 +13,7 @@ from carom.bodies.kinematics import Tangential
 from carom.bodies.losses import NormalLaw
 from carom.bodies.pairs import Pair
 from carom.contacts.contact import Contact, contact_in_impact
-from carom.contacts.fields import radial_fields, surface_fields
-from carom.contacts.stress import stress_dataset
+from carom.contacts.in_contact import InContact
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution, solve, solve_with
@@ -23,14 +22,14 @@ from carom.impacts.result import Course
 from carom.impacts.validity import judge
 from carom.io.citations import IMPACT, bibtex
 from carom.io.labels import Validity
-from carom.quantities.units import InputError, Value, counted, refusal
+from carom.quantities.units import InputError, Value, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
 @dataclass(frozen=True, eq=False)
-class Impact(Course):
+class Impact(Course, InContact):
     """The result of `impact`: the rebound, every phase, and what happens inside the contact.
 
     SI units. Tangential speeds are those of the first body relative to the second, positive spin
@@ -67,33 +66,6 @@ class Impact(Course):
         return self.solution.slip_angles(self.pair.lateral_ratio)
 
     def contact(self, time: Value) -> Contact:
-        """Return the contact at a time: what fields and stresses come from.
-
-        Parameters
-        ----------
-        time : float or str
-            Time since the first touch in s, 0 to `duration`.
-
-        Returns
-        -------
-        Contact
-            `numbers()` are its quantities in SI units; penetration, displacement and stick_radius
-            are dimensionless, `scales` gives them units.
-
-        Raises
-        ------
-        InputError
-            If the time is outside the contact, or the normal motion loses energy.
-
-        Examples
-        --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
-        >>> round(hit.contact(0.5 * hit.duration).penetration, 12)  # of the largest
-        1.0
-        """
         if isinstance(self.solution, LossySolution):
             raise InputError(
                 "normal: fields and stresses are those of elastic impacts; leave normal out"
@@ -112,49 +84,7 @@ class Impact(Course):
         *,
         points: ArrayLike | None = None,
     ) -> xr.Dataset:
-        """Return tractions, zones, displacements and slip at the surface at a time.
-
-        Pressure and traction are (1) and (6) of Barber (1979). The displacements, of both surfaces
-        together and caused by the tractions, are superposed from those of punches, u_x = u_0 +
-        lambda u_2 cos 2 theta, u_y = lambda u_2 sin 2 theta, lambda = nu/(2 - nu) for equal
-        materials, which is (29) in gross slip: displacement of the second surface against the
-        first. Slip is that of the first body on the second since the points met: U less what the
-        surfaces gave way.
-
-        Parameters
-        ----------
-        time : float or str
-            Time since the first touch in s, 0 to `duration`.
-        x, y : array_like, shapes (nx,) and (ny,)
-            Positions in m of a grid around the centre of the contact, x along V_x; by default 101
-            by 101 points over 1.5 radii of the contact.
-        points : array_like, shape (n, 2)
-            Points (x, y) in m, instead of a grid.
-
-        Returns
-        -------
-        xarray.Dataset
-            Along (y, x), or along `point`: pressure, traction_x, zone (0 outside, 1 stick, 2 slip),
-            displacement_x, displacement_y, displacement_z, slip_x, slip_y, slip_velocity_x,
-            slip_velocity_y; and as numbers contact_radius, stick_radius, normal_force,
-            tangential_force, penetration, displacement, time, friction.
-
-        Raises
-        ------
-        InputError
-            If the time is outside the contact, or positions have another shape or are not finite.
-
-        Examples
-        --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
-        >>> patch = hit.fields(0.6 * hit.duration)
-        >>> sorted({int(zone) for zone in patch.zone.values.flat})  # outside, stick, slip
-        [0, 1, 2]
-        """
-        return surface_fields(self.contact(time), x, y, points=points)
+        return super().fields(time, x, y, points=points)
 
     def stress(
         self,
@@ -165,82 +95,10 @@ class Impact(Course):
         points: ArrayLike | None = None,
         body: str = "second",
     ) -> xr.Dataset:
-        """Return the stress below the surface of one body at a time, and where it is largest.
-
-        Pressure (1) and traction (6) as slices of the memory, each slice a line of Boussinesq's and
-        Cerruti's point forces at imaginary depth, sigma = integral of s Im[N + mu g(s) T] ds
-        (Johnson 1985, section 3.2; for g = 1 Hamilton 1983); tension positive.
-
-        Parameters
-        ----------
-        time : float or str
-            Time since the first touch in s, 0 to `duration`.
-        x, z : array_like, shapes (nx,) and (nz,)
-            Positions in m of a grid in the plane y = 0, x along V_x and z the depth; by default 101
-            by 61 points over 2 radii of the contact.
-        points : array_like, shape (n, 3)
-            Points (x, y, z) in m, instead of a grid.
-        body : str
-            "first" or "second".
-
-        Returns
-        -------
-        xarray.Dataset
-            Along (z, x), or along `point`: sigma_xx, sigma_yy, sigma_zz, sigma_xy, sigma_xz,
-            sigma_yz, principal_1 to principal_3, von_mises, max_shear; of the whole body
-            max_von_mises and, on its surface, max_tension, with their places, max_von_mises_x and
-            so on.
-
-        Raises
-        ------
-        InputError
-            If the time is outside the contact, positions have another shape, are not finite or lie
-            outside the body, or the body is rigid.
-
-        Examples
-        --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.0)
-        >>> hit = carom.impact(pair, speed=2.0, angle=0.0)
-        >>> below = hit.stress(0.5 * hit.duration, points=[[0.0, 0.0, 0.48 * hit.max_radius]])
-        >>> round(float(below.max_shear[0]) / hit.max_pressure, 2)
-        0.31
-        """
-        return stress_dataset(self.contact(time), x=x, z=z, points=points, body=body)
+        return super().stress(time, x, z, points=points, body=body)
 
     def radial(self, time: Value, n: int = 401) -> xr.Dataset:
-        """Return pressure, traction and the memory g, q along a radius at a time.
-
-        Parameters
-        ----------
-        time : float or str
-            Time since the first touch in s, 0 to `duration`.
-        n : int
-            How many distances from the centre.
-
-        Returns
-        -------
-        xarray.Dataset
-            Along `distance` in m: pressure, friction_limit, traction_x, memory_g, memory_q,
-            memory_limit, zone.
-
-        Raises
-        ------
-        InputError
-            If the time is outside the contact, or n below 2.
-
-        Examples
-        --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
-        >>> along = hit.radial(0.5 * hit.duration, n=11)
-        >>> bool((abs(along.traction_x) <= 1.000001 * along.friction_limit).all())
-        True
-        """
-        return radial_fields(self.contact(time), counted("n", n, 2))
+        return super().radial(time, n)
 
     def cite(self) -> str:
         """Return what to cite for this result, as BibTeX.

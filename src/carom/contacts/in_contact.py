@@ -1,0 +1,201 @@
+"""What happens inside a contact: of an impact at a time, of a load path after a step."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Any
+
+from numpy.typing import ArrayLike
+
+from carom.contacts.contact import Contact
+from carom.contacts.fields import radial_fields, surface_fields
+from carom.contacts.stress import stress_dataset
+from carom.quantities.units import counted
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+class InContact(ABC):
+    """A result whose contact can be looked into, at a time in s or after a step of a load path.
+
+    What tells the instant is called `time` of an `Impact`, from 0 to `duration`, and `step` of a
+    `LoadPath`, negative from the end.
+    """
+
+    @abstractmethod
+    def contact(self, instant: Any, /) -> Contact:
+        """Return the contact at a time or after a step: what fields and stresses come from.
+
+        Parameters
+        ----------
+        instant : float, str or int
+            Time since the first touch in s, or the number of a step.
+
+        Returns
+        -------
+        Contact
+            `numbers()` are its quantities in SI units; penetration, displacement and stick_radius
+            are dimensionless, `scales` gives them units.
+
+        Raises
+        ------
+        InputError
+            If the bodies do not touch then, there is no such step, or the normal motion of an
+            impact loses energy.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+        >>> round(hit.contact(0.5 * hit.duration).penetration, 12)  # of the largest
+        1.0
+        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
+        >>> path.contact(step=-1).attributes["phase_kind"]
+        'slip'
+        """
+
+    def fields(
+        self,
+        instant: Any,
+        /,
+        x: ArrayLike | None = None,
+        y: ArrayLike | None = None,
+        *,
+        points: ArrayLike | None = None,
+    ) -> xr.Dataset:
+        """Return tractions, zones, displacements and slip at the surface.
+
+        Pressure and traction are (1) and (6) of Barber (1979). The displacements, of both surfaces
+        together and caused by the tractions, are superposed from those of punches, u_x = u_0 +
+        lambda u_2 cos 2 theta, u_y = lambda u_2 sin 2 theta, lambda = nu/(2 - nu) for equal
+        materials, which is (29) in gross slip: displacement of the second surface against the
+        first. Slip is that of the first body on the second since the points met: U less what the
+        surfaces gave way.
+
+        Parameters
+        ----------
+        instant : float, str or int
+            Time since the first touch in s, or the number of a step.
+        x, y : array_like, shapes (nx,) and (ny,)
+            Positions in m of a grid around the centre of the contact, x along V_x; by default 101
+            by 101 points over 1.5 radii of the contact.
+        points : array_like, shape (n, 2)
+            Points (x, y) in m, instead of a grid.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along (y, x), or along `point`: pressure, traction_x, zone (0 outside, 1 stick, 2 slip),
+            displacement_x, displacement_y, displacement_z, slip_x, slip_y, and of impacts
+            slip_velocity_x, slip_velocity_y; and as numbers contact_radius, stick_radius,
+            normal_force, tangential_force, penetration, displacement, friction, of impacts time.
+
+        Raises
+        ------
+        InputError
+            If the bodies do not touch then, or positions have another shape or are not finite.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+        >>> patch = hit.fields(0.6 * hit.duration)
+        >>> sorted({int(zone) for zone in patch.zone.values.flat})  # outside, stick, slip
+        [0, 1, 2]
+        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
+        >>> round(float(path.fields(points=[[0.0, 0.0]]).pressure[0]) / 1e9, 2)  # in GPa
+        1.01
+        """
+        return surface_fields(self.contact(instant), x, y, points=points)
+
+    def stress(
+        self,
+        instant: Any,
+        /,
+        x: ArrayLike | None = None,
+        z: ArrayLike | None = None,
+        *,
+        points: ArrayLike | None = None,
+        body: str = "second",
+    ) -> xr.Dataset:
+        """Return the stress below the surface of one body, and where it is largest.
+
+        Pressure (1) and traction (6) as slices of the memory, each slice a line of Boussinesq's and
+        Cerruti's point forces at imaginary depth, sigma = integral of s Im[N + mu g(s) T] ds
+        (Johnson 1985, section 3.2; for g = 1 Hamilton 1983); tension positive.
+
+        Parameters
+        ----------
+        instant : float, str or int
+            Time since the first touch in s, or the number of a step.
+        x, z : array_like, shapes (nx,) and (nz,)
+            Positions in m of a grid in the plane y = 0, x along V_x and z the depth; by default 101
+            by 61 points over 2 radii of the contact.
+        points : array_like, shape (n, 3)
+            Points (x, y, z) in m, instead of a grid.
+        body : str
+            "first" or "second".
+
+        Returns
+        -------
+        xarray.Dataset
+            Along (z, x), or along `point`: sigma_xx, sigma_yy, sigma_zz, sigma_xy, sigma_xz,
+            sigma_yz, principal_1 to principal_3, von_mises, max_shear in Pa; of the whole body
+            max_von_mises and, on its surface, max_tension, with their places, max_von_mises_x and
+            so on.
+
+        Raises
+        ------
+        InputError
+            If the bodies do not touch then, positions have another shape, are not finite or lie
+            outside the body, or the body is rigid.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.0)
+        >>> hit = carom.impact(pair, speed=2.0, angle=0.0)
+        >>> below = hit.stress(0.5 * hit.duration, points=[[0.0, 0.0, 0.48 * hit.max_radius]])
+        >>> round(float(below.max_shear[0]) / hit.max_pressure, 2)
+        0.31
+        """
+        return stress_dataset(self.contact(instant), x=x, z=z, points=points, body=body)
+
+    def radial(self, instant: Any, /, n: int = 401) -> xr.Dataset:
+        """Return pressure, traction and the memory g, q along a radius.
+
+        Parameters
+        ----------
+        instant : float, str or int
+            Time since the first touch in s, or the number of a step.
+        n : int
+            How many distances from the centre.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along `distance` in m, n of them: pressure, friction_limit and traction_x in Pa,
+            memory_g, memory_q and memory_limit in m, zone.
+
+        Raises
+        ------
+        InputError
+            If the bodies do not touch then, or n is below 2.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+        >>> along = hit.radial(0.5 * hit.duration, n=11)
+        >>> bool((abs(along.traction_x) <= 1.000001 * along.friction_limit).all())
+        True
+        """
+        return radial_fields(self.contact(instant), counted("n", n, 2))
