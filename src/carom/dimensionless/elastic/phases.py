@@ -1,6 +1,6 @@
 """Which phase follows which: the whole impact as a machine of stick, slip and gross slip.
 
-`stretches` advances the motion from event to event; this module alone decides what comes next,
+`integration` advances the motion from event to event; this module alone decides what comes next,
 from one table. The machine runs for psi_1 >= 0; negative psi_1 is its mirror image.
 """
 

@@ -1,7 +1,7 @@
 """Quasi-static load paths: the memory of a contact driven through any history.
 
 A step is a straight line in penetration d and tangential displacement U. It discards what leaves
-the contact, slip cuts F down to l, and new contact is laid at its limits (`strata`): no more than
+the contact, slip cuts F down to l, and new contact is laid at its limits (`memory`): no more than
 one annulus is added, so that the cost of a step is constant on average. Where the force Q is wanted
 instead of U, the front of slip is the root of a cubic. |Q| <= (2/3) d^(3/2) is Coulomb's cone.
 """
