@@ -16,47 +16,60 @@ LATERAL, RADIAL, COUPLED = 0.008, 0.22, 0.8  # of its bound, docs/halfspace_stud
 
 def judge(pair: Pair, normal_speed: float, duration: float, psi: float) -> Validity:
     """Return the findings on an impact: small contact, no yield, slow contact, no coupling."""
-    error = rebound_error(pair.kappa, pair.dundurs_beta, pair.friction, pair.chi, psi)
-    uncoupled = (_coupling(pair.dundurs_beta), _close_rebound(error))
-    return Validity((*judge_contact(pair, normal_speed, duration), *uncoupled))
+    coupling = _judged(
+        "Dundurs beta",
+        pair.dundurs_beta,
+        WEAK_COUPLING,
+        "normal and tangential contact do not couple",
+        "unlike materials: the answer is the uncoupled one, an approximation",
+    )
+    close = _judged(
+        "error of psi_2",
+        rebound_error(pair.kappa, pair.dundurs_beta, pair.friction, pair.chi, psi),
+        CLOSE_REBOUND,
+        "psi_2 is as close as this to the full contact in three dimensions",
+        "coupling may turn psi_2 by as much; method='halfspace' solves the full contact",
+    )
+    return Validity((*judge_contact(pair, normal_speed, duration), coupling, close))
 
 
 def judge_contact(pair: Pair, normal_speed: float, duration: float) -> tuple[Finding, ...]:
     """Return the findings on what does not depend on friction: small contact, no yield, slow."""
-    scales = pair.scales(normal_speed)
-    return (
-        _small_contact(scales.radius / pair.effective_radius),
-        *_yield(pair, scales.pressure),
-        _slow_contact(duration / max(_transit(pair), 1e-300)),
+    scales, transits = pair.scales(normal_speed), duration / max(_transit(pair), 1e-300)
+    slow = transits >= SLOW_CONTACT
+    small = _judged(
+        "a_max/R*",
+        scales.radius / pair.effective_radius,
+        SMALL_CONTACT,
+        "the contact is small against the bodies",
+        f"the contact is too large for Hertz's theory, which wants {SMALL_CONTACT} at most",
     )
-
-
-def _small_contact(ratio: float) -> Finding:
-    holds = ratio <= SMALL_CONTACT
     verdict = (
-        "the contact is small against the bodies"
-        if holds
-        else f"the contact is too large for Hertz's theory, which wants {SMALL_CONTACT} at most"
+        "the contact lasts long enough to be quasi-static"
+        if slow
+        else f"elastic waves matter: the contact should last {SLOW_CONTACT:g} transits at least"
     )
-    return Finding("a_max/R*", ratio, SMALL_CONTACT, holds, verdict)
+    waves = Finding("contact time/wave transit", transits, SLOW_CONTACT, slow, verdict)
+    return small, _yield(pair, scales.pressure), waves
 
 
-def _yield(pair: Pair, pressure: float) -> tuple[Finding, ...]:
+def _judged(name: str, value: float, limit: float, good: str, bad: str) -> Finding:
+    """Return the finding on a number that must not be beyond a limit."""
+    holds = abs(value) <= limit
+    return Finding(name, value, limit, holds, good if holds else bad)
+
+
+def _yield(pair: Pair, pressure: float) -> Finding:
     strengths = [
         m.yield_strength for m in (pair.first.material, pair.second.material) if m.yield_strength
     ]
     if not strengths:
         unknown = "yield strength not known, so not judged"
-        return (Finding("p_0/Y", float("nan"), YIELD_PRESSURE, None, unknown),)
-    ratio = pressure / min(strengths)
-    holds = ratio <= YIELD_PRESSURE
+        return Finding("p_0/Y", float("nan"), YIELD_PRESSURE, None, unknown)
     body = "the softer body" if len(strengths) == 2 else "the body whose strength is known"
-    verdict = (
-        f"{body} stays elastic"
-        if holds
-        else f"{body} yields from {YIELD_PRESSURE} on: real restitution is below 1"
-    )
-    return (Finding("p_0/Y", ratio, YIELD_PRESSURE, holds, verdict),)
+    yields = f"{body} yields from {YIELD_PRESSURE} on: real restitution is below 1"
+    ratio = pressure / min(strengths)
+    return _judged("p_0/Y", ratio, YIELD_PRESSURE, f"{body} stays elastic", yields)
 
 
 def _transit(pair: Pair) -> float:
@@ -66,26 +79,6 @@ def _transit(pair: Pair) -> float:
 
 def _wave_speed(material: Material) -> float:
     return inf if isinf(material.young) else sqrt(material.young / (material.density or 1.0))
-
-
-def _slow_contact(ratio: float) -> Finding:
-    holds = ratio >= SLOW_CONTACT
-    verdict = (
-        "the contact lasts long enough to be quasi-static"
-        if holds
-        else f"elastic waves matter: the contact should last {SLOW_CONTACT:g} transits at least"
-    )
-    return Finding("contact time/wave transit", ratio, SLOW_CONTACT, holds, verdict)
-
-
-def _coupling(beta: float) -> Finding:
-    holds = abs(beta) <= WEAK_COUPLING
-    verdict = (
-        "normal and tangential contact do not couple"
-        if holds
-        else "unlike materials: the answer is the uncoupled one, an approximation"
-    )
-    return Finding("Dundurs beta", beta, WEAK_COUPLING, holds, verdict)
 
 
 def rebound_error(kappa: float, beta: float, friction: float, chi: float, psi: float) -> float:
@@ -107,19 +100,6 @@ def rebound_error(kappa: float, beta: float, friction: float, chi: float, psi: f
 
 def judge_errors(psi_out: float, energy: float) -> tuple[Finding, ...]:
     """Return the findings on what a grid and steps leave of psi_2 and of the energy."""
-    findings = []
-    for name, value in (("error of psi_2", psi_out), ("error of energy", energy)):
-        holds = value <= CLOSE_REBOUND
-        verdict = "grid and steps are fine enough" if holds else "take more elements and steps"
-        findings.append(Finding(name, value, CLOSE_REBOUND, holds, verdict))
-    return tuple(findings)
-
-
-def _close_rebound(error: float) -> Finding:
-    holds = error <= CLOSE_REBOUND
-    verdict = (
-        "psi_2 is as close as this to the full contact in three dimensions"
-        if holds
-        else "coupling may turn psi_2 by as much; method='halfspace' solves the full contact"
-    )
-    return Finding("error of psi_2", error, CLOSE_REBOUND, holds, verdict)
+    good, bad = "grid and steps are fine enough", "take more elements and steps"
+    named = (("error of psi_2", psi_out), ("error of energy", energy))
+    return tuple(_judged(name, value, CLOSE_REBOUND, good, bad) for name, value in named)
