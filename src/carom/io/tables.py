@@ -198,11 +198,16 @@ def _rows(cells: dict[str, Any], comments: Mapping[str, str]) -> Table:
 
 def _columns(source: Any) -> dict[str, Any]:
     table = {str(name): _line(str(name), values) for name, values in source.items()}
-    lengths = {name: len(values) for name, values in table.items()}
+    require_equal_lengths("results", table)
+    return table
+
+
+def require_equal_lengths(what: str, columns: Mapping[str, Any]) -> None:
+    """Raise InputError for columns that differ in length."""
+    lengths = {name: len(values) for name, values in columns.items()}
     if len(set(lengths.values())) > 1:
         listed = ", ".join(f"{name} {length}" for name, length in lengths.items())
-        raise InputError(f"results: columns must be equally long; rows are {listed}")
-    return table
+        raise InputError(f"{what}: columns must be equally long; rows are {listed}")
 
 
 def _line(name: str, values: Any) -> Any:

@@ -16,10 +16,9 @@ from carom.bodies.cases import (
     material_values,
     read_material,
 )
-from carom.quantities.glossary import GLOSSARY
+from carom.io.labels import attributes
 from carom.quantities.units import InputError, nearest, refusal
 
-Box = tuple[slice, ...]
 CODE = np.int8
 
 ELASTIC = ("young", "poisson", "density")
@@ -55,8 +54,7 @@ class Choice(NamedTuple):
 
     def description(self) -> dict[str, Any]:
         """Return it as JSON can hold it."""
-        numbers = {name: "inf" if isinf(value) else value for name, value in self.values.items()}
-        return {"label": self.label, **numbers}
+        return {"label": self.label, **jsonable(self.values)}
 
 
 Choices = Mapping[str, tuple[Choice, ...]]
@@ -65,6 +63,11 @@ Choices = Mapping[str, tuple[Choice, ...]]
 def leaf(name: str) -> str:
     """Return the last part of a name: what the glossary calls it."""
     return name.rpartition(".")[2]
+
+
+def jsonable(numbers: Mapping[str, float]) -> dict[str, Any]:
+    """Return numbers as JSON can hold them."""
+    return {name: "inf" if isinf(value) else value for name, value in numbers.items()}
 
 
 def variable(name: str) -> str:
@@ -77,9 +80,8 @@ def input_attributes(name: str, choices: Choices) -> dict[str, Any]:
     body = f" of the {name.partition('.')[0]} body" if "." in name else ""
     if name in choices:
         return {"long_name": f"{leaf(name)}{body}"}
-    entry = GLOSSARY[leaf(name)]
-    meaning = f"{entry.meaning}{body}"
-    return {"units": entry.unit, "long_name": meaning, "symbol": entry.symbol}
+    known = attributes(leaf(name))
+    return known | {"long_name": f"{known['long_name']}{body}"}
 
 
 def checked_names(given: Iterable[Any]) -> tuple[str, ...]:
@@ -131,16 +133,3 @@ def read_choice(name: str, value: Any) -> Choice:
     unnamed = ", ".join(f"{key}={number:g}" for key, number in known.items())
     label = value if isinstance(value, str) else stuff.name or unnamed
     return Choice(label, known, values.get(STRENGTH, nan))
-
-
-def as_mapping(name: str, given: Any) -> Mapping[str, Any]:
-    """Return what is given by names of inputs, or raise InputError if it is not."""
-    if not isinstance(given, Mapping):
-        raise refusal(name, given, "must be a mapping from names of inputs to values")
-    return given
-
-
-def fill_record(record: object, **values: object) -> None:
-    """Fill a frozen record."""
-    for name, value in values.items():
-        object.__setattr__(record, name, value)

@@ -17,7 +17,8 @@ from typing import Any
 
 from carom.bodies.cases import SWEEP, Case, line_of
 from carom.quantities.units import InputError, nearest, refusal
-from carom.sweeps.designs import Design, Grid, LatinHypercube, Table
+from carom.sweeps.designs import Design, Grid, LatinHypercube
+from carom.sweeps.tables import Table
 
 KEYS = ("samples", "seed", "table", "outputs", "axes")
 EXAMPLE = 'angle = {from = "0 deg", to = "85 deg", points = 86}'

@@ -21,7 +21,7 @@ from carom.io.extras import extra
 from carom.io.labels import carom_version
 from carom.quantities.units import InputError, counted, refusal
 from carom.sweeps.blocks import Box, Values
-from carom.sweeps.problem import Problem
+from carom.sweeps.problem import SweepProblem
 from carom.sweeps.records import SweepStopped
 
 ANSWER = 5.0  # seconds a scheduler, and its first worker, have to answer
@@ -56,7 +56,7 @@ class Team(NamedTuple):
 
 
 @contextmanager
-def team(scheduler: str | None, workers: int | None, problem: Problem) -> Iterator[Team]:
+def team(scheduler: str | None, workers: int | None, problem: SweepProblem) -> Iterator[Team]:
     """Hold those who compute a problem: threads here, or the workers of a dask scheduler."""
     if scheduler is None:
         with _threads(workers, problem) as here:
@@ -69,14 +69,14 @@ def team(scheduler: str | None, workers: int | None, problem: Problem) -> Iterat
 
 
 @contextmanager
-def _threads(workers: int | None, problem: Problem) -> Iterator[Team]:
+def _threads(workers: int | None, problem: SweepProblem) -> Iterator[Team]:
     size = available_cores() if workers is None else counted("workers", workers, 1)
     with ThreadPoolExecutor(size, "sweep") as pool:
         yield Team(lambda box: pool.submit(problem.block, box), size, {})
 
 
 @contextmanager
-def _cluster(address: str, problem: Problem) -> Iterator[Team]:
+def _cluster(address: str, problem: SweepProblem) -> Iterator[Team]:
     with _client(address) as client:
         size = _checked_threads(client, address)
         executor: Executor = client.get_executor(pure=False)
@@ -142,11 +142,11 @@ def _require_same(worker: str, found: Any, expected: dict[str, str] | None = Non
             )
 
 
-def _itself(problem: Problem) -> Problem:
+def _itself(problem: SweepProblem) -> SweepProblem:
     return problem
 
 
-def _remote_block(problem: Problem, box: Box, expected: dict[str, str]) -> Values:
+def _remote_block(problem: SweepProblem, box: Box, expected: dict[str, str]) -> Values:
     """Compute a block in a worker, also in one that has joined late."""
     _require_same("that joined", versions(), expected)
     return problem.block(box)
