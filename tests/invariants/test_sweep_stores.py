@@ -16,8 +16,8 @@ from carom.quantities.units import InputError
 from carom.sweeps import sweep
 from carom.sweeps.blocks import boxes, chunk_shape, points_in
 from carom.sweeps.designs import Grid, LatinHypercube
-from carom.sweeps.stores import codecs, write_chunk
 from carom.sweeps.problem import SweepProblem
+from carom.sweeps.stores import codecs, write_chunk
 from carom.sweeps.tables import Table
 
 CASE = {

@@ -11,6 +11,7 @@ from carom.bodies.kinematics import slope
 from carom.bodies.materials import VALUES, Material, as_material
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
+from carom.io.files import read_text
 from carom.quantities.units import (
     InputError,
     finite,
@@ -54,11 +55,8 @@ SWEEP = "sweep"  # the table of a sweep, which `carom.sweeps` reads
 def read_case(path: Path, *, losses: bool = False) -> Case:
     """Return the content of a case file, its keys checked; `losses` as in `check_case`."""
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = read_text("case file", path)
         case = tomllib.loads(text)
-    except OSError as error:
-        reason = error.strerror or error
-        raise InputError(f"case file: {str(path)!r} cannot be read; {reason}") from None
     except UnicodeDecodeError:
         raise InputError(f"case file: {str(path)!r} is not text; give a TOML file") from None
     except tomllib.TOMLDecodeError as error:

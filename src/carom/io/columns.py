@@ -1,6 +1,7 @@
 """Reading a user's results in SI units: from a CSV file, a mapping of columns or a data frame."""
 
 from collections.abc import Collection, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from difflib import get_close_matches
 from math import nan, pi
@@ -9,26 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.io.tables import CASE, GAP, SHOWN, Table, name_and_unit, named, read_table, spelled
+from carom.io.tables import GAP, Cells, name_and_unit, named, spelled
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import InputError, nearest, number
-
-__all__ = [
-    "CASE",
-    "ERROR",
-    "SHOWN",
-    "Array",
-    "Mask",
-    "Results",
-    "Table",
-    "in_units",
-    "named",
-    "others",
-    "read_table",
-    "spelled",
-    "with_errors",
-]
 
 Mask = NDArray[np.bool_]
 
@@ -101,7 +86,7 @@ class Results:
             raise InputError(f"{spelled(name)}: {value} in {where} cannot be used; {allowed}")
 
 
-def in_units(table: Table, known: Iterable[str], gaps: Collection[str] = ()) -> Results:
+def in_units(table: Cells, known: Iterable[str], gaps: Collection[str] = ()) -> Results:
     """Return the columns whose names are known, in SI units; the others are there, but NaN.
 
     Columns without a unit are SI. In columns of `gaps`, and of their errors, a cell "-" stands for
@@ -130,8 +115,9 @@ def in_units(table: Table, known: Iterable[str], gaps: Collection[str] = ()) -> 
         open_ended = name.removesuffix(ERROR) in gaps
         columns[name] = _column(name, units[name], cells, table, open_ended)
     results = Results(columns, table.rows, table.word)
-    for name in known & {name for name in units if _is_angle(name)}:
-        _check_angle(results, name, units[name])
+    for name, unit in units.items():
+        if name in known and name in GLOSSARY and GLOSSARY[name].unit == "rad":
+            _check_angle(results, name, unit)
     return results
 
 
@@ -147,7 +133,7 @@ def with_errors(names: Iterable[str]) -> tuple[str, ...]:
     return tuple(each for name in names for each in (name, name + ERROR))
 
 
-def others(table: Table, known: Iterable[str]) -> tuple[str, ...]:
+def others(table: Cells, known: Iterable[str]) -> tuple[str, ...]:
     """Return the columns that are not known and mean nothing here, for a user to be told.
 
     Raises InputError for one that is likely to be a known one misspelt, with the nearest.
@@ -206,12 +192,6 @@ def _check_error_unit(name: str, units: Mapping[str, str]) -> None:
         )
 
 
-def _is_angle(name: str) -> bool:
-    return (
-        not name.endswith(ERROR) and entry(name) in GLOSSARY and GLOSSARY[entry(name)].unit == "rad"
-    )
-
-
 def _check_angle(results: Results, name: str, unit: str) -> None:
     """Raise InputError for angles from the normal that no impact has: degrees taken for radians."""
     allowed = "must be below pi/2, 90 deg, from the normal"
@@ -222,7 +202,7 @@ def _check_angle(results: Results, name: str, unit: str) -> None:
     results.refuse(name, np.abs(results[name]) >= 0.5 * pi, allowed)
 
 
-def _column(name: str, unit: str, cells: list[Any], table: Table, open_ended: bool) -> Array:
+def _column(name: str, unit: str, cells: list[Any], table: Cells, open_ended: bool) -> Array:
     """Return a column in SI units, or raise InputError for what is not a number in it."""
     gap = np.array([open_ended and isinstance(c, str) and c.strip() == GAP for c in cells])
     values, reason = _numbers(
@@ -239,10 +219,8 @@ def _column(name: str, unit: str, cells: list[Any], table: Table, open_ended: bo
 def _numbers(name: str, unit: str, cells: list[Any]) -> tuple[Array, str]:
     """Return a column in SI units, NaN where there is no number, and what is wrong there first."""
     scale = number(spelled(name), f"1 {unit}", GLOSSARY[entry(name)].unit) if unit else 1.0
-    try:
+    with suppress(TypeError, ValueError):
         return np.array(cells, dtype=np.float64) * scale, ""
-    except (TypeError, ValueError):
-        pass
     values, reason = np.full(len(cells), nan), ""
     for i, cell in enumerate(cells):
         try:
@@ -256,8 +234,6 @@ def _cell(name: str, cell: Any, scale: float) -> float:
     """Return one number, NaN for an empty cell; a text with a unit of its own has that unit."""
     if cell is None or (isinstance(cell, str) and not cell.strip()):
         return nan
-    try:
+    with suppress(TypeError, ValueError):
         return float(cell) * scale
-    except (TypeError, ValueError):
-        pass
     return number(spelled(name), cell, GLOSSARY[entry(name)].unit)

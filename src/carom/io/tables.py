@@ -4,12 +4,14 @@ import csv
 import json
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.io.files import read_text
 from carom.quantities.units import InputError, refusal
 
 ALIASES = {"psi_1": "psi_in", "psi_2": "psi_out", "angle_deg": "angle [deg]"}
@@ -24,7 +26,7 @@ GAP = "-"  # a cell of what was not measured
 SHOWN = 5  # rows that a message names
 
 
-class Table(NamedTuple):
+class Cells(NamedTuple):
     """Cells as given, by head of column, what the rows are called, and the comments by key."""
 
     cells: Mapping[str, Any]
@@ -52,7 +54,7 @@ class Table(NamedTuple):
         return named(self.word, self.rows[where], len(self.rows))
 
 
-def read_table(source: Any) -> Table:
+def read_table(source: Any) -> Cells:
     """Return the cells of a CSV file, a mapping of columns, a data frame or an xarray dataset.
 
     A file has a header, columns separated by commas, semicolons or tabs, and comments after #.
@@ -70,9 +72,9 @@ def read_table(source: Any) -> Table:
         table = _read_csv(Path(source))
     elif hasattr(source, "data_vars"):
         comments = {name: source.attrs[name] for name in KEPT if name in source.attrs}
-        table = _rows(_columns(_of_dataset(source)), comments)
+        table = _counted(_of_dataset(source), comments)
     elif hasattr(source, "items"):  # a data frame, too
-        table = _rows(_columns(source), {})
+        table = _counted(source, {})
     else:
         raise refusal("results", source, "must be the name of a CSV file, or columns by name")
     if not len(table.rows):
@@ -113,7 +115,7 @@ def named(word: str, rows: Iterable[int], total: int = 0) -> str:
     return f"{word}s {', '.join(texts[:-1])} and {texts[-1]}"
 
 
-def _read_csv(path: Path) -> Table:
+def _read_csv(path: Path) -> Cells:
     text = _text(path)
     lines = [
         (place, line)
@@ -129,7 +131,7 @@ def _read_csv(path: Path) -> Table:
             raise refusal("results", str(path), f"it is not CSV; {message}")
     cells = {name: [row[i] for row in body] for i, name in enumerate(head)}
     places = np.array([place for place, _ in lines[1:]], dtype=np.int64)
-    return Table(cells, places, "line", _comments(text))
+    return Cells(cells, places, "line", _comments(text))
 
 
 def _split(path: Path, lines: list[str]) -> tuple[list[str], list[list[str]]]:
@@ -155,10 +157,7 @@ def _comments(text: str) -> dict[str, str]:
 
 def _text(path: Path) -> str:
     try:
-        text = path.read_bytes().decode("utf-8-sig")
-    except OSError as error:
-        reason = error.strerror or error
-        raise InputError(f"results: {str(path)!r} cannot be read; {reason}") from None
+        text = read_text("results", path)
     except UnicodeDecodeError:
         raise refusal("results", str(path), "it is not text in UTF-8; give a CSV file") from None
     if "\0" in text:
@@ -183,23 +182,18 @@ def _check_once(names: Sequence[str]) -> None:
 
 
 def _is_number(text: str) -> bool:
-    try:
+    with suppress(ValueError):
         float(text)
-    except ValueError:
-        return False
-    return True
+        return True
+    return False
 
 
-def _rows(cells: dict[str, Any], comments: Mapping[str, str]) -> Table:
-    """Return columns as a table whose rows are counted from 1."""
+def _counted(source: Any, comments: Mapping[str, str]) -> Cells:
+    """Return columns as cells whose rows are counted from 1."""
+    cells = {str(name): _line(str(name), values) for name, values in source.items()}
+    require_equal_lengths("results", cells)
     rows = np.arange(1, 1 + len(next(iter(cells.values()), [])))
-    return Table(cells, rows, "row", comments)
-
-
-def _columns(source: Any) -> dict[str, Any]:
-    table = {str(name): _line(str(name), values) for name, values in source.items()}
-    require_equal_lengths("results", table)
-    return table
+    return Cells(cells, rows, "row", comments)
 
 
 def require_equal_lengths(what: str, columns: Mapping[str, Any]) -> None:
