@@ -112,8 +112,7 @@ def in_units(table: Cells, known: Iterable[str], gaps: Collection[str] = ()) -> 
             columns[name] = np.full(len(table.rows), nan)
             continue
         _check_error_unit(name, units)
-        open_ended = name.removesuffix(ERROR) in gaps
-        columns[name] = _column(name, units[name], cells, table, open_ended)
+        columns[name] = _column(name, units[name], cells, table, entry(name) in gaps)
     results = Results(columns, table.rows, table.word)
     for name, unit in units.items():
         if name in known and name in GLOSSARY and GLOSSARY[name].unit == "rad":
@@ -148,20 +147,16 @@ def others(table: Cells, known: Iterable[str]) -> tuple[str, ...]:
     known = list(known)
     unknown = tuple(name for name in table.names if name not in known)
     for name in unknown:
-        hint = _likely(name, known)
-        if hint:
+        if hint := _likely(name, known):
             raise InputError(f"{name}: unknown column; did you mean {hint!r}?")
-    measured = [name for name in table.names if name.endswith(ERROR)]
-    for name in measured:
-        if name.removesuffix(ERROR) not in table.names:
-            raise InputError(
-                f"{name}: the column {name.removesuffix(ERROR)!r} it goes with is missing"
-            )
+    for name in table.names:
+        if entry(name) not in table.names:
+            raise InputError(f"{name}: the column {entry(name)!r} it goes with is missing")
     return unknown
 
 
 def entry(name: str) -> str:
-    """Return the name in the glossary of what a column holds.
+    """Return what a column, or one of errors, holds: its name in the glossary.
 
     Examples
     --------
@@ -185,7 +180,7 @@ def _likely(name: str, known: list[str]) -> str:
 
 def _check_error_unit(name: str, units: Mapping[str, str]) -> None:
     """Raise InputError for an error whose unit can only be guessed."""
-    whole = name.removesuffix(ERROR)
+    whole = entry(name)
     if name != whole and units.get(whole) and not units[name]:
         raise InputError(
             f"{name}: no unit, but {whole} is in {units[whole]}; write '{name} [{units[whole]}]'"
@@ -205,9 +200,8 @@ def _check_angle(results: Results, name: str, unit: str) -> None:
 def _column(name: str, unit: str, cells: list[Any], table: Cells, open_ended: bool) -> Array:
     """Return a column in SI units, or raise InputError for what is not a number in it."""
     gap = np.array([open_ended and isinstance(c, str) and c.strip() == GAP for c in cells])
-    values, reason = _numbers(
-        name, unit, [nan if g else c for c, g in zip(cells, gap, strict=True)]
-    )
+    filled = [nan if g else cell for cell, g in zip(cells, gap, strict=True)]
+    values, reason = _numbers(name, unit, filled)
     missing = ~np.isfinite(values) & ~gap
     if missing.any():
         todo = f"write '{GAP}' where nothing was measured" if open_ended else DELETE

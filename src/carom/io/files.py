@@ -131,7 +131,17 @@ def read(path: str | Path) -> "xr.Dataset":
         raise refusal("file", str(path), allowed)
     if not source.is_file():
         raise refusal("file", str(path), "there is no such file")
-    return _from_netcdf(source) if source.suffix.lower() == ".nc" else _from_csv(source)
+    try:
+        if source.suffix.lower() == ".nc":
+            return _from_netcdf(source)
+        return from_csv(source.read_bytes().decode("utf-8-sig"))
+    except OSError as error:
+        reason = f"cannot be read; {error.strerror or error}"
+    except UnicodeDecodeError:
+        reason = "it is not text"
+    except InputError as error:
+        reason = str(error)
+    raise refusal("file", str(source), reason)
 
 
 def read_store(path: Path) -> "xr.Dataset":
@@ -171,28 +181,17 @@ def _from_netcdf(path: Path) -> "xr.Dataset":
 
     try:
         dataset = xr.load_dataset(path, engine="h5netcdf", decode_times=False)
-    except PermissionError as error:
-        raise refusal("file", str(path), f"cannot be read; {error.strerror}") from None
+    except PermissionError:
+        raise
     except Exception:  # h5py and xarray raise what they like at a damaged file
-        raise refusal("file", str(path), "it is damaged, or not NetCDF-4") from None
+        raise InputError("it is damaged, or not NetCDF-4") from None
     if not _is_ours(dataset):
-        raise refusal("file", str(path), "it was not stored by Carom")
+        raise InputError("it was not stored by Carom")
     dataset.attrs = {
         name: value.item() if isinstance(value, np.generic) else value
         for name, value in dataset.attrs.items()
     }
     return dataset.drop_encoding()
-
-
-def _from_csv(path: Path) -> "xr.Dataset":
-    try:
-        return from_csv(path.read_bytes().decode("utf-8-sig"))
-    except OSError as error:
-        raise refusal("file", str(path), f"cannot be read; {error.strerror or error}") from None
-    except UnicodeDecodeError:
-        raise refusal("file", str(path), "it is not text") from None
-    except InputError as error:
-        raise refusal("file", str(path), str(error)) from None
 
 
 def read_text(what: str, path: Path) -> str:

@@ -7,18 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.bodies.cases import (
-    KINDS,
-    LOSSES,
-    MOTION,
-    SIZES,
-    Case,
-    as_kind,
-    check_case,
-    material_values,
-    pair_of,
-    read_loss,
-)
+from carom.bodies import cases
 from carom.quantities.units import InputError, not_negative
 from carom.sweeps.designs import Design
 from carom.sweeps.inputs import BODIES, ELASTIC, STRENGTH, leaf, refuse_contradictions
@@ -26,7 +15,7 @@ from carom.sweeps.inputs import BODIES, ELASTIC, STRENGTH, leaf, refuse_contradi
 OF_SECOND = {  # what describes a second body of each kind
     "half-space": ("material.young", "material.poisson", f"material.{STRENGTH}"),
     "cup": ("radius", "material.young", "material.poisson", f"material.{STRENGTH}"),
-    "sphere": (*SIZES, *(f"material.{name}" for name in (*ELASTIC, STRENGTH))),
+    "sphere": (*cases.SIZES, *(f"material.{name}" for name in (*ELASTIC, STRENGTH))),
 }
 OPTIONAL = ("gyration_radius", "inner_radius", f"material.{STRENGTH}")
 AT_REST = {"angle": 0.0, "tangential_speed": 0.0, "spin": 0.0, "spin2": 0.0}
@@ -89,16 +78,16 @@ class Common:
                 yield kind, where
 
 
-def common(case: Case, design: Design) -> Common:
+def common(case: cases.Case, design: Design) -> Common:
     """Return what the impacts have in common.
 
     Raises InputError if case and design do not give everything that an impact needs, or something
     in two ways, or what the second body does not have.
     """
-    check_case(case, losses=True)
+    cases.check_case(case, losses=True)
     second, names = case.get("second", {}), design.names
-    losses = [name for name in LOSSES if name in names or case.get(name) is not None]
-    kinds: tuple[str, ...] = (as_kind(second.get("kind", KINDS[0])),)
+    losses = [name for name in cases.LOSSES if name in names or case.get(name) is not None]
+    kinds: tuple[str, ...] = (cases.as_kind(second.get("kind", cases.KINDS[0])),)
     if "second.kind" in names:
         kinds = tuple(choice.label for choice in design.choices["second.kind"])
     inherits = second.get("material") is None and "second.material" not in names
@@ -115,25 +104,25 @@ def common(case: Case, design: Design) -> Common:
     _refuse_foreign(whole)
     _refuse_missing(whole)
     if not any("." in name for name in names):
-        pair_of({**case, "friction": 0.0})  # bodies that do not fit are refused at once
+        cases.pair_of({**case, "friction": 0.0})  # bodies that do not fit are refused at once
     return whole
 
 
-def _numbers(case: Case) -> Iterator[tuple[str, float]]:
+def _numbers(case: cases.Case) -> Iterator[tuple[str, float]]:
     """Yield the numbers of a case by name, each of them checked."""
-    for name, check in {"friction": not_negative, **MOTION}.items():
+    for name, check in {"friction": not_negative, **cases.MOTION}.items():
         if case.get(name) is not None:
             yield name, check(name, case[name])
-    for name in LOSSES:
-        if case.get(name) is not None and (value := read_loss(name, case[name])) is not None:
+    for name in cases.LOSSES:
+        if case.get(name) is not None and (value := cases.read_loss(name, case[name])) is not None:
             yield name, value
     for body in BODIES:
         table = case.get(body, {})
-        for name, check in SIZES.items():
+        for name, check in cases.SIZES.items():
             if table.get(name) is not None:
                 yield f"{body}.{name}", check(name, table[name])
         if table.get("material") is not None:
-            for name, value in material_values(table["material"]).items():
+            for name, value in cases.material_values(table["material"]).items():
                 yield f"{body}.material.{name}", value
 
 

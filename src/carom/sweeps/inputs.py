@@ -7,17 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.bodies.cases import (
-    LOSSES,
-    MOTION,
-    ONE_LOSS,
-    SIZES,
-    as_kind,
-    material_values,
-    read_material,
-)
+from carom.bodies import cases
 from carom.io.labels import attributes
-from carom.quantities.units import InputError, nearest, refusal
+from carom.quantities.units import InputError, hint, refusal
 
 CODE = np.int8
 
@@ -27,15 +19,15 @@ BODIES = ("first", "second")
 CHOSEN = ("first.material", "second.material", "second.kind")  # by name, not by number
 INPUTS = (
     "friction",
-    *MOTION,
-    *LOSSES,
-    *(f"{body}.{size}" for body in BODIES for size in SIZES),
+    *cases.MOTION,
+    *cases.LOSSES,
+    *(f"{body}.{size}" for body in BODIES for size in cases.SIZES),
     *(f"{body}.material.{value}" for body in BODIES for value in ELASTIC),
     *CHOSEN,
 )
 EXCLUSIVE = [  # what cannot be given together, and why
     ({"speed", "angle"}, {"normal_speed", "tangential_speed"}, "both tell how the bodies approach"),
-    *(({one}, {other}, ONE_LOSS) for one, other in combinations(LOSSES, 2)),
+    *(({one}, {other}, cases.ONE_LOSS) for one, other in combinations(cases.LOSSES, 2)),
 ]
 for _body in BODIES:
     _values = {f"{_body}.material.{value}" for value in ELASTIC}
@@ -91,8 +83,7 @@ def checked_names(given: Iterable[Any]) -> tuple[str, ...]:
         raise InputError("design: no inputs; give at least one, e.g. 'angle'")
     for name in names:
         if name not in INPUTS:
-            hint = nearest(str(name), INPUTS) or f"known are {', '.join(INPUTS)}"
-            raise InputError(f"{name}: not an input of an impact; {hint}")
+            raise InputError(f"{name}: not an input of an impact; {hint(name, INPUTS)}")
     refuse_contradictions(names)
     return names
 
@@ -126,9 +117,9 @@ def checked_choices(name: str, choices: list[Choice]) -> tuple[Choice, ...]:
 def read_choice(name: str, value: Any) -> Choice:
     """Return a choice, or raise InputError if there is none of that name."""
     if leaf(name) == "kind":
-        return Choice(as_kind(value), {})
-    stuff = read_material(value)
-    values = material_values(stuff)
+        return Choice(cases.as_kind(value), {})
+    stuff = cases.read_material(value)
+    values = cases.material_values(stuff)
     known = {key: number for key, number in values.items() if key in ELASTIC}
     unnamed = ", ".join(f"{key}={number:g}" for key, number in known.items())
     label = value if isinstance(value, str) else stuff.name or unnamed

@@ -9,7 +9,7 @@ import numpy as np
 from carom.bodies.cases import FROM_STRENGTH
 from carom.impacts.history import PAIR, RESULTS
 from carom.io.labels import attributes, flags
-from carom.quantities.units import InputError, nearest, refusal
+from carom.quantities.units import InputError, hint, refusal
 from carom.sweeps.blocks import Box, Values, chunk_shape
 from carom.sweeps.columns import AT_REST, common
 from carom.sweeps.designs import Design
@@ -112,9 +112,7 @@ class SweepProblem:
 
         The numbers of a point do not depend on the box. NaN where the status is not SOLVED.
         """
-        shape = tuple(
-            len(range(*part.indices(n))) for part, n in zip(box, self.design.shape, strict=True)
-        )
+        shape = tuple(part.stop - part.start for part in box)
         size, given = prod(shape), self.design.inputs(box)
         status = np.full(size, PointStatus.NOT_A_NUMBER, dtype=np.int8)
         found = {name: np.full(size, np.nan) for name in self.outputs}
@@ -176,8 +174,7 @@ def _checked(outputs: Sequence[str], names: Sequence[str]) -> tuple[str, ...]:
         raise refusal("outputs", outputs, "must be a list of names, e.g. ['rebound_angle']")
     for name in outputs:
         if name not in known:
-            hint = nearest(str(name), known) or f"known are {', '.join(known)}"
-            raise InputError(f"outputs: {name!r} is not a result of an impact; {hint}")
+            raise InputError(f"outputs: {name!r} is not a result of an impact; {hint(name, known)}")
         if name in names or list(outputs).count(name) > 1:
             raise InputError(f"outputs: {name!r} is there already, as input or output")
     return tuple(outputs)

@@ -174,37 +174,28 @@ def _create(path: Path, problem: SweepProblem) -> None:
     """Make a store without points, whole or not at all."""
     new = path.parent / f".{path.stem}-{uuid.uuid4().hex}"
     try:
-        try:
-            with warnings.catch_warnings():  # of what the format 3 does not yet have on paper
-                warnings.simplefilter("ignore")
-                _fill(new, problem)
-            os.rename(new, path)
-        finally:
-            shutil.rmtree(new, ignore_errors=True)
+        with warnings.catch_warnings():  # of what the format 3 does not yet have on paper
+            warnings.simplefilter("ignore")
+            _fill(new, problem)
+        os.rename(new, path)
     except OSError as error:
-        there = error.errno in (errno.EEXIST, errno.ENOTEMPTY)
-        reason = (
-            "another process has just made it" if there else f"cannot be made; {error.strerror}"
-        )
+        reason = f"cannot be made; {error.strerror}"
+        if error.errno in (errno.EEXIST, errno.ENOTEMPTY):
+            reason = "another process has just made it"
         raise refusal("store", str(path), reason) from None
+    finally:
+        shutil.rmtree(new, ignore_errors=True)
 
 
 def _fill(path: Path, problem: SweepProblem) -> None:
     zarr = extra("zarr", "a store")
     blank_dataset(problem).to_zarr(path, zarr_format=3, consolidated=False)
     group = zarr.open_group(path, mode="r+")
-    design = problem.design
+    shape, dims = problem.design.shape, problem.design.dims
+    layout = {"shape": shape, "chunks": problem.chunks(), "dimension_names": dims, **codecs()}
     for name, info in problem.variables().items():
-        group.create_array(
-            name,
-            shape=design.shape,
-            chunks=problem.chunks(),
-            dtype=info.dtype,
-            fill_value=_blank(name, info.dtype),
-            dimension_names=design.dims,
-            **codecs(),
-            attributes=_jsonable(info.attributes),
-        )
+        told = {"fill_value": _blank(name, info.dtype), "attributes": _jsonable(info.attributes)}
+        group.create_array(name, dtype=info.dtype, **layout, **told)
     zarr.consolidate_metadata(path)
 
 

@@ -76,9 +76,8 @@ class Table(Design):
         for values in self._given.values():
             digest.update(np.ascontiguousarray(values).tobytes())
         choices = {name: [one.description() for one in self.choices[name]] for name in self.choices}
-        names, rows = list(self.names), self.shape[0]
-        whole = {"inputs": names, "rows": rows, "choices": choices, "sha256": digest.hexdigest()}
-        return {"kind": "table", **whole}
+        whole = {"inputs": list(self.names), "rows": self.shape[0], "choices": choices}
+        return {"kind": "table", **whole, "sha256": digest.hexdigest()}
 
 
 def _read(source: str | Path | Mapping[str, Any]) -> tuple[Choices, dict[str, NDArray[Any]]]:
