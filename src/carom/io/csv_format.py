@@ -61,7 +61,7 @@ def as_csv(dataset: "xr.Dataset") -> str:
             line["values"] = _jsonable(values)
         lines.append(line | {"attributes": _packed_all(item.attrs)})
     head = [f"# {json.dumps(line, ensure_ascii=False, allow_nan=False)}\n" for line in lines]
-    return f"{FORMAT}\n{''.join(head)}{_body(columns)}"
+    return f"{FORMAT}\n{''.join(head)}{rows_of(columns)}"
 
 
 def from_csv(text: str) -> "xr.Dataset":
@@ -82,7 +82,8 @@ def from_csv(text: str) -> "xr.Dataset":
         raise InputError(f"it is damaged; {' '.join(str(error).split())}") from None
 
 
-def _body(columns: Mapping[Hashable, list[Any]]) -> str:
+def rows_of(columns: Mapping[Any, Sequence[Any]]) -> str:
+    """Return columns as CSV: their names, and below them a line for each row."""
     stream = StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     if columns:

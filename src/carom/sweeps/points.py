@@ -102,7 +102,8 @@ def evaluate(
     """Return the outputs of so many impacts, NaN where one is not solved, and their status."""
     with np.errstate(all="ignore"):
         status = _status(columns, kind, size)
-        solution = _unsolved(size, loss)
+        count = 1 if loss is None else len(BlockSolution._fields)
+        solution = BlockSolution(*np.full((count, size), np.nan))
         outcome = _outcome(columns, kind, solution)  # which is filled before it is asked for
         fits = representable(outcome.scales, outcome.contact_velocity)
         lost = (status == PointStatus.SOLVED) & np.logical_not(fits)
@@ -116,12 +117,6 @@ def evaluate(
         found = {name: getattr(outcome.pair if name in PAIR else outcome, name) for name in outputs}
         values = {name: np.where(solved, found[name], np.nan) for name in outputs}
     return values, status
-
-
-def _unsolved(size: int, loss: str | None) -> BlockSolution:
-    if loss is None:
-        return BlockSolution(np.full(size, np.nan))
-    return BlockSolution(*(np.full(size, np.nan) for _ in BlockSolution._fields))
 
 
 def _solve(outcome: Outcome, solution: BlockSolution, status: Codes, threads: int | None) -> None:
