@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.io.tables import GAP, Cells, name_and_unit, named, spelled
+from carom.io.tables import GAP, Cells, Rows, name_and_unit, spelled
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import InputError, nearest, number
@@ -33,26 +33,16 @@ SYMBOLS = {  # what people call a column that has a name of its own here
     "psi1": "psi_in",
     "psi2": "psi_out",
 }
-
-
 UNITS = {"_deg": "deg", "_rad_s": "rad/s", "_rad": "rad", "_rpm": "rpm", "_m_s": "m/s"}  # in names
 
 
 @dataclass(frozen=True, eq=False)
-class Results:
+class Results(Rows):
     """Columns of results in SI units, and what their rows are called: lines of a file, or rows."""
 
     columns: Mapping[str, Array]
     rows: NDArray[np.int64]
     word: str
-
-    def named(self, where: Mask) -> str:
-        """Return the rows where something is so, e.g. "lines 3, 7 and 9"."""
-        return named(self.word, self.rows[where], len(self))
-
-    def one(self, index: int) -> str:
-        """Return what one row is called, e.g. "line 3"."""
-        return named(self.word, self.rows[index : index + 1])
 
     def __len__(self) -> int:
         return len(self.rows)

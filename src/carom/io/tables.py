@@ -5,8 +5,9 @@ import json
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +27,23 @@ GAP = "-"  # a cell of what was not measured
 SHOWN = 5  # rows that a message names
 
 
-class Cells(NamedTuple):
+class Rows:
+    """Rows by their numbers, and what they are called: lines of a file, or rows."""
+
+    rows: NDArray[np.int64]
+    word: str
+
+    def named(self, where: NDArray[np.bool_]) -> str:
+        """Return the rows where something is so, e.g. "lines 3, 7 and 9"."""
+        return named(self.word, self.rows[where], len(self.rows))
+
+    def one(self, index: int) -> str:
+        """Return what one row is called, e.g. "line 3"."""
+        return named(self.word, self.rows[index : index + 1])
+
+
+@dataclass(frozen=True, eq=False)
+class Cells(Rows):
     """Cells as given, by head of column, what the rows are called, and the comments by key."""
 
     cells: Mapping[str, Any]
@@ -48,10 +65,6 @@ class Cells(NamedTuple):
             return dict(json.loads(self.comments["case"]))
         except (ValueError, TypeError):
             raise InputError(f"results: after '{CASE}' there is no JSON of the bodies") from None
-
-    def named(self, where: NDArray[np.bool_]) -> str:
-        """Return the rows where something is so, e.g. "lines 3, 7 and 9"."""
-        return named(self.word, self.rows[where], len(self.rows))
 
 
 def read_table(source: Any) -> Cells:
@@ -214,9 +227,9 @@ def _line(name: str, values: Any) -> Any:
 
 def _of_dataset(dataset: Any) -> dict[str, list[Any]]:
     """Return the columns of an xarray dataset; what is missing there was not measured."""
-    lines = {name: item for name, item in dataset.variables.items() if item.ndim == 1}
-    heads = (f"{name} [{item.attrs.get('units', '1')}]" for name, item in lines.items())
-    return {
-        head: [GAP if value != value else value for value in item.values.tolist()]
-        for head, item in zip(heads, lines.values(), strict=True)
-    }
+    cells = {}
+    for name, item in dataset.variables.items():
+        if item.ndim == 1:
+            head = f"{name} [{item.attrs.get('units', '1')}]"
+            cells[head] = [GAP if value != value else value for value in item.values.tolist()]
+    return cells
