@@ -18,7 +18,7 @@ import carom
 from carom.dimensionless.numerics.threads import available_cores
 from carom.sweeps import sweep
 from carom.sweeps.designs import LatinHypercube
-from carom.sweeps.problem import Problem
+from carom.sweeps.problem import SweepProblem
 
 SEED = 20261121
 CASE = {
@@ -76,7 +76,7 @@ def measured(points: int, workers: int, stored: bool, repeats: int) -> Run:
 
 def kernel_seconds(points: int) -> float:
     """Return the time of the same impacts solved at once on all cores, without a sweep."""
-    block = Problem(CASE, design(points), ["psi_in", "chi"]).block((slice(0, points),))
+    block = SweepProblem(CASE, design(points), ["psi_in", "chi"]).block((slice(0, points),))
     start = time.perf_counter()
     carom.rebound(block["psi_in"], block["chi"])
     return time.perf_counter() - start

@@ -97,10 +97,12 @@ from .sweeps import (
 from .sweeps.designs import (
     Grid as Grid,
     LatinHypercube as LatinHypercube,
-    Table as Table,
 )
-from .sweeps.problem import (
+from .sweeps.points import (
     PointStatus as PointStatus,
+)
+from .sweeps.tables import (
+    Table as Table,
 )
 
 __version__: str

@@ -7,7 +7,8 @@ import pytest
 import xarray as xr
 
 import carom
-from carom.io.columns import in_units, others, read_table, with_errors
+from carom.io.columns import in_units, others, with_errors
+from carom.io.tables import read_table
 from carom.quantities.units import InputError, number
 
 KNOWN = with_errors(("angle", "speed", "spin_out", "tangential_restitution", "rebound_angle"))

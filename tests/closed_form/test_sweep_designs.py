@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from carom import InputError
-from carom.sweeps.designs import Grid, LatinHypercube, Table
+from carom.sweeps.designs import Grid, LatinHypercube
+from carom.sweeps.tables import Table
 
 DEGREE = math.pi / 180.0
 

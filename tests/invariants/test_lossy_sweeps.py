@@ -11,9 +11,11 @@ import carom
 from carom import InputError
 from carom.bodies.cases import motion_of, normal_of, pair_of
 from carom.sweeps import sweep
-from carom.sweeps.designs import Grid, LatinHypercube, Table
-from carom.sweeps.problem import OUTPUTS, PointStatus, Problem
+from carom.sweeps.designs import Grid, LatinHypercube
+from carom.sweeps.points import PointStatus
+from carom.sweeps.problem import OUTPUTS, SweepProblem
 from carom.sweeps.records import identity
+from carom.sweeps.tables import Table
 
 STEEL = {"young": "210 GPa", "poisson": 0.3, "density": 7850}
 BALL = {"friction": 0.2, "speed": 2.0, "first": {"radius": "5 mm", "material": STEEL}}
@@ -79,7 +81,7 @@ def test_a_swept_loss_gives_what_single_impacts_give(loss, kind):
     cube = LatinHypercube(ranges, samples=POINTS, seed=5)
     table = Table({name: rng.uniform(*ends, POINTS) for name, ends in ranges.items()})
     for design in (cube, table):
-        problem = Problem(case, design)
+        problem = SweepProblem(case, design)
         found, given = problem.block(whole(design)), design.inputs(whole(design))
         assert set(problem.outputs) >= {*OUTPUTS[:3], "normal_restitution", "lost_energy"}
         for at in range(POINTS):
@@ -94,7 +96,9 @@ def test_a_fixed_loss_holds_at_every_point(loss):
     name, text = loss.split(" = ")
     case = BALL | {name: text}
     grid = Grid({"angle": [0.0, 0.4], "speed": ["50 cm/s", 2.0], "friction": [0.0, 0.3]})
-    problem = Problem(case, grid, ["normal_restitution", "psi_out", "duration", "max_force", "chi"])
+    problem = SweepProblem(
+        case, grid, ["normal_restitution", "psi_out", "duration", "max_force", "chi"]
+    )
     found, given = problem.block(whole(grid)), grid.inputs(whole(grid))
     for at in range(8):
         require_same(problem, found, case, at, {key: float(v[at]) for key, v in given.items()})
@@ -106,7 +110,9 @@ def test_restitution_of_yielding_bodies_is_thorntons():
     """The closed form at each speed, 1 below the yield velocity; with and without friction."""
     grid = Grid({"normal_speed": [0.05, 0.2, 1.0, 10.0], "friction": [0.0, 0.4]})
     case = {"first": BALL["first"], "yield_velocity": "0.1 m/s"}
-    found = Problem(case, grid, ["normal_restitution"]).block(whole(grid))["normal_restitution"]
+    found = SweepProblem(case, grid, ["normal_restitution"]).block(whole(grid))[
+        "normal_restitution"
+    ]
     for row, speed in zip(found, (0.05, 0.2, 1.0, 10.0), strict=True):
         assert row == pytest.approx(thornton(min(1.0, 0.1 / speed)), rel=SOLVER)
 
@@ -116,7 +122,7 @@ def test_energy_that_is_missing_was_lost():
     names = ["rebound_speed", "spin_out", "dissipated_energy", "lost_energy", "normal_mass"]
     for loss, ends in LOSSES.items():
         cube = LatinHypercube({**RANGES, loss: ends}, samples=40, seed=1)
-        found = Problem(BALL, cube, names).block(whole(cube))
+        found = SweepProblem(BALL, cube, names).block(whole(cube))
         given = cube.inputs(whole(cube))
         inertia = 0.4 * 0.005**2 * found["normal_mass"]
         before = found["normal_mass"] * given["speed"] ** 2 + inertia * given["spin"] ** 2
@@ -132,9 +138,9 @@ def test_energy_that_is_missing_was_lost():
 def test_losses_that_are_none_give_the_elastic_sweep():
     """e = 1, no loss time, a yield velocity never reached: against the elastic solver."""
     cube = LatinHypercube(RANGES, samples=30, seed=7)
-    elastic = Problem(BALL, cube).block(whole(cube))
+    elastic = SweepProblem(BALL, cube).block(whole(cube))
     for loss in ({"restitution": 1}, {"loss_time": 0}, {"yield_velocity": "1 km/s"}):
-        problem = Problem(BALL | loss, cube)
+        problem = SweepProblem(BALL | loss, cube)
         found = problem.block(whole(cube))
         for name in OUTPUTS[:3] + OUTPUTS[-4:]:
             wanted = elastic.get(name)
@@ -154,11 +160,11 @@ def test_bad_rows_have_a_status_and_spoil_nothing(loss):
     """2 out of range, 1 not a number, 6 not resolved; the scalar code refuses the same."""
     rng = np.random.default_rng(4)
     good = {name: rng.uniform(*ends, 20) for name, ends in (RANGES | {loss: LOSSES[loss]}).items()}
-    expected = Problem(BALL, Table(good)).block((slice(0, 20),))
+    expected = SweepProblem(BALL, Table(good)).block((slice(0, 20),))
     bad = {name: values.copy() for name, values in good.items()}
     rows = rng.permutation(20)[: len(BAD[loss])]
     bad[loss][rows] = list(BAD[loss])
-    problem = Problem(BALL, Table(bad))
+    problem = SweepProblem(BALL, Table(bad))
     found, others = problem.block((slice(0, 20),)), np.setdiff1d(np.arange(20), rows)
     for name in (*problem.outputs, "status"):
         assert found[name][others].tobytes() == expected[name][others].tobytes(), name
@@ -174,7 +180,7 @@ def test_the_yield_velocity_of_the_materials():
     case = {"friction": 0.2, "speed": 3.0, "angle": 0.5, "yield_velocity": "material"}
     names = ["aluminium-6061", "bearing-steel", "glass"]
     grid = Grid({"first.material": names, "second.material": names, "first.radius": [0.001, 0.02]})
-    problem = Problem(case, grid, ["normal_restitution", "psi_out"])
+    problem = SweepProblem(case, grid, ["normal_restitution", "psi_out"])
     found, given = problem.block(whole(grid)), grid.inputs(whole(grid))
     assert carom.material("glass").yield_strength is None
     for at in range(18):
@@ -189,7 +195,7 @@ def test_the_yield_velocity_of_the_materials():
     case |= {"first": {"radius": "5 mm", "material": soft}}
     grid = Grid({"first.material.poisson": [0.2, 0.4]})
     for at, poisson in enumerate((0.2, 0.4)):
-        one = Problem(case, grid)
+        one = SweepProblem(case, grid)
         point = {"first.material": soft | {"poisson": poisson}}
         require_same(one, one.block((slice(0, 2),)), case, at, point)
 
@@ -199,7 +205,7 @@ def test_blocks_do_not_depend_on_how_they_are_cut():
     rng = np.random.default_rng(6)
     for loss, ends in LOSSES.items():
         cube = LatinHypercube(RANGES | {loss: ends}, samples=70)
-        problem = Problem(BALL, cube)
+        problem = SweepProblem(BALL, cube)
         together, problem = problem.block(whole(cube)), pickle.loads(pickle.dumps(problem))
         for _ in range(3):
             start, stop = sorted(rng.choice(71, 2, replace=False).tolist())
@@ -237,7 +243,7 @@ def test_descriptions_tell_losses_apart_and_leave_elastic_sweeps_as_they_were():
     """That of an elastic sweep is, word for word, what stores had before there were losses."""
     grid = Grid({"angle": [0.5], "first.material": ["steel"]})
     case = {"friction": 0.2, "speed": 2.0, "first": {"radius": 0.005}}
-    elastic = Problem(case, grid, ["psi_out"])
+    elastic = SweepProblem(case, grid, ["psi_out"])
     steel = {"label": "steel", "young": 210e9, "poisson": 0.3, "density": 7850.0}
     assert identity(elastic) == {
         "case": {
@@ -258,7 +264,9 @@ def test_descriptions_tell_losses_apart_and_leave_elastic_sweeps_as_they_were():
     }
     losses = ({}, {"restitution": 0.9}, {"restitution": 0.8}, {"loss_time": 1e-6})
     losses += ({"yield_velocity": 0.1}, {"yield_velocity": "material"})
-    told = [json.dumps(Problem(case | loss, grid, ["psi_out"]).description()) for loss in losses]
+    told = [
+        json.dumps(SweepProblem(case | loss, grid, ["psi_out"]).description()) for loss in losses
+    ]
     assert len(set(told)) == len(losses)
     assert str(carom.material("steel").yield_strength) in told[-1]
 
@@ -280,9 +288,9 @@ ANGLE = Grid({"angle": [0.1, 0.2]})
     ],
 )
 def test_what_is_no_sweep_with_losses_is_refused_in_a_line(case, design, message):
-    assert not Problem(BALL, ANGLE).loses  # the case is otherwise whole
+    assert not SweepProblem(BALL, ANGLE).loses  # the case is otherwise whole
     with pytest.raises(InputError, match=message) as refused:
-        Problem(BALL | case, design)
+        SweepProblem(BALL | case, design)
     assert "\n" not in str(refused.value)
 
 

@@ -59,7 +59,7 @@ def test_worker_killed_in_the_middle_is_survived_with_the_same_bits(cluster, her
 def test_interrupted_here_it_goes_on_there(cluster, here, tmp_path, monkeypatch):
     path = tmp_path / "sweep.zarr"
     with monkeypatch.context() as patched:
-        patched.setattr("carom.sweeps.stores.Store.write", written_then_interrupted())
+        patched.setattr("carom.sweeps.stores.StoreRecord.write", written_then_interrupted())
         with pytest.raises(KeyboardInterrupt, match="3 of 34 blocks are safe"):
             sweep(CASE, GRID, store=path)
     result = sweep(CASE, GRID, store=path, resume=True, scheduler=cluster.scheduler_address)
@@ -67,9 +67,9 @@ def test_interrupted_here_it_goes_on_there(cluster, here, tmp_path, monkeypatch)
 
 
 def written_then_interrupted():
-    from carom.sweeps.stores import Store
+    from carom.sweeps.stores import StoreRecord
 
-    write, written = Store.write, []
+    write, written = StoreRecord.write, []
 
     def patched(self, box, values):
         if len(written) == 3:

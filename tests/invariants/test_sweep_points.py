@@ -11,8 +11,10 @@ import carom
 from carom import InputError
 from carom.bodies.cases import motion_of, pair_of
 from carom.io.labels import labelled_dataset
-from carom.sweeps.designs import Grid, LatinHypercube, Table
-from carom.sweeps.problem import NOT_RUN, PointStatus, Problem
+from carom.sweeps.designs import Grid, LatinHypercube
+from carom.sweeps.points import PointStatus
+from carom.sweeps.problem import SweepProblem
+from carom.sweeps.tables import Table
 
 STUFF = {"young": 2e11, "poisson": 0.3, "density": 7800}
 PAIRS = {  # the second body, and the inputs that belong to it
@@ -76,7 +78,7 @@ def test_a_block_is_what_single_impacts_are(kind):
     second, own = PAIRS[kind]
     case = {"first": {"material": dict(STUFF)}, "second": second}
     for design in designs((*ALWAYS, "first.material.poisson", *own), rng):
-        problem = Problem(case, design)
+        problem = SweepProblem(case, design)
         found, inputs = problem.block(whole(design)), design.inputs(whole(design))
         assert np.all(found["status"] == PointStatus.SOLVED)
         assert ("spin2_out" in found) == (second.get("kind") == "sphere")
@@ -94,7 +96,7 @@ def test_everything_that_can_be_asked_for():
     axes = {"normal_speed": [0.5, 2.0], "tangential_speed": [-1.0, 0.0], "friction": [0.0, 0.3]}
     case = {"spin": 10.0, "first": BALL["first"], "second": {"material": "glass"}}
     outputs = tuple(name for name in (*RESULTS, *PAIR) if name != "friction")
-    problem = Problem(case, Grid(axes), outputs)
+    problem = SweepProblem(case, Grid(axes), outputs)
     found = problem.block((slice(0, 2),) * 3)
     for at in np.ndindex(2, 2, 2):
         point = {name: axes[name][i] for name, i in zip(axes, at, strict=True)}
@@ -113,7 +115,7 @@ def test_materials_and_kinds_by_name():
         {"first.material": ["steel", "nylon"], "second.kind": ["cup", "sphere"], "angle": [1]}
     )
     case = {"friction": 0.1, "speed": 1, "first": {"radius": 0.01}, "second": {"radius": 0.03}}
-    found = Problem(case, grid).block(whole(grid))
+    found = SweepProblem(case, grid).block(whole(grid))
     for i, stuff in enumerate(("steel", "nylon")):
         for j, kind in enumerate(("cup", "sphere")):
             point = {"first.material": stuff, "second.kind": kind, "angle": 1.0}
@@ -126,7 +128,7 @@ def test_the_second_body_is_as_the_first_unless_it_is_told():
     """A second sphere without radius and material follows the first one through the sweep."""
     axes = {"first.radius": ["2 mm", "7 mm"], "first.material.poisson": [0.1, 0.45]}
     case = BALL | {"angle": 0.6, "second": {"kind": "sphere"}}
-    found = Problem(case, Grid(axes)).block((slice(0, 2), slice(0, 2)))
+    found = SweepProblem(case, Grid(axes)).block((slice(0, 2), slice(0, 2)))
     for i, radius in enumerate((0.002, 0.007)):
         for j, poisson in enumerate((0.1, 0.45)):
             steel = carom.material("steel")
@@ -158,14 +160,14 @@ def test_bad_rows_have_a_status_and_spoil_nothing():
     ranges["first.material.density"] = (1e3, 9e3)
     good = {name: rng.uniform(*ranges[name], 1000) for name in BAD}
     case = {"second": {"kind": "cup", "material": "steel"}}
-    expected = Problem(case, Table(good)).block((slice(0, 1000),))
+    expected = SweepProblem(case, Table(good)).block((slice(0, 1000),))
     assert np.all(expected["status"] == PointStatus.SOLVED)
     faults = [(name, value, status) for name in BAD for value, status in BAD[name].items()]
     rows = rng.permutation(1000)[: len(faults)]
     bad = {name: values.copy() for name, values in good.items()}
     for row, (name, value, _) in zip(rows, faults, strict=True):
         bad[name][row] = value
-    problem = Problem(case, Table(bad))
+    problem = SweepProblem(case, Table(bad))
     found = problem.block((slice(0, 1000),))
     others = np.setdiff1d(np.arange(1000), rows)
     for name in (*problem.outputs, "status"):
@@ -183,11 +185,11 @@ def test_two_rigid_bodies_and_names_that_are_not_known():
         {"first.material": ["steel", "tseel", "rigid"], "second.kind": ["cup", "x", "cup"]}
     )
     case = {**BALL, "second": {"material": "rigid", "radius": 1.0}}
-    status = Problem(case, table).block((slice(0, 3),))["status"]
+    status = SweepProblem(case, table).block((slice(0, 3),))["status"]
     bad = PointStatus.NOT_A_NUMBER  # what is rigid has no density, with which it could move
     assert status.tolist() == [PointStatus.SOLVED, bad, bad]
     table = Table({"first.material.young": [1e9, math.inf], "angle": [0.1, 0.1]})
-    status = Problem({**BALL, "second": {"material": "rigid"}}, table).block((slice(0, 2),))[
+    status = SweepProblem({**BALL, "second": {"material": "rigid"}}, table).block((slice(0, 2),))[
         "status"
     ]
     assert status.tolist() == [PointStatus.SOLVED, PointStatus.OUT_OF_RANGE]
@@ -201,7 +203,7 @@ def test_blocks_do_not_depend_on_how_they_are_cut():
     cube = LatinHypercube({name: RANGES[name] for name in names}, samples=601)
     case = {"first": {"material": dict(STUFF)}, "second": {"kind": "sphere"}}
     for design in (grid, cube):
-        problem = Problem(case, design)
+        problem = SweepProblem(case, design)
         together = problem.block(whole(design))
         problem = pickle.loads(pickle.dumps(problem))
         for _ in range(12):
@@ -214,7 +216,7 @@ def test_blocks_do_not_depend_on_how_they_are_cut():
 def test_variables_are_what_a_block_returns():
     """Names, types and a dataset with units; the status counts through its meanings."""
     design = Table({"first.radius": [0.001, 0.002], "first.material": ["steel", "glass"]})
-    problem = Problem({**BALL, "angle": 0.3}, design, ["rebound_angle"])
+    problem = SweepProblem({**BALL, "angle": 0.3}, design, ["rebound_angle"])
     block, known = problem.block((slice(0, 2),)), problem.variables()
     assert {name: values.dtype for name, values in block.items()} == {
         name: np.dtype(info.dtype) for name, info in known.items()
@@ -224,13 +226,16 @@ def test_variables_are_what_a_block_returns():
     assert dataset["first_radius"].units == "m"
     assert dataset["first_material"].flag_meanings == "unreadable steel glass"
     assert list(dataset["status"].flag_values) == [int(status) for status in PointStatus]
-    assert (NOT_RUN, PointStatus.SOLVED.message) == (-1, "solved")
+    assert (PointStatus.NOT_RUN, PointStatus.SOLVED.message) == (-1, "solved")
 
 
 def test_descriptions_are_equal_for_equal_sweeps_only():
     grid = {"angle": ["30 deg"]}
     same = {**BALL, "speed": "2 m/s", "spin": 0, "angle": 1.0}
-    one, two = Problem(BALL, Grid(grid)), Problem(same, Grid({"angle": [math.radians(30.0)]}))
+    one, two = (
+        SweepProblem(BALL, Grid(grid)),
+        SweepProblem(same, Grid({"angle": [math.radians(30.0)]})),
+    )
     assert json.dumps(one.description(), allow_nan=False) == json.dumps(two.description())
     for case, axes, outputs in (
         ({**BALL, "spin": 1.0}, grid, None),
@@ -239,7 +244,7 @@ def test_descriptions_are_equal_for_equal_sweeps_only():
         ({**BALL, "second": {"kind": "sphere"}}, grid, one.outputs),
         ({**BALL, "second": {"material": "rigid"}}, grid, None),
     ):
-        assert Problem(case, Grid(axes), outputs).description() != one.description()
+        assert SweepProblem(case, Grid(axes), outputs).description() != one.description()
 
 
 ANGLE = Grid({"angle": [0.1, 0.2]})
@@ -269,5 +274,5 @@ ANGLE = Grid({"angle": [0.1, 0.2]})
 )
 def test_what_is_no_sweep_is_refused_in_a_line(case, design, outputs, message):
     with pytest.raises(InputError, match=message) as refused:
-        Problem(case, design, outputs)
+        SweepProblem(case, design, outputs)
     assert "\n" not in str(refused.value)

@@ -35,17 +35,17 @@ import carom
 from carom.sweeps import sweep
 from carom.sweeps.designs import Grid
 from carom.io.files import read_store
-from carom.sweeps.problem import Problem
+from carom.sweeps.problem import SweepProblem
 
 path, case, axes = sys.argv[1], *map(json.loads, sys.argv[2:4])
 log = os.open(path + ".log", os.O_WRONLY | os.O_APPEND | os.O_CREAT)
-block = Problem.block
+block = SweepProblem.block
 
 def logged(self, box, threads=1):
     os.write(log, (json.dumps([[part.start, part.stop] for part in box]) + chr(10)).encode())
     return block(self, box, threads)
 
-Problem.block = logged
+SweepProblem.block = logged
 sweep(case, Grid(axes), store=path, resume=True, workers=2)
 """
 

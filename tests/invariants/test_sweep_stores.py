@@ -14,10 +14,11 @@ import zarr
 
 from carom.quantities.units import InputError
 from carom.sweeps import sweep
-from carom.sweeps.blocks import boxes, chunk_shape, points
-from carom.sweeps.designs import Grid, LatinHypercube, Table
-from carom.sweeps.problem import Problem
+from carom.sweeps.blocks import boxes, chunk_shape, points_in
+from carom.sweeps.designs import Grid, LatinHypercube
+from carom.sweeps.problem import SweepProblem
 from carom.sweeps.stores import codecs, write_chunk
+from carom.sweeps.tables import Table
 
 CASE = {
     "first": {"radius": "5 mm", "material": "steel"},
@@ -83,15 +84,15 @@ def test_chunks_are_read_by_zarr_to_the_last_bit(tmp_path, shape, chunk):
 def test_blocks_cover_every_point_once_and_stay_small(shape):
     chunk = chunk_shape(shape)
     whole = list(boxes(shape, chunk))
-    assert sum(points(box) for box in whole) == np.prod(shape)
+    assert sum(points_in(box) for box in whole) == np.prod(shape)
     assert len({tuple(part.start for part in box) for box in whole}) == len(whole)
-    assert max(points(box) for box in whole) == np.prod(chunk) <= 2**14
+    assert max(points_in(box) for box in whole) == np.prod(chunk) <= 2**14
 
 
 def test_finished_sweep_is_continued_without_computing_anything(path, monkeypatch):
     first = sweep(CASE, GRID, store=path).load()
     before = files(path)
-    monkeypatch.setattr(Problem, "block", None)
+    monkeypatch.setattr(SweepProblem, "block", None)
     assert first.identical(sweep(CASE, GRID, store=path, resume=True).load())
     assert before == files(path)
 
@@ -117,7 +118,7 @@ def test_killed_before_or_after_any_of_its_files_it_ends_in_the_same_bits(tmp_pa
             with pytest.raises(Killed):
                 sweep(CASE, GRID, outputs=outputs, store=path)
         with monkeypatch.context() as counted:
-            counted.setattr(Problem, "block", logged := Logged(Problem.block))
+            counted.setattr(SweepProblem, "block", logged := Logged(SweepProblem.block))
             result = sweep(CASE, GRID, outputs=outputs, store=path, resume=True)
         assert len(logged.boxes) == blocks - (instant + 1) // 2 // files_of_a_block
         assert truth.identical(result.load())

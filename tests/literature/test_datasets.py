@@ -8,7 +8,8 @@ import pytest
 
 import carom
 from carom.bodies.cases import pair_of
-from carom.io.columns import in_units, others, read_table, with_errors
+from carom.io.columns import in_units, others, with_errors
+from carom.io.tables import read_table
 from carom.measurements import datasets
 from carom.measurements.observables import BEFORE, OBSERVABLES, convert
 

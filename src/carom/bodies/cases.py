@@ -11,15 +11,8 @@ from carom.bodies.kinematics import slope
 from carom.bodies.materials import VALUES, Material, as_material
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
-from carom.quantities.units import (
-    InputError,
-    finite,
-    nearest,
-    not_negative,
-    number,
-    positive,
-    refusal,
-)
+from carom.io.files import read_text
+from carom.quantities.units import InputError, finite, hint, not_negative, number, positive, refusal
 
 if TYPE_CHECKING:
     from carom.bodies.losses import NormalLaw
@@ -54,11 +47,8 @@ SWEEP = "sweep"  # the table of a sweep, which `carom.sweeps` reads
 def read_case(path: Path, *, losses: bool = False) -> Case:
     """Return the content of a case file, its keys checked; `losses` as in `check_case`."""
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = read_text("case file", path)
         case = tomllib.loads(text)
-    except OSError as error:
-        reason = error.strerror or error
-        raise InputError(f"case file: {str(path)!r} cannot be read; {reason}") from None
     except UnicodeDecodeError:
         raise InputError(f"case file: {str(path)!r} is not text; give a TOML file") from None
     except tomllib.TOMLDecodeError as error:
@@ -82,8 +72,8 @@ def check_case(
     def check(table: Mapping[str, Any], allowed: Iterable[str], name: str) -> None:
         for key in table:
             if key not in allowed:
-                hint = nearest(key, allowed) or f"known are {', '.join(allowed)}"
-                raise InputError(f"{key}: unknown key{place(key, name)}; {hint}")
+                where = place(key, name)
+                raise InputError(f"{key}: unknown key{where}; {hint(key, allowed)}")
 
     if not isinstance(case, Mapping):
         raise refusal("case", case, "must be a mapping with friction, speeds, first and second")
@@ -164,7 +154,7 @@ def normal_of(case: Mapping[str, Any]) -> "NormalLaw | None":
 
 def law_of(name: str, value: Any) -> "NormalLaw":
     """Return the law of a loss; its value is a number, an array, or None for the strengths."""
-    from carom.bodies.losses import ElasticPlastic, KelvinVoigt
+    from carom.bodies.losses import ElasticPlastic, KelvinVoigt  # compiled code: not for all cases
 
     return ElasticPlastic(value) if name == "yield_velocity" else KelvinVoigt(**{name: value})
 
@@ -245,8 +235,7 @@ def _as_table(value: Any) -> Any:
     if isinstance(value, Mapping):
         for key in value:
             if key not in MATERIAL:
-                hint = nearest(key, MATERIAL) or f"known are {', '.join(MATERIAL)}"
-                raise InputError(f"{key}: unknown in a material; {hint}")
+                raise InputError(f"{key}: unknown in a material; {hint(key, MATERIAL)}")
     return value
 
 

@@ -1,6 +1,7 @@
 """Reading a user's results in SI units: from a CSV file, a mapping of columns or a data frame."""
 
 from collections.abc import Collection, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from difflib import get_close_matches
 from math import nan, pi
@@ -9,26 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.io.tables import CASE, GAP, SHOWN, Table, name_and_unit, named, read_table, spelled
+from carom.io.tables import GAP, Cells, Rows, name_and_unit, spelled
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import InputError, nearest, number
-
-__all__ = [
-    "CASE",
-    "ERROR",
-    "SHOWN",
-    "Array",
-    "Mask",
-    "Results",
-    "Table",
-    "in_units",
-    "named",
-    "others",
-    "read_table",
-    "spelled",
-    "with_errors",
-]
 
 Mask = NDArray[np.bool_]
 
@@ -48,26 +33,16 @@ SYMBOLS = {  # what people call a column that has a name of its own here
     "psi1": "psi_in",
     "psi2": "psi_out",
 }
-
-
 UNITS = {"_deg": "deg", "_rad_s": "rad/s", "_rad": "rad", "_rpm": "rpm", "_m_s": "m/s"}  # in names
 
 
 @dataclass(frozen=True, eq=False)
-class Results:
+class Results(Rows):
     """Columns of results in SI units, and what their rows are called: lines of a file, or rows."""
 
     columns: Mapping[str, Array]
     rows: NDArray[np.int64]
     word: str
-
-    def named(self, where: Mask) -> str:
-        """Return the rows where something is so, e.g. "lines 3, 7 and 9"."""
-        return named(self.word, self.rows[where], len(self))
-
-    def one(self, index: int) -> str:
-        """Return what one row is called, e.g. "line 3"."""
-        return named(self.word, self.rows[index : index + 1])
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -101,7 +76,7 @@ class Results:
             raise InputError(f"{spelled(name)}: {value} in {where} cannot be used; {allowed}")
 
 
-def in_units(table: Table, known: Iterable[str], gaps: Collection[str] = ()) -> Results:
+def in_units(table: Cells, known: Iterable[str], gaps: Collection[str] = ()) -> Results:
     """Return the columns whose names are known, in SI units; the others are there, but NaN.
 
     Columns without a unit are SI. In columns of `gaps`, and of their errors, a cell "-" stands for
@@ -127,11 +102,11 @@ def in_units(table: Table, known: Iterable[str], gaps: Collection[str] = ()) -> 
             columns[name] = np.full(len(table.rows), nan)
             continue
         _check_error_unit(name, units)
-        open_ended = name.removesuffix(ERROR) in gaps
-        columns[name] = _column(name, units[name], cells, table, open_ended)
+        columns[name] = _column(name, units[name], cells, table, entry(name) in gaps)
     results = Results(columns, table.rows, table.word)
-    for name in known & {name for name in units if _is_angle(name)}:
-        _check_angle(results, name, units[name])
+    for name, unit in units.items():
+        if name in known and name in GLOSSARY and GLOSSARY[name].unit == "rad":
+            _check_angle(results, name, unit)
     return results
 
 
@@ -147,7 +122,7 @@ def with_errors(names: Iterable[str]) -> tuple[str, ...]:
     return tuple(each for name in names for each in (name, name + ERROR))
 
 
-def others(table: Table, known: Iterable[str]) -> tuple[str, ...]:
+def others(table: Cells, known: Iterable[str]) -> tuple[str, ...]:
     """Return the columns that are not known and mean nothing here, for a user to be told.
 
     Raises InputError for one that is likely to be a known one misspelt, with the nearest.
@@ -162,20 +137,16 @@ def others(table: Table, known: Iterable[str]) -> tuple[str, ...]:
     known = list(known)
     unknown = tuple(name for name in table.names if name not in known)
     for name in unknown:
-        hint = _likely(name, known)
-        if hint:
+        if hint := _likely(name, known):
             raise InputError(f"{name}: unknown column; did you mean {hint!r}?")
-    measured = [name for name in table.names if name.endswith(ERROR)]
-    for name in measured:
-        if name.removesuffix(ERROR) not in table.names:
-            raise InputError(
-                f"{name}: the column {name.removesuffix(ERROR)!r} it goes with is missing"
-            )
+    for name in table.names:
+        if entry(name) not in table.names:
+            raise InputError(f"{name}: the column {entry(name)!r} it goes with is missing")
     return unknown
 
 
 def entry(name: str) -> str:
-    """Return the name in the glossary of what a column holds.
+    """Return what a column, or one of errors, holds: its name in the glossary.
 
     Examples
     --------
@@ -199,17 +170,11 @@ def _likely(name: str, known: list[str]) -> str:
 
 def _check_error_unit(name: str, units: Mapping[str, str]) -> None:
     """Raise InputError for an error whose unit can only be guessed."""
-    whole = name.removesuffix(ERROR)
+    whole = entry(name)
     if name != whole and units.get(whole) and not units[name]:
         raise InputError(
             f"{name}: no unit, but {whole} is in {units[whole]}; write '{name} [{units[whole]}]'"
         )
-
-
-def _is_angle(name: str) -> bool:
-    return (
-        not name.endswith(ERROR) and entry(name) in GLOSSARY and GLOSSARY[entry(name)].unit == "rad"
-    )
 
 
 def _check_angle(results: Results, name: str, unit: str) -> None:
@@ -222,12 +187,11 @@ def _check_angle(results: Results, name: str, unit: str) -> None:
     results.refuse(name, np.abs(results[name]) >= 0.5 * pi, allowed)
 
 
-def _column(name: str, unit: str, cells: list[Any], table: Table, open_ended: bool) -> Array:
+def _column(name: str, unit: str, cells: list[Any], table: Cells, open_ended: bool) -> Array:
     """Return a column in SI units, or raise InputError for what is not a number in it."""
     gap = np.array([open_ended and isinstance(c, str) and c.strip() == GAP for c in cells])
-    values, reason = _numbers(
-        name, unit, [nan if g else c for c, g in zip(cells, gap, strict=True)]
-    )
+    filled = [nan if g else cell for cell, g in zip(cells, gap, strict=True)]
+    values, reason = _numbers(name, unit, filled)
     missing = ~np.isfinite(values) & ~gap
     if missing.any():
         todo = f"write '{GAP}' where nothing was measured" if open_ended else DELETE
@@ -239,10 +203,8 @@ def _column(name: str, unit: str, cells: list[Any], table: Table, open_ended: bo
 def _numbers(name: str, unit: str, cells: list[Any]) -> tuple[Array, str]:
     """Return a column in SI units, NaN where there is no number, and what is wrong there first."""
     scale = number(spelled(name), f"1 {unit}", GLOSSARY[entry(name)].unit) if unit else 1.0
-    try:
+    with suppress(TypeError, ValueError):
         return np.array(cells, dtype=np.float64) * scale, ""
-    except (TypeError, ValueError):
-        pass
     values, reason = np.full(len(cells), nan), ""
     for i, cell in enumerate(cells):
         try:
@@ -256,8 +218,6 @@ def _cell(name: str, cell: Any, scale: float) -> float:
     """Return one number, NaN for an empty cell; a text with a unit of its own has that unit."""
     if cell is None or (isinstance(cell, str) and not cell.strip()):
         return nan
-    try:
+    with suppress(TypeError, ValueError):
         return float(cell) * scale
-    except (TypeError, ValueError):
-        pass
     return number(spelled(name), cell, GLOSSARY[entry(name)].unit)

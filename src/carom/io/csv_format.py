@@ -23,18 +23,12 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Values = NDArray[Any]
-Dims = Sequence[Hashable]
-Sizes = Mapping[Hashable, int]
+Reader = Callable[[Any], Any]
 
 FORMAT = "# carom table 1"
 TEXT = "text"
-READ: dict[str, Callable[[Any], Any]] = {
-    "f": float,
-    "i": int,
-    "u": int,
-    "b": lambda value: {"True": True, "False": False}[str(value)],
-    "U": str,
-}
+TRUTH = {"True": True, "False": False}
+READ: dict[str, Reader] = {"f": float, "i": int, "u": int, "U": str, "b": lambda x: TRUTH[str(x)]}
 
 
 def as_csv(dataset: "xr.Dataset") -> str:
@@ -42,26 +36,32 @@ def as_csv(dataset: "xr.Dataset") -> str:
 
     Raises InputError for a variable that holds neither numbers, words nor truth values.
     """
+    import xarray as xr
+
     table = max((tuple(item.dims) for item in dataset.data_vars.values()), key=len, default=())
     sizes = dict(dataset.sizes)
+    along = {dim: sizes[dim] for dim in table}
     lines: list[dict[str, Any]] = [
         {"attributes": _packed_all(dataset.attrs)},
         {"dimensions": sizes, "table": table},
     ]
     columns = {}
-    for name in [*sorted(dataset.coords, key=_place(table)), *dataset.data_vars]:
+    coords = sorted(dataset.coords, key=lambda name: [*table, name].index(name))
+    for name in [*coords, *dataset.data_vars]:
         item = dataset.variables[name]
         values = _plain(str(name), item.values)
-        is_coordinate = name in dataset.coords
-        line = {"coordinate" if is_coordinate else "variable": name, "dims": item.dims}
-        line["type"] = _type(values)
-        if _is_column(set(item.dims), table, sizes, is_coordinate):
-            columns[name] = _spread(values, item.dims, table, sizes).ravel().tolist()
+        kind = "coordinate" if name in dataset.coords else "variable"
+        line = {kind: name, "dims": item.dims, "type": _type(values)}
+        # the table holds what runs along all of it, and coordinates, which repeat
+        repeats = name in dataset.coords and item.dims and prod(sizes.values()) > 0
+        if set(item.dims) == set(table) or (repeats and set(item.dims) < set(table)):
+            spread: Any = xr.Variable(item.dims, values)  # whose set_dims has no types
+            columns[name] = spread.set_dims(along).values.ravel().tolist()
         else:
             line["values"] = _jsonable(values)
         lines.append(line | {"attributes": _packed_all(item.attrs)})
     head = [f"# {json.dumps(line, ensure_ascii=False, allow_nan=False)}\n" for line in lines]
-    return f"{FORMAT}\n{''.join(head)}{_body(columns)}"
+    return f"{FORMAT}\n{''.join(head)}{rows_of(columns)}"
 
 
 def from_csv(text: str) -> "xr.Dataset":
@@ -82,18 +82,8 @@ def from_csv(text: str) -> "xr.Dataset":
         raise InputError(f"it is damaged; {' '.join(str(error).split())}") from None
 
 
-def _is_column(dims: set[Hashable], table: Dims, sizes: Sizes, is_coordinate: bool) -> bool:
-    """Whether the table can hold a variable: along all of it, or a coordinate that repeats."""
-    repeats = is_coordinate and bool(dims) and dims < set(table) and prod(sizes.values()) > 0
-    return dims == set(table) or repeats
-
-
-def _place(table: Dims) -> Callable[[Hashable], int]:
-    """Return the key that puts coordinates in the order of the dimensions of the table."""
-    return lambda name: table.index(name) if name in table else len(table)
-
-
-def _body(columns: Mapping[Hashable, list[Any]]) -> str:
+def rows_of(columns: Mapping[Any, Sequence[Any]]) -> str:
+    """Return columns as CSV: their names, and below them a line for each row."""
     stream = StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     if columns:
@@ -116,7 +106,7 @@ def _rebuilt(head: list[dict[str, Any]], rows: list[list[str]]) -> "xr.Dataset":
             values = _array(line["values"], kind).reshape([sizes[dim] for dim in dims])
         else:
             whole = _array(columns[name], kind).reshape([sizes[dim] for dim in table])
-            values = _gathered(whole, dims, table, sizes)
+            values = _gathered(xr.Variable(table, whole), dims)
         into = coords if "coordinate" in line else variables
         into[name] = (dims, values, _unpacked_all(line["attributes"]))
     return xr.Dataset(variables, coords=coords, attrs=_unpacked_all(attributes["attributes"]))
@@ -135,22 +125,13 @@ def _columns(names: list[str], rows: list[list[str]]) -> dict[str, list[str]]:
     return {name: [row[i] for row in body] for i, name in enumerate(names)}
 
 
-def _spread(values: Values, dims: Dims, table: Dims, sizes: Sizes) -> Values:
-    """Return values along some dimensions of the table as values along all, repeated."""
-    turned = values.transpose([dims.index(dim) for dim in table if dim in dims])
-    shape = [sizes[dim] if dim in dims else 1 for dim in table]
-    return np.broadcast_to(turned.reshape(shape), [sizes[dim] for dim in table])
-
-
-def _gathered(whole: Values, dims: Dims, table: Dims, sizes: Sizes) -> Values:
-    """Return what `_spread` has repeated."""
-    first = whole[tuple(slice(None) if dim in dims else 0 for dim in table)]
-    present = [dim for dim in table if dim in dims]
-    values = first.transpose([present.index(dim) for dim in dims])
-    same = _spread(values, dims, table, sizes) == whole
-    if not np.all(same | (whole != whole)):
+def _gathered(whole: "xr.Variable", dims: Sequence[Hashable]) -> Values:
+    """Return values along some dimensions that are repeated along the others of a table."""
+    first: Any = whole.isel({dim: 0 for dim in whole.dims if dim not in dims}).transpose(*dims)
+    same = first.set_dims(whole.sizes).values == whole.values
+    if not np.all(same | (whole.values != whole.values)):
         raise ValueError(f"what depends on {', '.join(map(str, dims))} varies along others, too")
-    return values
+    return np.asarray(first.values)
 
 
 def _plain(name: str, values: Values) -> Values:
@@ -169,10 +150,9 @@ def _type(values: Values) -> str:
 
 def _jsonable(values: Values) -> Any:
     """Return an array as what JSON can hold: flat, numbers that are not finite as words."""
-    if values.dtype.kind == "f" and not np.all(np.isfinite(values)):
-        plain = [value if isfinite(value) else repr(value) for value in values.ravel().tolist()]
-    else:
-        plain = values.ravel().tolist()
+    plain = values.ravel().tolist()
+    if values.dtype.kind == "f":
+        plain = [value if isfinite(value) else repr(value) for value in plain]
     return plain if values.ndim else plain[0]
 
 

@@ -8,6 +8,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
+import numpy as np
+
 from carom.io.csv_format import as_csv, from_csv
 from carom.io.extras import extra
 from carom.quantities.units import InputError, refusal
@@ -22,14 +24,14 @@ FIGURES = (".png", ".pdf", ".svg")
 ANIMATIONS = (".gif", ".mp4")
 
 
-class Result(Protocol):
+class Storable(Protocol):
     """What can be made a dataset: an impact, a load path."""
 
     def to_dataset(self) -> "xr.Dataset":
         """Return all of it as one dataset."""
 
 
-def save(result: "xr.Dataset | Result", path: str | Path) -> Path:
+def save(result: "xr.Dataset | Storable", path: str | Path) -> Path:
     """Store a dataset or a result as .nc or .csv and return its path; `read` gives it back.
 
     A file that is there is replaced whole or not at all. CSV is one table, with everything else in
@@ -83,7 +85,7 @@ def _require_room(where: Path, size: int) -> None:
         )
 
 
-def _dataset(result: "xr.Dataset | Result") -> "xr.Dataset":
+def _dataset(result: "xr.Dataset | Storable") -> "xr.Dataset":
     import xarray as xr
 
     if isinstance(result, xr.Dataset):
@@ -129,7 +131,17 @@ def read(path: str | Path) -> "xr.Dataset":
         raise refusal("file", str(path), allowed)
     if not source.is_file():
         raise refusal("file", str(path), "there is no such file")
-    return _from_netcdf(source) if source.suffix.lower() == ".nc" else _from_csv(source)
+    try:
+        if source.suffix.lower() == ".nc":
+            return _from_netcdf(source)
+        return from_csv(source.read_bytes().decode("utf-8-sig"))
+    except OSError as error:
+        reason = f"cannot be read; {error.strerror or error}"
+    except UnicodeDecodeError:
+        reason = "it is not text"
+    except InputError as error:
+        reason = str(error)
+    raise refusal("file", str(source), reason)
 
 
 def read_store(path: Path) -> "xr.Dataset":
@@ -138,21 +150,23 @@ def read_store(path: Path) -> "xr.Dataset":
     Raises InputError if it is not one.
     """
     extra("zarr", "a store")
-    import numpy as np
     import xarray as xr
 
     try:
         dataset: xr.Dataset = xr.open_zarr(path, chunks=None, consolidated=True, decode_times=False)
     except Exception:  # zarr and xarray raise what they like at a damaged store
         raise refusal("store", str(path), "it is damaged, or not a Zarr store") from None
-    is_ours = str(dataset.attrs.get("source")).startswith("carom ") and STATUS in dataset
-    if not is_ours or "inputs" not in dataset.attrs:
+    if not (_is_ours(dataset) and STATUS in dataset and "inputs" in dataset.attrs):
         raise refusal("store", str(path), "it was not stored by Carom")
     for variable in dataset.variables.values():  # what JSON has made a list
         if "flag_values" in variable.attrs:
             flags = np.asarray(variable.attrs["flag_values"], variable.dtype)
             variable.attrs["flag_values"] = flags
     return dataset
+
+
+def _is_ours(dataset: "xr.Dataset") -> bool:
+    return str(dataset.attrs.get("source")).startswith("carom ")
 
 
 def _as_path(name: str, path: str | Path) -> Path:
@@ -163,17 +177,16 @@ def _as_path(name: str, path: str | Path) -> Path:
 
 
 def _from_netcdf(path: Path) -> "xr.Dataset":
-    import numpy as np
     import xarray as xr
 
     try:
         dataset = xr.load_dataset(path, engine="h5netcdf", decode_times=False)
-    except PermissionError as error:
-        raise refusal("file", str(path), f"cannot be read; {error.strerror}") from None
+    except PermissionError:
+        raise
     except Exception:  # h5py and xarray raise what they like at a damaged file
-        raise refusal("file", str(path), "it is damaged, or not NetCDF-4") from None
-    if not str(dataset.attrs.get("source")).startswith("carom "):
-        raise refusal("file", str(path), "it was not stored by Carom")
+        raise InputError("it is damaged, or not NetCDF-4") from None
+    if not _is_ours(dataset):
+        raise InputError("it was not stored by Carom")
     dataset.attrs = {
         name: value.item() if isinstance(value, np.generic) else value
         for name, value in dataset.attrs.items()
@@ -181,15 +194,16 @@ def _from_netcdf(path: Path) -> "xr.Dataset":
     return dataset.drop_encoding()
 
 
-def _from_csv(path: Path) -> "xr.Dataset":
+def read_text(what: str, path: Path) -> str:
+    """Return the text of a file that a user names, with line ends of Unix.
+
+    Raises InputError if it cannot be read, and UnicodeDecodeError if it is not in UTF-8.
+    """
     try:
-        return from_csv(path.read_bytes().decode("utf-8-sig"))
+        return path.read_text(encoding="utf-8-sig")
     except OSError as error:
-        raise refusal("file", str(path), f"cannot be read; {error.strerror or error}") from None
-    except UnicodeDecodeError:
-        raise refusal("file", str(path), "it is not text") from None
-    except InputError as error:
-        raise refusal("file", str(path), str(error)) from None
+        reason = error.strerror or error
+        raise InputError(f"{what}: {str(path)!r} cannot be read; {reason}") from None
 
 
 def checked_output(path: str | Path, endings: tuple[str, ...]) -> Path:
@@ -205,9 +219,7 @@ def checked_output(path: str | Path, endings: tuple[str, ...]) -> Path:
 def replace_whole(target: Path, write: Callable[[Path], object]) -> Path:
     """Call `write` on a temporary file beside the target, then put it in the target's place."""
     try:
-        handle, name = tempfile.mkstemp(
-            prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent
-        )
+        handle, name = tempfile.mkstemp(target.suffix, f".{target.stem}-", target.parent)
         os.close(handle)
         temporary = Path(name)
         try:

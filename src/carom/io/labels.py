@@ -68,9 +68,7 @@ def carom_version() -> str:
 
 
 def labelled_dataset(
-    variables: Mapping[str, Any],
-    coords: Mapping[str, Any],
-    attrs: Mapping[str, Any],
+    variables: Mapping[str, Any], coords: Mapping[str, Any], attrs: Mapping[str, Any]
 ) -> "xr.Dataset":
     """Return a dataset whose variables carry unit and meaning, after the CF conventions 1.11.
 

@@ -4,12 +4,15 @@ import csv
 import json
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.io.files import read_text
 from carom.quantities.units import InputError, refusal
 
 ALIASES = {"psi_1": "psi_in", "psi_2": "psi_out", "angle_deg": "angle [deg]"}
@@ -24,7 +27,23 @@ GAP = "-"  # a cell of what was not measured
 SHOWN = 5  # rows that a message names
 
 
-class Table(NamedTuple):
+class Rows:
+    """Rows by their numbers, and what they are called: lines of a file, or rows."""
+
+    rows: NDArray[np.int64]
+    word: str
+
+    def named(self, where: NDArray[np.bool_]) -> str:
+        """Return the rows where something is so, e.g. "lines 3, 7 and 9"."""
+        return named(self.word, self.rows[where], len(self.rows))
+
+    def one(self, index: int) -> str:
+        """Return what one row is called, e.g. "line 3"."""
+        return named(self.word, self.rows[index : index + 1])
+
+
+@dataclass(frozen=True, eq=False)
+class Cells(Rows):
     """Cells as given, by head of column, what the rows are called, and the comments by key."""
 
     cells: Mapping[str, Any]
@@ -47,12 +66,8 @@ class Table(NamedTuple):
         except (ValueError, TypeError):
             raise InputError(f"results: after '{CASE}' there is no JSON of the bodies") from None
 
-    def named(self, where: NDArray[np.bool_]) -> str:
-        """Return the rows where something is so, e.g. "lines 3, 7 and 9"."""
-        return named(self.word, self.rows[where], len(self.rows))
 
-
-def read_table(source: Any) -> Table:
+def read_table(source: Any) -> Cells:
     """Return the cells of a CSV file, a mapping of columns, a data frame or an xarray dataset.
 
     A file has a header, columns separated by commas, semicolons or tabs, and comments after #.
@@ -70,9 +85,9 @@ def read_table(source: Any) -> Table:
         table = _read_csv(Path(source))
     elif hasattr(source, "data_vars"):
         comments = {name: source.attrs[name] for name in KEPT if name in source.attrs}
-        table = _rows(_columns(_of_dataset(source)), comments)
+        table = _counted(_of_dataset(source), comments)
     elif hasattr(source, "items"):  # a data frame, too
-        table = _rows(_columns(source), {})
+        table = _counted(source, {})
     else:
         raise refusal("results", source, "must be the name of a CSV file, or columns by name")
     if not len(table.rows):
@@ -113,7 +128,7 @@ def named(word: str, rows: Iterable[int], total: int = 0) -> str:
     return f"{word}s {', '.join(texts[:-1])} and {texts[-1]}"
 
 
-def _read_csv(path: Path) -> Table:
+def _read_csv(path: Path) -> Cells:
     text = _text(path)
     lines = [
         (place, line)
@@ -129,7 +144,7 @@ def _read_csv(path: Path) -> Table:
             raise refusal("results", str(path), f"it is not CSV; {message}")
     cells = {name: [row[i] for row in body] for i, name in enumerate(head)}
     places = np.array([place for place, _ in lines[1:]], dtype=np.int64)
-    return Table(cells, places, "line", _comments(text))
+    return Cells(cells, places, "line", _comments(text))
 
 
 def _split(path: Path, lines: list[str]) -> tuple[list[str], list[list[str]]]:
@@ -155,10 +170,7 @@ def _comments(text: str) -> dict[str, str]:
 
 def _text(path: Path) -> str:
     try:
-        text = path.read_bytes().decode("utf-8-sig")
-    except OSError as error:
-        reason = error.strerror or error
-        raise InputError(f"results: {str(path)!r} cannot be read; {reason}") from None
+        text = read_text("results", path)
     except UnicodeDecodeError:
         raise refusal("results", str(path), "it is not text in UTF-8; give a CSV file") from None
     if "\0" in text:
@@ -183,26 +195,26 @@ def _check_once(names: Sequence[str]) -> None:
 
 
 def _is_number(text: str) -> bool:
-    try:
+    with suppress(ValueError):
         float(text)
-    except ValueError:
-        return False
-    return True
+        return True
+    return False
 
 
-def _rows(cells: dict[str, Any], comments: Mapping[str, str]) -> Table:
-    """Return columns as a table whose rows are counted from 1."""
+def _counted(source: Any, comments: Mapping[str, str]) -> Cells:
+    """Return columns as cells whose rows are counted from 1."""
+    cells = {str(name): _line(str(name), values) for name, values in source.items()}
+    require_equal_lengths("results", cells)
     rows = np.arange(1, 1 + len(next(iter(cells.values()), [])))
-    return Table(cells, rows, "row", comments)
+    return Cells(cells, rows, "row", comments)
 
 
-def _columns(source: Any) -> dict[str, Any]:
-    table = {str(name): _line(str(name), values) for name, values in source.items()}
-    lengths = {name: len(values) for name, values in table.items()}
+def require_equal_lengths(what: str, columns: Mapping[str, Any]) -> None:
+    """Raise InputError for columns that differ in length."""
+    lengths = {name: len(values) for name, values in columns.items()}
     if len(set(lengths.values())) > 1:
         listed = ", ".join(f"{name} {length}" for name, length in lengths.items())
-        raise InputError(f"results: columns must be equally long; rows are {listed}")
-    return table
+        raise InputError(f"{what}: columns must be equally long; rows are {listed}")
 
 
 def _line(name: str, values: Any) -> Any:
@@ -215,9 +227,9 @@ def _line(name: str, values: Any) -> Any:
 
 def _of_dataset(dataset: Any) -> dict[str, list[Any]]:
     """Return the columns of an xarray dataset; what is missing there was not measured."""
-    lines = {name: item for name, item in dataset.variables.items() if item.ndim == 1}
-    heads = (f"{name} [{item.attrs.get('units', '1')}]" for name, item in lines.items())
-    return {
-        head: [GAP if value != value else value for value in item.values.tolist()]
-        for head, item in zip(heads, lines.values(), strict=True)
-    }
+    cells = {}
+    for name, item in dataset.variables.items():
+        if item.ndim == 1:
+            head = f"{name} [{item.attrs.get('units', '1')}]"
+            cells[head] = [GAP if value != value else value for value in item.values.tolist()]
+    return cells

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from carom.io.columns import ERROR, Results, entry, in_units
 from carom.io.labels import attributes, labelled_dataset
-from carom.io.tables import Table, read_table
+from carom.io.tables import Cells, read_table
 from carom.measurements.observables import OBSERVABLES
 from carom.quantities.units import nearest, refusal
 
@@ -146,7 +146,7 @@ def _attributes(name: str) -> dict[str, Any]:
 
 
 @lru_cache
-def _read(name: str) -> Table:
+def _read(name: str) -> Cells:
     return read_table(path(name))
 
 

@@ -12,7 +12,7 @@ from carom.bodies.kinematics import Rebound, Tangential, components, inertia
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.quantities.arrays import Array, numbers
-from carom.quantities.units import InputError, nearest, refusal
+from carom.quantities.units import InputError, hint, refusal
 
 Given = Mapping[str, Any]  # arrays by name
 
@@ -93,9 +93,7 @@ def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     array([-533.6, -551.5])
     """
     given = {name: _values(name, value) for name, value in known.items()}
-    if wanted not in NAMES:
-        hint = nearest(str(wanted), NAMES) or f"known are {', '.join(NAMES)}"
-        raise InputError(f"{wanted}: unknown quantity; {hint}")
+    _check_name(wanted)
     _check_bodies(pair, {*given, wanted})
     try:
         shape = np.broadcast_shapes(*(values.shape for values in given.values()))
@@ -106,11 +104,14 @@ def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     return result.copy() if shape else result.item()
 
 
+def _check_name(name: str) -> None:
+    if name not in NAMES:
+        raise InputError(f"{name}: unknown quantity; {hint(name, NAMES)}")
+
+
 def _values(name: str, value: Any) -> Array:
     """Return what is known of one quantity, or raise InputError."""
-    if name not in NAMES:
-        hint = nearest(name, NAMES) or f"known are {', '.join(NAMES)}"
-        raise InputError(f"{name}: unknown quantity; {hint}")
+    _check_name(name)
     values = numbers(name, value, "must be numbers, or text with a unit")
     if "angle" in name:
         _refuse(name, values, abs(values) >= 0.5 * pi, "must be below pi/2, '90 deg'")

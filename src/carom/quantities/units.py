@@ -117,6 +117,12 @@ def nearest(word: str, known: Iterable[str]) -> str:
     return f"did you mean {' or '.join(repr(name) for name in found)}?" if found else ""
 
 
+def hint(word: object, known: Iterable[str]) -> str:
+    """Return a hint at the known words that are nearest to one, or at all of them."""
+    known = tuple(known)
+    return nearest(str(word), known) or f"known are {', '.join(known)}"
+
+
 def _example(name: str) -> str:
     return f"'{HINTS[GLOSSARY[name].unit]}'"
 

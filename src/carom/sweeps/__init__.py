@@ -8,18 +8,19 @@ from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from carom.io.progress import Progress, advancing
 from carom.quantities.units import InputError
+from carom.sweeps.blocks import Box, Values, points_in
+from carom.sweeps.designs import Design
+from carom.sweeps.problem import SweepProblem
+from carom.sweeps.records import MemoryRecord, SweepStopped
+from carom.sweeps.schedulers import team
+from carom.sweeps.stores import StoreRecord, opened
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from carom.io.progress import Progress
-    from carom.sweeps.blocks import Box, Values
-    from carom.sweeps.designs import Design
-    from carom.sweeps.problem import Problem
-    from carom.sweeps.records import Record
-
-__all__ = ["sweep"]
+BlockRecord = MemoryRecord | StoreRecord  # where the blocks of a sweep are kept
 
 
 def sweep(
@@ -82,10 +83,7 @@ def sweep(
     >>> dict(result.sizes), int(result.status.max())
     ({'angle': 2, 'friction': 3}, 0)
     """
-    from carom.sweeps.problem import Problem
-    from carom.sweeps.schedulers import team
-
-    problem = Problem(case, design, outputs)
+    problem = SweepProblem(case, design, outputs)
     with team(scheduler, workers, problem) as those, _record(problem, store, resume) as record:
         with _telling_what_is_safe(record), closing(those.results(record.todo)) as results:
             _fill(record, prod(design.shape), results, progress)
@@ -93,38 +91,29 @@ def sweep(
 
 
 def _fill(
-    record: Record, total: int, results: Iterable[tuple[Box, Values]], progress: Progress
+    record: BlockRecord, total: int, results: Iterable[tuple[Box, Values]], progress: Progress
 ) -> None:
     """Write blocks as they come, and show how far it is."""
-    from carom.io.progress import advancing
-    from carom.sweeps.blocks import points
-
-    left = sum(points(box) for box in record.todo)
+    left = sum(points_in(box) for box in record.todo)
     with advancing("sweep", total, progress, unit="points", done=total - left) as advance:
         for box, values in results:
             record.write(box, values)
-            advance(points(box))
+            advance(points_in(box))
 
 
 def _record(
-    problem: Problem, store: str | Path | None, resume: bool
-) -> AbstractContextManager[Record]:
+    problem: SweepProblem, store: str | Path | None, resume: bool
+) -> AbstractContextManager[BlockRecord]:
     """Return what keeps the results: a store, or memory."""
-    if store is None:
-        if resume:
-            raise InputError("resume: there is nothing to continue; give the store, too")
-        from carom.sweeps.records import Memory
-
-        return nullcontext(Memory(problem))
-    from carom.sweeps.stores import opened
-
-    return opened(store, problem, resume)
+    if store is not None:
+        return opened(store, problem, resume)
+    if resume:
+        raise InputError("resume: there is nothing to continue; give the store, too")
+    return nullcontext(MemoryRecord(problem))
 
 
 @contextmanager
-def _telling_what_is_safe(record: Record) -> Iterator[None]:
-    from carom.sweeps.records import SweepStopped
-
+def _telling_what_is_safe(record: BlockRecord) -> Iterator[None]:
     try:
         yield
     except SweepStopped as error:

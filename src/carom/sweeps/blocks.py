@@ -51,6 +51,6 @@ def boxes(shape: Sequence[int], chunks: Sequence[int]) -> Iterator[Box]:
         )
 
 
-def points(box: Box) -> int:
+def points_in(box: Box) -> int:
     """Return the number of points of a block."""
     return prod(part.stop - part.start for part in box)

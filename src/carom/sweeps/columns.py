@@ -7,26 +7,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.bodies.cases import (
-    KINDS,
-    LOSSES,
-    MOTION,
-    SIZES,
-    Case,
-    as_kind,
-    check_case,
-    material_values,
-    pair_of,
-    read_loss,
-)
+from carom.bodies import cases
 from carom.quantities.units import InputError, not_negative
 from carom.sweeps.designs import Design
-from carom.sweeps.inputs import BODIES, ELASTIC, STRENGTH, Choice, leaf, refuse_contradictions
+from carom.sweeps.inputs import BODIES, ELASTIC, STRENGTH, leaf, refuse_contradictions
 
 OF_SECOND = {  # what describes a second body of each kind
     "half-space": ("material.young", "material.poisson", f"material.{STRENGTH}"),
     "cup": ("radius", "material.young", "material.poisson", f"material.{STRENGTH}"),
-    "sphere": (*SIZES, *(f"material.{name}" for name in (*ELASTIC, STRENGTH))),
+    "sphere": (*cases.SIZES, *(f"material.{name}" for name in (*ELASTIC, STRENGTH))),
 }
 OPTIONAL = ("gyration_radius", "inner_radius", f"material.{STRENGTH}")
 AT_REST = {"angle": 0.0, "tangential_speed": 0.0, "spin": 0.0, "spin2": 0.0}
@@ -34,25 +23,26 @@ AT_REST = {"angle": 0.0, "tangential_speed": 0.0, "spin": 0.0, "spin2": 0.0}
 
 @dataclass(frozen=True, eq=False)
 class Common:
-    """What the impacts of a sweep have in common, in SI units, made by `common`.
+    """What the impacts of a design have in common, in SI units, made by `common`.
 
     `kinds` are those of the second body, `inherits` whether it is made of what the first is; `loss`
     is what the normal motion loses energy to, if it does, and `yields` whether the yield velocity
     is that of the yield strengths.
     """
 
+    design: Design
     fixed: Mapping[str, float]
     kinds: tuple[str, ...]
     inherits: bool
     loss: str | None
     yields: bool
 
-    def columns(self, given: Mapping[str, Any], design: Design, kind: str) -> dict[str, Any]:
+    def columns(self, given: Mapping[str, Any], kind: str) -> dict[str, Any]:
         """Return the inputs of impacts on a body of this kind: numbers, or an array of them."""
         columns: dict[str, Any] = {name: np.float64(v) for name, v in self.fixed.items()}
         for name, values in given.items():
             if leaf(name) == "material":
-                columns |= _taken_apart(name, values, design.choices[name], self.numbers)
+                columns |= self._taken_apart(name, values)
             elif leaf(name) != "kind":
                 columns[name] = values
         if kind == "sphere":
@@ -61,32 +51,43 @@ class Common:
             _inherit(columns, *(f"material.{name}" for name in self.numbers))
         return {**AT_REST, **{n: v for n, v in columns.items() if _belongs(n, kind)}}
 
+    def _taken_apart(self, name: str, codes: NDArray[Any]) -> dict[str, NDArray[np.float64]]:
+        """Return the numbers of materials that are given by name; the last code, -1, has none."""
+        numbers = {}
+        for key in self.numbers:
+            known = [
+                choice.strength if key == STRENGTH else choice.values.get(key, np.nan)
+                for choice in self.design.choices[name]
+            ]
+            numbers[f"{name}.{key}"] = np.array([*known, np.nan])[codes]
+        return numbers
+
     @property
     def numbers(self) -> tuple[str, ...]:
         """Names of the numbers of a material on which the impacts depend."""
         return (*ELASTIC, STRENGTH) if self.yields else ELASTIC
 
-    def groups(self, given: Mapping[str, Any], design: Design) -> Iterator[tuple[str, Any]]:
+    def groups(self, given: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
         """Yield the kinds of second bodies, and the points of each."""
         if "second.kind" not in given:
             yield self.kinds[0], slice(None)
             return
-        for code, choice in enumerate(design.choices["second.kind"]):
+        for code, kind in enumerate(self.kinds):
             where = np.flatnonzero(given["second.kind"] == code)
             if where.size:
-                yield choice.label, where
+                yield kind, where
 
 
-def common(case: Case, design: Design) -> Common:
+def common(case: cases.Case, design: Design) -> Common:
     """Return what the impacts have in common.
 
     Raises InputError if case and design do not give everything that an impact needs, or something
     in two ways, or what the second body does not have.
     """
-    check_case(case, losses=True)
+    cases.check_case(case, losses=True)
     second, names = case.get("second", {}), design.names
-    losses = [name for name in LOSSES if name in names or case.get(name) is not None]
-    kinds: tuple[str, ...] = (as_kind(second.get("kind", KINDS[0])),)
+    losses = [name for name in cases.LOSSES if name in names or case.get(name) is not None]
+    kinds: tuple[str, ...] = (cases.as_kind(second.get("kind", cases.KINDS[0])),)
     if "second.kind" in names:
         kinds = tuple(choice.label for choice in design.choices["second.kind"])
     inherits = second.get("material") is None and "second.material" not in names
@@ -99,29 +100,29 @@ def common(case: Case, design: Design) -> Common:
     if "sphere" not in kinds:  # a material may have more than a fixed body needs
         fixed.pop("second.material.density", None)
     refuse_contradictions({*names, *losses, *(name for name in fixed if "material" not in name)})
-    whole = Common(fixed, kinds, inherits, next(iter(losses), None), yields)
-    _refuse_foreign(whole, names)
-    _refuse_missing(whole, design)
+    whole = Common(design, fixed, kinds, inherits, next(iter(losses), None), yields)
+    _refuse_foreign(whole)
+    _refuse_missing(whole)
     if not any("." in name for name in names):
-        pair_of({**case, "friction": 0.0})  # bodies that do not fit are refused at once
+        cases.pair_of({**case, "friction": 0.0})  # bodies that do not fit are refused at once
     return whole
 
 
-def _numbers(case: Case) -> Iterator[tuple[str, float]]:
+def _numbers(case: cases.Case) -> Iterator[tuple[str, float]]:
     """Yield the numbers of a case by name, each of them checked."""
-    for name, check in {"friction": not_negative, **MOTION}.items():
+    for name, check in {"friction": not_negative, **cases.MOTION}.items():
         if case.get(name) is not None:
             yield name, check(name, case[name])
-    for name in LOSSES:
-        if case.get(name) is not None and (value := read_loss(name, case[name])) is not None:
+    for name in cases.LOSSES:
+        if case.get(name) is not None and (value := cases.read_loss(name, case[name])) is not None:
             yield name, value
     for body in BODIES:
         table = case.get(body, {})
-        for name, check in SIZES.items():
+        for name, check in cases.SIZES.items():
             if table.get(name) is not None:
                 yield f"{body}.{name}", check(name, table[name])
         if table.get("material") is not None:
-            for name, value in material_values(table["material"]).items():
+            for name, value in cases.material_values(table["material"]).items():
                 yield f"{body}.material.{name}", value
 
 
@@ -141,33 +142,17 @@ def _belongs(name: str, kind: str) -> bool:
     return rest in OF_SECOND[kind] if body == "second" else name != "spin2" or kind == "sphere"
 
 
-def _taken_apart(
-    name: str, codes: NDArray[Any], choices: tuple[Choice, ...], keys: tuple[str, ...]
-) -> dict[str, NDArray[np.float64]]:
-    """Return the numbers of materials that are given by name; the last code, -1, has none."""
-    numbers = {}
-    for key in keys:
-        known = [
-            choice.strength if key == STRENGTH else choice.values.get(key, np.nan)
-            for choice in choices
-        ]
-        table = np.array([*known, np.nan])
-        numbers[f"{name}.{key}"] = table[codes]
-    return numbers
-
-
-def _refuse_foreign(whole: Common, names: tuple[str, ...]) -> None:
-    for name in (*names, *whole.fixed):
-        if name in ("second.kind", "second.material"):
-            continue
-        if not any(_belongs(name, kind) for kind in whole.kinds):
+def _refuse_foreign(whole: Common) -> None:
+    for name in (*whole.design.names, *whole.fixed):
+        chosen = name in ("second.kind", "second.material")
+        if not (chosen or any(_belongs(name, kind) for kind in whole.kinds)):
             raise InputError(f"{name}: a {' or '.join(whole.kinds)} has none; leave it out")
 
 
-def _refuse_missing(whole: Common, design: Design) -> None:
-    given = design.inputs(tuple(slice(0, 1) for _ in design.shape))
+def _refuse_missing(whole: Common) -> None:
+    given = whole.design.inputs(tuple(slice(0, 1) for _ in whole.design.shape))
     for kind in whole.kinds:
-        columns = whole.columns(given, design, kind)
+        columns = whole.columns(given, kind)
         needed = ["friction", "first.radius", *(f"first.material.{name}" for name in ELASTIC)]
         needed += [f"second.{name}" for name in OF_SECOND[kind] if name not in OPTIONAL]
         needed += ["normal_speed" if "normal_speed" in columns else "speed"]

@@ -1,36 +1,83 @@
-"""Designs: which impacts a sweep consists of. A full grid, a Latin hypercube, a table of cases."""
+"""Designs: which impacts a sweep consists of. Here a full grid and a Latin hypercube."""
 
-from collections.abc import Mapping
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.quantities.arrays import Array
 from carom.quantities.units import counted, refusal
 from carom.sweeps.axes import Range, read_axis, read_range
+from carom.sweeps.blocks import Box
 from carom.sweeps.inputs import (
     CHOSEN,
     CODE,
-    Box,
     Choices,
-    as_mapping,
     checked_names,
-    fill_record,
     input_attributes,
     read_choices,
     variable,
 )
 from carom.sweeps.permutation import fractions, secrets
-from carom.sweeps.tables import Table
 
-__all__ = ["Box", "Design", "Grid", "LatinHypercube", "Table"]
 MOST = 10**12  # samples, which leaves room for their places in a float
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Grid:
+class Design(ABC):
+    """What a sweep needs to know of its points: `_given` has the values or the range of an input.
+
+    `choices` are what the codes of an input that has names stand for. Points are `sampled` if their
+    inputs are variables along `point`, rather than coordinates. A box is a slice of every
+    dimension.
+    """
+
+    names: tuple[str, ...]
+    choices: Choices
+    _given: Mapping[str, Any] = field(repr=False)
+    sampled: ClassVar[bool] = True
+
+    def __init__(self, choices: Choices, given: Mapping[str, Any], **more: Any) -> None:
+        fields = {"names": tuple(given), "choices": choices, "_given": given, **more}
+        for name, value in fields.items():
+            object.__setattr__(self, name, value)
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the dimensions."""
+        return ("point",)
+
+    @property
+    @abstractmethod
+    def shape(self) -> tuple[int, ...]:
+        """Number of points along every dimension."""
+
+    def coords(self) -> dict[str, Any]:
+        """Return the coordinates for `carom.io.labels.labelled_dataset`, if there are any."""
+        return {}
+
+    @abstractmethod
+    def inputs(self, box: Box) -> dict[str, NDArray[Any]]:
+        """Return the inputs of the points of a box in C order: SI numbers, or codes of choices."""
+
+    @abstractmethod
+    def description(self) -> dict[str, Any]:
+        """Return what tells this design from others, as JSON can hold it."""
+
+    def _described(self, describe: Callable[[Any], Any]) -> dict[str, Any]:
+        """Return by input its choices, or what describes its values or range."""
+        return {
+            name: [choice.description() for choice in self.choices[name]]
+            if name in self.choices
+            else describe(given)
+            for name, given in self._given.items()
+        }
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Grid(Design):
     """Every combination of the values along some axes.
 
     Parameters
@@ -55,21 +102,17 @@ class Grid:
     (('angle', 'friction'), (9, 1))
     """
 
-    names: tuple[str, ...]
-    choices: Choices
-    _axes: tuple[Array, ...] = field(repr=False)
     sampled: ClassVar[bool] = False
 
     def __init__(self, axes: Mapping[str, Any]) -> None:
-        names = checked_names(as_mapping("axes", axes))
-        choices = {name: read_choices(name, axes[name]) for name in names if name in CHOSEN}
-        values = (
-            np.arange(len(choices[name]), dtype=CODE)
+        choices = _choices("axes", axes)
+        values = {
+            name: np.arange(len(choices[name]), dtype=CODE)
             if name in choices
-            else read_axis(name, axes[name])
-            for name in names
-        )
-        fill_record(self, names=names, choices=choices, _axes=tuple(values))
+            else read_axis(name, axis)
+            for name, axis in axes.items()
+        }
+        super().__init__(choices, values)
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -79,71 +122,30 @@ class Grid:
     @property
     def shape(self) -> tuple[int, ...]:
         """Number of values of every axis."""
-        return tuple(values.size for values in self._axes)
+        return tuple(values.size for values in self._given.values())
 
     def coords(self) -> dict[str, Any]:
         """Return every axis with its unit and meaning."""
+        labels = {name: [one.label for one in self.choices[name]] for name in self.choices}
         return {
-            variable(name): (
-                variable(name),
-                [choice.label for choice in self.choices[name]] if name in self.choices else values,
-                input_attributes(name, self.choices),
-            )
-            for name, values in zip(self.names, self._axes, strict=True)
+            dim: (dim, labels.get(name, values), input_attributes(name, self.choices))
+            for dim, (name, values) in zip(self.dims, self._given.items(), strict=True)
         }
 
     def inputs(self, box: Box) -> dict[str, NDArray[Any]]:
         """Return the inputs of the points of a box."""
-        parts = [values[part] for values, part in zip(self._axes, box, strict=True)]
+        parts = [values[part] for values, part in zip(self._given.values(), box, strict=True)]
         lattice = np.meshgrid(*parts, indexing="ij")
         return {name: at.ravel() for name, at in zip(self.names, lattice, strict=True)}
 
     def description(self) -> dict[str, Any]:
         """Return the values of every axis."""
-        axes = {
-            name: [choice.description() for choice in self.choices[name]]
-            if name in self.choices
-            else values.tolist()
-            for name, values in zip(self.names, self._axes, strict=True)
-        }
+        axes = self._described(np.ndarray.tolist)
         return {"kind": "grid", "order": list(self.names), "axes": axes}
 
 
-class Design(Protocol):
-    """What a sweep needs to know of its points; box: a slice of every dimension."""
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Names of the inputs."""
-
-    @property
-    def dims(self) -> tuple[str, ...]:
-        """Names of the dimensions."""
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Number of points along every dimension."""
-
-    @property
-    def choices(self) -> Choices:
-        """What the codes of an input that has names stand for."""
-
-    @property
-    def sampled(self) -> bool:
-        """Whether inputs are variables along `point`, rather than coordinates."""
-
-    def coords(self) -> dict[str, Any]:
-        """Return the coordinates for `carom.io.labels.labelled_dataset`."""
-
-    def inputs(self, box: Box) -> dict[str, NDArray[Any]]:
-        """Return the inputs of the points of a box in C order: SI numbers, or codes of choices."""
-
-    def description(self) -> dict[str, Any]:
-        """Return what tells this design from others, as JSON can hold it."""
-
-
 @dataclass(frozen=True, eq=False, init=False)
-class LatinHypercube:
+class LatinHypercube(Design):
     """Samples that fill the range of every input evenly (McKay, Beckman & Conover 1979).
 
     x_ij = (p_j(i) + u_ij)/n with permutations p_j and random u_ij in (0, 1), each computed where it
@@ -172,64 +174,46 @@ class LatinHypercube:
     [0, 1, 2, 3, 4]
     """
 
-    names: tuple[str, ...]
-    choices: Choices
     samples: int
     seed: int
-    _ranges: tuple[Range, ...] = field(repr=False)
-    dims: ClassVar[tuple[str, ...]] = ("point",)
-    sampled: ClassVar[bool] = True
 
     def __init__(self, ranges: Mapping[str, Any], *, samples: int, seed: int = 0) -> None:
-        names = checked_names(as_mapping("ranges", ranges))
-        choices = {name: read_choices(name, ranges[name]) for name in names if name in CHOSEN}
-        read = (
-            Range(0.0, len(choices[name]), False)
+        choices = _choices("ranges", ranges)
+        if counted("samples", samples, 1) > MOST:
+            raise refusal("samples", samples, f"must be at most {MOST:g}")
+        seed = counted("seed", seed, 0)
+        reaches = {
+            name: Range(0.0, len(choices[name]), False)
             if name in choices
-            else read_range(name, ranges[name])
-            for name in names
-        )
-        fill_record(
-            self,
-            names=names,
-            choices=choices,
-            samples=_counted(samples),
-            seed=counted("seed", seed, 0),
-            _ranges=tuple(read),
-        )
+            else read_range(name, reach)
+            for name, reach in ranges.items()
+        }
+        super().__init__(choices, reaches, samples=int(samples), seed=seed)
 
     @property
     def shape(self) -> tuple[int, ...]:
         """Number of samples."""
         return (self.samples,)
 
-    def coords(self) -> dict[str, Any]:
-        """Return no coordinates: the inputs are variables."""
-        return {}
-
     def inputs(self, box: Box) -> dict[str, NDArray[Any]]:
         """Return the inputs of the points of a box."""
         index = np.arange(*box[0].indices(self.samples), dtype=np.uint64)
         words = secrets(self.seed, len(self.names))
         found: dict[str, NDArray[Any]] = {}
-        for name, reach, secret in zip(self.names, self._ranges, words, strict=True):
+        for (name, reach), secret in zip(self._given.items(), words, strict=True):
             values = reach.at(fractions(index, self.samples, secret))
             found[name] = values.astype(CODE) if name in self.choices else values
         return found
 
     def description(self) -> dict[str, Any]:
         """Return the ranges, the number of samples and the seed."""
-        ranges = {
-            name: [choice.description() for choice in self.choices[name]]
-            if name in self.choices
-            else reach._asdict()
-            for name, reach in zip(self.names, self._ranges, strict=True)
-        }
         whole = {"samples": self.samples, "seed": self.seed, "order": list(self.names)}
-        return {"kind": "latin hypercube", **whole, "ranges": ranges}
+        return {"kind": "latin hypercube", **whole, "ranges": self._described(Range._asdict)}
 
 
-def _counted(samples: int) -> int:
-    if counted("samples", samples, 1) > MOST:
-        raise refusal("samples", samples, f"must be at most {MOST:g}")
-    return int(samples)
+def _choices(what: str, given: Any) -> Choices:
+    """Return the choices of the inputs that have names; InputError for what is not an input."""
+    if not isinstance(given, Mapping):
+        raise refusal(what, given, "must be a mapping from names of inputs to values")
+    named = (name for name in checked_names(given) if name in CHOSEN)
+    return {name: read_choices(name, given[name]) for name in named}

@@ -7,19 +7,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.bodies.cases import (
-    LOSSES,
-    MOTION,
-    ONE_LOSS,
-    SIZES,
-    as_kind,
-    material_values,
-    read_material,
-)
-from carom.quantities.glossary import GLOSSARY
-from carom.quantities.units import InputError, nearest, refusal
+from carom.bodies import cases
+from carom.io.labels import attributes
+from carom.quantities.units import InputError, hint, refusal
 
-Box = tuple[slice, ...]
 CODE = np.int8
 
 ELASTIC = ("young", "poisson", "density")
@@ -28,15 +19,15 @@ BODIES = ("first", "second")
 CHOSEN = ("first.material", "second.material", "second.kind")  # by name, not by number
 INPUTS = (
     "friction",
-    *MOTION,
-    *LOSSES,
-    *(f"{body}.{size}" for body in BODIES for size in SIZES),
+    *cases.MOTION,
+    *cases.LOSSES,
+    *(f"{body}.{size}" for body in BODIES for size in cases.SIZES),
     *(f"{body}.material.{value}" for body in BODIES for value in ELASTIC),
     *CHOSEN,
 )
 EXCLUSIVE = [  # what cannot be given together, and why
     ({"speed", "angle"}, {"normal_speed", "tangential_speed"}, "both tell how the bodies approach"),
-    *(({one}, {other}, ONE_LOSS) for one, other in combinations(LOSSES, 2)),
+    *(({one}, {other}, cases.ONE_LOSS) for one, other in combinations(cases.LOSSES, 2)),
 ]
 for _body in BODIES:
     _values = {f"{_body}.material.{value}" for value in ELASTIC}
@@ -55,8 +46,7 @@ class Choice(NamedTuple):
 
     def description(self) -> dict[str, Any]:
         """Return it as JSON can hold it."""
-        numbers = {name: "inf" if isinf(value) else value for name, value in self.values.items()}
-        return {"label": self.label, **numbers}
+        return {"label": self.label, **jsonable(self.values)}
 
 
 Choices = Mapping[str, tuple[Choice, ...]]
@@ -65,6 +55,11 @@ Choices = Mapping[str, tuple[Choice, ...]]
 def leaf(name: str) -> str:
     """Return the last part of a name: what the glossary calls it."""
     return name.rpartition(".")[2]
+
+
+def jsonable(numbers: Mapping[str, float]) -> dict[str, Any]:
+    """Return numbers as JSON can hold them."""
+    return {name: "inf" if isinf(value) else value for name, value in numbers.items()}
 
 
 def variable(name: str) -> str:
@@ -77,9 +72,8 @@ def input_attributes(name: str, choices: Choices) -> dict[str, Any]:
     body = f" of the {name.partition('.')[0]} body" if "." in name else ""
     if name in choices:
         return {"long_name": f"{leaf(name)}{body}"}
-    entry = GLOSSARY[leaf(name)]
-    meaning = f"{entry.meaning}{body}"
-    return {"units": entry.unit, "long_name": meaning, "symbol": entry.symbol}
+    known = attributes(leaf(name))
+    return known | {"long_name": f"{known['long_name']}{body}"}
 
 
 def checked_names(given: Iterable[Any]) -> tuple[str, ...]:
@@ -89,8 +83,7 @@ def checked_names(given: Iterable[Any]) -> tuple[str, ...]:
         raise InputError("design: no inputs; give at least one, e.g. 'angle'")
     for name in names:
         if name not in INPUTS:
-            hint = nearest(str(name), INPUTS) or f"known are {', '.join(INPUTS)}"
-            raise InputError(f"{name}: not an input of an impact; {hint}")
+            raise InputError(f"{name}: not an input of an impact; {hint(name, INPUTS)}")
     refuse_contradictions(names)
     return names
 
@@ -124,23 +117,10 @@ def checked_choices(name: str, choices: list[Choice]) -> tuple[Choice, ...]:
 def read_choice(name: str, value: Any) -> Choice:
     """Return a choice, or raise InputError if there is none of that name."""
     if leaf(name) == "kind":
-        return Choice(as_kind(value), {})
-    stuff = read_material(value)
-    values = material_values(stuff)
+        return Choice(cases.as_kind(value), {})
+    stuff = cases.read_material(value)
+    values = cases.material_values(stuff)
     known = {key: number for key, number in values.items() if key in ELASTIC}
     unnamed = ", ".join(f"{key}={number:g}" for key, number in known.items())
     label = value if isinstance(value, str) else stuff.name or unnamed
     return Choice(label, known, values.get(STRENGTH, nan))
-
-
-def as_mapping(name: str, given: Any) -> Mapping[str, Any]:
-    """Return what is given by names of inputs, or raise InputError if it is not."""
-    if not isinstance(given, Mapping):
-        raise refusal(name, given, "must be a mapping from names of inputs to values")
-    return given
-
-
-def fill_record(record: object, **values: object) -> None:
-    """Fill a frozen record."""
-    for name, value in values.items():
-        object.__setattr__(record, name, value)

@@ -16,8 +16,9 @@ from pathlib import Path
 from typing import Any
 
 from carom.bodies.cases import SWEEP, Case, line_of
-from carom.quantities.units import InputError, nearest, refusal
-from carom.sweeps.designs import Design, Grid, LatinHypercube, Table
+from carom.quantities.units import InputError, hint, refusal
+from carom.sweeps.designs import Design, Grid, LatinHypercube
+from carom.sweeps.tables import Table
 
 KEYS = ("samples", "seed", "table", "outputs", "axes")
 EXAMPLE = 'angle = {from = "0 deg", to = "85 deg", points = 86}'
@@ -59,8 +60,7 @@ def _check_keys(given: Mapping[str, Any], path: Path) -> None:
     for key in given:
         if key not in KEYS:
             line = max(line_of(key, text, SWEEP), line_of(f"{SWEEP}.{key}", text, ""))
-            hint = nearest(key, KEYS) or f"known are {', '.join(KEYS)}"
-            raise InputError(f"{key}: unknown key in {path}, line {line}; {hint}")
+            raise InputError(f"{key}: unknown key in {path}, line {line}; {hint(key, KEYS)}")
 
 
 def _refuse(given: Mapping[str, Any], names: Iterable[str], kind: str) -> None:

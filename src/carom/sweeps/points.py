@@ -1,6 +1,6 @@
 """Impacts of many points at once: bodies whose numbers are arrays, and a status for each point."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from enum import IntEnum
 from math import pi
 from typing import Any, NamedTuple
@@ -62,7 +62,6 @@ MESSAGES = {
     PointStatus.TOO_MANY_PHASES: "not solved as chi is too large",
     PointStatus.UNRESOLVED: "not solved as a phase did not end",
 }
-NOT_RUN = PointStatus.NOT_RUN
 OF_SOLVER = {
     Status.SOLVED: PointStatus.SOLVED,
     Status.PSI_NOT_FINITE: PointStatus.BEYOND_FLOATING_POINT,
@@ -73,10 +72,15 @@ OF_SOLVER = {
 FROM_SOLVER = np.array([OF_SOLVER[status] for status in Status], dtype=np.int8)
 POSITIVE = ("radius", "gyration_radius", "young", "density", "yield_velocity")
 NOT_NEGATIVE = ("friction", "inner_radius", "loss_time")
-APPROACHING = ("speed", "normal_speed")
+IN_RANGE: dict[str, Callable[[Any], Any]] = {
+    **dict.fromkeys(POSITIVE, lambda values: values > 0.0),
+    **dict.fromkeys(NOT_NEGATIVE, lambda values: values >= 0.0),
+    "poisson": lambda values: (values > -1.0) & (values <= 0.5),
+    "restitution": lambda values: (values >= SMALLEST_RESTITUTION) & (values <= 1.0),
+}
 
 
-class Rebounds(NamedTuple):
+class BlockSolution(NamedTuple):
     """What an outcome needs of many solutions, without losses unless it is told."""
 
     psi_out: Any
@@ -98,7 +102,8 @@ def evaluate(
     """Return the outputs of so many impacts, NaN where one is not solved, and their status."""
     with np.errstate(all="ignore"):
         status = _status(columns, kind, size)
-        solution = _unsolved(size, loss)
+        count = 1 if loss is None else len(BlockSolution._fields)
+        solution = BlockSolution(*np.full((count, size), np.nan))
         outcome = _outcome(columns, kind, solution)  # which is filled before it is asked for
         fits = representable(outcome.scales, outcome.contact_velocity)
         lost = (status == PointStatus.SOLVED) & np.logical_not(fits)
@@ -109,17 +114,12 @@ def evaluate(
             law = law_of(loss, columns.get(loss))
             _solve_with_losses(outcome, law, solution, status, threads)
         solved = status == PointStatus.SOLVED
-        values = {name: np.where(solved, _result(outcome, name), np.nan) for name in outputs}
+        found = {name: getattr(outcome.pair if name in PAIR else outcome, name) for name in outputs}
+        values = {name: np.where(solved, found[name], np.nan) for name in outputs}
     return values, status
 
 
-def _unsolved(size: int, loss: str | None) -> Rebounds:
-    if loss is None:
-        return Rebounds(np.full(size, np.nan))
-    return Rebounds(*(np.full(size, np.nan) for _ in Rebounds._fields))
-
-
-def _solve(outcome: Outcome, solution: Rebounds, status: Codes, threads: int | None) -> None:
+def _solve(outcome: Outcome, solution: BlockSolution, status: Codes, threads: int | None) -> None:
     """Fill in the elastic impacts whose status is SOLVED, and what became of them."""
     psi, chi = (np.broadcast_to(x, status.shape) for x in (outcome.psi_in, outcome.pair.chi))
     run = (status == PointStatus.SOLVED) & np.isfinite(psi)  # without friction psi is infinite
@@ -128,7 +128,7 @@ def _solve(outcome: Outcome, solution: Rebounds, status: Codes, threads: int | N
 
 
 def _solve_with_losses(
-    outcome: Outcome, law: NormalLaw, solution: Rebounds, status: Codes, threads: int | None
+    outcome: Outcome, law: NormalLaw, solution: BlockSolution, status: Codes, threads: int | None
 ) -> None:
     """Fill in the impacts with losses, also those without friction: e and the like differ."""
     loss, numbers = law.loss(outcome.pair, outcome.normal_speed)
@@ -138,13 +138,9 @@ def _solve_with_losses(
     run = status == PointStatus.SOLVED
     psi = np.where(np.isfinite(psi), psi, 0.0)
     found = lossy_rebounds(psi[run], chi[run], loss, parameter[run], threads)
-    for name in Rebounds._fields:
+    for name in BlockSolution._fields:
         getattr(solution, name)[run] = getattr(found, name)
     status[run] = FROM_SOLVER[found.status]
-
-
-def _result(outcome: Outcome, name: str) -> Any:
-    return getattr(outcome.pair if name in PAIR else outcome, name)
 
 
 def _status(columns: Columns, kind: str, size: int) -> Codes:
@@ -155,17 +151,10 @@ def _status(columns: Columns, kind: str, size: int) -> Codes:
         status[np.broadcast_to(bad, size)] = reason
 
     for name, values in columns.items():
-        key = leaf(name)
-        if key in POSITIVE:
-            mark(~(values > 0.0), PointStatus.OUT_OF_RANGE)
-        elif key in NOT_NEGATIVE:
-            mark(~(values >= 0.0), PointStatus.OUT_OF_RANGE)
-        elif key == "poisson":
-            mark(~((values > -1.0) & (values <= 0.5)), PointStatus.OUT_OF_RANGE)
-        elif key == "restitution":
-            mark(~((values >= SMALLEST_RESTITUTION) & (values <= 1.0)), PointStatus.OUT_OF_RANGE)
+        if leaf(name) in IN_RANGE:
+            mark(~IN_RANGE[leaf(name)](values), PointStatus.OUT_OF_RANGE)
     mark(_misfit(columns, kind), PointStatus.OUT_OF_RANGE)
-    for name in APPROACHING:
+    for name in ("speed", "normal_speed"):
         if name in columns:
             mark(~(columns[name] > 0.0), PointStatus.NOT_APPROACHING)
     if "speed" in columns:
@@ -190,13 +179,9 @@ def _misfit(columns: Columns, kind: str) -> Any:
     return np.logical_or.reduce(np.broadcast_arrays(young, *hollow, *tight))
 
 
-def _outcome(columns: Columns, kind: str, solution: Rebounds) -> Outcome:
-    pair = unchecked(
-        Pair,
-        first=_sphere(columns, "first"),
-        second=_second(columns, kind),
-        friction=columns["friction"],
-    )
+def _outcome(columns: Columns, kind: str, solution: BlockSolution) -> Outcome:
+    first, second = _sphere(columns, "first"), _second(columns, kind)
+    pair = unchecked(Pair, first=first, second=second, friction=columns["friction"])
     if "speed" in columns:
         normal, tangential = components(columns["speed"], columns["angle"])
     else:

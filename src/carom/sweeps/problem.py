@@ -1,33 +1,28 @@
 """What a sweep computes: a case, its design, its outputs; any block of it, alone."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from math import isnan, prod
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.bodies.cases import FROM_STRENGTH, Case
+from carom.bodies.cases import FROM_STRENGTH
 from carom.impacts.history import PAIR, RESULTS
 from carom.io.labels import attributes, flags
-from carom.quantities.units import InputError, nearest, refusal
-from carom.sweeps.blocks import chunk_shape
-from carom.sweeps.columns import AT_REST, Common, common
-from carom.sweeps.designs import Box, Design
+from carom.quantities.units import InputError, hint, refusal
+from carom.sweeps.blocks import Box, Values, chunk_shape
+from carom.sweeps.columns import AT_REST, common
+from carom.sweeps.designs import Design
 from carom.sweeps.inputs import (
     CODE,
     STRENGTH,
     UNREADABLE,
-    Choice,
-    fill_record,
     input_attributes,
+    jsonable,
     leaf,
     variable,
 )
-from carom.sweeps.points import NOT_RUN, PointStatus, evaluate
-
-__all__ = ["NOT_RUN", "OUTPUTS", "PointStatus", "Problem", "VariableInfo"]
+from carom.sweeps.points import PointStatus, evaluate
 
 OUTPUTS = (
     "psi_in",
@@ -58,8 +53,7 @@ class VariableInfo(NamedTuple):
     attributes: dict[str, Any]
 
 
-@dataclass(frozen=True, eq=False, init=False)
-class Problem:
+class SweepProblem:
     """A sweep: what all impacts have in common, in what they differ, and what is wanted of them.
 
     Parameters
@@ -81,21 +75,16 @@ class Problem:
     Examples
     --------
     >>> import carom
-    >>> from carom.sweeps.problem import Problem
+    >>> from carom.sweeps.problem import SweepProblem
     >>> case = {"friction": 0.2, "speed": 2.0, "first": {"radius": "5 mm", "material": "steel"}}
     >>> grid = carom.Grid({"angle": ["20 deg", "40 deg", "100 deg"]})
-    >>> problem = Problem(case, grid, ["psi_out"])
+    >>> problem = SweepProblem(case, grid, ["psi_out"])
     >>> found = problem.block((slice(0, 3),))
     >>> found["psi_out"].round(4).tolist()
     [-0.4269, -1.4738, nan]
     >>> [carom.PointStatus(status).message for status in found["status"]]
     ['solved', 'solved', 'bodies do not approach']
     """
-
-    case: Case
-    design: Design
-    outputs: tuple[str, ...]
-    _common: Common = field(repr=False)
 
     def __init__(
         self, case: Mapping[str, Any], design: Design, outputs: Sequence[str] | None = None
@@ -104,11 +93,10 @@ class Problem:
             raise refusal("design", design, "must be a Grid, LatinHypercube or Table")
         if not isinstance(case, Mapping):
             raise refusal("case", case, "must be a mapping like a case file, {'friction': 0.2}")
-        shared = common(dict(case), design)
-        wanted = tuple(name for name in OUTPUTS if name != "spin2_out" or "sphere" in shared.kinds)
-        wanted += OF_LOSSES if shared.loss else ()
-        wanted = wanted if outputs is None else _checked_outputs(outputs, design.names)
-        fill_record(self, case=dict(case), design=design, outputs=wanted, _common=shared)
+        self.design, self._common = design, common(dict(case), design)
+        usual = tuple(n for n in OUTPUTS if n != "spin2_out" or "sphere" in self._common.kinds)
+        usual += OF_LOSSES if self.loses else ()
+        self.outputs = usual if outputs is None else _checked(outputs, design.names)
 
     @property
     def loses(self) -> bool:
@@ -119,20 +107,18 @@ class Problem:
         """Return the shape of the blocks into which the sweep is cut."""
         return chunk_shape(self.design.shape, COSTLIER if self.loses else 1)
 
-    def block(self, box: Box, threads: int | None = 1) -> dict[str, NDArray[Any]]:
+    def block(self, box: Box, threads: int | None = 1) -> Values:
         """Return the outputs, sampled inputs and status of a box of points, in its shape.
 
         The numbers of a point do not depend on the box. NaN where the status is not SOLVED.
         """
-        shape = tuple(
-            len(range(*part.indices(n))) for part, n in zip(box, self.design.shape, strict=True)
-        )
+        shape = tuple(part.stop - part.start for part in box)
         size, given = prod(shape), self.design.inputs(box)
         status = np.full(size, PointStatus.NOT_A_NUMBER, dtype=np.int8)
         found = {name: np.full(size, np.nan) for name in self.outputs}
-        for kind, where in self._common.groups(given, self.design):
+        for kind, where in self._common.groups(given):
             part = {name: values[where] for name, values in given.items()}
-            columns, loss = self._common.columns(part, self.design, kind), self._common.loss
+            columns, loss = self._common.columns(part, kind), self._common.loss
             values, status[where] = evaluate(
                 columns, kind, loss, status[where].size, self.outputs, threads
             )
@@ -147,7 +133,7 @@ class Problem:
         sampled = self.design.names if self.design.sampled else ()
         inputs = {variable(name): self._input_info(name) for name in sampled}
         found = {name: VariableInfo("float64", dict(attributes(name))) for name in self.outputs}
-        meanings = flags([status.message for status in PointStatus], first=NOT_RUN)
+        meanings = flags([status.message for status in PointStatus], first=PointStatus.NOT_RUN)
         status = VariableInfo("int8", {"long_name": "what became of the point", **meanings})
         return {**inputs, **found, "status": status}
 
@@ -155,8 +141,7 @@ class Problem:
         """Return what tells this sweep from others, as JSON can hold it, in SI units."""
         names = self.design.names
         at_rest = {name: value for name, value in AT_REST.items() if name not in names}
-        numbers = Choice("", {**at_rest, **self._common.fixed}).description()
-        del numbers["label"]
+        numbers = jsonable({**at_rest, **self._common.fixed})
         if self._common.yields:
             numbers["yield_velocity"] = FROM_STRENGTH
             numbers |= self._strengths()
@@ -183,14 +168,13 @@ class Problem:
         return VariableInfo(np.dtype(CODE).name, {**known, **flags(labels, first=UNREADABLE)})
 
 
-def _checked_outputs(outputs: Sequence[str], names: Sequence[str]) -> tuple[str, ...]:
+def _checked(outputs: Sequence[str], names: Sequence[str]) -> tuple[str, ...]:
     known = tuple(dict.fromkeys((*RESULTS, *PAIR)))
     if not isinstance(outputs, list | tuple) or not outputs:
         raise refusal("outputs", outputs, "must be a list of names, e.g. ['rebound_angle']")
     for name in outputs:
         if name not in known:
-            hint = nearest(str(name), known) or f"known are {', '.join(known)}"
-            raise InputError(f"outputs: {name!r} is not a result of an impact; {hint}")
+            raise InputError(f"outputs: {name!r} is not a result of an impact; {hint(name, known)}")
         if name in names or list(outputs).count(name) > 1:
             raise InputError(f"outputs: {name!r} is there already, as input or output")
     return tuple(outputs)

@@ -4,7 +4,7 @@ import json
 from collections.abc import Mapping
 from hashlib import sha256
 from math import prod
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from carom.io.labels import labelled_dataset
 from carom.quantities.units import refusal
 from carom.sweeps.blocks import Box, Values, boxes
-from carom.sweeps.problem import Problem
+from carom.sweeps.problem import SweepProblem
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,25 +26,10 @@ class SweepStopped(RuntimeError):
     """A sweep could not go on; the message says why, what is safe, and how to continue."""
 
 
-class Record(Protocol):
-    """Where the blocks of a sweep are kept."""
-
-    todo: list[Box]
-
-    def write(self, box: Box, values: Values) -> None:
-        """Keep a block."""
-
-    def safe(self) -> str:
-        """Return what has been finished, and how to go on."""
-
-    def dataset(self) -> "xr.Dataset":
-        """Return the sweep."""
-
-
-class Memory:
+class MemoryRecord:
     """A sweep in memory, of which nothing is left if it is stopped."""
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: SweepProblem) -> None:
         self._problem = problem
         shape = problem.design.shape
         try:
@@ -71,7 +56,7 @@ class Memory:
 
 
 def blank_dataset(
-    problem: Problem, arrays: Mapping[str, NDArray[Any]] | None = None
+    problem: SweepProblem, arrays: Mapping[str, NDArray[Any]] | None = None
 ) -> "xr.Dataset":
     """Return the dataset of a sweep with its coordinates, and with these arrays as variables."""
     known = problem.variables()
@@ -83,7 +68,7 @@ def blank_dataset(
     return labelled_dataset(variables, problem.design.coords(), attributes)
 
 
-def identity(problem: Problem) -> dict[str, Any]:
+def identity(problem: SweepProblem) -> dict[str, Any]:
     """Return what tells a sweep from others as JSON holds it, a hash for what is long."""
     whole: dict[str, Any] = _condensed(json.loads(json.dumps(problem.description())))
     return whole

@@ -2,14 +2,7 @@
 
 import logging
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
-from concurrent.futures import (
-    FIRST_COMPLETED,
-    CancelledError,
-    Executor,
-    Future,
-    ThreadPoolExecutor,
-    wait,
-)
+from concurrent import futures
 from contextlib import contextmanager
 from functools import lru_cache
 from importlib.metadata import version
@@ -21,7 +14,7 @@ from carom.io.extras import extra
 from carom.io.labels import carom_version
 from carom.quantities.units import InputError, counted, refusal
 from carom.sweeps.blocks import Box, Values
-from carom.sweeps.problem import Problem
+from carom.sweeps.problem import SweepProblem
 from carom.sweeps.records import SweepStopped
 
 ANSWER = 5.0  # seconds a scheduler, and its first worker, have to answer
@@ -32,21 +25,21 @@ AHEAD = 2  # blocks in flight for each thread
 class Team(NamedTuple):
     """Those who compute blocks: how one is submitted, how many work at once, how they are lost."""
 
-    submit: Callable[[Box], Future[Values]]
+    submit: Callable[[Box], futures.Future[Values]]
     size: int
     losses: Mapping[type[BaseException], str]
 
     def results(self, blocks: Sequence[Box]) -> Generator[tuple[Box, Values], None, None]:
         """Yield blocks with their values in the order in which they are finished."""
         queue = iter(blocks)
-        flying: dict[Future[Values], Box] = {}
+        flying: dict[futures.Future[Values], Box] = {}
         try:
             while True:
                 for box in islice(queue, AHEAD * self.size - len(flying)):
                     flying[self.submit(box)] = box
                 if not flying:
                     return
-                for future in wait(flying, return_when=FIRST_COMPLETED).done:
+                for future in futures.wait(flying, return_when=futures.FIRST_COMPLETED).done:
                     yield flying.pop(future), future.result()
         except tuple(self.losses) as error:
             raise SweepStopped(self.losses[type(error)]) from None
@@ -56,7 +49,7 @@ class Team(NamedTuple):
 
 
 @contextmanager
-def team(scheduler: str | None, workers: int | None, problem: Problem) -> Iterator[Team]:
+def team(scheduler: str | None, workers: int | None, problem: SweepProblem) -> Iterator[Team]:
     """Hold those who compute a problem: threads here, or the workers of a dask scheduler."""
     if scheduler is None:
         with _threads(workers, problem) as here:
@@ -69,20 +62,20 @@ def team(scheduler: str | None, workers: int | None, problem: Problem) -> Iterat
 
 
 @contextmanager
-def _threads(workers: int | None, problem: Problem) -> Iterator[Team]:
+def _threads(workers: int | None, problem: SweepProblem) -> Iterator[Team]:
     size = available_cores() if workers is None else counted("workers", workers, 1)
-    with ThreadPoolExecutor(size, "sweep") as pool:
+    with futures.ThreadPoolExecutor(size, "sweep") as pool:
         yield Team(lambda box: pool.submit(problem.block, box), size, {})
 
 
 @contextmanager
-def _cluster(address: str, problem: Problem) -> Iterator[Team]:
+def _cluster(address: str, problem: SweepProblem) -> Iterator[Team]:
     with _client(address) as client:
         size = _checked_threads(client, address)
-        executor: Executor = client.get_executor(pure=False)
+        executor: futures.Executor = client.get_executor(pure=False)
         shared = client.submit(_itself, problem, pure=False)  # a task, made anew if it is lost
         losses = {
-            CancelledError: f"the scheduler {address} is gone",
+            futures.CancelledError: f"the scheduler {address} is gone",
             extra("distributed", CLUSTER).KilledWorker: "one worker after another died",
         }
         yield Team(
@@ -142,11 +135,11 @@ def _require_same(worker: str, found: Any, expected: dict[str, str] | None = Non
             )
 
 
-def _itself(problem: Problem) -> Problem:
+def _itself(problem: SweepProblem) -> SweepProblem:
     return problem
 
 
-def _remote_block(problem: Problem, box: Box, expected: dict[str, str]) -> Values:
+def _remote_block(problem: SweepProblem, box: Box, expected: dict[str, str]) -> Values:
     """Compute a block in a worker, also in one that has joined late."""
     _require_same("that joined", versions(), expected)
     return problem.block(box)

@@ -26,7 +26,8 @@ from carom.io.files import STATUS, STORE, read_store
 from carom.io.labels import carom_version
 from carom.quantities.units import refusal
 from carom.sweeps.blocks import Box, Values, boxes
-from carom.sweeps.problem import NOT_RUN, Problem
+from carom.sweeps.points import PointStatus
+from carom.sweeps.problem import SweepProblem
 from carom.sweeps.records import SweepStopped, blank_dataset, identity
 
 if TYPE_CHECKING:
@@ -80,7 +81,7 @@ def write_chunk(
         raise
 
 
-class Store:
+class StoreRecord:
     """A sweep in a Zarr store, for the process that holds its lock."""
 
     def __init__(self, path: Path, names: Iterable[str]) -> None:
@@ -97,7 +98,7 @@ class Store:
         if not all(chunk_file(self.path / name, corner).is_file() for name in self._names):
             return False
         try:
-            return not np.any(self._status[box] == NOT_RUN)
+            return not np.any(self._status[box] == PointStatus.NOT_RUN)
         except Exception:  # zarr raises what it likes at a damaged file
             return False
 
@@ -126,7 +127,7 @@ class Store:
 
 
 @contextmanager
-def opened(folder: str | Path, problem: Problem, resume: bool) -> Iterator[Store]:
+def opened(folder: str | Path, problem: SweepProblem, resume: bool) -> Iterator[StoreRecord]:
     """Make a store, or check the one that is there, and hold it against other processes.
 
     Raises InputError if it is there and `resume` is not set, if another process holds it, or if it
@@ -141,7 +142,7 @@ def opened(folder: str | Path, problem: Problem, resume: bool) -> Iterator[Store
     else:
         _check(path, problem)
     with _locked(path):
-        yield Store(path, problem.variables())
+        yield StoreRecord(path, problem.variables())
 
 
 def _checked(folder: str | Path) -> Path:
@@ -169,48 +170,39 @@ def _locked(path: Path) -> Iterator[None]:
         lock.release()
 
 
-def _create(path: Path, problem: Problem) -> None:
+def _create(path: Path, problem: SweepProblem) -> None:
     """Make a store without points, whole or not at all."""
     new = path.parent / f".{path.stem}-{uuid.uuid4().hex}"
     try:
-        try:
-            with warnings.catch_warnings():  # of what the format 3 does not yet have on paper
-                warnings.simplefilter("ignore")
-                _fill(new, problem)
-            os.rename(new, path)
-        finally:
-            shutil.rmtree(new, ignore_errors=True)
+        with warnings.catch_warnings():  # of what the format 3 does not yet have on paper
+            warnings.simplefilter("ignore")
+            _fill(new, problem)
+        os.rename(new, path)
     except OSError as error:
-        there = error.errno in (errno.EEXIST, errno.ENOTEMPTY)
-        reason = (
-            "another process has just made it" if there else f"cannot be made; {error.strerror}"
-        )
+        reason = f"cannot be made; {error.strerror}"
+        if error.errno in (errno.EEXIST, errno.ENOTEMPTY):
+            reason = "another process has just made it"
         raise refusal("store", str(path), reason) from None
+    finally:
+        shutil.rmtree(new, ignore_errors=True)
 
 
-def _fill(path: Path, problem: Problem) -> None:
+def _fill(path: Path, problem: SweepProblem) -> None:
     zarr = extra("zarr", "a store")
     blank_dataset(problem).to_zarr(path, zarr_format=3, consolidated=False)
     group = zarr.open_group(path, mode="r+")
-    design = problem.design
+    shape, dims = problem.design.shape, problem.design.dims
+    layout = {"shape": shape, "chunks": problem.chunks(), "dimension_names": dims, **codecs()}
     for name, info in problem.variables().items():
-        group.create_array(
-            name,
-            shape=design.shape,
-            chunks=problem.chunks(),
-            dtype=info.dtype,
-            fill_value=_blank(name, info.dtype),
-            dimension_names=design.dims,
-            **codecs(),
-            attributes=_jsonable(info.attributes),
-        )
+        told = {"fill_value": _blank(name, info.dtype), "attributes": _jsonable(info.attributes)}
+        group.create_array(name, dtype=info.dtype, **layout, **told)
     zarr.consolidate_metadata(path)
 
 
 def _blank(name: str, dtype: Any) -> Any:
     """Return what stands for a point that has not been run."""
     if name == STATUS:
-        return NOT_RUN.value
+        return PointStatus.NOT_RUN.value
     return np.nan if np.dtype(dtype).kind == "f" else None
 
 
@@ -221,7 +213,7 @@ def _jsonable(attributes: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _check(path: Path, problem: Problem) -> None:
+def _check(path: Path, problem: SweepProblem) -> None:
     """Raise InputError unless this is a store of this sweep."""
     dataset = read_store(path)
     version = str(dataset.attrs["source"]).removeprefix("carom ")

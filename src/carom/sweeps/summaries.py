@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from carom.quantities.units import refusal
 from carom.sweeps.blocks import Box, boxes, chunk_shape
+from carom.sweeps.points import PointStatus
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -48,9 +49,7 @@ def summary(dataset: "xr.Dataset", names: Sequence[str] | None = None) -> Summar
         counts.update(dict(zip(values.tolist(), numbers.tolist(), strict=True)))
         for name in shown:
             ranges[name] = _extended(ranges[name], _read(dataset[name], box))
-    words = status.attrs["flag_meanings"].split()
-    meanings = dict(zip(np.asarray(status.attrs["flag_values"]).tolist(), words, strict=True))
-    statuses = {meanings[value].replace("_", " "): n for value, n in sorted(counts.items())}
+    statuses = {PointStatus(value).message: n for value, n in sorted(counts.items())}
     return Summary({str(n): size for n, size in dataset.sizes.items()}, statuses, ranges)
 
 

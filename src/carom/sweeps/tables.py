@@ -4,40 +4,38 @@ import hashlib
 import re
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
+from carom.io.tables import require_equal_lengths
 from carom.quantities.arrays import Array
 from carom.quantities.units import InputError, number, refusal
+from carom.sweeps.blocks import Box
+from carom.sweeps.designs import Design
 from carom.sweeps.inputs import (
     CHOSEN,
     CODE,
     UNREADABLE,
-    Box,
     Choice,
     Choices,
     checked_choices,
     checked_names,
-    fill_record,
     leaf,
     read_choice,
 )
-
-if TYPE_CHECKING:
-    import pandas as pd
-
-Columns = dict[str, NDArray[Any]]
 
 HEAD = re.compile(r"\s*([^\[]*?)\s*(?:\[(.*)\])?\s*")
 CELL = r"^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf)\s*(.*?)\s*$"
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Table:
+class Table(Design):
     """Cases one by one, the rows of a table.
 
     Parameters
@@ -60,42 +58,30 @@ class Table:
     ('angle', 'friction')
     """
 
-    names: tuple[str, ...]
-    choices: Choices
-    _columns: tuple[NDArray[Any], ...] = field(repr=False)
-    dims: ClassVar[tuple[str, ...]] = ("point",)
-    sampled: ClassVar[bool] = True
-
     def __init__(self, source: str | Path | Mapping[str, Any]) -> None:
-        columns, choices = read_columns(source)
-        fill_record(self, names=tuple(columns), choices=choices, _columns=tuple(columns.values()))
+        super().__init__(*_read(source))
 
     @property
     def shape(self) -> tuple[int, ...]:
         """Number of rows."""
-        return (self._columns[0].size,)
-
-    def coords(self) -> dict[str, Any]:
-        """Return no coordinates: the inputs are variables."""
-        return {}
+        return (self._given[self.names[0]].size,)
 
     def inputs(self, box: Box) -> dict[str, NDArray[Any]]:
         """Return the inputs of the points of a box."""
-        return {n: values[box[0]] for n, values in zip(self.names, self._columns, strict=True)}
+        return {name: values[box[0]] for name, values in self._given.items()}
 
     def description(self) -> dict[str, Any]:
         """Return a hash of the values."""
         digest = hashlib.sha256()
-        for values in self._columns:
+        for values in self._given.values():
             digest.update(np.ascontiguousarray(values).tobytes())
         choices = {name: [one.description() for one in self.choices[name]] for name in self.choices}
-        names, rows = list(self.names), self.shape[0]
-        whole = {"inputs": names, "rows": rows, "choices": choices, "sha256": digest.hexdigest()}
-        return {"kind": "table", **whole}
+        whole = {"inputs": list(self.names), "rows": self.shape[0], "choices": choices}
+        return {"kind": "table", **whole, "sha256": digest.hexdigest()}
 
 
-def read_columns(source: str | Path | Mapping[str, Any]) -> tuple[Columns, Choices]:
-    """Return the inputs of a table by name, and what the codes of its names stand for."""
+def _read(source: str | Path | Mapping[str, Any]) -> tuple[Choices, dict[str, NDArray[Any]]]:
+    """Return what the codes of names stand for, and the inputs by name."""
     if isinstance(source, str | Path):
         given = _read_csv(source)
     elif hasattr(source, "items"):  # a data frame, too
@@ -104,7 +90,7 @@ def read_columns(source: str | Path | Mapping[str, Any]) -> tuple[Columns, Choic
         raise refusal("table", source, "must be the name of a CSV file, or a mapping of columns")
     heads = [_head(text) for text in given]
     names = checked_names(name for name, _ in heads)
-    columns: Columns = {}
+    columns: dict[str, NDArray[Any]] = {}
     choices: dict[str, tuple[Choice, ...]] = {}
     for (name, unit), column in zip(heads, given.values(), strict=True):
         if name in columns:
@@ -115,7 +101,7 @@ def read_columns(source: str | Path | Mapping[str, Any]) -> tuple[Columns, Choic
             columns[name] = _numbers(leaf(name), unit, column)
     if not columns[names[0]].size:
         raise InputError("table: it has no rows; give at least one case")
-    return columns, choices
+    return choices, columns
 
 
 def _head(text: str) -> tuple[str, str | None]:
@@ -125,8 +111,6 @@ def _head(text: str) -> tuple[str, str | None]:
 
 
 def _read_csv(path: str | Path) -> "dict[str, pd.Series[Any]]":
-    import pandas as pd
-
     how: dict[str, Any] = {"comment": "#", "skipinitialspace": True, "low_memory": False}
     if tuple(map(int, pd.__version__.split(".")[:2])) < (3, 1):
         how["float_precision"] = "round_trip"  # from then on numbers are always read exactly
@@ -143,8 +127,6 @@ def _read_csv(path: str | Path) -> "dict[str, pd.Series[Any]]":
 
 
 def _series(columns: Mapping[str, Any]) -> "dict[str, pd.Series[Any]]":
-    import pandas as pd
-
     try:
         series = {
             str(name): pd.Series(values if np.ma.isMaskedArray(values) else np.asarray(values))
@@ -152,10 +134,7 @@ def _series(columns: Mapping[str, Any]) -> "dict[str, pd.Series[Any]]":
         }
     except ValueError:
         raise InputError("table: every column must be a list of numbers or of texts") from None
-    lengths = {name: len(values) for name, values in series.items()}
-    if len(set(lengths.values())) > 1:
-        listed = ", ".join(f"{name} {length}" for name, length in lengths.items())
-        raise InputError(f"table: columns must be equally long; rows are {listed}")
+    require_equal_lengths("table", series)
     return series
 
 
@@ -182,16 +161,11 @@ def _scale(key: str, unit: str, scale: float) -> float:
 
 def _chosen(name: str, column: "pd.Series[Any]") -> tuple[NDArray[Any], tuple[Choice, ...]]:
     codes, values = column.factorize()
-    read = [_choice(name, value) for value in values]
-    known = [choice for choice in read if choice is not None]
+    read: dict[int, Choice] = {}
+    for i, value in enumerate(values):
+        with suppress(InputError):
+            read[i] = read_choice(name, value.strip() if isinstance(value, str) else value)
+    choices = checked_choices(name, list(read.values())) if read else ()
     place = np.full(len(values) + 1, UNREADABLE, dtype=CODE)
-    choices = checked_choices(name, known) if known else ()
-    place[[i for i, choice in enumerate(read) if choice is not None]] = np.arange(len(choices))
+    place[list(read)] = np.arange(len(choices))
     return place[codes], choices
-
-
-def _choice(name: str, value: Any) -> Choice | None:
-    try:
-        return read_choice(name, value.strip() if isinstance(value, str) else value)
-    except InputError:
-        return None

@@ -12,8 +12,8 @@ from carom.bodies.cases import case_of
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import HalfSpace, Sphere
 from carom.dimensionless.rebounds import rebound
-from carom.io.columns import CASE
 from carom.io.progress import Progress, advancing
+from carom.io.tables import CASE
 from carom.laws.dem import ContactLaw, Law
 from carom.quantities.arrays import finite_line
 from carom.quantities.units import InputError, refusal

@@ -13,7 +13,8 @@ from carom.bodies.pairs import Pair
 from carom.bodies.shapes import describe
 from carom.impacts.exact import Impact
 from carom.impacts.solve import impact
-from carom.io.columns import Results, in_units, read_table
+from carom.io.columns import Results, in_units
+from carom.io.tables import read_table
 from carom.quantities.arrays import Array
 from carom.quantities.units import InputError, nearest, number, positive, refusal
 from carom.verify.scoring.histories import NAMES as HISTORY, score_history

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
 from carom.impacts.curves import regime_map
-from carom.io.columns import SHOWN, Results, named
+from carom.io.columns import Results
 from carom.io.labels import Finding
+from carom.io.tables import SHOWN, named
 from carom.quantities.arrays import Array
 from carom.quantities.units import InputError
 
