@@ -123,7 +123,7 @@ def _short(name: str) -> str:
 
 
 @draws(
-    "a map of regimes, what carom.impacts.curves.regime_map returns",
+    "a map of regimes, what carom.regime_map returns",
     *("sequence", "sequence_name", "psi_in", "chi"),
 )
 def plot_regime_map(dataset: xr.Dataset) -> Figure:
@@ -134,7 +134,7 @@ def plot_regime_map(dataset: xr.Dataset) -> Figure:
     Parameters
     ----------
     dataset : xarray.Dataset
-        What `carom.impacts.curves.regime_map` returns.
+        What `carom.regime_map` returns.
 
     Returns
     -------
