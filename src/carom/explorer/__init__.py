@@ -1,5 +1,9 @@
 """The page to explore impacts: `carom explore`. No physics here."""
 
-from carom.explorer.serving import Explorer, explorer
+from carom.io.extras import extra
+
+extra("dash", "the explorer", "explore")  # in one line what else the imports below would say
+
+from carom.explorer.serving import Explorer, explorer  # noqa: E402
 
 __all__ = ["Explorer", "explorer"]

@@ -9,7 +9,7 @@ from carom.explorer.overlays import LawCurve
 from carom.explorer.scenes import OF_CONTACT, Scene
 from carom.explorer.stages import short
 from carom.impacts.curves import borders
-from carom.plots.bands import SIGNS
+from carom.plots.bands import SIGNS, mirrored
 from carom.plots.impact import ENERGIES
 from carom.quantities.arrays import Array
 
@@ -27,12 +27,12 @@ PHASE_FILLS = {
     ("gross slip", 1): "rgba(213, 94, 0, 0.20)",
     ("gross slip", -1): "rgba(204, 121, 167, 0.24)",
 }
-REGIME_FILLS = (
-    ("stick", PHASE_FILLS["stick", 0]),
-    ("slide, stick", PHASE_FILLS["slip", 1]),
-    ("slide, slip", PHASE_FILLS["gross slip", 1]),
-    ("slide", "rgba(138, 143, 152, 0.16)"),
-)
+REGIME_FILLS = {
+    "stick": PHASE_FILLS["stick", 0],
+    "slide, stick": PHASE_FILLS["slip", 1],
+    "slide, slip": PHASE_FILLS["gross slip", 1],
+    "slide": "rgba(138, 143, 152, 0.16)",
+}
 ENERGY_FILLS = {  # colour and pattern
     "normal_kinetic_energy": ("#c9d3dd", ""),
     "tangential_kinetic_energy": ("#8db9dc", "."),
@@ -137,10 +137,8 @@ def rebounds(scene: Scene, curve: tuple[Array, Array], laws: Laws = ()) -> Figur
 
 def _regimes(chi: float, psi: Array) -> Iterator[tuple[float, float, str, str]]:
     ends = [0.0, *borders(chi), np.inf]
-    for (name, fill), low, high in zip(REGIME_FILLS, ends, ends[1:], strict=False):
-        for side in (-1.0, 1.0):
-            start, end = np.clip(sorted((side * low, side * high)), psi[0], psi[-1])
-            yield float(start), float(end), name, fill
+    for name, start, end in mirrored(REGIME_FILLS, ends, psi[0], psi[-1]):
+        yield float(start), float(end), name, REGIME_FILLS[name]
 
 
 def line(
@@ -227,7 +225,6 @@ def _bands(
         if end - start > NARROW * (last - first):
             at = {"x": 0.5 * (start + end), "y": 0.99, "xref": "x", "yref": "paper"}
             turned = -90 if end - start < 2.5 * NARROW * (last - first) else 0
-            names.append(
-                {"text": name, **at, "showarrow": False, "yanchor": "top", "textangle": turned}
-            )
+            look = {"showarrow": False, "yanchor": "top", "textangle": turned}
+            names.append({"text": name, **at, **look})
     return {"shapes": shapes, "annotations": names}

@@ -13,14 +13,8 @@ from carom.explorer.views import BODIES, OF_NUMBERS, View
 from carom.quantities.units import InputError
 
 CARRIED = 6  # digits of what is carried over
-FIELDS = (  # what depends on what is given
-    ("numbers", "hidden"),
-    ("motion", "hidden"),
-    ("bodies", "hidden"),
-    ("second_radius-field", "hidden"),
-    ("patch-png-item", "hidden"),
-    ("history-png-item", "hidden"),
-)
+FIELDS = ("numbers", "motion", "bodies", "second_radius-field")  # of use by what is given
+FILES = ("patch-png-item", "history-png-item")  # likewise
 
 
 def connect_controls(app: Dash) -> None:
@@ -68,7 +62,7 @@ def _gather(app: Dash) -> None:
     )
     app.clientside_callback(
         ClientsideFunction("controls", "hide"),
-        [Output(*part) for part in FIELDS],
+        [Output(field, "hidden") for field in (*FIELDS, *FILES)],
         Input("given", "value"),
         Input("against", "value"),
     )

@@ -1,14 +1,14 @@
 """Files of a view: histories, pictures, and the lines of Python, each at an address of its own."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from math import isfinite
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from threading import Lock
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from urllib.parse import parse_qs
 
+import xarray as xr
 from flask import Flask, Response, request
 from matplotlib.figure import Figure
 
@@ -23,9 +23,6 @@ from carom.io.labels import labelled_dataset
 from carom.plots import plot_curve, plot_impact, plot_patch, save_figure
 from carom.plots.style import DASHES, LINES, MM, VERMILION, legend_above, styled
 from carom.quantities.units import InputError, refusal
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 BODIES = """\
 import numpy as np
@@ -77,14 +74,12 @@ DATA = """\
 found = carom.fit(carom.datasets.load({name!r}))  # pip install 'carom[fit]'
 print(found)
 """
-KINDS = MappingProxyType(
-    {
-        ".csv": "text/csv; charset=utf-8",
-        ".nc": "application/x-netcdf",
-        ".png": "image/png",
-        ".py": "text/x-python; charset=utf-8",
-    }
-)
+KINDS = {
+    ".csv": "text/csv; charset=utf-8",
+    ".nc": "application/x-netcdf",
+    ".png": "image/png",
+    ".py": "text/x-python; charset=utf-8",
+}
 MEANINGS = {  # of the columns of `Solution.history`
     "penetration": "penetration, in d_max",
     "speed": "normal speed of approach, in V_1",
@@ -125,15 +120,9 @@ def _bodies(view: View, time: float) -> str:
     first = f'carom.Sphere(radius="{view.radius!r} mm", material={view.material!r})'
     sized = f'radius="{view.second_radius!r} mm", ' if view.against != "half-space" else ""
     second = f"carom.{kinds[view.against]}({sized}material={view.second_material!r})"
-    return BODIES.format(
-        first=first,
-        second=second,
-        friction=view.friction,
-        speed=view.speed,
-        angle=view.angle,
-        spin=view.spin,
-        time=min(max(time, 0.0), 1.0),
-    )
+    motion = {"speed": view.speed, "angle": view.angle, "spin": view.spin}
+    share = min(max(time, 0.0), 1.0)
+    return BODIES.format(first=first, second=second, friction=view.friction, time=share, **motion)
 
 
 def add_downloads(server: Flask) -> None:
@@ -168,10 +157,7 @@ def _time(query: str) -> float:
 
 
 def _history(view: View, _: float, file: Path) -> None:
-    if view.in_numbers:
-        save(dimensionless_history(view), file)
-    else:
-        save(impact_of(view).history(TIMES), file)
+    save(dimensionless_history(view) if view.in_numbers else impact_of(view).history(TIMES), file)
 
 
 def _picture(view: View, _: float, file: Path) -> None:
@@ -224,19 +210,17 @@ def _lines(view: View, time: float, file: Path) -> None:
     file.write_text(script(view, time), encoding="utf-8")
 
 
-WRITERS: Mapping[str, Callable[[View, float, Path], None]] = MappingProxyType(
-    {
-        "history.csv": _history,
-        "history.nc": _history,
-        "history.png": _picture,
-        "curve.png": _curve,
-        "patch.png": _patch,
-        "view.py": _lines,
-    }
-)
+WRITERS: dict[str, Callable[[View, float, Path], None]] = {
+    "history.csv": _history,
+    "history.nc": _history,
+    "history.png": _picture,
+    "curve.png": _curve,
+    "patch.png": _patch,
+    "view.py": _lines,
+}
 
 
-def dimensionless_history(view: View) -> "xr.Dataset":
+def dimensionless_history(view: View) -> xr.Dataset:
     """Return the history of an impact that psi_1 and chi tell, in the units of `carom.solve`."""
     solution = solve(view.psi, view.chi)
     history = solution.history(TIMES)

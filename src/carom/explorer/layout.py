@@ -1,7 +1,6 @@
 """The page: what can be chosen on the left, what comes of it on the right."""
 
-from collections.abc import Iterable, Mapping
-from types import MappingProxyType
+from collections.abc import Iterable
 from typing import Any
 
 from dash import dcc, html
@@ -19,35 +18,32 @@ from carom.explorer.views import (
 )
 from carom.verify.catalogue import CATALOGUE
 
-LABELS: Mapping[str, str] = MappingProxyType(
-    {
-        "radius": "Radius of the ball",
-        "material": "Material of the ball",
-        "against": "It strikes a",
-        "second_radius": "Radius of the second body",
-        "second_material": "Material of the second body",
-        "friction": "Friction, µ",
-        "speed": "Speed of approach, V",
-        "angle": "Incidence from the normal",
-        "spin": "Spin (positive: backspin)",
-        "psi": "ψ₁, dimensionless velocity before",
-        "chi": "χ, ratio of inertia to stiffness",
-        "law": "Contact laws laid over",
-        "data": "Measured rebounds that come along",
-    }
-)
+LABELS = {
+    "radius": "Radius of the ball",
+    "material": "Material of the ball",
+    "against": "It strikes a",
+    "second_radius": "Radius of the second body",
+    "second_material": "Material of the second body",
+    "friction": "Friction, µ",
+    "speed": "Speed of approach, V",
+    "angle": "Incidence from the normal",
+    "spin": "Spin (positive: backspin)",
+    "psi": "ψ₁, dimensionless velocity before",
+    "chi": "χ, ratio of inertia to stiffness",
+    "law": "Contact laws laid over",
+    "data": "Measured rebounds that come along",
+}
+STORES = ("view", "scene", "query", "late", "figures", "carried", "file", "restored")
 CONTROLS = ("given", *OF_BODIES, "friction", *OF_MOTION, *OF_NUMBERS, "law", "data")
 SLIDERS = tuple(name for name in CONTROLS if name in KNOBS and KNOBS[name].slider)
-FILES = MappingProxyType(
-    {
-        "history.csv": "History, CSV",
-        "history.nc": "History, NetCDF",
-        "history.png": "Histories, PNG",
-        "curve.png": "Rebound curve, PNG",
-        "patch.png": "Contact, PNG",
-        "view.py": "Python",
-    }
-)
+FILES = {
+    "history.csv": "History, CSV",
+    "history.nc": "History, NetCDF",
+    "history.png": "Histories, PNG",
+    "curve.png": "Rebound curve, PNG",
+    "patch.png": "Contact, PNG",
+    "view.py": "Python",
+}
 PACES = (2, 5, 10, 30)  # seconds that a film takes
 LIVE: Any = {"aria-live": "polite"}
 
@@ -58,14 +54,7 @@ def page() -> html.Div:
         id="page",
         children=[
             dcc.Location(id="url", refresh=False),
-            dcc.Store(id="view"),
-            dcc.Store(id="scene"),
-            dcc.Store(id="query"),
-            dcc.Store(id="late"),
-            dcc.Store(id="figures"),
-            dcc.Store(id="carried"),
-            dcc.Store(id="file"),
-            dcc.Store(id="restored"),
+            *(dcc.Store(id=name) for name in STORES),
             _head(),
             html.Aside(className="carom-controls", children=_controls()),
             html.Main(className="carom-panels", children=list(_panels())),
@@ -236,7 +225,6 @@ def _downloads() -> Iterable[Any]:
 
 
 def _file(name: str, text: str) -> html.A:
-    where: Any = {"data-path": f"/{name}"}  # a link once there is a state to tell
-    return html.A(
-        text, id=name.replace(".", "-"), className="carom-download", download=name, **where
-    )
+    what: Any = {"className": "carom-download", "download": name}
+    what["data-path"] = f"/{name}"  # a link once there is a state to tell
+    return html.A(text, id=name.replace(".", "-"), **what)

@@ -6,9 +6,10 @@ from base64 import b64decode
 from binascii import Error as NotBase64
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 from dash import ClientsideFunction, Dash, Input, Output, State, dcc, html, no_update
 
 from carom.explorer.charts import BLUE, CHART, GREY, VERMILION, Figure, axes_of, line
@@ -20,9 +21,6 @@ from carom.measurements import datasets
 from carom.plots.style import prefixed
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import InputError, refusal
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 LINES = {
     "exact": (BLUE, "solid", 2.2),
@@ -38,21 +36,13 @@ LONGEST_NAME = 80
 def fitted(found: Fit) -> list[Any]:
     """Return what the page shows of a fit."""
     dataset = found.to_dataset()
-    return [
-        html.Pre(str(found), className="carom-code", tabIndex="0"),
-        *(
-            dcc.Graph(
-                figure=_chart(dataset.sel(response=name), str(name)),
-                config=CHART,
-                responsive=True,
-                className="carom-chart",
-            )
-            for name in dataset["response"].values
-        ),
-    ]
+    figures = [_chart(dataset.sel(response=n), str(n)) for n in dataset["response"].values]
+    how: Any = {"config": CHART, "responsive": True, "className": "carom-chart"}
+    text = html.Pre(str(found), className="carom-code", tabIndex="0")
+    return [text, *(dcc.Graph(figure=figure, **how) for figure in figures)]
 
 
-def _chart(one: "xr.Dataset", name: str) -> Figure:
+def _chart(one: xr.Dataset, name: str) -> Figure:
     scale, unit = _scale(name, one["measured"].values)
     along = np.degrees(one["curve_incidence"].values)
     traces: list[Figure] = [
@@ -64,7 +54,7 @@ def _chart(one: "xr.Dataset", name: str) -> Figure:
     return axes_of(traces, "incidence of the contact point (deg)", text)
 
 
-def _points(one: "xr.Dataset", scale: float) -> Figure:
+def _points(one: xr.Dataset, scale: float) -> Figure:
     error = {"type": "data", "array": short(scale * one["error"].values), "thickness": 1}
     return {
         "type": "scatter",

@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.dimensionless.solution import Solution, solve
 from carom.dimensionless.states import Phase
-from carom.explorer.stages import Stage, short, stage_of_bodies, stage_of_numbers
+from carom.explorer.stages import MovingBodies, short, stage_of_bodies, stage_of_numbers
 from carom.explorer.views import View
 from carom.impacts.exact import Impact
 from carom.impacts.solve import impact
@@ -65,19 +65,18 @@ class Scene:
     contact: Array
     stick: Array
     tractions: Array
-    stage: Stage
+    stage: MovingBodies
     results: Mapping[str, str]
     findings: str
 
     def moving(self) -> dict[str, Any]:
         """Return what the page animates, as JSON can hold it."""
+        told = ("kind", "sign", "start", "end")
+        phases = [{name: getattr(phase, name) for name in told} for phase in self.phases]
         return {
             "duration": self.duration,
             "unit": self.time_unit,
-            "phases": [
-                {"kind": p.kind, "sign": p.sign, "start": p.start, "end": p.end}
-                for p in self.phases
-            ],
+            "phases": phases,
             "time": short(self.share),
             "contact": short(self.contact),
             "stick": short(self.stick),
@@ -105,11 +104,12 @@ def impact_of(view: View) -> Impact:
 def _of_bodies(hit: Impact) -> Scene:
     history = hit.history(TIMES)
     column = {str(name): line.values for name, line in history.variables.items()}
-    unit, seconds = _scaled(hit.duration, "s")
-    force_unit, newtons = _scaled(hit.pair.friction * hit.max_force or hit.max_force, "N")
+    seconds, unit = prefixed(hit.duration, "s")
+    newtons, force_unit = prefixed(hit.pair.friction * hit.max_force or hit.max_force, "N")
     energies = {name: column[name] for name in ENERGIES}
     whole = sum(energies.values())
-    solution, scalars = _elastic(hit), hit.scalars()
+    scalars = hit.scalars()
+    assert isinstance(hit.solution, Solution)
     return Scene(
         psi_in=hit.psi_in,
         psi_out=hit.psi_out,
@@ -125,7 +125,7 @@ def _of_bodies(hit: Impact) -> Scene:
         energies={name: part / whole for name, part in energies.items()},
         contact=column["contact_radius"] / hit.max_radius,
         stick=column["stick_radius"] / hit.max_radius,
-        tractions=_tractions(solution),
+        tractions=_tractions(hit.solution),
         stage=stage_of_bodies(hit, column),
         results={_named(name): _text(name, scalars[name]) for name in OF_BODIES},
         findings=str(hit.validity),
@@ -171,11 +171,6 @@ def _numbers(solution: Solution) -> dict[str, str]:
     return rows
 
 
-def _elastic(hit: Impact) -> Solution:
-    assert isinstance(hit.solution, Solution)
-    return hit.solution
-
-
 def _tractions(solution: Solution) -> Array:
     """Return the traction over mu and the largest pressure, from the centre to the edge."""
     times = np.linspace(0.0, solution.duration, INSTANTS)
@@ -206,10 +201,5 @@ def _text(name: str, value: float) -> str:
         return "none: it was zero before"
     if unit in ("1", "rad"):
         return GLOSSARY[name].text(value)
-    short_unit, scale = _scaled(value, unit)
+    scale, short_unit = prefixed(value, unit)
     return f"{value * scale:.5g}\N{NO-BREAK SPACE}{short_unit}"
-
-
-def _scaled(value: float, unit: str) -> tuple[str, float]:
-    scale, text = prefixed(value, unit)
-    return text, scale

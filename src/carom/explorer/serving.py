@@ -3,20 +3,17 @@
 import socket
 from dataclasses import dataclass, field
 from errno import EADDRNOTAVAIL
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from werkzeug.serving import WSGIRequestHandler
+from werkzeug.serving import BaseWSGIServer, WSGIRequestHandler, make_server
 
+from carom.explorer.app import new_app
 from carom.explorer.measures import fit_of
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import impact_of, scene_of
 from carom.explorer.views import LAWS, NUMBERS, View
-from carom.io.extras import extra
 from carom.measurements import datasets
 from carom.quantities.units import InputError, refusal
-
-if TYPE_CHECKING:
-    from werkzeug.serving import BaseWSGIServer
 
 LOOPBACK = "127.0.0.1"
 OWN_NAMES = [LOOPBACK, "localhost", "::1", "[::1]"]
@@ -30,7 +27,7 @@ class Explorer:
     """The page, ready to be served at `url`."""
 
     url: str
-    _server: "BaseWSGIServer" = field(repr=False)
+    _server: BaseWSGIServer = field(repr=False)
 
     def serve(self) -> None:
         """Answer until `stop`, or an interrupt."""
@@ -72,27 +69,16 @@ def explorer(*, host: str = LOOPBACK, port: int = PORT) -> Explorer:
     True
     >>> page.close()
     """
-    extra("dash", "the explorer", "explore")
     if isinstance(port, bool) or not isinstance(port, int) or not 0 <= port <= PORTS:
         allowed = f"must be a whole number from 0 to {PORTS}; 0 takes any that is free"
         raise refusal("port", port, allowed)
     if not host:
         raise refusal("host", host, "must be an address, e.g. 127.0.0.1; 0.0.0.0 is every one")
     with _bound(host, port) as listening:
-        from werkzeug.serving import make_server
-
-        from carom.explorer.app import new_app
-        from carom.explorer.serving import Quiet, warm_up
-
         warm_up()
-        server = make_server(
-            host,
-            listening.getsockname()[1],
-            new_app(OWN_NAMES if host in OWN_NAMES else None).server,
-            threaded=True,
-            request_handler=Quiet,
-            fd=listening.fileno(),
-        )
+        app = new_app(OWN_NAMES if host in OWN_NAMES else None).server
+        how: Any = {"threaded": True, "request_handler": Quiet, "fd": listening.fileno()}
+        server = make_server(host, listening.getsockname()[1], app, **how)
     shown = {"0.0.0.0": LOOPBACK, "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)
     return Explorer(f"http://{shown}:{server.port}/", server)
 

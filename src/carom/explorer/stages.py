@@ -37,7 +37,7 @@ class Body:
 
 
 @dataclass(frozen=True, eq=False)
-class Stage:
+class MovingBodies:
     """Both bodies, lengths in radii of the first, their motion magnified, counter-clockwise turns.
 
     The motion is uniform before and after; turns are magnified like paths, so that what rolls looks
@@ -57,7 +57,7 @@ class Stage:
         }
 
 
-def stage_of_bodies(hit: Impact, column: Mapping[str, Array]) -> Stage:
+def stage_of_bodies(hit: Impact, column: Mapping[str, Array]) -> MovingBodies:
     """Return the bodies of an impact from its history, which is evenly spaced in time."""
     pair, radius, duration = hit.pair, hit.pair.first.radius, hit.duration
     time = column["time"] / duration
@@ -76,7 +76,7 @@ def stage_of_bodies(hit: Impact, column: Mapping[str, Array]) -> Stage:
     first = Body("sphere", 1.0, x, y + height, first_turn)
     second = Body(kind, size, -rest[:, 0], height - rest[:, 1], second_turn)
     caption = f"motion magnified {magnified:.3g} times" + (BENT if kind != "plane" else "")
-    return Stage(_wide(time), (first, second), caption)
+    return MovingBodies(_wide(time), (first, second), caption)
 
 
 def _placed(kind: str, size: float, along: Array, closer: Array) -> Array:
@@ -93,7 +93,7 @@ def _placed(kind: str, size: float, along: Array, closer: Array) -> Array:
     return np.column_stack([reach * np.sin(angle), reach * up])
 
 
-def stage_of_numbers(solution: Solution, history: History, friction: float) -> Stage:
+def stage_of_numbers(solution: Solution, history: History, friction: float) -> MovingBodies:
     """Return a solid sphere without spin on a plane, its friction given, as psi and chi move it."""
     time, duration = history.time / solution.duration, solution.duration
     slope = friction / (SOLID * solution.chi)
@@ -105,7 +105,9 @@ def stage_of_numbers(solution: Solution, history: History, friction: float) -> S
     still = np.zeros(along.size)
     first = Body("sphere", 1.0, magnified * along, 1.0 - magnified * closer, magnified * turn)
     plane = Body("plane", 1.0, still, still, still)
-    return Stage(_wide(time), (first, plane), f"drawn as a solid sphere, friction {friction:g}")
+    return MovingBodies(
+        _wide(time), (first, plane), f"drawn as a solid sphere, friction {friction:g}"
+    )
 
 
 def _shape(second: object, radius: float) -> tuple[str, float]:

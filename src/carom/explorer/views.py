@@ -1,10 +1,9 @@
 """What the page shows, as the words of a link: every state has one, and every link a state."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass, fields
 from functools import cached_property
 from math import isfinite
-from types import MappingProxyType
 from typing import Any, NamedTuple, Self
 from urllib.parse import parse_qs, urlencode
 
@@ -42,33 +41,29 @@ class Knob(NamedTuple):
         if not (isfinite(value) and self.least <= value <= self.most):
             unit = f" {self.unit}" if self.unit else ""
             allowed = f"must be a number from {self.least:g} to {self.most:g}{unit}"
-            raise (
-                refusal(name, text, allowed) if text else InputError(f"{name}: missing; {allowed}")
-            )
+            if not text:
+                raise InputError(f"{name}: missing; {allowed}")
+            raise refusal(name, text, allowed)
         return value
 
 
-KNOBS: Mapping[str, Knob] = MappingProxyType(
-    {
-        "radius": Knob("mm", 1e-3, 1e4, None),
-        "second_radius": Knob("mm", 1e-3, 1e4, None),
-        "friction": Knob("", 0.0, 10.0, (0.0, 1.0, 0.005)),
-        "speed": Knob("m/s", 1e-4, 1e3, (0.05, 10.0, 0.05)),
-        "angle": Knob("deg", 0.0, 89.9, (0.0, 89.0, 0.25)),
-        "spin": Knob("rad/s", -1e6, 1e6, (-1000.0, 1000.0, 5.0)),
-        "psi": Knob("", -1e6, 1e6, (0.0, 10.0, 0.01)),
-        "chi": Knob("", 0.05, 10.0, (0.5, 3.0, 0.005)),
-    }
-)
-CHOICES: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {
-        "given": (BODIES, NUMBERS),
-        "material": tuple(materials()),
-        "against": AGAINST,
-        "second_material": tuple(materials()),
-        "data": ("", *dataset_names()),
-    }
-)
+KNOBS = {
+    "radius": Knob("mm", 1e-3, 1e4, None),
+    "second_radius": Knob("mm", 1e-3, 1e4, None),
+    "friction": Knob("", 0.0, 10.0, (0.0, 1.0, 0.005)),
+    "speed": Knob("m/s", 1e-4, 1e3, (0.05, 10.0, 0.05)),
+    "angle": Knob("deg", 0.0, 89.9, (0.0, 89.0, 0.25)),
+    "spin": Knob("rad/s", -1e6, 1e6, (-1000.0, 1000.0, 5.0)),
+    "psi": Knob("", -1e6, 1e6, (0.0, 10.0, 0.01)),
+    "chi": Knob("", 0.05, 10.0, (0.5, 3.0, 0.005)),
+}
+CHOICES: dict[str, tuple[str, ...]] = {
+    "given": (BODIES, NUMBERS),
+    "material": tuple(materials()),
+    "against": AGAINST,
+    "second_material": tuple(materials()),
+    "data": ("", *dataset_names()),
+}
 
 
 @dataclass(frozen=True)
@@ -119,12 +114,9 @@ class View:
 
     def query(self) -> str:
         """Return the link's query: what differs from the page as it opens."""
-        changed = {
-            field.name: getattr(self, field.name)
-            for field in fields(self)
-            if getattr(self, field.name) != field.default
-        }
-        return urlencode({name: _text(value) for name, value in changed.items()}, doseq=True)
+        now = [(field, getattr(self, field.name)) for field in fields(self)]
+        changed = {field.name: _text(value) for field, value in now if value != field.default}
+        return urlencode(changed, doseq=True)
 
     @property
     def in_numbers(self) -> bool:

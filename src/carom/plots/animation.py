@@ -6,10 +6,11 @@ from collections.abc import Callable, Iterable, Iterator, Sized
 from contextlib import suppress
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import matplotlib
 import numpy as np
+import xarray as xr
 from matplotlib.artist import Artist
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
@@ -34,9 +35,6 @@ from carom.plots.style import (
 )
 from carom.quantities.units import InputError, refusal
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 Progress = bool | Callable[[], object] | None
 
 RATE = 12  # frames a second
@@ -46,8 +44,8 @@ MARGIN = 1.08  # around the largest contact
 
 @draws(HISTORY, *FORCES, *RADII, "max_pressure", along="time")
 def animate(
-    history: "xr.Dataset",
-    frames: Iterable["xr.Dataset"],
+    history: xr.Dataset,
+    frames: Iterable[xr.Dataset],
     path: str | Path,
     progress: Progress = None,
 ) -> Path:
@@ -134,8 +132,8 @@ def checked_animation(path: str | Path) -> Path:
 
 
 def _pictures(
-    history: "xr.Dataset",
-    frames: Iterable["xr.Dataset"],
+    history: xr.Dataset,
+    frames: Iterable[xr.Dataset],
     resolution: int,
     advance: Advance,
 ) -> Iterator[Image.Image]:
@@ -149,7 +147,7 @@ def _pictures(
 class _Film:
     """The figure of the film: the patch redrawn for every frame, the force drawn once."""
 
-    def __init__(self, history: "xr.Dataset", resolution: int) -> None:
+    def __init__(self, history: xr.Dataset, resolution: int) -> None:
         self.history = history
         self.figure, axes = new_figure(1, 2, width=DOUBLE, height=74.0, width_ratios=(1.0, 1.15))
         self.canvas: Any = FigureCanvasAgg(self.figure)
@@ -161,7 +159,7 @@ class _Film:
         (self.dot,) = self.force.plot([0.0], [0.0], "o", color=BLACK, ms=5.0, zorder=5)
         self.still: Any = None
 
-    def picture(self, fields: "xr.Dataset") -> Image.Image:
+    def picture(self, fields: xr.Dataset) -> Image.Image:
         """Return one frame."""
         check_grid(fields, "traction_x", "y", "x")
         self._draw_patch(fields)
@@ -185,7 +183,7 @@ class _Film:
             artist.set_visible(True)
         return self.canvas.copy_from_bbox(self.figure.bbox)
 
-    def _draw_patch(self, fields: "xr.Dataset") -> None:
+    def _draw_patch(self, fields: xr.Dataset) -> None:
         history = self.history
         largest = float(history["friction"]) * float(history["max_pressure"])
         scale, unit = prefixed(largest, "Pa")
@@ -206,7 +204,7 @@ class _Film:
             text = label("traction_x", unit)
             self.figure.colorbar(shading, ax=self.patch, label=text, pad=0.02, aspect=28)
 
-    def _move_marker(self, fields: "xr.Dataset") -> None:
+    def _move_marker(self, fields: xr.Dataset) -> None:
         time = float(fields["time"]) * scaled(self.history, "time").scale
         limit = float(self.history["friction"]) * self.history["normal_force"].values
         force = float(fields["tangential_force"])

@@ -1,11 +1,17 @@
 """Phases and zones as figures mark them: tints, hatches, signs, the words for an instant."""
 
-from typing import Any, NamedTuple
+from collections.abc import Iterable, Iterator
+from itertools import pairwise
+from typing import Any, NamedTuple, TypeVar
 
+import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.patches import Patch
 from numpy.typing import ArrayLike
 
 from carom.plots.style import scaled
+
+T = TypeVar("T")
 
 
 class Band(NamedTuple):
@@ -14,6 +20,10 @@ class Band(NamedTuple):
     face: str
     edge: str
     hatch: str
+
+    def key(self, label: str) -> Patch:
+        """Return what a legend shows of it."""
+        return Patch(facecolor=self.face, edgecolor=self.edge, hatch=self.hatch, label=label)
 
 
 STICK = Band("#DCEBF7", "#DCEBF7", "")
@@ -28,7 +38,7 @@ MINUS = "\u2212"
 SIGNS = {0: "", 1: " +", -1: f" {MINUS}"}
 
 
-class Phase(NamedTuple):
+class PhaseSpan(NamedTuple):
     """A phase as a stored history holds it, times in s."""
 
     kind: str
@@ -37,12 +47,13 @@ class Phase(NamedTuple):
     end: float
 
 
-def phases(dataset: Any) -> list[Phase]:
+def phases(dataset: Any) -> list[PhaseSpan]:
     """Return the phases that a dataset holds, none if it is not that of an impact."""
     if "phase_kind" not in dataset:
         return []
-    columns = (dataset[f"phase_{name}"].values for name in Phase._fields)
-    return [Phase(str(k), int(s), float(a), float(b)) for k, s, a, b in zip(*columns, strict=True)]
+    columns = (dataset[f"phase_{name}"].values for name in PhaseSpan._fields)
+    rows = zip(*columns, strict=True)
+    return [PhaseSpan(str(k), int(s), float(a), float(b)) for k, s, a, b in rows]
 
 
 def shade(axis: Axes, start: float, end: float, band: Band) -> None:
@@ -50,6 +61,17 @@ def shade(axis: Axes, start: float, end: float, band: Band) -> None:
     axis.axvspan(
         start, end, facecolor=band.face, edgecolor=band.edge, hatch=band.hatch, lw=0, zorder=0
     )
+
+
+def mirrored(
+    items: Iterable[T], ends: Iterable[float], low: float, high: float
+) -> Iterator[tuple[T, float, float]]:
+    """Yield where each item lies, between two ends and mirrored at zero, within two limits."""
+    for item, span in zip(items, pairwise(ends), strict=True):
+        for side in (-1.0, 1.0):
+            start, end = np.clip(sorted(side * place for place in span), low, high)
+            if end > start:
+                yield item, start, end
 
 
 def slip_band(dataset: Any) -> Band:

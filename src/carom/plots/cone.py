@@ -1,9 +1,10 @@
 """The path of the forces, F_x against F_z, inside the cone of friction."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -16,14 +17,11 @@ from carom.plots.style import (
     draws,
     label,
     legend_above,
-    new_figure,
     scaled,
+    single_axis,
     span,
 )
 from carom.quantities.arrays import Array
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 PATHS: dict[str, dict[str, Any]] = {
     "stick": {"color": BLUE, "ls": "-", "lw": 2.0},
@@ -41,7 +39,7 @@ ARROWS = 8  # on a path without phases
     "the course of an impact or a load path, what Impact.history or LoadPath.to_dataset returns",
     *("normal_force", "tangential_force", "friction"),
 )
-def plot_cone(dataset: "xr.Dataset") -> Figure:
+def plot_cone(dataset: xr.Dataset) -> Figure:
     """Draw F_x against F_z inside Coulomb's cone, |F_x| <= mu F_z, for an impact or a load path.
 
     The parts of an impact are marked by phase; arrows point on in time.
@@ -71,8 +69,7 @@ def plot_cone(dataset: "xr.Dataset") -> Figure:
     >>> [text.get_text() for text in axis.get_legend().get_texts()[1:]]
     ['gross slip', 'stick', 'slip']
     """
-    figure, axes = new_figure(height=70.0)
-    axis = axes[0, 0]
+    figure, axis = single_axis(height=70.0)
     limit = 1.08 * float(dataset["friction"]) * float(dataset["normal_force"].max())
     normal, unit, _ = scaled(dataset, "normal_force")
     tangential, tangential_unit, scale = scaled(dataset, "tangential_force", like=limit)
@@ -94,8 +91,7 @@ def plot_cone(dataset: "xr.Dataset") -> Figure:
 
 
 def _draw_cone(axis: Axes, normal: float, tangential: float) -> None:
-    corners = np.array([0.0, normal])
-    limit = np.array([0.0, tangential])
+    corners, limit = np.array([0.0, normal]), np.array([0.0, tangential])
     axis.fill_between(corners, -limit, limit, color="0.94", lw=0, zorder=0)
     axis.plot(corners, limit, color="0.45", lw=0.8, label=r"$\pm\mu F_z$")
     axis.plot(corners, -limit, color="0.45", lw=0.8)
@@ -103,7 +99,7 @@ def _draw_cone(axis: Axes, normal: float, tangential: float) -> None:
     span(axis, (0.0, normal), (-1.02 * tangential, 1.02 * tangential))
 
 
-def _parts(dataset: "xr.Dataset", points: Array) -> Iterator[tuple[str, Array]]:
+def _parts(dataset: xr.Dataset, points: Array) -> Iterator[tuple[str, Array]]:
     """Yield the phases with the points of each, from the last before it on; a load path whole."""
     known = phases(dataset)
     if not known:
@@ -137,9 +133,5 @@ def _apart(found: list[Array]) -> list[Array]:
 
 
 def _arrow(axis: Axes, ends: Array, color: str) -> None:
-    axis.annotate(
-        "",
-        xy=ends[1],
-        xytext=ends[0],
-        arrowprops={"arrowstyle": "-|>,head_length=0.6,head_width=0.3", "color": color, "lw": 1.0},
-    )
+    head = "-|>,head_length=0.6,head_width=0.3"
+    axis.annotate("", ends[1], ends[0], arrowprops={"arrowstyle": head, "color": color, "lw": 1.0})

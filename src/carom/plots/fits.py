@@ -1,14 +1,15 @@
 """A fit to measured rebounds: data, curves, residuals; and samples of its parameters."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
+import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from carom.plots.bands import STICK, Band, shade
+from carom.io.extras import extra
+from carom.plots.bands import STICK, Band, mirrored, shade
 from carom.plots.style import (
     BLACK,
     BLUE,
@@ -23,17 +24,9 @@ from carom.plots.style import (
 )
 from carom.quantities.glossary import GLOSSARY
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 ACROSS = 2  # responses side by side
 UPPER, LOWER = 48.0, 20.0  # heights of curves and residuals, in mm
-TINTS = (
-    STICK,
-    Band("#FBEBCB", "#FBEBCB", ""),
-    Band("#F6DDE8", "#F6DDE8", ""),
-    Band("#E4E4E4", "#E4E4E4", ""),
-)
+TINTS = (STICK, *(Band(tint, tint, "") for tint in ("#FBEBCB", "#F6DDE8", "#E4E4E4")))
 LAW_STYLES: dict[str, Any] = {
     "exact": {"color": BLACK, "lw": 1.3, "zorder": 4},
     "rigid Coulomb": {"color": VERMILION, "lw": 0.9, "ls": (0, (5, 1.5)), "zorder": 3},
@@ -46,7 +39,7 @@ POINTS: Any = {"fmt": "o", "ms": 2.6, "color": BLACK, "mfc": "white", "lw": 0.0,
     "a fit, what carom.fit(...).to_dataset() returns",
     *("measured", "residual", "curve_expected", "incidence"),
 )
-def plot_fit(dataset: "xr.Dataset") -> Figure:
+def plot_fit(dataset: xr.Dataset) -> Figure:
     """Draw what was measured against incidence, the fitted curve with its band, and residuals.
 
     Error bars are standard deviations, with the part that comes from the motion before; the band is
@@ -71,14 +64,9 @@ def plot_fit(dataset: "xr.Dataset") -> Figure:
     names = [str(name) for name in dataset["response"].values]
     across = min(ACROSS, len(names))
     down = -(-len(names) // across)
-    figure, axes = new_figure(
-        2 * down,
-        across,
-        width=SINGLE if across == 1 else DOUBLE,
-        height=down * (UPPER + LOWER) + 18.0,
-        sharex="col",
-        height_ratios=[UPPER, LOWER] * down,
-    )
+    width, height = SINGLE if across == 1 else DOUBLE, down * (UPPER + LOWER) + 18.0
+    shared: Any = {"sharex": "col", "height_ratios": [UPPER, LOWER] * down}
+    figure, axes = new_figure(2 * down, across, width=width, height=height, **shared)
     for place, name in enumerate(names):
         row, column = divmod(place, across)
         _draw_response(axes[2 * row : 2 * row + 2, column], dataset, name)
@@ -93,7 +81,7 @@ def plot_fit(dataset: "xr.Dataset") -> Figure:
 
 
 @styled
-def plot_corner(samples: "xr.Dataset") -> Figure:
+def plot_corner(samples: xr.Dataset) -> Figure:
     """Draw samples of the posterior, parameter by parameter and pair by pair.
 
     Parameters
@@ -101,38 +89,27 @@ def plot_corner(samples: "xr.Dataset") -> Figure:
     samples : xarray.Dataset
         What `carom.fit(...).posterior()` returns.
     """
-    from carom.io.extras import extra
-
     corner = extra("corner", "a corner plot", "fit")
-    names = _sampled_names(samples)
+    names = [str(name) for name in samples.data_vars if name != "chi"]  # not beside kappa
     side = max(SINGLE, 45.0 * len(names)) * MM
     figure = Figure(figsize=(side, side))
     values = np.stack([samples[name].values for name in names], axis=1)
-    corner.corner(
-        values,
-        labels=[GLOSSARY[name].symbol if name in GLOSSARY else name for name in names],
-        fig=figure,
-        color=BLUE,
-        quantiles=(0.025, 0.5, 0.975),
-        max_n_ticks=4,
-        quiet=True,
-    )
+    labels = [GLOSSARY[name].symbol if name in GLOSSARY else name for name in names]
+    look = {"color": BLUE, "quantiles": (0.025, 0.5, 0.975), "max_n_ticks": 4}
+    corner.corner(values, labels=labels, fig=figure, quiet=True, **look)
     return figure
 
 
-def _sampled_names(samples: "xr.Dataset") -> list[str]:
-    """Return the variables of samples that a corner plot shows: not chi beside kappa."""
-    return [str(name) for name in samples.data_vars if name != "chi"]
-
-
-def _draw_response(axes: Any, dataset: "xr.Dataset", name: str) -> None:
+def _draw_response(axes: Any, dataset: xr.Dataset, name: str) -> None:
     upper, lower = axes
     data = dataset.sel(response=name)
     scale, unit = _scale(name, data["measured"].values)
     incidence = np.degrees(data["incidence"].values)
     line = np.degrees(data["curve_incidence"].values)
+    ends = np.degrees([0.0, *dataset["border"].values, 0.5 * np.pi])
     for axis in axes:
-        _shade(axis, dataset, line)
+        for tint, start, end in mirrored(TINTS, ends, line[0], line[-1]):
+            shade(axis, start, end, tint)
     for law, style in LAW_STYLES.items():
         upper.plot(line, scale * data["curve_expected"].sel(law=law).values, **style)
     band = (scale * data[f"curve_{end}"].values for end in ("low", "high"))
@@ -145,16 +122,6 @@ def _draw_response(axes: Any, dataset: "xr.Dataset", name: str) -> None:
     lower.set_ylabel("residual")
     upper.margins(y=0.08)
     upper.set_xlim(float(line[0]), float(line[-1]))
-
-
-def _shade(axis: Axes, dataset: "xr.Dataset", line: Any) -> None:
-    """Shade the regimes, mirrored where the incidence is negative."""
-    ends = np.degrees([0.0, *dataset["border"].values, 0.5 * np.pi])
-    for tint, start, end in zip(TINTS, ends[:-1], ends[1:], strict=True):
-        for low, high in ((start, end), (-end, -start)):
-            low, high = max(low, line[0]), min(high, line[-1])
-            if high > low:
-                shade(axis, low, high, tint)
 
 
 def _scale(name: str, values: Any) -> tuple[float, str]:
@@ -171,15 +138,13 @@ def _label(name: str, unit: str) -> str:
     return text if unit == "1" else f"{text}\u00a0({unit})"
 
 
-def _incidence(dataset: "xr.Dataset") -> str:
+def _incidence(dataset: xr.Dataset) -> str:
     spinning = bool(dataset.attrs.get("spinning", 1))
     return "incidence of the contact point (deg)" if spinning else "angle of incidence (deg)"
 
 
-def _key(dataset: "xr.Dataset") -> list[Any]:
+def _key(dataset: xr.Dataset) -> list[Any]:
     laws: list[Any] = [Line2D([], [], label=law, **style) for law, style in LAW_STYLES.items()]
     names = ["stick from the first touch", *map(str, dataset["regime_border"].values)]
-    patches = [
-        Patch(facecolor=tint.face, label=name) for tint, name in zip(TINTS, names, strict=True)
-    ]
-    return [*laws, *patches]
+    tints = zip(TINTS, names, strict=True)
+    return [*laws, *(Patch(facecolor=tint.face, label=name) for tint, name in tints)]

@@ -1,8 +1,9 @@
 """An impact in the course of time: forces, velocities, radii, energies; and its path of forces."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
@@ -17,14 +18,14 @@ from carom.plots.style import (
     draws,
     label,
     legend_above,
+    limit_lines,
     new_figure,
     scaled,
+    single_axis,
     span,
+    zero_line,
 )
 from carom.quantities.arrays import Array
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 ENERGIES = {
     "normal_kinetic_energy": ("normal motion", "#E8EEF4", ""),
@@ -43,7 +44,7 @@ RADII = ("contact_radius", "stick_radius", "time")
 
 
 @draws(HISTORY, *FORCES, *VELOCITIES, *RADII, *ENERGIES, along="time")
-def plot_impact(dataset: "xr.Dataset") -> Figure:
+def plot_impact(dataset: xr.Dataset) -> Figure:
     """Draw forces, velocities, radii and energies of an impact against time, phases shaded.
 
     The histories of `Impact.history` and `Impact.to_dataset`, also read back from a file, in the
@@ -84,7 +85,7 @@ def plot_impact(dataset: "xr.Dataset") -> Figure:
 
 
 @draws(HISTORY, *FORCES, along="time")
-def plot_forces(dataset: "xr.Dataset") -> Figure:
+def plot_forces(dataset: xr.Dataset) -> Figure:
     """Draw the tangential force between its limits, mu F_z, against time, in one column.
 
     Parameters
@@ -115,7 +116,7 @@ def plot_forces(dataset: "xr.Dataset") -> Figure:
 
 
 @draws(HISTORY, *RADII, along="time")
-def plot_radii(dataset: "xr.Dataset") -> Figure:
+def plot_radii(dataset: xr.Dataset) -> Figure:
     """Draw the radii of the contact and of its stick zone against time, in one column.
 
     Parameters
@@ -145,26 +146,21 @@ def plot_radii(dataset: "xr.Dataset") -> Figure:
     return _single(dataset, radii_panel)
 
 
-def _single(dataset: "xr.Dataset", panel: Any) -> Figure:
-    figure, axes = new_figure()
-    axis = axes[0, 0]
+def _single(dataset: xr.Dataset, panel: Any) -> Figure:
+    figure, axis = single_axis()
     panel(axis, dataset)
     lines, _ = axis.get_legend_handles_labels()
     legend_above(axis, 3, handles=[*lines, *phase_handles(dataset)])
     return figure
 
 
-def phase_handles(dataset: "xr.Dataset") -> list[Patch]:
+def phase_handles(dataset: xr.Dataset) -> list[Patch]:
     """Return what a legend shows of the phases of an impact, each kind and sign once."""
     present = {(phase.kind, phase.sign) for phase in phases(dataset)}
-    return [
-        Patch(facecolor=band.face, edgecolor=band.edge, hatch=band.hatch, label=kind + SIGNS[sign])
-        for (kind, sign), band in BANDS.items()
-        if (kind, sign) in present
-    ]
+    return [band.key(of[0] + SIGNS[of[1]]) for of, band in BANDS.items() if of in present]
 
 
-def time_axis(axis: Axes, dataset: "xr.Dataset") -> Array:
+def time_axis(axis: Axes, dataset: xr.Dataset) -> Array:
     """Shade the phases, label the axis of time, and return the times in its unit."""
     time, unit, scale = scaled(dataset, "time")
     for phase in phases(dataset):
@@ -174,26 +170,24 @@ def time_axis(axis: Axes, dataset: "xr.Dataset") -> Array:
     return time
 
 
-def forces_panel(axis: Axes, dataset: "xr.Dataset") -> None:
+def forces_panel(axis: Axes, dataset: xr.Dataset) -> None:
     """Draw F_x between -mu F_z and mu F_z."""
     time = time_axis(axis, dataset)
     limit = float(dataset["friction"]) * dataset["normal_force"].values
     force, unit, scale = scaled(dataset, "tangential_force", like=limit)
-    limit = limit * scale
-    _zero_line(axis)
+    zero_line(axis)
     axis.plot(time, force, color=BLUE, label="$F_x$")
-    axis.plot(time, limit, color=BLACK, ls=DASHES[1], lw=0.8, label=r"$\pm\mu F_z$")
-    axis.plot(time, -limit, color=BLACK, ls=DASHES[1], lw=0.8)
+    limit_lines(axis, time, limit * scale, r"$\pm\mu F_z$")
     axis.set_ylabel(label("tangential_force", unit))
     legend_above(axis, 2)
 
 
-def velocities_panel(axis: Axes, dataset: "xr.Dataset") -> None:
+def velocities_panel(axis: Axes, dataset: xr.Dataset) -> None:
     """Draw the velocity of the contact point, tangential, and that of approach."""
     time = time_axis(axis, dataset)
     names = {"contact_velocity": "$V_x$, contact point", "normal_velocity": "$V_z$, approach"}
     largest = [np.abs(dataset[name].values).max() for name in names]
-    _zero_line(axis)
+    zero_line(axis)
     for name, color, dash in zip(names, (BLUE, VERMILION), DASHES, strict=False):
         values, unit, _ = scaled(dataset, name, like=largest)
         axis.plot(time, values, color=color, ls=dash, label=names[name])
@@ -201,7 +195,7 @@ def velocities_panel(axis: Axes, dataset: "xr.Dataset") -> None:
     legend_above(axis, 2)
 
 
-def radii_panel(axis: Axes, dataset: "xr.Dataset") -> None:
+def radii_panel(axis: Axes, dataset: xr.Dataset) -> None:
     """Draw the radii of the contact and of its stick zone; what lies between slips."""
     time = time_axis(axis, dataset)
     contact, unit, scale = scaled(dataset, "contact_radius")
@@ -223,7 +217,7 @@ def _stick_line(stick: Array, contact: Array) -> Array:
     return np.where((stick > 0.0) | (before > 0.0) | (contact == 0.0), stick, np.nan)
 
 
-def energies_panel(axis: Axes, dataset: "xr.Dataset") -> None:
+def energies_panel(axis: Axes, dataset: xr.Dataset) -> None:
     """Draw how the energy is shared between motion, deformation, friction and normal losses."""
     time = time_axis(axis, dataset)
     lossy = any(name in dataset and np.any(dataset[name].values) for name in LOST)
@@ -236,7 +230,3 @@ def energies_panel(axis: Axes, dataset: "xr.Dataset") -> None:
     axis.set_ylim(0.0, 1.0)
     axis.set_ylabel("share of energy")
     legend_above(axis, 3, handlelength=1.0, handletextpad=0.3, columnspacing=0.5, fontsize=6.5)
-
-
-def _zero_line(axis: Axes) -> None:
-    axis.axhline(0.0, color="0.5", lw=0.5, zorder=1)

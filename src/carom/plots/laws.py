@@ -3,15 +3,16 @@
 import json
 import textwrap
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from carom.plots.regimes import draw_borders as draw_borders
+from carom.plots.regimes import draw_borders
 from carom.plots.style import (
     BLACK,
     BLUE,
@@ -24,13 +25,12 @@ from carom.plots.style import (
     draws,
     label,
     new_figure,
+    single_axis,
     span,
     symbol,
+    zero_line,
 )
 from carom.quantities.units import refusal
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 SKY = "#56B4E9"
 COLORS = (BLUE, VERMILION, GREEN, PURPLE, SKY)
@@ -57,7 +57,7 @@ PLAIN = {  # parameters of elastic laws, not worth a mention
     *("max_error", "rms_error", "psi_out", "psi_out_exact", "chi"),
     along="law",
 )
-def plot_laws(dataset: "xr.Dataset") -> Figure:
+def plot_laws(dataset: xr.Dataset) -> Figure:
     """Draw psi_2 of contact laws beside that of the exact impact, and their errors, best first.
 
     A row holds up to five different rebounds on the left and, in the same colours, their largest
@@ -91,9 +91,8 @@ def plot_laws(dataset: "xr.Dataset") -> Figure:
     members = [np.flatnonzero(np.isin(kinds, group)) for group in groups]
     most = max(len(rows) for rows in members)
     height = len(groups) * max(PITCH * most, 30.0) + EDGE
-    figure, axes = new_figure(
-        len(groups), 2, width=DOUBLE, height=height, sharex="col", width_ratios=(1.0, 0.85)
-    )
+    size: Any = {"width": DOUBLE, "height": height, "width_ratios": (1.0, 0.85)}
+    figure, axes = new_figure(len(groups), 2, sharex="col", **size)
     for (left, right), rows in zip(axes, members, strict=True):
         styles = [STYLES[kind] for kind in kinds[rows] - kinds[rows].min()]
         _draw_rebounds(left, dataset, rows, styles)
@@ -115,10 +114,10 @@ def _kinds(curves: Any) -> Any:
     return np.array(kinds)
 
 
-def _draw_rebounds(axis: Axes, dataset: "xr.Dataset", rows: Any, styles: list[Any]) -> None:
+def _draw_rebounds(axis: Axes, dataset: xr.Dataset, rows: Any, styles: list[Any]) -> None:
     order = np.argsort(dataset["psi_in"].values)
     psi = dataset["psi_in"].values[order]
-    axis.axhline(0.0, color="0.5", lw=0.5, zorder=1)
+    zero_line(axis)
     axis.plot(psi, dataset["psi_out_exact"].values[order], **EXACT, **POINT)
     for row, style in zip(rows, styles, strict=True):
         out = dataset["psi_out"].values[row][order]
@@ -126,7 +125,7 @@ def _draw_rebounds(axis: Axes, dataset: "xr.Dataset", rows: Any, styles: list[An
     axis.set_ylabel(symbol("psi_out"))
 
 
-def _draw_bars(axis: Axes, dataset: "xr.Dataset", rows: Any, styles: list[Any], most: int) -> None:
+def _draw_bars(axis: Axes, dataset: xr.Dataset, rows: Any, styles: list[Any], most: int) -> None:
     largest, rms = (dataset[name].values[rows] for name in ("max_error", "rms_error"))
     places = np.arange(len(rows))
     colors = [style["color"] for style in styles]
@@ -135,26 +134,21 @@ def _draw_bars(axis: Axes, dataset: "xr.Dataset", rows: Any, styles: list[Any], 
     for place, value, style in zip(places, largest, styles, strict=True):
         text = f"{value:.3f}" if np.isfinite(value) else "no limit"
         at = value if np.isfinite(value) else 0.0
-        axis.annotate(
-            text, (at, place), (2, 0), textcoords="offset points", va="center", fontsize=6.5
-        )
+        beside: Any = {"xytext": (2, 0), "textcoords": "offset points", "va": "center"}
+        axis.annotate(text, (at, place), fontsize=6.5, **beside)
         sample = Line2D(SAMPLE, (place, place), lw=1.2, clip_on=False, **style)
         sample.set_transform(axis.get_yaxis_transform())
         sample.set_in_layout(False)
         axis.add_line(sample)
-    names = [_in_lines(str(name)) for name in dataset["law"].values[rows]]
-    axis.set_yticks(places, names)
+    names = map(str, dataset["law"].values[rows])
+    axis.set_yticks(places, [textwrap.fill(n, WORDS, break_long_words=False) for n in names])
     axis.tick_params(axis="y", length=0.0, pad=15.0)
     axis.set_ylim(most - 0.5, -0.5)
     for side in ("top", "right"):
         axis.spines[side].set_visible(False)
 
 
-def _in_lines(name: str) -> str:
-    return "\n".join(textwrap.wrap(name, WORDS, break_long_words=False))
-
-
-def _key(dataset: "xr.Dataset") -> Iterator[Any]:
+def _key(dataset: xr.Dataset) -> Iterator[Any]:
     yield Line2D([], [], label=rf"exact, $\chi$ = {float(dataset['chi']):.5g}", **EXACT)
     yield Line2D([], [], color="0.4", ls=DASHES[1], lw=0.9, label="law, as beside its bar")
     yield Patch(fc="0.75", label=r"max |error in $\psi_2$|")
@@ -162,7 +156,7 @@ def _key(dataset: "xr.Dataset") -> Iterator[Any]:
 
 
 @draws("an error map, what carom.verify.error_map returns", "error", "psi_in", "chi")
-def plot_error_map(dataset: "xr.Dataset", limit: float | None = None) -> Figure:
+def plot_error_map(dataset: xr.Dataset, limit: float | None = None) -> Figure:
     """Draw the error of a contact law in psi_2 over psi_1 and chi, white where there is none.
 
     Thin lines are errors of 0.1, dashed where negative; thick ones the borders 1, 2 chi, 4 chi - 1
@@ -199,12 +193,11 @@ def plot_error_map(dataset: "xr.Dataset", limit: float | None = None) -> Figure:
     if limit is not None and not 0.0 < limit < np.inf:
         raise refusal("limit", limit, "must be positive")
     most = max(LEAST, float(finite.max(initial=0.0))) if limit is None else limit
-    figure, axes = new_figure(height=66.0)
-    axis = axes[0, 0]
+    figure, axis = single_axis(height=66.0)
     axis.set_facecolor("0.8")
     colors: Any = {"cmap": DIVERGING, "vmin": -most, "vmax": most}
-    shading = "gouraud" if finite.size == error.size else "nearest"
-    drawn = axis.pcolormesh(psi, chi, error, shading=shading, rasterized=True, **colors)
+    colors["shading"] = "gouraud" if finite.size == error.size else "nearest"
+    drawn = axis.pcolormesh(psi, chi, error, rasterized=True, **colors)
     if finite.size and finite.max() > NOTED:
         lines: Any = {"colors": "0.25", "linewidths": 0.6, "linestyles": ["--", "-"]}
         axis.contour(psi, chi, error, levels=[-NOTED, NOTED], **lines)
@@ -219,7 +212,7 @@ def plot_error_map(dataset: "xr.Dataset", limit: float | None = None) -> Figure:
     return figure
 
 
-def _title(dataset: "xr.Dataset") -> str:
+def _title(dataset: xr.Dataset) -> str:
     """Return the law with its parameters, as far as the dataset tells them."""
     given = json.loads(dataset.attrs.get("law_parameters", "{}"))
     values = [
@@ -227,4 +220,4 @@ def _title(dataset: "xr.Dataset") -> str:
         for name, value in given.items()
         if value is not None and value != PLAIN.get(name)
     ]
-    return "\n".join(textwrap.wrap(", ".join([dataset.attrs.get("law", ""), *values]), 60))
+    return textwrap.fill(", ".join([dataset.attrs.get("law", ""), *values]), 60)

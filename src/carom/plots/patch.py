@@ -1,20 +1,18 @@
 """The contact patch seen from above: shading, zones, slip arrows."""
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Circle
 from matplotlib.patheffects import withStroke
 
 from carom.plots.bands import moment, slip_band
-from carom.plots.style import MAP, check_grid, draws, label, new_figure, prefixed, scaled, symbol
+from carom.plots.style import MAP, check_grid, draws, label, prefixed, scaled, single_axis, symbol
 from carom.quantities.arrays import Array
 from carom.quantities.units import refusal
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 SLIP = 2  # the zone's number in a fields dataset
 MARGIN = 1.12  # of the map around the contact
@@ -35,7 +33,7 @@ SIGNED = ("traction_x",)
     "the fields of a contact on a grid of x and y, what Impact.fields or LoadPath.fields returns",
     *("pressure", "traction_x", "zone", "x", "y", *(f"{name}_radius" for name in ZONES)),
 )
-def plot_patch(dataset: "xr.Dataset", variable: str = "traction_x") -> Figure:
+def plot_patch(dataset: xr.Dataset, variable: str = "traction_x") -> Figure:
     """Draw the contact from above: traction or pressure, stick and slip zones, slip velocities.
 
     The zone that slips is hatched; its arrows are the velocity of the first surface on the second.
@@ -70,8 +68,7 @@ def plot_patch(dataset: "xr.Dataset", variable: str = "traction_x") -> Figure:
         raise refusal("variable", variable, f"must be {' or '.join(MAPPED)}")
     check_grid(dataset, "pressure", "y", "x")
     title = patch_title(dataset)
-    figure, axes = new_figure(height=64.0 + 4.0 * len(title.splitlines()))  # the map is square
-    axis = axes[0, 0]
+    figure, axis = single_axis(height=64.0 + 4.0 * len(title.splitlines()))  # the map is square
     scale, unit = prefixed(dataset[variable].values, "Pa")
     limits = _limits(dataset[variable].values * scale) if variable in SIGNED else {}
     shading = patch_panel(axis, dataset, variable, scale, **limits)
@@ -89,7 +86,7 @@ def _limits(values: Array) -> dict[str, float]:
 
 def patch_panel(
     axis: Axes,
-    dataset: "xr.Dataset",
+    dataset: xr.Dataset,
     variable: str,
     scale: float,
     *,
@@ -105,9 +102,8 @@ def patch_panel(
     x, unit, length = scaled(dataset, "x", like=reach)
     y = dataset["y"].values * length
     contact, stick = (float(dataset[name]) * length for name in ("contact_radius", "stick_radius"))
-    shading = axis.pcolormesh(
-        x, y, dataset[variable] * scale, cmap=MAP, shading="gouraud", rasterized=True, **limits
-    )
+    how: Any = {"cmap": MAP, "shading": "gouraud", "rasterized": True, **limits}
+    shading = axis.pcolormesh(x, y, dataset[variable] * scale, **how)
     shading.set_clip_path(Circle((0.0, 0.0), contact, transform=axis.transData))
     _draw_zones(axis, contact, stick, slip_band(dataset).hatch)
     _draw_arrows(axis, arrows(dataset, reach), length)
@@ -117,7 +113,7 @@ def patch_panel(
     return shading
 
 
-def patch_title(dataset: "xr.Dataset", reach: float | None = None, like: Any = None) -> str:
+def patch_title(dataset: xr.Dataset, reach: float | None = None, like: Any = None) -> str:
     """Return phase and time, in a unit that suits `like`, and the speed of the longest arrow."""
     fastest = arrows(dataset, reach).fastest
     scale, unit = prefixed(fastest, dataset[f"{_slip(dataset)}_x"].units)
@@ -125,16 +121,15 @@ def patch_title(dataset: "xr.Dataset", reach: float | None = None, like: Any = N
     return "\n".join([moment(dataset, like), key]).strip()
 
 
-def _reach(dataset: "xr.Dataset") -> float:
+def _reach(dataset: xr.Dataset) -> float:
     around = MARGIN * float(dataset["contact_radius"]) or np.inf  # at the first touch: the grid
     return min(around, float(np.abs(dataset["x"].values).max()))
 
 
 def _draw_zones(axis: Axes, contact: float, stick: float, hatch: str) -> None:
     if contact > stick:
-        marked: Any = (
-            Annulus((0, 0), contact, contact - stick) if stick else Circle((0, 0), contact)
-        )
+        ring = Annulus((0, 0), contact, contact - stick) if stick else None
+        marked: Any = ring or Circle((0, 0), contact)
         marked.set(fill=False, hatch=hatch[:3], edgecolor="white", alpha=0.6, lw=0.0)
         axis.add_patch(marked)
     if 0.0 < stick < contact:
@@ -164,7 +159,7 @@ class Arrows(NamedTuple):
         return float(np.hypot(self.along, self.across).max(initial=0.0))
 
 
-def arrows(dataset: "xr.Dataset", reach: float | None = None) -> Arrows:
+def arrows(dataset: xr.Dataset, reach: float | None = None) -> Arrows:
     """Return the slip velocities at some points of the grid, all in the slip zone; or the slips.
 
     They are as many as fit on a map that goes to `reach`.
@@ -183,7 +178,7 @@ def arrows(dataset: "xr.Dataset", reach: float | None = None) -> Arrows:
     return Arrows(at_x[inside], at_y[inside], along[inside], across[inside], longest)
 
 
-def _slip(dataset: "xr.Dataset") -> str:
+def _slip(dataset: xr.Dataset) -> str:
     """Return what arrows show: slip velocities, or slips where there is no time."""
     return "slip_velocity" if "slip_velocity_x" in dataset else "slip"
 
@@ -214,23 +209,8 @@ def _draw_arrows(axis: Axes, found: Arrows, length: float) -> None:
     if found.fastest == 0.0:
         return
     unit = found.longest * length / found.fastest
-    shape: dict[str, Any] = {
-        "width": 0.01,
-        "headwidth": 3.6,
-        "headlength": 4.0,
-        "headaxislength": 3.6,
-    }
-    colors: dict[str, Any] = {"fc": "black", "ec": "white", "lw": 0.3, "zorder": 4}
-    axis.quiver(
-        found.x * length,
-        found.y * length,
-        found.along * unit,
-        found.across * unit,
-        angles="xy",
-        scale_units="xy",
-        scale=1.0,
-        pivot="mid",
-        units="width",
-        **shape,
-        **colors,
-    )
+    vectors = found.x * length, found.y * length, found.along * unit, found.across * unit
+    scale: Any = {"angles": "xy", "scale_units": "xy", "scale": 1.0, "pivot": "mid"}
+    shape: Any = {"width": 0.01, "headwidth": 3.6, "headlength": 4.0, "headaxislength": 3.6}
+    colors: Any = {"fc": "black", "ec": "white", "lw": 0.3, "zorder": 4}
+    axis.quiver(*vectors, units="width", **scale, **shape, **colors)

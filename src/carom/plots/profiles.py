@@ -1,8 +1,7 @@
 """Pressure, traction and memory along a line through the contact, zones shaded."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
@@ -16,17 +15,15 @@ from carom.plots.style import (
     draws,
     label,
     legend_above,
+    limit_lines,
     new_figure,
     prefixed,
     scaled,
     span,
+    zero_line,
 )
 from carom.quantities.arrays import Array
 from carom.quantities.units import InputError
-
-if TYPE_CHECKING:
-    import xarray as xr
-
 
 MARGIN = 1.2  # of a line through the contact, in contact radii
 NEAR = 1e-9  # relative: a y that is 0 but for rounding
@@ -36,7 +33,7 @@ NEAR = 1e-9  # relative: a y that is 0 but for rounding
     "fields on the line y = 0 or along the radius, what Impact.fields or Impact.radial returns",
     *("pressure", "traction_x", "contact_radius", "stick_radius", "friction"),
 )
-def plot_profiles(dataset: "xr.Dataset") -> Figure:
+def plot_profiles(dataset: xr.Dataset) -> Figure:
     """Draw the traction f between its limits, mu p, along the line y = 0 of the contact.
 
     Of a profile along the radius also the memory: g = -dq/ds, and the deflection q of the springs.
@@ -73,7 +70,7 @@ def plot_profiles(dataset: "xr.Dataset") -> Figure:
     reach = (1.0 if radial else MARGIN) * float(line["contact_radius"]) * scale
     for axis in axes.flat:
         _shade_zones(axis, line, scale, place)
-        axis.axhline(0.0, color="0.5", lw=0.5, zorder=1)
+        zero_line(axis)
         span(axis, (max(place[0], -reach), min(place[-1], reach)))
     _tractions(axes[0, 0], line, place)
     if radial:
@@ -85,7 +82,7 @@ def plot_profiles(dataset: "xr.Dataset") -> Figure:
     return figure
 
 
-def _middle(dataset: "xr.Dataset") -> "xr.Dataset":
+def _middle(dataset: xr.Dataset) -> xr.Dataset:
     """Return the fields at the points with y = 0, in order of x."""
     y = np.atleast_1d(dataset["y"].values)
     along = "point" if "point" in dataset.dims else "y"
@@ -100,7 +97,7 @@ def _middle(dataset: "xr.Dataset") -> "xr.Dataset":
     return line
 
 
-def _shade_zones(axis: Axes, line: "xr.Dataset", scale: float, place: Array) -> None:
+def _shade_zones(axis: Axes, line: xr.Dataset, scale: float, place: Array) -> None:
     contact, stick = (float(line[name]) * scale for name in ("contact_radius", "stick_radius"))
     for side in (-1.0, 1.0) if place[0] < 0.0 else (1.0,):
         if stick > 0.0:
@@ -109,26 +106,25 @@ def _shade_zones(axis: Axes, line: "xr.Dataset", scale: float, place: Array) -> 
             shade(axis, side * stick, side * contact, slip_band(line))
 
 
-def _tractions(axis: Axes, line: "xr.Dataset", place: Array) -> None:
+def _tractions(axis: Axes, line: xr.Dataset, place: Array) -> None:
     limit = float(line["friction"]) * line["pressure"].values
     traction, unit, scale = scaled(line, "traction_x", like=limit)
     axis.plot(place, traction, color=BLUE, label="$f$")
-    axis.plot(place, limit * scale, color=BLACK, ls=DASHES[1], lw=0.8, label=r"$\pm\mu p$")
-    axis.plot(place, -limit * scale, color=BLACK, ls=DASHES[1], lw=0.8)
+    limit_lines(axis, place, limit * scale, r"$\pm\mu p$")
     axis.set_ylabel(label("traction_x", unit, room=24 if "memory_g" in line else 100))
     lines, _ = axis.get_legend_handles_labels()
     legend_above(axis, 4, handles=[*lines, *zone_handles(line)])
 
 
-def zone_handles(dataset: "xr.Dataset") -> list[Patch]:
+def zone_handles(dataset: xr.Dataset) -> list[Patch]:
     """Return what a legend shows of the zones that a contact has."""
     contact, stick = (float(dataset[name]) for name in ("contact_radius", "stick_radius"))
     zones: list[tuple[str, Band]] = [("stick", STICK)] if stick > 0.0 else []
     zones += [("slip", slip_band(dataset))] if contact > stick else []
-    return [Patch(fc=b.face, ec=b.edge, hatch=b.hatch, label=name) for name, b in zones]
+    return [band.key(name) for name, band in zones]
 
 
-def _memory(axis: Axes, line: "xr.Dataset", place: Array) -> None:
+def _memory(axis: Axes, line: xr.Dataset, place: Array) -> None:
     axis.plot(place, line["memory_g"], color=VERMILION)
     for limit in (-1.0, 1.0):
         axis.axhline(limit, color=BLACK, ls=DASHES[1], lw=0.8)
@@ -136,10 +132,9 @@ def _memory(axis: Axes, line: "xr.Dataset", place: Array) -> None:
     axis.set_ylabel(label("memory_g"))
 
 
-def _deflection(axis: Axes, line: "xr.Dataset", place: Array) -> None:
+def _deflection(axis: Axes, line: xr.Dataset, place: Array) -> None:
     limit = line["memory_limit"].values
     scale, unit = prefixed(limit, "m")
     axis.plot(place, line["memory_q"].values * scale, color=BLUE)
-    for side in (-1.0, 1.0):
-        axis.plot(place, side * limit * scale, color=BLACK, ls=DASHES[1], lw=0.8)
+    limit_lines(axis, place, limit * scale)
     axis.set_ylabel(label("memory_q", unit, room=24))

@@ -1,9 +1,10 @@
 """Rebound curves with their regimes, and the map of regimes over psi_1 and chi."""
 
-from typing import TYPE_CHECKING
+from typing import Any
 
 import matplotlib
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.colors import BoundaryNorm, ListedColormap
@@ -13,7 +14,7 @@ from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_cdt
 
-from carom.plots.bands import BANDS, MINUS, STICK, Band, shade
+from carom.plots.bands import BANDS, MINUS, STICK, Band, mirrored, shade
 from carom.plots.style import (
     BLACK,
     DASHES,
@@ -22,13 +23,11 @@ from carom.plots.style import (
     draws,
     label,
     legend_above,
-    new_figure,
+    single_axis,
     span,
+    zero_line,
 )
 from carom.quantities.arrays import Array
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 MARKERS = "os^Dv"
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWX"
@@ -46,7 +45,7 @@ REGIMES = {
 @draws(
     "rebound curves, what carom.curve returns", "psi_out", "psi_in", "chi", "contact_restitution"
 )
-def plot_curve(dataset: "xr.Dataset") -> Figure:
+def plot_curve(dataset: xr.Dataset) -> Figure:
     """Draw psi_2 against psi_1, one line per chi, with the borders of the regimes if it has them.
 
     Of a single chi the regimes are bands, told by how the impact begins; of several, marks on the
@@ -74,17 +73,17 @@ def plot_curve(dataset: "xr.Dataset") -> Figure:
     >>> [text.get_text() for text in axis.get_legend().get_texts()[1:]]
     ['stick', 'gross slip, stick']
     """
-    figure, axes = new_figure(height=66.0)
-    axis = axes[0, 0]
+    figure, axis = single_axis(height=66.0)
     psi = dataset["psi_in"].values
-    axis.axhline(0.0, color="0.5", lw=0.5, zorder=1)
+    zero_line(axis)
     single, regimes = dataset.sizes["chi"] == 1, "border" in dataset
     for row in range(dataset.sizes["chi"]):
         _draw_line(axis, dataset.isel(chi=row), row, dots=regimes and not single)
     if regimes and not single:
         axis.plot([], [], MARKERS[0], color=BLACK, label="regime borders")
     lines, _ = axis.get_legend_handles_labels()
-    bands = _shade_regimes(axis, dataset) if regimes and single else []
+    ends = dataset["border"].values[0] if regimes and single else None
+    bands = shade_regimes(axis, ends, psi.min(), psi.max())
     span(axis, psi)
     axis.set_xlabel(label("psi_in", room=44))
     axis.set_ylabel(label("psi_out", room=36))
@@ -93,7 +92,7 @@ def plot_curve(dataset: "xr.Dataset") -> Figure:
     return figure
 
 
-def _draw_line(axis: Axes, one: "xr.Dataset", row: int, dots: bool) -> None:
+def _draw_line(axis: Axes, one: xr.Dataset, row: int, dots: bool) -> None:
     psi, out = one["psi_in"].values, one["psi_out"].values
     color, marker = LINES[row % len(LINES)], MARKERS[row % len(MARKERS)]
     ends = np.array([])
@@ -106,21 +105,14 @@ def _draw_line(axis: Axes, one: "xr.Dataset", row: int, dots: bool) -> None:
     axis.plot([], [], **handle, label=rf"$\chi$ = {float(one['chi']):g}")
 
 
-def _shade_regimes(axis: Axes, dataset: "xr.Dataset") -> list[Patch]:
-    psi = dataset["psi_in"].values
-    ends = [0.0, *dataset["border"].values[0], np.inf]
-    shown = []
-    for (name, band), low, high in zip(REGIMES.items(), ends, ends[1:], strict=False):
-        for side in (-1.0, 1.0):
-            start, end = np.clip(sorted((side * low, side * high)), psi.min(), psi.max())
-            if end > start:
-                shade(axis, start, end, band)
-                shown.append(name)
-    return [
-        Patch(fc=band.face, ec=band.edge, hatch=band.hatch, label=name)
-        for name, band in REGIMES.items()
-        if name in shown
-    ]
+def shade_regimes(axis: Axes, borders: Array | None, low: float, high: float) -> list[Patch]:
+    """Shade the regimes between two psi_1, if their borders are known; return the keys to them."""
+    shown = {}
+    if borders is not None:
+        for name, start, end in mirrored(REGIMES, [0.0, *borders, np.inf], low, high):
+            shade(axis, start, end, REGIMES[name])
+            shown[name] = REGIMES[name].key(name)
+    return list(shown.values())
 
 
 def _short(name: str) -> str:
@@ -131,10 +123,10 @@ def _short(name: str) -> str:
 
 
 @draws(
-    "a map of regimes, what carom.impacts.curves.regime_map returns",
+    "a map of regimes, what carom.regime_map returns",
     *("sequence", "sequence_name", "psi_in", "chi"),
 )
-def plot_regime_map(dataset: "xr.Dataset") -> Figure:
+def plot_regime_map(dataset: xr.Dataset) -> Figure:
     """Draw which phases follow which over psi_1 and chi, with the borders 1, 2 chi, 4 chi - 1.
 
     The shading tells the number of phases; letters name the sequences, the commonest first.
@@ -142,7 +134,7 @@ def plot_regime_map(dataset: "xr.Dataset") -> Figure:
     Parameters
     ----------
     dataset : xarray.Dataset
-        What `carom.impacts.curves.regime_map` returns.
+        What `carom.regime_map` returns.
 
     Returns
     -------
@@ -161,8 +153,7 @@ def plot_regime_map(dataset: "xr.Dataset") -> Figure:
     >>> len(figure.legends[0].get_texts())
     4
     """
-    figure, axes = new_figure(width=DOUBLE, height=88.0)
-    axis = axes[0, 0]
+    figure, axis = single_axis(width=DOUBLE, height=88.0)
     codes, names = dataset["sequence"].values, [str(n) for n in dataset["sequence_name"].values]
     counts = np.array([name.count(",") + 1 for name in names])
     shades = ListedColormap([SHADES(place) for place in np.linspace(1.0, 0.15, counts.max())])
@@ -177,8 +168,7 @@ def plot_regime_map(dataset: "xr.Dataset") -> Figure:
     draw_borders(axis)
     patches = [
         Patch(fc=shades(int(count) - 1), ec="0.3", lw=0.4, label=f"{LETTERS[i]}  {_short(name)}")
-        for i, (name, count) in enumerate(zip(names, counts, strict=True))
-        if i < len(LETTERS)
+        for i, (name, count) in enumerate(zip(names[: len(LETTERS)], counts, strict=False))
     ]
     figure.legend(handles=patches, loc="outside right upper", title=KEY, alignment="left")
     return figure
@@ -187,12 +177,9 @@ def plot_regime_map(dataset: "xr.Dataset") -> Figure:
 def _outlines(psi: Array, chi: Array, codes: NDArray[np.int16]) -> LineCollection:
     """Return the edges of cells across which the sequence changes."""
     x, y = _edges(psi), _edges(chi)
-    sides = [
-        ((x[j + 1], y[i]), (x[j + 1], y[i + 1])) for i, j in np.argwhere(np.diff(codes, axis=1))
-    ]
-    tops = [
-        ((x[j], y[i + 1]), (x[j + 1], y[i + 1])) for i, j in np.argwhere(np.diff(codes, axis=0))
-    ]
+    right, above = (np.argwhere(np.diff(codes, axis=axis)) for axis in (1, 0))
+    sides = [((x[j + 1], y[i]), (x[j + 1], y[i + 1])) for i, j in right]
+    tops = [((x[j], y[i + 1]), (x[j + 1], y[i + 1])) for i, j in above]
     return LineCollection([*sides, *tops], colors="white", linewidths=0.5, capstyle="projecting")
 
 
@@ -201,7 +188,7 @@ def _edges(centres: Array) -> Array:
     return np.concatenate([centres[:1], middle, centres[-1:]])
 
 
-def _letter_regions(axis: Axes, dataset: "xr.Dataset") -> None:
+def _letter_regions(axis: Axes, dataset: xr.Dataset) -> None:
     """Write the letter of each sequence where its region is widest."""
     psi, chi = dataset["psi_in"].values, dataset["chi"].values
     for code in range(min(dataset.sizes["sequence_name"], len(LETTERS))):
@@ -224,14 +211,9 @@ def draw_borders(axis: Axes) -> None:
         if not inside.any() or not left <= psi[inside][-1]:
             continue
         last = psi[inside][-1], chi[inside][-1]
-        above = inside.all()
-        axis.annotate(
-            rf"$\psi_1 = ${name}",
-            last if above else (right, last[1]),
-            xytext=(0, 3) if above else (3, 0),
-            textcoords="offset points",
-            ha="center" if above else "left",
-            va="bottom" if above else "center",
-        )
+        place: dict[str, Any] = {"xy": (right, last[1]), "xytext": (3, 0), "va": "center"}
+        if inside.all():
+            place = {"xy": last, "xytext": (0, 3), "ha": "center", "va": "bottom"}
+        axis.annotate(rf"$\psi_1 = ${name}", textcoords="offset points", **place)
     if bottom < 0.5:
         axis.plot([1.0, 1.0], [bottom, 0.5], color="black", ls="-", lw=1.0)

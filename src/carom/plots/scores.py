@@ -1,16 +1,15 @@
 """Results against the exact answer: psi_2 and its errors, or a history of forces and its errors."""
 
-from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from carom.plots.bands import shade
 from carom.plots.impact import phase_handles, time_axis
-from carom.plots.regimes import REGIMES
+from carom.plots.regimes import shade_regimes
 from carom.plots.style import (
     BLACK,
     BLUE,
@@ -21,24 +20,22 @@ from carom.plots.style import (
     draws,
     label,
     legend_above,
+    limit_lines,
     new_figure,
     scaled,
+    zero_line,
 )
 from carom.quantities.arrays import Array
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 ALLOWED: Any = {"color": "0.35", "ls": DASHES[2], "lw": 0.8, "zorder": 1}
 GIVEN: Any = {"mfc": "white", "mec": BLACK, "mew": 0.8, "ls": ""}
-ZERO: Any = {"color": "0.5", "lw": 0.5, "zorder": 1}
 SPARSE = 100  # times; more of them make a line
 FAR = 2.0  # times the psi_1 from which all slides: beyond it a figure has little to show
 MARGIN, ROOM = 0.03, 0.12  # beyond what is shown, along psi_1 and the error
 
 
 @draws("a score, what carom.verify.score returns", "error", "psi_in", "psi_out", "tolerance")
-def plot_score(dataset: "xr.Dataset") -> Figure:
+def plot_score(dataset: xr.Dataset) -> Figure:
     """Draw results beside the exact answer, and their errors with the tolerance below.
 
     A rebound curve or velocities: psi_2 against psi_1, the regimes as bands. A history: forces and
@@ -70,7 +67,7 @@ def plot_score(dataset: "xr.Dataset") -> Figure:
     return _forces(dataset) if "normal_force_exact" in dataset else _points(dataset)
 
 
-def _points(dataset: "xr.Dataset") -> Figure:
+def _points(dataset: xr.Dataset) -> Figure:
     figure, axes = new_figure(2, 1, height=98.0, sharex=True, height_ratios=(1.6, 1.0))
     upper, lower = axes[:, 0]
     whole, dataset = dataset, _near(dataset)
@@ -94,16 +91,16 @@ def _points(dataset: "xr.Dataset") -> Figure:
     return figure
 
 
-def _near(dataset: "xr.Dataset") -> "xr.Dataset":
+def _near(dataset: xr.Dataset) -> xr.Dataset:
     """Return the results that do not lie far in gross slip, if there are others."""
     border = np.maximum(1.0, 4.0 * dataset["chi"].values - 1.0)
     inside = np.abs(dataset["psi_in"].values) <= FAR * border
     return dataset.isel(point=np.flatnonzero(inside)) if inside.any() else dataset
 
 
-def _results(axis: Axes, dataset: "xr.Dataset") -> None:
+def _results(axis: Axes, dataset: xr.Dataset) -> None:
     """Draw psi_2 as it was given, over the exact curves, or over exact points."""
-    axis.axhline(0.0, **ZERO)
+    zero_line(axis)
     psi = dataset["psi_in"].values
     if "curve_psi_out" in dataset:
         chis = dataset["curve_chi"].values
@@ -118,26 +115,17 @@ def _results(axis: Axes, dataset: "xr.Dataset") -> None:
     axis.plot(psi, given, "o", **GIVEN, label="results")
 
 
-def _bands(axis: Axes, dataset: "xr.Dataset") -> list[Patch]:
+def _bands(axis: Axes, dataset: xr.Dataset) -> list[Patch]:
     """Shade the regimes of a single chi, and return what a legend shows of them."""
-    if "border" not in dataset:
-        return []
     limits = axis.get_xlim()
-    ends = [0.0, *dataset["border"].values, np.inf]
-    shown = {}
-    for (name, band), (low, high) in zip(REGIMES.items(), pairwise(ends), strict=True):
-        for side in (-1.0, 1.0):
-            start, end = np.clip(sorted((side * low, side * high)), *limits)
-            if end > start:
-                shade(axis, start, end, band)
-                shown[name] = Patch(fc=band.face, ec=band.edge, hatch=band.hatch, label=name)
+    keys = shade_regimes(axis, dataset["border"].values if "border" in dataset else None, *limits)
     axis.set_xlim(limits)
-    return list(shown.values())
+    return keys
 
 
 def _tolerance(axis: Axes, error: Array, tolerance: float) -> None:
     """Draw zero and the tolerance, and let the axis take in both and all errors."""
-    axis.axhline(0.0, **ZERO)
+    zero_line(axis)
     axis.axhline(tolerance, label=f"tolerance, ±{tolerance:g}", **ALLOWED)
     axis.axhline(-tolerance, **ALLOWED)
     low, high = min(error.min(), -tolerance), max(error.max(), tolerance)
@@ -145,18 +133,15 @@ def _tolerance(axis: Axes, error: Array, tolerance: float) -> None:
     axis.set_ylim(low - room, high + room)
 
 
-def _forces(dataset: "xr.Dataset") -> Figure:
-    figure, axes = new_figure(
-        2, 2, width=DOUBLE, height=104.0, sharex=True, height_ratios=(1.6, 1.0)
-    )
+def _forces(dataset: xr.Dataset) -> Figure:
+    size: Any = {"width": DOUBLE, "height": 104.0, "height_ratios": (1.6, 1.0)}
+    figure, axes = new_figure(2, 2, sharex=True, **size)
     friction, peak = float(dataset["friction"]), float(dataset["max_force"])
-    for column, (name, unit, words) in enumerate(
-        (
-            ("tangential_force", friction * peak, r"$F_x$, in $\mu P_{max}$"),
-            ("normal_force", peak, "$F_z$, in $P_{max}$"),
-        )
-    ):
-        upper, lower = axes[:, column]
+    drawn = (
+        ("tangential_force", friction * peak, r"$F_x$, in $\mu P_{max}$"),
+        ("normal_force", peak, "$F_z$, in $P_{max}$"),
+    )
+    for (upper, lower), (name, unit, words) in zip(axes.T, drawn, strict=True):
         time = _force(upper, dataset, name)
         difference = (dataset[name].values - dataset[f"{name}_exact"].values) / unit
         time_axis(lower, dataset)
@@ -168,11 +153,11 @@ def _forces(dataset: "xr.Dataset") -> Figure:
     return figure
 
 
-def _force(axis: Axes, dataset: "xr.Dataset", name: str) -> Array:
+def _force(axis: Axes, dataset: xr.Dataset, name: str) -> Array:
     """Draw a force as it was given over the exact one, and return the times in their unit."""
     time = time_axis(axis, dataset)
     axis.set_xlabel("")
-    axis.axhline(0.0, **ZERO)
+    zero_line(axis)
     exact = dataset[f"{name}_exact"].values
     given, unit, scale = scaled(dataset, name, like=exact)
     axis.plot(time, exact * scale, color=BLUE, label="exact")
@@ -180,8 +165,7 @@ def _force(axis: Axes, dataset: "xr.Dataset", name: str) -> Array:
     axis.plot(time, given, color=VERMILION, label="results", **how)
     if name == "tangential_force":
         limit = float(dataset["friction"]) * dataset["normal_force_exact"].values * scale
-        axis.plot(time, limit, color=BLACK, ls=DASHES[1], lw=0.8, label=r"$\pm\mu F_z$, exact")
-        axis.plot(time, -limit, color=BLACK, ls=DASHES[1], lw=0.8)
+        limit_lines(axis, time, limit, r"$\pm\mu F_z$, exact")
     axis.set_ylabel(label(name, unit))
     legend_above(axis, 3)
     return time

@@ -1,8 +1,7 @@
 """The stress below the surface: a map with contours, and where the largest lies."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
@@ -10,19 +9,16 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
 from carom.plots.bands import moment
-from carom.plots.style import MAP, check_grid, draws, label, new_figure, scaled, symbol
+from carom.plots.style import MAP, check_grid, draws, label, scaled, single_axis, symbol
 from carom.quantities.arrays import Array
 from carom.quantities.units import InputError, refusal
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 CONTOURS = 9
 NEAR = 1e-6  # relative: a largest stress that lies in the plane drawn
 
 
 @draws("stresses on a grid of z and x, what Impact.stress returns", "z", "x")
-def plot_stress(dataset: "xr.Dataset", variable: str = "von_mises") -> Figure:
+def plot_stress(dataset: xr.Dataset, variable: str = "von_mises") -> Figure:
     """Draw a stress in the plane y = 0 below the surface, with contours; a cross at the largest.
 
     The bar on the surface is the contact.
@@ -61,8 +57,7 @@ def plot_stress(dataset: "xr.Dataset", variable: str = "von_mises") -> Figure:
         raise InputError("stress: a map needs it on a grid of z and x, not at points")
     if variable not in known:
         raise refusal("variable", variable, f"must be one of {', '.join(known)}")
-    figure, axes = new_figure(height=66.0)
-    axis = axes[0, 0]
+    figure, axis = single_axis(height=66.0)
     x, unit, length = scaled(dataset, "x")
     z = dataset["z"].values * length
     values, stress_unit, scale = scaled(dataset, variable)
@@ -97,7 +92,7 @@ def _contours(axis: Axes, x: Array, z: Array, values: Array) -> ContourSet:
     )
 
 
-def _largest(dataset: "xr.Dataset", variable: str) -> tuple[float, float, float]:
+def _largest(dataset: xr.Dataset, variable: str) -> tuple[float, float, float]:
     """Return x, z and value of the largest stress: between the grid's points where it is known."""
     name = f"max_{variable}"
     if name in dataset and abs(float(dataset[f"{name}_y"])) < NEAR * float(dataset["x"].max()):
@@ -107,7 +102,7 @@ def _largest(dataset: "xr.Dataset", variable: str) -> tuple[float, float, float]
     return float(dataset["x"][column]), float(dataset["z"][row]), float(values[row, column])
 
 
-def _mark_contact(axis: Axes, dataset: "xr.Dataset", length: float) -> None:
+def _mark_contact(axis: Axes, dataset: xr.Dataset, length: float) -> None:
     if "contact_radius" in dataset:
         contact = float(dataset["contact_radius"]) * length
         ends, surface = [-contact, contact], [0.0, 0.0]

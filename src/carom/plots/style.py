@@ -195,6 +195,12 @@ def new_figure(
     return figure, axes
 
 
+def single_axis(**options: Any) -> tuple[Figure, Axes]:
+    """Return a figure, as `new_figure` does, and its only axes."""
+    figure, axes = new_figure(**options)
+    return figure, axes[0, 0]
+
+
 def save_figure(figure: Figure, path: str | Path) -> Path:
     """Store a figure as .png, .pdf or .svg; one that is there is replaced whole or not at all.
 
@@ -261,7 +267,7 @@ def label(name: str, unit: str | None = None, room: int = 100) -> str:
     'tangential force, $F_x$\\xa0(mN)'
     """
     text = f"{GLOSSARY[name].meaning.split(',')[0]}, {symbol(name, unit)}"
-    return "\n".join(textwrap.wrap(text, room, break_long_words=False, break_on_hyphens=False))
+    return textwrap.fill(text, room, break_long_words=False, break_on_hyphens=False)
 
 
 def symbol(name: str, unit: str | None = None) -> str:
@@ -284,6 +290,17 @@ def scaled(dataset: Any, name: str, like: ArrayLike | None = None) -> Scaled:
     values = np.asarray(dataset[name].values, dtype=np.float64)
     scale, unit = prefixed(values if like is None else like, GLOSSARY[name].unit)
     return Scaled(values * scale, unit, scale)
+
+
+def zero_line(axis: Axes) -> None:
+    """Draw where zero is."""
+    axis.axhline(0.0, color="0.5", lw=0.5, zorder=1)
+
+
+def limit_lines(axis: Axes, x: Array, limit: Array, name: str | None = None) -> None:
+    """Draw the limits of friction, which differ in their sign."""
+    for values, text in ((limit, name), (-limit, None)):
+        axis.plot(x, values, color=BLACK, ls=DASHES[1], lw=0.8, label=text)
 
 
 def legend_above(axis: Axes, columns: int, **options: Any) -> None:
