@@ -1,6 +1,6 @@
-"""Draw figures/validity.png: sizes and speeds at which a steel ball rebounds as the theory says.
+"""At which sizes and speeds does a steel ball rebound as the theory says?
 
-python docs/make_validity_map.py
+python studies/validity_map.py    prints the limits and draws docs/figures/validity.png
 """
 
 from pathlib import Path
@@ -24,7 +24,7 @@ from carom.plots.style import (
     style,
 )
 
-FIGURE = Path(__file__).parent / "figures" / "validity.png"
+FIGURE = Path(__file__).parents[1] / "docs" / "figures" / "validity.png"
 MATERIAL = carom.material("bearing-steel")
 ROUGHNESS, ROUGH = 0.02e-6, 0.05  # m; of the penetration (Greenwood, Johnson & Matsubara 1984)
 ADHESION, CLOSE = 0.1, 0.01  # J/m^2; loss of restitution

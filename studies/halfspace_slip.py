@@ -1,6 +1,6 @@
-"""Draw docs/figures/halfspace_slip.png: which way a slip ring slips, by both solutions; a minute.
+"""Which way does a slip ring slip, by the theory and by boundary elements?
 
-python docs/make_halfspace_slip_figure.py
+python studies/halfspace_slip.py    a minute; draws docs/figures/halfspace_slip.png
 """
 
 from pathlib import Path
@@ -19,7 +19,7 @@ from carom.halfspace.solution import HalfspaceSolution, Resolution, Snapshot, so
 
 Array = NDArray[np.float64]
 
-TARGET = Path(__file__).parent / "figures" / "halfspace_slip.png"
+TARGET = Path(__file__).parents[1] / "docs" / "figures" / "halfspace_slip.png"
 PSI, TIME = 0.5, 2.2  # psi_1; d_max/V_1, while a ring slips
 COLORS = {0.3: "#0072B2", 0.5: "#D55E00"}
 

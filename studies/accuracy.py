@@ -1,6 +1,6 @@
-"""How exact Carom is: figures/accuracy.png, and the numbers of docs/accuracy.md.
+"""How exact is Carom? The numbers of docs/accuracy.md, and its figure.
 
-python docs/make_accuracy.py     half a minute
+python studies/accuracy.py    half a minute
 """
 
 import csv
@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from run_pages import keep
+from small_pictures import store_small
 
 import carom
 from carom.dimensionless.twins.marching import extrapolated, march
@@ -27,9 +27,9 @@ from carom.plots.style import (
     style,
 )
 
-DOCS = Path(__file__).parent
-FIGURE = DOCS / "figures" / "accuracy.png"
-IMPACTS = DOCS.parent / "tests" / "high_precision" / "impacts.csv"
+ROOT = Path(__file__).parents[1]
+FIGURE = ROOT / "docs" / "figures" / "accuracy.png"
+IMPACTS = ROOT / "tests" / "high_precision" / "impacts.csv"
 EPS = float(np.finfo(np.float64).eps)
 SEED = 20261121
 CHIS = (0.5, 1.44, 3.0, 10.0)
@@ -41,7 +41,7 @@ def shown(error: Array) -> Array:
     return np.maximum(np.abs(error), 0.5 * EPS)
 
 
-def table() -> tuple[Array, Array, Array]:
+def impacts() -> tuple[Array, Array, Array]:
     """Return psi_1, chi and psi_2 of the table of 30 digits."""
     rows = list(csv.DictReader(IMPACTS.read_text(encoding="utf-8").splitlines()))
     psi, chi, out = (np.array([float(r[k]) for r in rows]) for k in ("psi_1", "chi", "psi_out"))
@@ -50,7 +50,7 @@ def table() -> tuple[Array, Array, Array]:
 
 def draw_table(axis: Axes) -> str:
     """Draw the errors of psi_2 in the table of 30 digits, and what is promised."""
-    psi, chi, out = table()
+    psi, chi, out = impacts()
     error = (carom.rebound(psi, chi) - out) / np.maximum(1.0, np.abs(psi))
     axis.loglog(chi, shown(error), "o", color=BLUE, mfc="none", label="47 impacts, 30 digits")
     promise = np.array([[0.05, 10.0, 10.0, 60.0], [1e-10, 1e-10, 1e-9, 1e-9]])
@@ -119,7 +119,7 @@ def main() -> None:
             if axis.get_legend_handles_labels()[1]:
                 axis.legend(loc="upper left", ncols=2)
         with tempfile.TemporaryDirectory() as folder:
-            keep(save_figure(figure, Path(folder) / FIGURE.name), FIGURE)
+            store_small(save_figure(figure, Path(folder) / FIGURE.name), FIGURE)
 
 
 if __name__ == "__main__":

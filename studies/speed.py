@@ -1,7 +1,7 @@
-"""What an impact costs by each method, beside how far off it is: docs/speed.csv, figures/speed.png.
+"""What does an impact cost by each method, and how far off is it? Table: speed.csv.
 
-python docs/make_speed.py            a minute; on one core
-python docs/make_speed.py --draw     figure and page alone, from the table
+python studies/speed.py            a minute; on one core
+python studies/speed.py --draw     figure and page alone, from the table
 
 CPU times, taken in turn in one run and kept as ratios to that of `carom.rebound`. LAMMPS is
 measured where it is installed, else its row is kept. benchmarks/ tells how times grow with size.
@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from accuracy import impacts
 
 import carom
 from carom.dimensionless.twins.marching import march
@@ -30,10 +31,9 @@ from carom.plots.style import (
 )
 from carom.verify.engines.experiments import psi_out
 
-DOCS = Path(__file__).parent
-TABLE, FIGURE, PAGE = DOCS / "speed.csv", DOCS / "figures" / "speed.png", DOCS / "accuracy.md"
+TABLE, DOCS = Path(__file__).with_name("speed.csv"), Path(__file__).parents[1] / "docs"
+FIGURE, PAGE = DOCS / "figures" / "speed.png", DOCS / "accuracy.md"
 BEGIN, END = "<!-- begin: speed -->\n", "<!-- end -->"
-IMPACTS = DOCS.parent / "tests" / "high_precision" / "impacts.csv"
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 COLORS = {"exact": BLUE, "tables": GREEN, "numerical": PURPLE, "contact law": VERMILION}
@@ -106,17 +106,9 @@ def methods() -> list[Method]:
         Method("collide, Walton", "contact law", most, lambda p: collided(p, walton())),
         Method("ReboundLaw", "tables", most, law),
         Method("MixtureLaw", "tables", most, lambda psi: mixture(psi, chi)),
-        Method(
-            "annuli and steps, 500 springs",
-            "numerical",
-            some,
-            each(lambda psi: march(psi, chi, 500, 2000)),
-        ),
-        Method(
-            "annuli and steps, 125 springs",
-            "numerical",
-            some,
-            each(lambda psi: march(psi, chi, 125, 500)),
+        *(
+            Method(f"annuli and steps, {n} springs", "numerical", some, marched(chi, n))
+            for n in (500, 125)
         ),
         *(
             Method(f"{name}, {n} steps", "contact law", many, stepped(law, chi, kappa, n))
@@ -172,8 +164,7 @@ def worst(psi: Any, found: Any, e: float = 1.0) -> float:
 
 def exact_error() -> float:
     """Return the largest error of `rebound` in the table of 30 digits, over max(1, |psi_1|)."""
-    rows = list(csv.DictReader(IMPACTS.read_text(encoding="utf-8").splitlines()))
-    psi, chi, out = (np.array([float(r[k]) for r in rows]) for k in ("psi_1", "chi", "psi_out"))
+    psi, chi, out = impacts()
     return float(np.max(np.abs(carom.rebound(psi, chi) - out) / np.maximum(1.0, np.abs(psi))))
 
 

@@ -1,11 +1,11 @@
-"""The figures of docs/laws.md; drawn by make_law_ranking.py."""
+"""Where and how do contact laws of DEM codes go wrong? The figures of law_ranking.py."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
-from PIL import Image
+from small_pictures import store_small
 from tqdm import tqdm
 
 import carom
@@ -51,7 +51,6 @@ FREE = {
     "mindlin_rescale/force": lambda x: carom.LammpsMindlin("mindlin_rescale/force", stiffness=x),
 }
 KAPPA = 4.0 * CHI / 7.0
-COLOURS = 256
 COLORS = (BLUE, VERMILION, GREEN, PURPLE)
 
 
@@ -107,9 +106,4 @@ def draw_figures(ranking: "xr.Dataset", folder: Path) -> None:
     figures |= {"stiffness": plot_stiffness(), "forces": plot_histories()}
     for name, figure in tqdm(figures.items(), desc="figures"):
         path = save_figure(figure, folder / f"law_{name}.png")
-        picture = Image.open(path).convert("RGB")
-        size = (2 * picture.width // 3, 2 * picture.height // 3)
-        small = picture.resize(size, Image.Resampling.LANCZOS)
-        if not name.startswith("map"):  # lines need few colours, maps keep all
-            small = small.quantize(COLOURS, dither=Image.Dither.NONE)
-        small.save(path, optimize=True)
+        store_small(path, path, all_colors=name.startswith("map"))
