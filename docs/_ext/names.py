@@ -8,9 +8,9 @@ from dataclasses import fields, is_dataclass
 from importlib import import_module
 from typing import Any
 
-from commands import commands
 from docutils import nodes
 from docutils.nodes import make_id
+from samples import commands
 from sphinx import addnodes
 from sphinx.application import Sphinx
 from sphinx.environment import BuildEnvironment

@@ -93,21 +93,9 @@ def test_examples_in_the_extensions_hold(extension):
 
 
 def test_page_of_json_has_every_command_that_prints_it():
-    from samples import COMMANDS, help_of
-    from typer.main import get_command
+    from samples import COMMANDS, commands, help_of
 
-    from carom.cli import app
-
-    def commands(group, path=()):
-        for name, command in group.commands.items():
-            if hasattr(command, "commands"):
-                yield from commands(command, (*path, name))
-            else:
-                yield (*path, name)
-
-    printing = {
-        " ".join(words) for words in commands(get_command(app)) if "--json" in help_of(words)
-    }
+    printing = {" ".join(words) for words in commands() if "--json" in help_of(words)}
     shown = {
         word for word in printing for line in COMMANDS if f"{line} ".startswith(f"carom {word} ")
     }
