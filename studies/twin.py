@@ -119,7 +119,6 @@ def main() -> None:
     left, right = figure.subplots(1, 2)
     draw_rebounds(left)
     draw_differences(right, found, limit)
-    TARGET.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(TARGET, dpi=160)
     print(f"wrote {TARGET.name}")
 
