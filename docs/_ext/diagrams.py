@@ -15,15 +15,6 @@ from docutils.parsers.rst import Directive
 from sphinx.application import Sphinx
 
 EDGE = re.compile(r"\s*(\S+) --> (\S+?): (.+)")
-SIZE = (1000, 470)
-PLACES = {  # centre of each state, and where its start and its end are
-    "stick": ((250, 90), (60, 90), (250, 20)),
-    "slip": ((800, 235), (800, 235), (955, 235)),
-    "gross_slip": ((250, 380), (60, 380), (250, 450)),
-}
-BOX = (58, 22)  # half width and height of a state
-LINE = 17  # height of a line of text
-POINT = "[*]"
 
 
 class Place(NamedTuple):
@@ -31,6 +22,17 @@ class Place(NamedTuple):
 
     x: float
     y: float
+
+
+SIZE = (1000, 470)
+PLACES = {  # centre of each state, and where its start and its end are
+    "stick": (Place(250, 90), Place(60, 90), Place(250, 20)),
+    "slip": (Place(800, 235), Place(800, 235), Place(955, 235)),
+    "gross_slip": (Place(250, 380), Place(60, 380), Place(250, 450)),
+}
+BOX = (58, 22)  # half width and height of a state
+LINE = 17  # height of a line of text
+POINT = "[*]"
 
 
 class StateDiagram(Directive):
@@ -71,15 +73,15 @@ def state(name: str) -> str:
 def arrow(origin: str, target: str, words: list[str]) -> str:
     """Return an arrow with what is said of it; starts and ends are dots."""
     if origin == POINT:
-        place, dot = Place(*PLACES[target][1]), '<circle cx="{}" cy="{}" r="7"/>'
-        return dot.format(*place) + straight(place, Place(*PLACES[target][0]), words)
+        place, dot = PLACES[target][1], '<circle cx="{}" cy="{}" r="7"/>'
+        return dot.format(*place) + straight(place, PLACES[target][0], words)
     if target == POINT:
-        place = Place(*PLACES[origin][2])
+        place = PLACES[origin][2]
         dot = '<circle class="end" cx="{0}" cy="{1}" r="9"/><circle cx="{0}" cy="{1}" r="5"/>'
-        return dot.format(*place) + straight(Place(*PLACES[origin][0]), place, words)
+        return dot.format(*place) + straight(PLACES[origin][0], place, words)
     if origin == target:
-        return loop(Place(*PLACES[origin][0]), words)
-    return bent(Place(*PLACES[origin][0]), Place(*PLACES[target][0]), words)
+        return loop(PLACES[origin][0], words)
+    return bent(PLACES[origin][0], PLACES[target][0], words)
 
 
 def straight(start: Place, end: Place, words: list[str]) -> str:

@@ -8,23 +8,24 @@ from dataclasses import fields, is_dataclass
 from importlib import import_module
 from typing import Any
 
-from commands import commands
 from docutils import nodes
 from docutils.nodes import make_id
+from samples import commands
 from sphinx import addnodes
 from sphinx.application import Sphinx
 from sphinx.environment import BuildEnvironment
 from sphinx.util.logging import getLogger
 
+import carom
 from carom.quantities.glossary import GLOSSARY
 
 NAME = re.compile(r"(carom(?:\.\w+)+)(\(.*\))?")
 COMMAND = re.compile(r"carom(?: verify)? [a-z]+")
 HOMES = {  # where public names are defined, and where they are offered
-    f"{home}.{name}": f"{package}.{name}"
-    for package in ("carom", "carom.verify")
-    for home, names in import_module(package)._HOMES.items()
-    for name in names
+    f"{thing.__module__}.{thing.__qualname__}": f"{package.__name__}.{name}"
+    for package in (carom, carom.verify, carom.plots, carom.classical, carom.datasets)
+    for name in package.__all__
+    if hasattr(thing := getattr(package, name), "__qualname__")
 }
 PAGE = "reference/commands"
 COMMANDS = {" ".join(("carom", *words)) for words in commands()}

@@ -1,6 +1,7 @@
 """Results of every kind, small and fast to make, from which the schema is read."""
 
 import json
+from collections.abc import Iterator
 from contextlib import chdir, redirect_stderr, redirect_stdout
 from io import StringIO
 from pathlib import Path
@@ -92,6 +93,14 @@ def cut(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: cut(entry) for key, entry in value.items()}
     return [cut(entry) for entry in value[:SHOWN]] if isinstance(value, list) else value
+
+
+def commands(group: Any = None, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
+    """Yield the words of every command, groups first."""
+    group = group or get_command(app)
+    yield path
+    for name, command in getattr(group, "commands", {}).items():
+        yield from commands(command, (*path, name))
 
 
 def help_of(words: tuple[str, ...]) -> str:

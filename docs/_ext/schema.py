@@ -31,8 +31,10 @@ class Datasets(SphinxDirective):
 
     def run(self) -> list[nodes.Node]:
         made = datasets()
-        parts = [part(title, self.state.document, *told(title, made[title])) for title in made]
-        return [nodes.literal_block(text=SETUP.strip(), language="python"), *parts]
+        return [
+            nodes.literal_block(text=SETUP.strip(), language="python"),
+            *(part(nodes.Text(it), self.state.document, *told(it, made[it])) for it in made),
+        ]
 
 
 class Printed(SphinxDirective):
@@ -41,7 +43,7 @@ class Printed(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         return [
             part(
-                f"{command} --json",
+                nodes.Text(f"{command} --json"),
                 self.state.document,
                 nodes.literal_block(text=json.dumps(printed(command), indent=1), language="json"),
             )
@@ -97,11 +99,11 @@ def code(text: str) -> nodes.literal:
     return nodes.literal(text=str(text))
 
 
-def part(title: str, document: nodes.document, *content: nodes.Node) -> nodes.section:
+def part(heading: nodes.Node, document: nodes.document, *content: nodes.Node) -> nodes.section:
     """Return a section that links can name."""
-    heading = nodes.title(title, title)
-    section = nodes.section("", heading, *content, names=[title.lower()])
-    document.note_implicit_target(section)
+    title = heading.astext()
+    section = nodes.section("", nodes.title(title, "", heading), *content, names=[title.lower()])
+    document.note_explicit_target(section)
     return section
 
 

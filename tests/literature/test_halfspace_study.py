@@ -1,4 +1,4 @@
-"""The study behind the validity of the theory, docs/halfspace_study.csv: it holds, and is current.
+"""The study behind the validity of the theory, studies/halfspace_study.*: it holds, is current.
 
 Full solutions of impacts of solid spheres by boundary elements. Their difference from the theory is
 that from nu = 0 at the same chi, psi_1 and grid, where the theory is exact.
@@ -17,7 +17,7 @@ from carom.halfspace.compliance import Materials
 from carom.halfspace.solution import Resolution, solve
 from carom.impacts.validity import rebound_error
 
-TABLE = Path(__file__).parents[2] / "docs" / "halfspace_study.csv"
+TABLE = Path(__file__).parents[2] / "studies" / "halfspace_study.csv"
 NUMBERS = ("kappa", "beta", "friction", "chi", "psi_1", "psi_2")
 
 
@@ -101,9 +101,9 @@ def test_rows_are_those_of_the_code(rows, wanted):
 def test_the_page_tells_what_the_table_holds():
     """Every row of the tables on docs/halfspace_study.md is computed from it."""
     sys.path.insert(0, str(TABLE.parent))
-    import make_halfspace_figures as figures
+    import halfspace_tables as figures
 
-    page = (TABLE.parent / "halfspace_study.md").read_text(encoding="utf-8").splitlines()
+    page = (TABLE.parents[1] / "docs/halfspace_study.md").read_text(encoding="utf-8")
     like = [f"nu {nu:g}" for nu in figures.RATIOS]
     tables = (
         figures.table("like", like),
@@ -115,4 +115,4 @@ def test_the_page_tells_what_the_table_holds():
     )
     lines = [line for table in tables for line in table]
     assert len(lines) > 70
-    assert [line for line in lines if line not in page] == []
+    assert [line for line in lines if line not in page.splitlines()] == []

@@ -12,7 +12,7 @@ from carom.quantities.arrays import Array
 
 Indices = NDArray[np.int64]
 
-TABLE = "data/fit_curves.npz"  # made by docs/make_fit_curves.py
+TABLE = "data/fit_curves.npz"  # made by studies/fit_curves.py
 PANELS, NODES = 4, 33  # of a curve; nodes even in arccos, for roots at the kinks
 FOLD = 0.5  # chi at which the borders of the regimes meet: no stencil reaches across
 LOG_CHI, LOWEST, HIGHEST = 0.05, -14, 41  # spacing of curves in log(chi/FOLD), first, last

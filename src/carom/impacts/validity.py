@@ -11,7 +11,7 @@ YIELD_PRESSURE = 1.60  # p_0/Y at first yield of a sphere, von Mises (Johnson 19
 SLOW_CONTACT = 3.0  # contact time in transits of a wave through the sphere and back (Love 1927)
 WEAK_COUPLING = 0.01  # |Dundurs' beta|: what is left uncoupled is below a hundredth
 CLOSE_REBOUND = 0.01  # of psi_2, also against the full contact in three dimensions
-LATERAL, RADIAL, COUPLED = 0.008, 0.22, 0.8  # of its bound, docs/halfspace_study.csv
+LATERAL, RADIAL, COUPLED = 0.008, 0.22, 0.8  # of its bound, studies/halfspace_study.csv
 
 
 def judge(pair: Pair, normal_speed: float, duration: float, psi: float) -> Validity:

@@ -1,4 +1,4 @@
-"""Look at every page of the built manual in a browser: `python docs/check_pages.py FOLDER`.
+"""Look at every page of the built manual in a browser: `python docs/make/check_pages.py FOLDER`.
 
 Each must set its formulas without an error, fit into a wide and a narrow window, ask no other host
 for anything, and leave no error in the console. Needs Playwright and Debian's chromium.

@@ -1,6 +1,6 @@
-"""Draw docs/figures/twin.png: the marching method against the exact solution; print the numbers.
+"""Does the method of 1976, annuli and small steps, converge to the exact solution?
 
-Run it as `python docs/make_twin_figure.py`.
+python studies/twin.py    prints the numbers of docs/twin.md and draws docs/figures/twin.png
 """
 
 import time
@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 CHIS = {0.8: "#009E73", 1.44: "#0072B2", 2.5: "#D55E00"}
 MARKERS = {0.8: "s", 1.44: "o", 2.5: "^"}
 SPRINGS = np.array([16, 32, 64, 125, 250, 500, 1000, 2000])
-TARGET = Path(__file__).parent / "figures" / "twin.png"
+TARGET = Path(__file__).parents[1] / "docs" / "figures" / "twin.png"
 
 
 def marched(psi: Array, chi: Array, springs: int) -> Array:
@@ -119,7 +119,6 @@ def main() -> None:
     left, right = figure.subplots(1, 2)
     draw_rebounds(left)
     draw_differences(right, found, limit)
-    TARGET.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(TARGET, dpi=160)
     print(f"wrote {TARGET.name}")
 

@@ -15,8 +15,8 @@ import carom
 from carom.plots.laws import plot_error_map, plot_laws
 from carom.verify import CATALOGUE, error_map, rank
 
-DOCS = Path(__file__).parents[2] / "docs"
-sys.path.insert(0, str(DOCS))
+ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "studies"))
 MM = 1.0 / 25.4
 LAWS = tuple(
     entry
@@ -193,11 +193,11 @@ def test_figures_leave_settings_alone(ranking, errors):
 
 def test_page_says_what_the_laws_do(monkeypatch, tmp_path):
     """The ranking and the best law as docs/laws.md has them; a changed number is noticed."""
-    import make_law_ranking as script
+    import law_ranking as script
 
     named = ("ranking", "softer", "tsuji")
     assert script.stale(named) == []
-    page = (DOCS / "laws.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs/laws.md").read_text(encoding="utf-8")
     assert "| 0.427 | 0.75 |" in page
     changed = page.replace("| 0.427 | 0.75 |", "| 0.437 | 0.75 |")
     (tmp_path / "laws.md").write_text(changed, encoding="utf-8")

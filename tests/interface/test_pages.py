@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT / "docs"))
+sys.path[:0] = [str(ROOT / "docs/make"), str(ROOT / "studies")]
 
-from make_speed import fill, read  # noqa: E402
 from run_pages import PAGES, pictures, run  # noqa: E402
+from speed import fill, read  # noqa: E402
 
 ACCURACY = ROOT / "docs" / "accuracy.md"
 
@@ -33,7 +33,7 @@ def test_page_shows_pictures_and_links_that_are_there(page):
 
 def test_accuracy_names_tests_that_are_there_and_times_of_the_table():
     text = ACCURACY.read_text(encoding="utf-8")
-    named = re.findall(r"`((?:tests|docs|benchmarks)/[\w/]+\.py)`", text)
+    named = re.findall(r"`((?:tests|studies|benchmarks)/[\w/]+\.py)`", text)
     assert len(named) > 20
     assert [name for name in named if not (ROOT / name).exists()] == []
     assert fill(text, read()) == text

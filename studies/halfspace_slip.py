@@ -1,11 +1,12 @@
-"""Draw docs/figures/halfspace_slip.png: which way a slip ring slips, by both solutions; a minute.
+"""Which way does a slip ring slip, by the theory and by boundary elements?
 
-python docs/make_halfspace_slip_figure.py
+python studies/halfspace_slip.py    a minute; draws docs/figures/halfspace_slip.png
 """
 
 from pathlib import Path
 
 import numpy as np
+from halfspace_study import GRIDS, SOLID, shared
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
@@ -15,20 +16,19 @@ import carom
 from carom.dimensionless.fields.surface import slip_shape
 from carom.halfspace.compliance import Materials
 from carom.halfspace.ledger import slipping
-from carom.halfspace.solution import HalfspaceSolution, Resolution, Snapshot, solve
+from carom.halfspace.solution import HalfspaceSolution, Snapshot, solve
 
 Array = NDArray[np.float64]
 
-TARGET = Path(__file__).parent / "figures" / "halfspace_slip.png"
+TARGET = Path(__file__).parents[1] / "docs" / "figures" / "halfspace_slip.png"
 PSI, TIME = 0.5, 2.2  # psi_1; d_max/V_1, while a ring slips
 COLORS = {0.3: "#0072B2", 0.5: "#D55E00"}
 
 
 def impact(poisson: float, elements: int) -> HalfspaceSolution:
     """Return a solid sphere's impact on a half-space of the same material."""
-    kappa = 2.0 * (1.0 - poisson) / (2.0 - poisson)
-    grid = Resolution(elements, round(4.6875 * elements))
-    return solve(PSI, 1.75 * kappa, Materials(kappa), grid)
+    kappa = shared(poisson)
+    return solve(PSI, SOLID * kappa, Materials(kappa), GRIDS[elements])
 
 
 def turned(along: Array, across: Array) -> Array:
@@ -38,8 +38,7 @@ def turned(along: Array, across: Array) -> Array:
 
 def by_theory(poisson: float, kept: Snapshot, radii: Array, angles: Array) -> tuple[Array, float]:
     """Return the theory's angle of slip at places in the ring, and the radius of its stick zone."""
-    kappa = 2.0 * (1.0 - poisson) / (2.0 - poisson)
-    exact = carom.solve(PSI, 1.75 * kappa)
+    exact = carom.solve(PSI, SOLID * shared(poisson))
     front = float(exact.at(np.array([kept.entry.time])).stick_radius[0])
     shapes = np.array([slip_shape(front, r) for r in radii.ravel()])
     one, two = np.moveaxis(shapes, -1, 0).reshape(2, *radii.shape)
@@ -120,7 +119,6 @@ def main() -> None:
     line.set_title("(c)", loc="left")
     line.axhline(0.0, color="0.6", linewidth=0.6)
     line.set_ylim(-5.0, 32.0)
-    TARGET.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(TARGET, dpi=150)
     print(f"wrote {TARGET.name}")
 

@@ -6,13 +6,13 @@ from carom.dimensionless.elastic.phases import OPPOSITE, SAME, TRANSITIONS, Caus
 from carom.dimensionless.solution import CAUSE_NAMES
 from carom.dimensionless.states import KIND_NAMES
 
-PAGE = Path(__file__).with_name("phases.md")
+PAGE = Path(__file__).parents[1] / "phases.md"
 HALVES = {False: "loading", True: "unloading"}
 SIGNS = {SAME: ", same sign", OPPOSITE: ", opposite sign"}
 HEAD = """\
 # Diagram of the phases
 
-Drawn by `python docs/make_phase_diagram.py` from `TRANSITIONS` in
+Drawn by `python docs/make/phase_diagram.py` from `TRANSITIONS` in
 `src/carom/dimensionless/elastic/phases.py`, the one place that decides it. Any phase may also end
 by separation; gross slip and slip end so, stick only where the load retraces its path.
 """

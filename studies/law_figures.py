@@ -1,29 +1,17 @@
-"""The figures of docs/laws.md; drawn by make_law_ranking.py."""
+"""Where and how do contact laws of DEM codes go wrong? The figures of law_ranking.py."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
-from PIL import Image
+from small_pictures import store_small
 from tqdm import tqdm
 
 import carom
 from carom.dimensionless.numerics.hertz import DURATION
+from carom.plots import style
 from carom.plots.laws import plot_error_map, plot_laws
-from carom.plots.style import (
-    BLACK,
-    BLUE,
-    DASHES,
-    DOUBLE,
-    GREEN,
-    PURPLE,
-    VERMILION,
-    legend_above,
-    new_figure,
-    save_figure,
-    styled,
-)
 from carom.verify import error_map
 from carom.verify.errors import INCIDENCES
 
@@ -51,17 +39,16 @@ FREE = {
     "mindlin_rescale/force": lambda x: carom.LammpsMindlin("mindlin_rescale/force", stiffness=x),
 }
 KAPPA = 4.0 * CHI / 7.0
-COLOURS = 256
-COLORS = (BLUE, VERMILION, GREEN, PURPLE)
+COLORS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE)
 
 
-@styled
+@style.styled
 def plot_stiffness() -> Figure:
     """Draw the largest error in psi_2 of four laws against their tangential stiffness."""
-    figure, axes = new_figure(height=66.0)
+    figure, axes = style.new_figure(height=66.0)
     axis, stiffness = axes[0, 0], np.geomspace(0.1, 3.0, 121)
     exact = carom.rebound(INCIDENCES, CHI)
-    for (name, law), color, dash in zip(FREE.items(), COLORS, DASHES, strict=False):
+    for (name, law), color, dash in zip(FREE.items(), COLORS, style.DASHES, strict=False):
         unit = KAPPA if law is carom.LinearSpring else 1.0
         laws = [law(float(unit * x)) for x in stiffness]
         errors = [np.max(np.abs(one.rebound(INCIDENCES, CHI) - exact)) for one in laws]
@@ -73,20 +60,20 @@ def plot_stiffness() -> Figure:
     axis.minorticks_off()
     axis.set(xlim=(0.1, 3.0), ylim=(0.0, None), ylabel=r"max |error in $\psi_2$|")
     axis.set_xlabel(r"$k_t/(\kappa k_n)$ of linear springs, $k_t/(2G^*a)$ of others")
-    legend_above(axis, 2)
+    style.legend_above(axis, 2)
     return figure
 
 
-@styled
+@style.styled
 def plot_histories() -> Figure:
     """Draw the tangential force of four laws and of the exact impact, at three incidences."""
-    figure, axes = new_figure(1, 3, width=DOUBLE, height=62.0)
+    figure, axes = style.new_figure(1, 3, width=style.DOUBLE, height=62.0)
     parts = np.linspace(0.0, 1.0, 401)
     for axis, psi in zip(axes[0], (0.75, 1.5, 3.0), strict=True):
         solution = carom.solve(psi, CHI).at(parts * DURATION)
         axis.axhline(0.0, color="0.5", lw=0.5, zorder=1)
-        axis.plot(parts, 1.5 * solution.force, color=BLACK, lw=1.6, label="exact")
-        for (name, law), color, dash in zip(SHOWN.items(), COLORS, DASHES[1:], strict=True):
+        axis.plot(parts, 1.5 * solution.force, color=style.BLACK, lw=1.6, label="exact")
+        for (name, law), color, dash in zip(SHOWN.items(), COLORS, style.DASHES[1:], strict=True):
             history = law.history(psi, CHI, steps=4000)
             time = history["time"] / history["time"][-1]
             axis.plot(time, history["tangential_force"], color=color, ls=dash, lw=1.0, label=name)
@@ -106,10 +93,5 @@ def draw_figures(ranking: "xr.Dataset", folder: Path) -> None:
         figures[f"map_{name}"] = plot_error_map(found, SCALE)
     figures |= {"stiffness": plot_stiffness(), "forces": plot_histories()}
     for name, figure in tqdm(figures.items(), desc="figures"):
-        path = save_figure(figure, folder / f"law_{name}.png")
-        picture = Image.open(path).convert("RGB")
-        size = (2 * picture.width // 3, 2 * picture.height // 3)
-        small = picture.resize(size, Image.Resampling.LANCZOS)
-        if not name.startswith("map"):  # lines need few colours, maps keep all
-            small = small.quantize(COLOURS, dither=Image.Dither.NONE)
-        small.save(path, optimize=True)
+        path = style.save_figure(figure, folder / f"law_{name}.png")
+        store_small(path, path, all_colors=name.startswith("map"))

@@ -1,9 +1,11 @@
-"""Fill docs/halfspace_study.csv: impacts by boundary elements, to be set against the theory.
+"""How far is the theory off where slip turns and materials differ? Impacts by boundary elements.
 
-python docs/make_halfspace_study.py              what the table lacks, hours on one core
-python docs/make_halfspace_study.py --workers 2  the same on two
-python docs/make_halfspace_study.py --check      a few rows again, compared with the table
-python docs/make_halfspace_study.py --smoke      three coarse impacts, nothing is stored
+The table is halfspace_study.csv.
+
+python studies/halfspace_study.py              what the table lacks, hours on one core
+python studies/halfspace_study.py --workers 2  the same on two
+python studies/halfspace_study.py --check      a few rows again, compared with the table
+python studies/halfspace_study.py --smoke      three coarse impacts, nothing is stored
 
 Every impact is stored as soon as it is done; a run that was broken off goes on where it stopped.
 """
@@ -30,7 +32,7 @@ from carom.io.files import replace_whole
 TABLE = Path(__file__).with_name("halfspace_study.csv")
 HEAD = """\
 # oblique impacts of solid spheres on half-spaces by boundary elements; docs/halfspace.md
-# made by docs/make_halfspace_study.py; angles in degrees, duration in that of Hertz, seconds of CPU
+# made by studies/halfspace_study.py; angles in degrees, duration in that of Hertz, seconds of CPU
 # angle: between slip and the direction of motion, averaged over the work of friction; micro_: while
 # part of the contact sticks; gross_: while nothing does; _max: the largest, but for the steps in
 # which friction does less than a tenth of its work in a mean step; work_across: share of the work;

@@ -1,6 +1,6 @@
 """Run the code of the manual's pages, and draw the figures that it makes.
 
-python docs/run_pages.py [PAGE ...]    docs/tutorial.md, docs/how-to/*.md ... where none is named
+python docs/make/run_pages.py [PAGE ...]    where none is named, all pages for users
 
 The blocks of a page run in order, in one namespace and an empty folder:
 
@@ -23,11 +23,13 @@ from io import StringIO
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from PIL import Image
-
 from carom.cli import main as command
 
-DOCS = Path(__file__).parent
+DOCS = Path(__file__).parents[1]
+sys.path.append(str(DOCS.parent / "studies"))
+
+from small_pictures import store_small  # noqa: E402
+
 PAGES = (DOCS / "tutorial.md", *sorted(DOCS.glob("how-to/*.md")), DOCS / "choosing.md")
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 NAMED = re.compile(r"# ([\w-]+\.\w+)\n")
@@ -97,15 +99,6 @@ def pictures(page: Path) -> list[Path]:
     return [Path(DOCS / "figures" / page.stem / link.name) for link in own]
 
 
-def keep(source: Path, target: Path) -> None:
-    """Store a picture with few colours, and no more pixels than a page shows."""
-    figure = Image.open(source).convert("RGB")
-    size = (2 * figure.width // 3, 2 * figure.height // 3)
-    small = figure.resize(size, Image.Resampling.LANCZOS)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    small.quantize(256, dither=Image.Dither.NONE).save(target, optimize=True)
-
-
 def main() -> int:
     """Run the pages, store their pictures, and tell what differs."""
     import matplotlib
@@ -118,7 +111,7 @@ def main() -> int:
                 print(f"{page.name}, line {line}: expected\n{expected}came\n{came}")
                 wrong += 1
             for picture in pictures(page):
-                keep(Path(folder) / picture.name, picture)
+                store_small(Path(folder) / picture.name, picture)
         print(f"{page.name}: done")
     return int(wrong > 0)
 

@@ -1,6 +1,6 @@
 """Draw docs/figures/explorer.png: the page of `carom explore` as a browser shows it.
 
-Needs a browser and Playwright: python docs/make_explorer_figure.py
+Needs a browser and Playwright: python docs/make/explorer_figure.py
 """
 
 import shutil
@@ -13,7 +13,7 @@ from playwright.sync_api import sync_playwright
 
 from carom.explorer import explorer
 
-FIGURE = Path(__file__).with_name("figures") / "explorer.png"
+FIGURE = Path(__file__).parents[1] / "figures" / "explorer.png"
 STATE = "?angle=25&friction=0.25&law=mindlin&time=0.6&theme=light"
 SIZE = {"width": 1280, "height": 920}
 

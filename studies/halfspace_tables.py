@@ -1,28 +1,28 @@
-"""Print the tables of docs/halfspace_study.md and draw docs/figures/halfspace_study.png.
+"""Does the bound on what the theory leaves out hold? The tables and figure of its page.
 
-python docs/make_halfspace_figures.py
+python studies/halfspace_tables.py
 
-Reads docs/halfspace_study.csv. A difference from the theory is that from nu = 0 on the same grid,
-where the theory is exact: most of the error of the grid is common to both. It is extrapolated from
-the two finest grids.
+Prints the tables of docs/halfspace_study.md and draws docs/figures/halfspace_study.png from
+halfspace_study.csv. A difference from the theory is that from nu = 0 on the same grid, where the
+theory is exact: most of the error of the grid is common to both. It is extrapolated from the two
+finest grids.
 """
 
 from collections import defaultdict
 from collections.abc import Iterator
 from functools import cache
 from itertools import pairwise
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from make_halfspace_study import PAIRS, RATIOS, TABLE, Impact, Row, load
+from halfspace_study import PAIRS, RATIOS, TABLE, Impact, Row, load
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import carom
 from carom.impacts.validity import rebound_error
 
-TARGET = Path(__file__).parent / "figures" / "halfspace_study.png"
+TARGET = TABLE.parents[1] / "docs" / "figures" / "halfspace_study.png"
 ORDER = 1.5  # of the error of the grid: the newest elements at the edge take no traction
 COARSE = 5e-4  # what a coarse grid alone tells of coupling
 SERIES = {

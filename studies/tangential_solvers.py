@@ -1,12 +1,13 @@
-"""Fill docs/tangential_solvers.csv and its figure: what solving the tangential problem costs.
+"""Which solver of the tangential problem is the cheapest that never fails?
 
-python docs/make_tangential_solvers.py            all, a quarter of an hour on one core
-python docs/make_tangential_solvers.py --smoke    a few problems, seconds, nothing is stored
+python studies/tangential_solvers.py            all, a quarter of an hour on one core
+python studies/tangential_solvers.py --smoke    a few problems, seconds, nothing is stored
 
-Problems are steps of impacts as they occur, those first where most elements change between stick
-and slip, and some made up to break solvers. Every solver has the same problems, starts, accuracy
-and budget. Cost is counted in real two-dimensional transforms of padded fields: a product with T is
-four, the circulant preconditioner, without padding, is one.
+Tables: tangential_solvers.csv, tangential_tolerances.csv. Problems are steps of impacts as they
+occur, those first where most elements change between stick and slip, and some made up to break
+solvers. Every solver has the same problems, starts, accuracy and budget. Cost is counted in real
+two-dimensional transforms of padded fields: a product with T is four, the circulant
+preconditioner, without padding, is one.
 """
 
 import argparse
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 TABLE = Path(__file__).with_name("tangential_solvers.csv")
-FIGURE = TABLE.parent / "figures" / "tangential_solvers.png"
+FIGURE = TABLE.parents[1] / "docs" / "figures" / "tangential_solvers.png"
 TOLERANCES = TABLE.with_name("tangential_tolerances.csv")
 TOLERANCE, BUDGET = 1e-7, 4000
 GRIDS = {16: 8, 32: 8, 64: 6}  # elements across: problems of each impact
@@ -190,7 +191,7 @@ def tolerances(grid: int, cases: Iterable[Case]) -> Iterator[dict[str, object]]:
 def write(path: Path, note: str, rows: list[dict[str, object]]) -> None:
     """Write a table under a line that says what it is."""
     with path.open("w", encoding="utf-8", newline="") as file:
-        file.write(f"# {note}; made by docs/make_tangential_solvers.py\n")
+        file.write(f"# {note}; made by studies/tangential_solvers.py\n")
         table = csv.DictWriter(file, rows[0], lineterminator="\n")
         table.writeheader()
         table.writerows(rows)

@@ -1,7 +1,7 @@
-"""Solve for the curves that `carom.fit` interpolates in: src/carom/data/fit_curves.npz.
+"""Are the curves that `carom.fit` interpolates in, src/carom/data/fit_curves.npz, the solver's?
 
-python docs/make_fit_curves.py              some minutes; needed when the solvers give other results
-python docs/make_fit_curves.py --check      whether the stored table is theirs, at a few curves
+python studies/fit_curves.py              makes them anew, some minutes
+python studies/fit_curves.py --check      whether the stored table is theirs, at a few curves
 """
 
 import argparse

@@ -1,4 +1,4 @@
-"""Tangential problems for make_tangential_solvers.py: steps of impacts, and made-up ones."""
+"""What must a tangential solver master? Steps of impacts, and made-up problems, to measure it."""
 
 from collections.abc import Iterator
 from itertools import pairwise

@@ -1,7 +1,7 @@
-"""What an impact costs by each method, beside how far off it is: docs/speed.csv, figures/speed.png.
+"""What does an impact cost by each method, and how far off is it? Table: speed.csv.
 
-python docs/make_speed.py            a minute; on one core
-python docs/make_speed.py --draw     figure and page alone, from the table
+python studies/speed.py            a minute; on one core
+python studies/speed.py --draw     figure and page alone, from the table
 
 CPU times, taken in turn in one run and kept as ratios to that of `carom.rebound`. LAMMPS is
 measured where it is installed, else its row is kept. benchmarks/ tells how times grow with size.
@@ -15,28 +15,24 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from accuracy import impacts
 
 import carom
 from carom.dimensionless.twins.marching import march
-from carom.plots.style import (
-    BLUE,
-    DOUBLE,
-    GREEN,
-    PURPLE,
-    VERMILION,
-    new_figure,
-    save_figure,
-    style,
-)
+from carom.plots import style
 from carom.verify.engines.experiments import psi_out
 
-DOCS = Path(__file__).parent
-TABLE, FIGURE, PAGE = DOCS / "speed.csv", DOCS / "figures" / "speed.png", DOCS / "accuracy.md"
+TABLE, DOCS = Path(__file__).with_name("speed.csv"), Path(__file__).parents[1] / "docs"
+FIGURE, PAGE = DOCS / "figures" / "speed.png", DOCS / "accuracy.md"
 BEGIN, END = "<!-- begin: speed -->\n", "<!-- end -->"
-IMPACTS = DOCS.parent / "tests" / "high_precision" / "impacts.csv"
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
-COLORS = {"exact": BLUE, "tables": GREEN, "numerical": PURPLE, "contact law": VERMILION}
+COLORS = {
+    "exact": style.BLUE,
+    "tables": style.GREEN,
+    "numerical": style.PURPLE,
+    "contact law": style.VERMILION,
+}
 BESIDE = {  # where a label goes that would cover another, in points, and how it is aligned
     "ReboundLaw": (4, -8, "left"),
     "sweep": (4, -8, "left"),
@@ -47,6 +43,9 @@ BESIDE = {  # where a label goes that would cover another, in points, and how it
     "boundary elements, 16 across": (-4, 2, "right"),
     "boundary elements, 32 across": (-4, -8, "right"),
 }
+FOUND = {
+    "rebound, e = 0.9": 9e-8
+}  # by annuli and small steps, tests/convergence/test_lossy_twin.py
 SEED, RUNS = 20261121, 5
 FINE, COARSE = 5000, 1000  # steps of LAMMPS, whose difference leaves out its start
 DEM_STEPS = 50  # per contact: enough for mindlin
@@ -106,17 +105,9 @@ def methods() -> list[Method]:
         Method("collide, Walton", "contact law", most, lambda p: collided(p, walton())),
         Method("ReboundLaw", "tables", most, law),
         Method("MixtureLaw", "tables", most, lambda psi: mixture(psi, chi)),
-        Method(
-            "annuli and steps, 500 springs",
-            "numerical",
-            some,
-            each(lambda psi: march(psi, chi, 500, 2000)),
-        ),
-        Method(
-            "annuli and steps, 125 springs",
-            "numerical",
-            some,
-            each(lambda psi: march(psi, chi, 125, 500)),
+        *(
+            Method(f"annuli and steps, {n} springs", "numerical", some, marched(chi, n))
+            for n in (500, 125)
         ),
         *(
             Method(f"{name}, {n} steps", "contact law", many, stepped(law, chi, kappa, n))
@@ -163,17 +154,14 @@ def collided(psi: Any, law: Any) -> Any:
     return contact / PAIR.scales(1.0).tangential_speed
 
 
-def worst(psi: Any, found: Any, e: float = 1.0) -> float:
+def worst(psi: Any, found: Any) -> float:
     """Return the largest |error in psi_2|."""
-    if e < 1.0:
-        return 9e-8  # tests/convergence/test_lossy_twin.py: annuli and small steps
     return float(np.max(np.abs(found - carom.rebound(psi, PAIR.chi))))
 
 
 def exact_error() -> float:
     """Return the largest error of `rebound` in the table of 30 digits, over max(1, |psi_1|)."""
-    rows = list(csv.DictReader(IMPACTS.read_text(encoding="utf-8").splitlines()))
-    psi, chi, out = (np.array([float(r[k]) for r in rows]) for k in ("psi_1", "chi", "psi_out"))
+    psi, chi, out = impacts()
     return float(np.max(np.abs(carom.rebound(psi, chi) - out) / np.maximum(1.0, np.abs(psi))))
 
 
@@ -229,8 +217,7 @@ def measure() -> list[Row]:
     unit = times[0]
     rows = [Row("rebound", "exact", 1.0, exact_error())]
     for method, seconds in list(zip(every, times, strict=True))[1:]:
-        e = 0.9 if "e = 0.9" in method.method else 1.0
-        error = worst(method.psi, method.solve(method.psi), e)
+        error = FOUND.get(method.method) or worst(method.psi, method.solve(method.psi))
         rows.append(Row(method.method, method.kind, seconds / unit, max(error, rows[0].error)))
     print(f"rebound: {1e6 * unit:.1f} us for an impact")
     return sorted([*rows, *elements(unit), *lammps(unit)], key=lambda row: row.ratio)
@@ -266,8 +253,8 @@ def fill(text: str, rows: list[Row]) -> str:
 
 def draw(rows: list[Row]) -> None:
     """Draw error against time."""
-    with style():
-        figure, axes = new_figure(width=DOUBLE, height=90)
+    with style.style():
+        figure, axes = style.new_figure(width=style.DOUBLE, height=90)
         axis = axes[0, 0]
         for kind, color in COLORS.items():
             of = [row for row in rows if row.kind == kind]
@@ -280,7 +267,7 @@ def draw(rows: list[Row]) -> None:
         axis.set(xlabel="CPU time of an impact over that of rebound", xlim=(4e-4, 1e6))
         axis.set_ylabel(r"largest error of $\psi_2$")
         axis.legend(loc="lower right")
-        save_figure(figure, FIGURE)
+        style.save_figure(figure, FIGURE)
 
 
 def main() -> None:

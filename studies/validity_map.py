@@ -1,6 +1,6 @@
-"""Draw figures/validity.png: sizes and speeds at which a steel ball rebounds as the theory says.
+"""At which sizes and speeds does a steel ball rebound as the theory says?
 
-python docs/make_validity_map.py
+python studies/validity_map.py    prints the limits and draws docs/figures/validity.png
 """
 
 from pathlib import Path
@@ -11,20 +11,10 @@ from matplotlib.axes import Axes
 
 import carom
 from carom.impacts.validity import SLOW_CONTACT, SMALL_CONTACT, YIELD_PRESSURE
+from carom.plots import style
 from carom.plots.bands import STICK
-from carom.plots.style import (
-    BLACK,
-    BLUE,
-    DASHES,
-    GREEN,
-    PURPLE,
-    VERMILION,
-    new_figure,
-    save_figure,
-    style,
-)
 
-FIGURE = Path(__file__).parent / "figures" / "validity.png"
+FIGURE = Path(__file__).parents[1] / "docs" / "figures" / "validity.png"
 MATERIAL = carom.material("bearing-steel")
 ROUGHNESS, ROUGH = 0.02e-6, 0.05  # m; of the penetration (Greenwood, Johnson & Matsubara 1984)
 ADHESION, CLOSE = 0.1, 0.01  # J/m^2; loss of restitution
@@ -69,12 +59,14 @@ def draw(axis: Axes) -> None:
     tops, low = upper(), np.maximum(rough(), sticky())
     top = min(tops.values())
     axis.fill_between(RADII * 1e3, low, top, where=low < top, color=STICK.face, lw=0.0)
-    places = zip(tops.items(), (BLACK, VERMILION, PURPLE), strict=True)
+    places = zip(tops.items(), (style.BLACK, style.VERMILION, style.PURPLE), strict=True)
     for number, ((name, speed), color) in enumerate(places):
         label = f"{name}, {speed:.3g} m/s"
-        axis.axhline(speed, color=color, ls=DASHES[number], lw=0.9, label=label)
-    axis.loglog(RADII * 1e3, rough(), color=BLUE, label="roughness 0.02 µm")
-    axis.loglog(RADII * 1e3, sticky(), color=GREEN, ls=DASHES[1], label="adhesion 0.1 J/m²")
+        axis.axhline(speed, color=color, ls=style.DASHES[number], lw=0.9, label=label)
+    axis.loglog(RADII * 1e3, rough(), color=style.BLUE, label="roughness 0.02 µm")
+    axis.loglog(
+        RADII * 1e3, sticky(), color=style.GREEN, ls=style.DASHES[1], label="adhesion 0.1 J/m²"
+    )
     axis.set(xlim=(1e-3, 100), ylim=(1e-4, 1e3), xlabel="radius (mm)", ylabel="normal speed (m/s)")
     axis.text(6.0, 0.12, "exact", color="0.3")
     axis.legend(loc="lower left", bbox_to_anchor=(-0.15, 1.0), ncols=2)
@@ -83,10 +75,10 @@ def draw(axis: Axes) -> None:
 def main() -> None:
     """Print the limits and draw."""
     print({name: f"{speed:.3g} m/s" for name, speed in upper().items()})
-    with style():
-        figure, axes = new_figure(height=72)
+    with style.style():
+        figure, axes = style.new_figure(height=72)
         draw(axes[0, 0])
-        save_figure(figure, FIGURE)
+        style.save_figure(figure, FIGURE)
 
 
 if __name__ == "__main__":

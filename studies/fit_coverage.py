@@ -1,7 +1,7 @@
-"""Fill docs/fit_coverage.csv: how often intervals of `carom.fit` hold the truth, on synthetic data.
+"""How often do the intervals of `carom.fit` hold the truth? On synthetic data: fit_coverage.csv.
 
-python docs/make_fit_coverage.py              500 sets of each design, some minutes
-python docs/make_fit_coverage.py --sets 40    a quick look, nothing is stored
+python studies/fit_coverage.py              500 sets of each design, some minutes
+python studies/fit_coverage.py --sets 40    a quick look, nothing is stored
 
 Truth is made by `carom.impact`, not by the curves that are fitted; all noise is Gaussian but for
 the design with outliers. A coverage of 95 % in 500 sets is known to 1 %.
@@ -23,12 +23,17 @@ from carom.fitting import fit
 
 TABLE = Path(__file__).with_name("fit_coverage.csv")
 SEED = 20261121
-RESTITUTION = 0.95  # of the truth; below 1 it is varied and measured, too
+RESTITUTION = 0.95
 SPEED, SPIN = 3.9, 15.0  # m/s; rad/s that nobody meant
 BALL = carom.Sphere(radius="2.5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.12)
 START = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.3)
-TRUTH = {"friction": PAIR.friction, "kappa": PAIR.kappa, "spin_offset": SPIN}
+TRUTH = {
+    "friction": PAIR.friction,
+    "kappa": PAIR.kappa,
+    "spin_offset": SPIN,
+    "restitution": RESTITUTION,
+}
 SIGMA = {"tangential_restitution": 0.01, "spin_out": 8.0, "rebound_angle": 0.006}
 SIGMA_ANGLE = 0.006  # rad
 
@@ -56,9 +61,9 @@ DESIGNS = (
 
 def truth(design: Design) -> dict[str, Array]:
     """Return what would be measured without noise."""
-    normal = {} if RESTITUTION == 1.0 else {"normal": carom.KelvinVoigt(restitution=RESTITUTION)}
+    normal = carom.KelvinVoigt(restitution=RESTITUTION)
     hits = [
-        carom.impact(PAIR, speed=SPEED, angle=f"{angle} deg", spin=SPIN, **normal)
+        carom.impact(PAIR, speed=SPEED, angle=f"{angle} deg", spin=SPIN, normal=normal)
         for angle in design.angles
     ]
     return {name: np.array([getattr(hit, name) for hit in hits]) for name in SIGMA}
@@ -77,24 +82,21 @@ def measured(design: Design, exact: dict[str, Array], seed: int) -> dict[str, An
         data[name] = exact[name] + sigma * (random.normal(size=rows) + far)
         if design.told:
             data[f"{name}_error"] = np.full(rows, sigma)
-    if RESTITUTION < 1.0:
-        data["normal_restitution"] = RESTITUTION + random.normal(0.0, 0.01, rows)
-        if design.told:
-            data["normal_restitution_error"] = np.full(rows, 0.01)
+    data["normal_restitution"] = RESTITUTION + random.normal(0.0, 0.01, rows)
+    if design.told:
+        data["normal_restitution_error"] = np.full(rows, 0.01)
     return data
 
 
 def rows_of(design: Design, sets: int) -> Iterator[str]:
     """Yield a line of the table for each parameter of a design."""
-    known = dict(TRUTH) if RESTITUTION == 1.0 else {**TRUTH, "restitution": RESTITUTION}
-    fixed = {"restitution": 1.0} if RESTITUTION == 1.0 else {}
     exact = truth(design)
     intervals = []
     for seed in tqdm(range(sets), desc=design.name, leave=False, disable=not sys.stderr.isatty()):
-        found = fit(measured(design, exact, seed), pair=START, vary=list(known), fixed=fixed)
-        intervals.append([(found[name].low, found[name].high) for name in known])
+        found = fit(measured(design, exact, seed), pair=START, vary=list(TRUTH))
+        intervals.append([(found[name].low, found[name].high) for name in TRUTH])
     ends = np.array(intervals)
-    for place, (name, value) in enumerate(known.items()):
+    for place, (name, value) in enumerate(TRUTH.items()):
         low, high = ends[:, place].T
         below, above = int((high < value).sum()), int((low > value).sum())
         inside = 100.0 * float(((low <= value) & (value <= high)).mean())
@@ -108,7 +110,7 @@ def main() -> None:
     parser.add_argument("--sets", type=int, default=500, help="of each design")
     sets = parser.parse_args().sets
     lines = [
-        "# how often 95 % intervals of carom.fit hold the truth; made by docs/make_fit_coverage.py",
+        "# how often 95 % intervals of carom.fit hold the truth; made by studies/fit_coverage.py",
         "# below, above: sets whose interval lies below, above the truth; width: the median, SI",
         "design,parameter,truth,sets,coverage [%],below,above,width",
     ]

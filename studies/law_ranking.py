@@ -1,7 +1,9 @@
-"""Fill docs/laws.md: what is measured stands between its markers, words around it are by hand.
+"""How far from the exact impact are the contact laws of DEM codes? The numbers of docs/laws.md.
 
-python docs/make_law_ranking.py            all, with the DEM programs that are installed: a minute
-python docs/make_law_ranking.py --check    whether what the page says of laws is still true
+python studies/law_ranking.py            all, with the DEM programs that are installed: a minute
+python studies/law_ranking.py --check    whether what the page says of laws is still true
+
+What is measured stands between the markers of the page, words around it are by hand.
 """
 
 import argparse
@@ -27,7 +29,7 @@ from carom.verify.engines.yade import Yade
 from carom.verify.errors import INCIDENCES
 from carom.verify.tuning import FREE, TUNED, called
 
-PAGE = Path(__file__).with_name("laws.md")
+PAGE = Path(__file__).parents[1] / "docs" / "laws.md"
 BLOCK = re.compile(r"(<!-- begin: (\w+) -->)(.*?)(<!-- end -->)", re.DOTALL)
 NUMBER = re.compile(r"\d+\.\d+")
 CHI = 1.4412  # of solid spheres with nu = 0.3

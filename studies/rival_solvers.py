@@ -1,4 +1,4 @@
-"""Other solvers of the tangential problem than Carom's, for make_tangential_solvers.py.
+"""How else can the tangential problem be solved? The rivals of Carom in tangential_solvers.py.
 
 Each minimises (1/2) q.T q - g.q over discs |q| <= p and yields, iteration by iteration, its
 traction q and T q, or nothing where T q would have to be computed first. Whoever iterates decides

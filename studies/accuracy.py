@@ -1,6 +1,6 @@
-"""How exact Carom is: figures/accuracy.png, and the numbers of docs/accuracy.md.
+"""How exact is Carom? The numbers of docs/accuracy.md, and its figure.
 
-python docs/make_accuracy.py     half a minute
+python studies/accuracy.py    half a minute
 """
 
 import csv
@@ -10,26 +10,15 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from run_pages import keep
+from small_pictures import store_small
 
 import carom
 from carom.dimensionless.twins.marching import extrapolated, march
-from carom.plots.style import (
-    BLUE,
-    DASHES,
-    DOUBLE,
-    GREEN,
-    LINES,
-    PURPLE,
-    VERMILION,
-    new_figure,
-    save_figure,
-    style,
-)
+from carom.plots import style
 
-DOCS = Path(__file__).parent
-FIGURE = DOCS / "figures" / "accuracy.png"
-IMPACTS = DOCS.parent / "tests" / "high_precision" / "impacts.csv"
+ROOT = Path(__file__).parents[1]
+FIGURE = ROOT / "docs" / "figures" / "accuracy.png"
+IMPACTS = ROOT / "tests" / "high_precision" / "impacts.csv"
 EPS = float(np.finfo(np.float64).eps)
 SEED = 20261121
 CHIS = (0.5, 1.44, 3.0, 10.0)
@@ -41,7 +30,7 @@ def shown(error: Array) -> Array:
     return np.maximum(np.abs(error), 0.5 * EPS)
 
 
-def table() -> tuple[Array, Array, Array]:
+def impacts() -> tuple[Array, Array, Array]:
     """Return psi_1, chi and psi_2 of the table of 30 digits."""
     rows = list(csv.DictReader(IMPACTS.read_text(encoding="utf-8").splitlines()))
     psi, chi, out = (np.array([float(r[k]) for r in rows]) for k in ("psi_1", "chi", "psi_out"))
@@ -50,11 +39,11 @@ def table() -> tuple[Array, Array, Array]:
 
 def draw_table(axis: Axes) -> str:
     """Draw the errors of psi_2 in the table of 30 digits, and what is promised."""
-    psi, chi, out = table()
+    psi, chi, out = impacts()
     error = (carom.rebound(psi, chi) - out) / np.maximum(1.0, np.abs(psi))
-    axis.loglog(chi, shown(error), "o", color=BLUE, mfc="none", label="47 impacts, 30 digits")
+    axis.loglog(chi, shown(error), "o", color=style.BLUE, mfc="none", label="47 impacts, 30 digits")
     promise = np.array([[0.05, 10.0, 10.0, 60.0], [1e-10, 1e-10, 1e-9, 1e-9]])
-    axis.loglog(*promise, color="0.4", ls=DASHES[1], label="promised")
+    axis.loglog(*promise, color="0.4", ls=style.DASHES[1], label="promised")
     axis.set(xlabel=r"$\chi$", ylim=(5e-17, 1e-7))
     axis.set_ylabel(r"error of $\psi_2$ over max(1, $|\psi_1|$)")
     return f"psi_2 against 30 digits: {np.max(np.abs(error)):.1e}"
@@ -69,7 +58,7 @@ def draw_energy(axis: Axes) -> str:
         now = carom.solve(one, ratio).history(200)
         total = 0.5 * now.psi**2 + now.stored + now.dissipated
         off.append(np.max(np.abs(total / (0.5 * one**2) - 1.0)))
-    axis.semilogy(psi, shown(off), "o", color=PURPLE, mfc="none", ms=2.5)
+    axis.semilogy(psi, shown(off), "o", color=style.PURPLE, mfc="none", ms=2.5)
     axis.set(xlabel=r"$\psi_1$", ylim=(5e-17, 1e-7), xlim=(0.0, 8.0))
     axis.set_ylabel("energy that is missing, relative")
     return f"energy ledger of 300 impacts: {max(off):.1e}"
@@ -79,12 +68,12 @@ def draw_laws(axis: Axes) -> str:
     """Draw how far the tables are from the solver."""
     psi = np.linspace(0.0, 14.0, 20_001)
     worst = []
-    for chi, color in zip(CHIS, LINES, strict=False):
+    for chi, color in zip(CHIS, style.LINES, strict=False):
         error = carom.ReboundLaw(chi)(psi) - carom.rebound(psi, chi)
         crest = shown(error)[:-1].reshape(100, -1).max(axis=1)
         axis.semilogy(psi[100:-1:200], crest, color=color, label=rf"$\chi$ = {chi:g}")
         worst.append(np.max(np.abs(error)))
-    axis.axhline(1e-9, color="0.4", ls=DASHES[1])
+    axis.axhline(1e-9, color="0.4", ls=style.DASHES[1])
     axis.set(xlabel=r"$\psi_1$", ylim=(5e-17, 1e-7), xlim=(0.0, 14.0))
     axis.set_ylabel("ReboundLaw less rebound")
     return f"ReboundLaw at chi = {CHIS}: {max(worst):.1e}"
@@ -96,8 +85,8 @@ def draw_twin(axis: Axes) -> str:
     psi, chi = rng.uniform(0.0, 6.0, 60), rng.uniform(1.1, 1.8, 60)
     exact, worst = carom.rebound(psi, chi), []
     kinds = (
-        ("500 annuli, 2000 steps", "s", GREEN, lambda p, c: march(p, c, 500, 2000)),
-        ("extrapolated", "^", VERMILION, extrapolated),
+        ("500 annuli, 2000 steps", "s", style.GREEN, lambda p, c: march(p, c, 500, 2000)),
+        ("extrapolated", "^", style.VERMILION, extrapolated),
     )
     for name, mark, color, solve in kinds:
         error = np.array([solve(p, c) for p, c in zip(psi, chi, strict=True)]) - exact
@@ -110,8 +99,8 @@ def draw_twin(axis: Axes) -> str:
 
 def main() -> None:
     """Compute, print and draw."""
-    with style():
-        figure, axes = new_figure(2, 2, width=DOUBLE, height=120)
+    with style.style():
+        figure, axes = style.new_figure(2, 2, width=style.DOUBLE, height=120)
         for place, draw in enumerate((draw_table, draw_energy, draw_laws, draw_twin)):
             axis = axes.flat[place]
             print(draw(axis))
@@ -119,7 +108,7 @@ def main() -> None:
             if axis.get_legend_handles_labels()[1]:
                 axis.legend(loc="upper left", ncols=2)
         with tempfile.TemporaryDirectory() as folder:
-            keep(save_figure(figure, Path(folder) / FIGURE.name), FIGURE)
+            store_small(style.save_figure(figure, Path(folder) / FIGURE.name), FIGURE)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,190 @@
+"""The docstrings of all that is public: what they say is there, in the sections of numpydoc.
+
+numpydoc's own validation sees to sections, their order, and parameters against the signature;
+ruff's pydocstyle rules see to style. Here is what neither can: that refusals and examples are told
+where there are some, that formulas have a source, and that quantities have their unit.
+"""
+
+import inspect
+import re
+from enum import Enum
+from functools import cached_property
+from pkgutil import resolve_name
+
+import pytest
+from numpydoc.docscrape import NumpyDocString
+from numpydoc.validate import validate
+
+import carom
+import carom.fitting
+from carom.quantities.glossary import GLOSSARY
+
+MODULES = (carom, carom.verify, carom.plots, carom.fitting, carom.classical, carom.datasets)
+BESIDE = ("impacts.curves.borders", "plots.style.new_figure", "plots.style.style")
+WAIVED = {
+    *("ES01", "SA01"),  # what a summary tells in full, and what has no kin
+    *("PR08", "RT04"),  # descriptions may go on where the name or the type ends
+    "EX01",  # asked for below, with lines that run
+}
+ALSO = {
+    "Pair.normal_mass": {"SS02"},  # a symbol comes first
+    "Pair.tangential_mass": {"SS02"},
+    "plots.style.new_figure": {"PR01"},  # what it hands on to matplotlib
+    "plots.style.style": {"YD01"},  # `with` yields nothing
+}
+MADE = {  # by functions, which say what is in them
+    *("Bench", "Collisions", "Estimate", "Fit", "HalfspaceImpact", "Impact", "LoadPath"),
+    *("Obliquity", "Ranking", "Score", "Solution", "Tuning", "WaltonFit"),
+}
+WITHOUT_EXAMPLE = {"InputError", "EngineError", "Bench"}  # the last needs a program to be run
+INNER = {  # what the parts of Carom say to each other
+    *("coefficients", "command", "coords", "describe", "description", "executable", "files"),
+    *("inputs", "loss", "outcomes", "rule", "scale_free", "supports", "version"),
+}
+NEVER_REFUSE = {
+    *("CATALOGUE", "Entry", "names", "materials", "ThorntonLaw", "Lammps", "Liggghts", "Yade"),
+    *("Pair.contact_scales", "Pair.psi", "Pair.scales", "Solution.phase_at"),
+    *("Solution.slip_angles", "verify.Tuning.best", "Fit.cite"),
+    *("impacts.curves.borders", "plots.style.new_figure"),
+}
+SOURCED = [  # what implements a formula of others
+    *("BoundaryElements", "ElasticPlastic", "HalfspaceImpact", "HertzLinearHistory", "Impact"),
+    *("KelvinVoigt", "LammpsMindlin", "LinearSpring", "LoadPath", "MixtureLaw", "Pair"),
+    *("ReboundLaw", "RoughLaw", "Solution", "StrongeLaw", "ThorntonLaw", "WaltonBraunLaw"),
+    *("WaltonLaw", "collide", "convert", "curve", "impacts.curves.borders", "fit", "fit_walton"),
+    *("impact", "load_path", "rebound", "regime_map", "solve", "sweep"),
+    *("Fit.advice", "Fit.posterior", "Impact.fields"),
+    *("Impact.stress", "Pair.contact_scales", "Pair.scales", "Pair.lateral_ratio"),
+    *("Solution.traction", "Solution.slip_angles", "classical.cattaneo_mindlin"),
+    *("classical.critical_obliquity", "classical.loop_energy", "verify.damping"),
+    *("verify.error_map", "verify.poisson_from_kappa", "verify.score", "verify.stiffnesses"),
+]
+WORKS = re.compile(r"[A-Z]\w+[^.;]*\b(18|19|20)\d\d\b", re.S)  # an author and a year
+
+
+def members(cls):
+    """Yield the public methods and properties that a class of Carom has, by name."""
+    for name, member in inspect.getmembers_static(cls):
+        home = next((base for base in cls.__mro__ if name in vars(base)), object)
+        if name.startswith("_") or not home.__module__.startswith("carom"):
+            continue
+        member = getattr(member, "__func__", member)  # of a class method
+        if isinstance(member, property | cached_property) or inspect.isfunction(member):
+            yield name, member
+
+
+def public():
+    """Return all that users call, each once, by its name as they write it after `carom.`."""
+    names = [f"{module.__name__}.{name}" for module in MODULES for name in module.__all__]
+    found = {}
+    for label in (*(name.removeprefix("carom.") for name in names), *BESIDE):
+        value = resolve_name(f"carom.{label}")
+        if inspect.ismodule(value) or not callable(value) or value in found.values():
+            continue
+        found[label] = value
+        if inspect.isclass(value) and not issubclass(value, Enum):
+            for name, member in members(value):  # what is inherited counts once
+                if member not in found.values():
+                    found[f"{label}.{name}"] = member
+    return found
+
+
+PUBLIC = public()
+PROPERTIES = [label for label in PUBLIC if isinstance(PUBLIC[label], property | cached_property)]
+CALLED = [label for label in PUBLIC if label not in PROPERTIES]
+DIMENSIONLESS = ("ReboundLaw", "Solution")
+UNITS = {"curvature": "1/m", "mass": "kg", "shear_modulus": "Pa", "time_step": "s"}
+KNOWN = {entry.unit for entry in GLOSSARY.values()} | set(UNITS.values())
+
+
+def short(label):
+    return label.rpartition(".")[2]
+
+
+def is_asked(label):
+    """Return whether a user calls it with something."""
+    value, owner = PUBLIC[label], PUBLIC.get(label.rpartition(".")[0])
+    if short(label) in (INNER if inspect.isclass(owner) else MADE):
+        return False
+    if inspect.isclass(value) and issubclass(value, Enum | Exception):
+        return False
+    return bool(set(inspect.signature(value).parameters) - {"self", "cls"})
+
+
+ASKED = [label for label in CALLED if is_asked(label)]
+
+
+def documented(label):
+    return NumpyDocString(inspect.getdoc(PUBLIC[label]))
+
+
+def test_what_is_public_is_found():
+    """The lists of this file hold nothing that is not there."""
+    assert {"impact", "Impact.stress", "verify.rank", "plots.plot_cone", "Pair.chi"} <= set(PUBLIC)
+    assert {"Pair.chi", "Fit.friction"} <= set(PROPERTIES)
+    assert "Impact.stress" not in PROPERTIES
+    last = {short(label) for label in PUBLIC}
+    assert last >= INNER | MADE | WITHOUT_EXAMPLE
+    assert set(PUBLIC) >= {*SOURCED, *ALSO}
+    assert {*last, *PUBLIC, "CATALOGUE"} >= NEVER_REFUSE
+
+
+@pytest.mark.parametrize("label", PUBLIC)
+def test_numpydoc_finds_no_fault(label):
+    waived = WAIVED | ALSO.get(label, set())
+    if label not in ASKED:
+        waived |= {"PR01", "RT01"}
+    faults = validate(f"carom.{label}")["errors"]
+    assert [said for code, said in faults if code not in waived] == []
+
+
+@pytest.mark.parametrize("label", PUBLIC)
+def test_attributes_have_a_type_and_errors_are_names(label):
+    found = documented(label)
+    assert all(one.name and one.type for one in found["Attributes"])
+    assert all(re.fullmatch(r"\w+", one.type) for one in found["Raises"])
+
+
+@pytest.mark.parametrize(
+    "label", [name for name in ASKED if {name, short(name)}.isdisjoint(NEVER_REFUSE)]
+)
+def test_what_is_raised_is_told(label):
+    assert documented(label)["Raises"], "no section Raises"
+
+
+@pytest.mark.parametrize(
+    "label",
+    [
+        name
+        for name in CALLED
+        if short(name) not in WITHOUT_EXAMPLE
+        and (name in ASKED or not PUBLIC[name].__qualname__.count("."))
+    ],
+)
+def test_there_is_an_example(label):
+    """`test_doctests` runs them; methods that take nothing may go without."""
+    assert any(line.startswith(">>> ") for line in documented(label)["Examples"])
+
+
+@pytest.mark.parametrize("label", SOURCED)
+def test_a_formula_has_a_source(label):
+    assert WORKS.search(inspect.getdoc(PUBLIC[label]))
+
+
+def is_quantity(label):
+    """Return whether a property is one number with a unit."""
+    member = PUBLIC[label]
+    function = member.fget if isinstance(member, property) else member.func
+    return function.__annotations__.get("return") in (float, "float")
+
+
+@pytest.mark.parametrize(
+    "label",
+    [name for name in PROPERTIES if is_quantity(name) and not name.startswith(DIMENSIONLESS)],
+)
+def test_a_quantity_tells_its_unit(label):
+    """That of the glossary; what is in neither is a pure number."""
+    name, text = short(label), inspect.getdoc(PUBLIC[label])
+    unit = GLOSSARY[name].unit if name in GLOSSARY else UNITS.get(name, "1")
+    told = re.findall(r"\bin (N s|[A-Za-z1]+(?:/[a-z]+)?)(?=[\s,.;:]|$)", text)
+    assert [one for one in told if one in KNOWN] == ([] if unit == "1" else [unit])
