@@ -7,11 +7,11 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).with_name("_ext")))
 
 
-from carom.io.labels import carom_version
+from carom.io.version import __version__
 
 project = "Carom"
 author = "The Carom developers"
-version = release = carom_version()
+version = release = __version__
 
 extensions = [
     "myst_parser",

@@ -6,16 +6,5 @@ used, so that `import carom` costs nothing.
 
 import lazy_loader
 
-_named, _names, __all__ = lazy_loader.attach_stub(__name__, __file__)
-
-
-def __getattr__(name: str) -> object:
-    if name == "__version__":
-        from carom.io.labels import carom_version
-
-        return carom_version()
-    return _named(name)
-
-
-def __dir__() -> list[str]:
-    return [*_names(), "__version__"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__all__.remove("__version__")

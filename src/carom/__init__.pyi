@@ -26,6 +26,9 @@ from .contacts.load_paths import (
     LoadPath as LoadPath,
     load_path as load_path,
 )
+from .datasets.observables import (
+    convert as convert,
+)
 from .dimensionless.elastic.phases import (
     Status as Status,
 )
@@ -58,6 +61,7 @@ from .io.files import (
     read as read,
     save as save,
 )
+from .io.version import __version__ as __version__
 from .laws.dem import (
     EdemHertzMindlin as EdemHertzMindlin,
     HardSphere as HardSphere,
@@ -85,9 +89,6 @@ from .laws.walton_fit import (
     WaltonFit as WaltonFit,
     fit_walton as fit_walton,
 )
-from .measurements.observables import (
-    convert as convert,
-)
 from .quantities.units import (
     InputError as InputError,
 )
@@ -104,5 +105,3 @@ from .sweeps.points import (
 from .sweeps.tables import (
     Table as Table,
 )
-
-__version__: str

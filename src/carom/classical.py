@@ -3,7 +3,4 @@
 from carom.contacts.classical import Obliquity, cattaneo_mindlin, critical_obliquity, loop_energy
 
 __all__ = ["Obliquity", "cattaneo_mindlin", "critical_obliquity", "loop_energy"]
-
-
-def __dir__() -> list[str]:
-    return __all__
+__dir__ = __all__.copy

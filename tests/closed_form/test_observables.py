@@ -8,7 +8,7 @@ import pytest
 import carom
 from carom import HalfSpace, Material, Pair, Sphere
 from carom.bodies.kinematics import Rebound, Tangential
-from carom.measurements.observables import BEFORE, IMPULSE, NAMES, OBSERVABLES, convert
+from carom.datasets.observables import BEFORE, IMPULSE, NAMES, OBSERVABLES, convert
 
 STEEL = Material(young="210 GPa", poisson=0.3, density=7850)
 RUBBER = Material(young="10 MPa", poisson=0.49, density=1100)

@@ -81,7 +81,7 @@ def written_then_interrupted():
 
 
 def test_workers_of_another_version_are_refused_in_one_line(cluster, monkeypatch):
-    monkeypatch.setattr(schedulers, "carom_version", lambda: "9.9")
+    monkeypatch.setattr(schedulers, "__version__", "9.9")
     schedulers.versions.cache_clear()
     with pytest.raises(
         InputError, match=r"worker tcp://\S+ has carom \S+, not 9.9 as here"

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 import carom
+from carom import datasets
 from carom.bodies.cases import pair_of
+from carom.datasets.observables import BEFORE, OBSERVABLES, convert
 from carom.io.columns import in_units, others, with_errors
 from carom.io.tables import read_table
-from carom.measurements import datasets
-from carom.measurements.observables import BEFORE, OBSERVABLES, convert
 
 KHARAZ = ("kharaz2001", "kharaz2001_kratos", "kharaz2001_mfix")
 TOLD = ("title", "references", "doi", "digitised", "bodies", "case", "definitions", "signs")

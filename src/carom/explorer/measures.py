@@ -12,12 +12,12 @@ import numpy as np
 import xarray as xr
 from dash import ClientsideFunction, Dash, Input, Output, State, dcc, html, no_update
 
+from carom import datasets
 from carom.explorer.charts import BLUE, CHART, GREY, VERMILION, Figure, axes_of, line
 from carom.explorer.stages import short
 from carom.explorer.views import OF_BODIES, View
 from carom.fitting import Fit, fit
 from carom.io.tables import read_table
-from carom.measurements import datasets
 from carom.plots.style import prefixed
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import InputError, refusal

@@ -7,12 +7,12 @@ from typing import Any
 
 from werkzeug.serving import BaseWSGIServer, WSGIRequestHandler, make_server
 
+from carom import datasets
 from carom.explorer.app import new_app
 from carom.explorer.measures import fit_of
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import impact_of, scene_of
 from carom.explorer.views import LAWS, NUMBERS, View
-from carom.measurements import datasets
 from carom.quantities.units import InputError, refusal
 
 LOOPBACK = "127.0.0.1"

@@ -10,7 +10,7 @@ from urllib.parse import parse_qs, urlencode
 from carom.bodies.materials import materials
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
-from carom.measurements.datasets import names as dataset_names
+from carom.datasets.shipped import names as dataset_names
 from carom.quantities.units import InputError, nearest, refusal
 from carom.verify.catalogue import CATALOGUE
 

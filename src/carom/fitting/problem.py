@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from carom.bodies.cases import pair_of
 from carom.bodies.pairs import Pair
+from carom.datasets.observables import BEFORE, OBSERVABLES, SCALED, convert
 from carom.fitting.laws import Motion
 from carom.io.columns import ERROR, Results, in_units, others, with_errors
 from carom.io.tables import read_table
-from carom.measurements.observables import BEFORE, OBSERVABLES, SCALED, convert
 from carom.quantities.arrays import Array
 from carom.quantities.units import InputError, refusal
 

@@ -4,7 +4,7 @@ import re
 from functools import cache
 from importlib.resources import files
 
-from carom.io.labels import carom_version
+from carom.io.version import __version__
 
 IMPACT = ("carom", "barber1979", "maw1976")  # the theory of impacts
 LOADS = ("carom", "mindlin1953", "maw1976")
@@ -44,7 +44,7 @@ def with_doi(doi: str) -> str:
 @cache
 def _entries() -> dict[str, str]:
     text = (files("carom") / "data" / "citations.bib").read_text(encoding="utf-8")
-    entries = re.split(r"(?m)^(?=@)", text.replace("VERSION", carom_version()))[1:]
+    entries = re.split(r"(?m)^(?=@)", text.replace("VERSION", __version__))[1:]
     return {_key(entry): entry.rstrip() + "\n" for entry in entries}
 
 

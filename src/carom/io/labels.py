@@ -2,13 +2,12 @@
 
 import json
 from collections.abc import Mapping, Sequence
-from functools import cache
-from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from carom.io.version import __version__
 from carom.quantities.glossary import GLOSSARY
 
 if TYPE_CHECKING:
@@ -58,15 +57,6 @@ def flags(meanings: Sequence[str], first: int = 0) -> dict[str, Any]:
 SIGNS = flags(("slip along -x", "stick", "slip along +x"), first=-1)
 
 
-@cache
-def carom_version() -> str:
-    """Return the version of the package."""
-    try:
-        return version("carom")
-    except PackageNotFoundError:
-        return "unknown"
-
-
 def labelled_dataset(
     variables: Mapping[str, Any], coords: Mapping[str, Any], attrs: Mapping[str, Any]
 ) -> "xr.Dataset":
@@ -96,7 +86,7 @@ def labelled_dataset(
     return xr.Dataset(
         {name: _variable(name, entry) for name, entry in variables.items()},
         coords={name: _variable(name, entry) for name, entry in coords.items()},
-        attrs={"Conventions": CONVENTIONS, "source": f"carom {carom_version()}"} | words,
+        attrs={"Conventions": CONVENTIONS, "source": f"carom {__version__}"} | words,
     )
 
 

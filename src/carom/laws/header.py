@@ -6,7 +6,7 @@ from string import Template
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.io.labels import carom_version
+from carom.io.version import __version__
 from carom.laws.exact import ReboundLaw
 from carom.quantities.units import InputError
 
@@ -109,7 +109,7 @@ def c_header(laws: Sequence[ReboundLaw]) -> str:
     return HEADER.substitute(
         error="1e-6 max(1, |psi_1|)" if losses else "1e-9 (chi <= 10)",
         chis=", ".join(repr(law.chi) for law in laws),
-        version=carom_version(),
+        version=__version__,
         guard=f"CAROM_REBOUND_{'_AND_'.join(suffixes)}_H".upper(),
         functions="".join(map(_function, names, laws)),
     )

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from carom.dimensionless.numerics.threads import available_cores
 from carom.io.extras import extra
-from carom.io.labels import carom_version
+from carom.io.version import __version__
 from carom.quantities.units import InputError, counted, refusal
 from carom.sweeps.blocks import Box, Values
 from carom.sweeps.problem import SweepProblem
@@ -120,7 +120,7 @@ def _checked_threads(client: Any, address: str) -> int:
 @lru_cache(maxsize=1)
 def versions() -> dict[str, str]:
     """Return the versions of what decides the last bit of a result."""
-    return {"carom": carom_version()} | {name: version(name) for name in ("numpy", "numba")}
+    return {"carom": __version__} | {name: version(name) for name in ("numpy", "numba")}
 
 
 def _require_same(worker: str, found: Any, expected: dict[str, str] | None = None) -> None:

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from carom.io.extras import extra
 from carom.io.files import STATUS, STORE, read_store
-from carom.io.labels import carom_version
+from carom.io.version import __version__
 from carom.quantities.units import refusal
 from carom.sweeps.blocks import Box, Values, boxes
 from carom.sweeps.points import PointStatus
@@ -217,9 +217,9 @@ def _check(path: Path, problem: SweepProblem) -> None:
     """Raise InputError unless this is a store of this sweep."""
     dataset = read_store(path)
     version = str(dataset.attrs["source"]).removeprefix("carom ")
-    if version != carom_version():
+    if version != __version__:
         raise refusal(
-            "store", str(path), f"it is of carom {version}, and this is carom {carom_version()}"
+            "store", str(path), f"it is of carom {version}, and this is carom {__version__}"
         )
     found = islice(_differences(json.loads(dataset.attrs["inputs"]), identity(problem), ""), SHOWN)
     if words := "; ".join(found):

@@ -1,21 +1,14 @@
-"""Measured rebounds that come with Carom: tables with units, definitions, errors and sources.
-
-Examples
---------
->>> import carom
->>> carom.datasets.names()
-('kharaz2001', 'kharaz2001_kratos', 'kharaz2001_mfix')
-"""
+"""The tables of measured rebounds: found by name, read, and made datasets."""
 
 from functools import lru_cache
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from carom.datasets.observables import OBSERVABLES
 from carom.io.columns import ERROR, Results, entry, in_units
 from carom.io.labels import attributes, labelled_dataset
 from carom.io.tables import Cells, read_table
-from carom.measurements.observables import OBSERVABLES
 from carom.quantities.units import nearest, refusal
 
 if TYPE_CHECKING:

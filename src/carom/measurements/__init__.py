@@ -1,1 +1,0 @@
-"""What people measure of rebounds, and what they have published."""
