@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import carom
-from carom.cli.cases import Json, Plot, check_outputs, stored
+from carom.cli.cases import Json, Plot, check_outputs, or_null, stored
 from carom.quantities.units import InputError, finite, positive, refusal
 
 if TYPE_CHECKING:
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 ROWS = 17  # of the printed table
 HEADERS = (".h",)
+COLUMNS = ("psi_in", "psi_out", "contact_restitution", "tangential_restitution")
 
 
 def curve_command(
@@ -107,12 +108,9 @@ def _record(dataset: "xr.Dataset") -> list[dict[str, Any]]:
     rows = []
     for index, chi in enumerate(dataset["chi"].values):
         part = dataset.isel(chi=index)
-        names = ("psi_in", "psi_out", "contact_restitution", "tangential_restitution")
         regimes = {str(name): float(psi) for name, psi in _borders(part)}
-        rows.append(
-            {"chi": float(chi), **({"borders": regimes} if regimes else {})}
-            | {name: [_finite(value) for value in part[name].values] for name in names}
-        )
+        columns = {name: list(map(or_null, part[name].values)) for name in COLUMNS}
+        rows.append({"chi": float(chi)} | ({"borders": regimes} if regimes else {}) | columns)
     return rows
 
 
@@ -121,10 +119,6 @@ def _borders(part: "xr.Dataset") -> list[tuple[str, float]]:
     if "border" not in part:
         return []
     return list(zip(part["regime_border"].values, part["border"].values, strict=True))
-
-
-def _finite(value: float) -> float | None:
-    return float(value) if value - value == 0.0 else None
 
 
 def _table(dataset: "xr.Dataset") -> str:
@@ -137,7 +131,6 @@ def _table(dataset: "xr.Dataset") -> str:
             lines.append(f"  from psi_1 = {psi:<8.6g} {name}")
         lines.append(f"  {'psi_1':>12s} {'psi_2':>14s} {'e contact':>12s} {'e centre*':>12s}")
         rows = part.isel(psi_in=slice(None, None, step))
-        columns = ("psi_in", "psi_out", "contact_restitution", "tangential_restitution")
-        for row in zip(*(rows[name].values for name in columns), strict=True):
+        for row in zip(*(rows[name].values for name in COLUMNS), strict=True):
             lines.append("  {:12.6g} {:14.9f} {:12.6f} {:12.6f}".format(*row))
     return "\n".join([*lines, "* of a solid sphere without spin"])

@@ -3,14 +3,14 @@
 import json
 from collections.abc import Iterator
 from contextlib import contextmanager
-from math import degrees, isfinite, isnan
+from math import degrees, isnan
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 import carom
-from carom.cli.cases import Json, check_outputs, outputs, stored
+from carom.cli.cases import Json, check_outputs, or_null, outputs, stored
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import refusal
 
@@ -91,7 +91,11 @@ def _stopping() -> Iterator[None]:
 def _record(result: "Summary", store: str | None, output: str | None) -> dict[str, Any]:
     """Return the summary as what JSON can hold; what is not a number becomes null."""
     ranges = {
-        name: {"min": _finite(low), "max": _finite(high), "units": GLOSSARY[name].unit}
+        name: {
+            "min": or_null(low),
+            "max": or_null(high),
+            "units": GLOSSARY[name].unit,
+        }
         for name, (low, high) in result.ranges.items()
     }
     return {
@@ -102,10 +106,6 @@ def _record(result: "Summary", store: str | None, output: str | None) -> dict[st
         "store": store,
         "output": output,
     }
-
-
-def _finite(value: float) -> float | None:
-    return value if isfinite(value) else None
 
 
 def _table(result: "Summary") -> str:
