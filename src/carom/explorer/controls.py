@@ -69,7 +69,7 @@ def _gather(app: Dash) -> None:
 
 
 def _carry(app: Dash) -> None:
-    """Going over to numbers keeps the impact of the bodies; a link keeps the numbers it tells."""
+    """Keep the impact of the bodies when numbers are chosen; a link keeps the numbers it tells."""
     app.clientside_callback(
         ClientsideFunction("controls", "leaves_bodies"),
         Output("carried", "data"),

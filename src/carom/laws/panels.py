@@ -59,7 +59,6 @@ def borders(chi: float, restitution: float) -> list[float]:
 
 def elastic_panels(chi: float) -> Panels:
     """Return the table of r = psi_2/psi_1 between the regime borders."""
-
     with advancing("table of rebounds", None, unit="impacts") as advance:
 
         def ratio(psi: Array) -> tuple[Array, Branches]:

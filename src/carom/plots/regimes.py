@@ -202,6 +202,7 @@ def _letter_regions(axis: Axes, dataset: xr.Dataset) -> None:
 
 
 def draw_borders(axis: Axes) -> None:
+    """Draw the borders of the regimes over a map, 1, 2 chi and 4 chi - 1, with their names."""
     (left, right), (bottom, top) = axis.get_xlim(), axis.get_ylim()
     chi = np.linspace(max(bottom, 0.5), top, 201)
     lines = {r"$1$": 0.0 * chi + 1.0, r"$2\chi$": 2.0 * chi, r"$4\chi-1$": 4.0 * chi - 1.0}
