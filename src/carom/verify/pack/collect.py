@@ -1,6 +1,6 @@
 """What a program has left, as results for the scorer.
 
-`python -m carom.verify.pack.collect FOLDER`, which the run.sh of a pack calls, so it keeps its name:
+`python -m carom.verify.pack.collect FOLDER`, which the run.sh of packs calls, so it keeps its name:
 FOLDER is one of the pack's, e.g. bench/wall/lammps, in which the program has run; its results.csv
 has the columns of the template in the folder above.
 """
