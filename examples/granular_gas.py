@@ -16,13 +16,14 @@ van Noije & Ernst (1998), is checked on smooth spheres.
 """
 
 import argparse
+import sys
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from rich.progress import Progress
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
-from tqdm import tqdm
 
 import carom
 from carom.plots.style import (
@@ -158,10 +159,10 @@ def cool(law, spheres, until, *, seed=1, name="gas"):
     """Follow a gas without spin until each sphere has had so many collisions."""
     gas = Gas(spheres, seed)
     states, total = [gas.state()], spheres * until / 2
-    shown = {"unit": " collisions", "unit_scale": True, "dynamic_ncols": True}
-    with tqdm(desc=name, total=total, delay=2, disable=None, **shown) as bar:
+    with Progress(transient=True, disable=not sys.stdout.isatty()) as bar:
+        task = bar.add_task(name, total=total)
         while gas.hits < total:
-            bar.update(min(gas.advance(law), total - bar.n))
+            bar.update(task, advance=gas.advance(law))
             states.append(gas.state())
     return History(*np.array(states).T)
 

@@ -8,7 +8,6 @@ the design with outliers. A coverage of 95 % in 500 sets is known to 1 %.
 """
 
 import argparse
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +15,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from tqdm import tqdm
+from rich.progress import track
 
 import carom
 from carom.fitting import fit
@@ -92,7 +91,7 @@ def rows_of(design: Design, sets: int) -> Iterator[str]:
     """Yield a line of the table for each parameter of a design."""
     exact = truth(design)
     intervals = []
-    for seed in tqdm(range(sets), desc=design.name, leave=False, disable=not sys.stderr.isatty()):
+    for seed in track(range(sets), design.name, transient=True):
         found = fit(measured(design, exact, seed), pair=START, vary=list(TRUTH))
         intervals.append([(found[name].low, found[name].high) for name in TRUTH])
     ends = np.array(intervals)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from tqdm import tqdm
+from rich.progress import track
 
 import carom
 from carom.fitting.interpolation import TABLE, grid, nodes, table, tabulated
@@ -47,8 +47,7 @@ def main() -> int:
     if parser.parse_args().check:
         return check()
     chis, losses = grid()
-    progress = tqdm(losses, disable=not sys.stderr.isatty())
-    rows = [curves(chis, float(restitution)) for restitution in progress]
+    rows = [curves(chis, float(restitution)) for restitution in track(losses)]
     np.savez_compressed(FILE, curves=np.stack(rows, axis=1).astype(np.float32))
     print(f"{FILE.stat().st_size / 1e3:.0f} kB")
     return 0

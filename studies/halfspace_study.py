@@ -22,7 +22,7 @@ from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 import numpy as np
-from tqdm import tqdm
+from rich.progress import track
 
 import carom
 from carom.halfspace.compliance import Materials
@@ -238,7 +238,7 @@ def fill(table: Path, wanted: list[Impact], workers: int) -> int:
     os.environ["OMP_NUM_THREADS"] = "1"
     with multiprocessing.get_context("spawn").Pool(workers) as pool:
         results = pool.imap_unordered(computed, missing)
-        for impact, row in tqdm(results, total=len(missing), unit="impact", mininterval=5.0):
+        for impact, row in track(results, "impacts", len(missing)):
             if isinstance(row, str):
                 failed += 1
                 print(f"{impact}: {row}", file=sys.stderr)

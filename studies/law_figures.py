@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
+from rich.progress import track
 from small_pictures import store_small
-from tqdm import tqdm
 
 import carom
 from carom.dimensionless.numerics.hertz import DURATION
@@ -92,6 +92,6 @@ def draw_figures(ranking: "xr.Dataset", folder: Path) -> None:
         found = error_map(law, chi=np.linspace(7.0 / 6.0, 7.0 / 4.0, 41))
         figures[f"map_{name}"] = plot_error_map(found, SCALE)
     figures |= {"stiffness": plot_stiffness(), "forces": plot_histories()}
-    for name, figure in tqdm(figures.items(), desc="figures"):
+    for name, figure in track(figures.items(), "figures", len(figures)):
         path = style.save_figure(figure, folder / f"law_{name}.png")
         store_small(path, path, all_colors=name.startswith("map"))

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 from law_figures import draw_figures
-from tqdm import tqdm
+from rich.progress import track
 
 import carom
 from carom.verify import CATALOGUE, Ranking, Tuning, rank, step_error, tune
@@ -265,11 +265,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--check", action="store_true", help="only tell whether it is true")
     if parser.parse_args().check:
-        wrong = stale(tqdm(LAWS, desc="laws"))
+        wrong = stale(track(LAWS, "laws"))
         print(f"no longer true: {', '.join(wrong)}" if wrong else "the page is true")
         raise SystemExit(1 if wrong else 0)
-    texts = {name: text() for name, text in tqdm(LAWS.items(), desc="laws")}
-    found = [bench(engine, pair=steel_on_steel()) for engine in tqdm(programs(), desc="programs")]
+    texts = {name: text() for name, text in track(LAWS.items(), "laws", len(LAWS))}
+    found = [bench(engine, pair=steel_on_steel()) for engine in track(programs(), "programs")]
     if found:
         texts["engines"] = measured(found)
     if Lammps().executable():

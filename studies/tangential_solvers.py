@@ -12,7 +12,6 @@ preconditioner, without padding, is one.
 
 import argparse
 import csv
-import sys
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
@@ -22,9 +21,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import rival_solvers as rivals
+from rich.progress import track
 from rival_solvers import Iterates, Problem, Solver
 from tangential_problems import CASES, STARTS, Case, Task, impact, made_up, recorded, start_of
-from tqdm import tqdm
 
 from carom.halfspace.compliance import Compliance
 from carom.halfspace.influence import Field
@@ -133,8 +132,7 @@ def runs(grids: dict[int, int], cases: Sequence[Case]) -> Iterator[Run]:
     for grid, wanted in grids.items():
         chosen = [s for s in SOLVERS if grid <= DENSE or "dense" not in s]
         total = len(cases) * wanted + 3 * (wanted // 2)
-        shown = {"desc": f"{grid} across", "total": total, "disable": not sys.stderr.isatty()}
-        for task in tqdm(tasks(grid, wanted, cases), **shown):
+        for task in track(tasks(grid, wanted, cases), f"{grid} across", total):
             for kind in STARTS:
                 start = start_of(kind, task)
                 for name in chosen:
@@ -172,7 +170,7 @@ def tolerances(grid: int, cases: Iterable[Case]) -> Iterator[dict[str, object]]:
         kappa = patch.compliance.materials.kappa
         return kappa * motions[-1].velocity, cost_of(patch.compliance)
 
-    for case in tqdm(cases, desc="tolerances", disable=not sys.stderr.isatty()):
+    for case in track(cases, "tolerances"):
         exact, _ = rebound(case, *FINEST)
         for which, tolerance in product((0, 1), LOOSER):
             given = [FINEST[0], FINEST[1]]
