@@ -1,11 +1,12 @@
 """Parameters from measured rebounds: friction, stiffness ratio, restitution, with intervals."""
 
 from collections.abc import Collection, Mapping
+from math import inf
 from typing import Any
 
 from carom.bodies.pairs import Pair
 from carom.fitting.assembly import assembled
-from carom.fitting.errors import SoftL1, Squares
+from carom.fitting.errors import Loss
 from carom.fitting.estimates import Estimate
 from carom.fitting.intervals import settle
 from carom.fitting.laws import EXACT
@@ -86,6 +87,6 @@ def fit(
     level = checked_confidence(confidence)
     check_count(problem, options.free)
     held = {name: value for name, value in options.start.items() if name not in options.free}
-    loss = SoftL1() if robust else Squares()
+    loss = Loss(2.0 if robust else inf)
     settled = settle(Model(EXACT, problem, options.free, held), loss, options.start)
     return assembled(settled, level)

@@ -1,23 +1,25 @@
-"""Errors of what is measured: covariances row by row, whitened residuals, and a robust loss."""
+"""Errors of what is measured: residuals made independent, of unit variance, and robust."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from carom.fitting.laws import Law, Values, predicted
-from carom.fitting.problem import Problem
+from carom.fitting.problem import FitProblem
 from carom.quantities.arrays import Array
+
+NORMAL = np.linspace(-10.0, 10.0, 2001)  # where means over a normal distribution are taken
 
 
 @dataclass(frozen=True)
-class SoftL1:
+class Loss:
     """Loss 2 c^2 (sqrt(1 + (r/c)^2) - 1) of a residual r in standard deviations.
 
     r^2 for small r, 2 c |r| for outliers (Charbonnier et al. 1997; scipy's soft_l1). With c = 2 it
-    keeps 97 % of the efficiency where errors are Gaussian.
+    keeps 97 % of the efficiency where errors are Gaussian; with c infinite it is r^2, maximum
+    likelihood for them.
     """
 
-    c: float = 2.0
+    c: float
 
     def root(self, residual: Array) -> Array:
         """Return the residual whose square is the loss, of the same sign."""
@@ -33,33 +35,10 @@ class SoftL1:
         return np.asarray((1.0 + (residual / self.c) ** 2) ** -1.5)
 
 
-@dataclass(frozen=True)
-class Squares:
-    """Loss r^2: maximum likelihood for Gaussian errors."""
-
-    def root(self, residual: Array) -> Array:
-        """Return the residual."""
-        return residual
-
-    def influence(self, residual: Array) -> Array:
-        """Return the residual."""
-        return residual
-
-    def slope(self, residual: Array) -> Array:
-        """Return one."""
-        return np.ones_like(residual)
-
-
-Loss = SoftL1 | Squares
-
-
-def gaussian_mean(values: Array, at: Array) -> float:
-    """Return the mean of a function, given at points, over a standard normal distribution."""
-    density = np.exp(-0.5 * at**2)
+def gaussian_mean(values: Array) -> float:
+    """Return the mean of a function, given at NORMAL, over a standard normal distribution."""
+    density = np.exp(-0.5 * NORMAL**2)
     return float((values * density).sum() / density.sum())
-
-
-NORMAL = np.linspace(-10.0, 10.0, 2001)  # where such means are taken
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,29 +47,7 @@ class Weights:
 
     factors: Array
 
-    def whitened(self, problem: Problem, expected: Array) -> Array:
+    def whitened(self, problem: FitProblem, expected: Array) -> Array:
         """Return the residuals in standard deviations, 0 where nothing was measured."""
         residual = np.where(problem.present, problem.measured - expected, 0.0)
         return np.asarray(np.einsum("rij,brj->bri", self.factors, residual))
-
-
-def weights_at(law: Law, problem: Problem, values: Values, sigma: Array, scale: Array) -> Weights:
-    """Return the weights where the parameters are these, a batch of one.
-
-    Covariance of the responses of a row: S (diag(sigma^2) + sum_x d_x d_x^T) S, with d_x half the
-    difference of the responses when a column x of the motion before goes one standard deviation up
-    and down (effective variance; Orear 1982), and S the factors by which given errors are too
-    small. `sigma` has the shape (rows, responses), `scale` (responses,).
-    """
-    shape = problem.measured.shape
-    covariance = np.einsum(
-        "rj,jk->rjk", np.where(problem.present, sigma, 1.0) ** 2, np.eye(shape[1])
-    )
-    for up, down in problem.shaken:
-        high, low = (
-            predicted(law, problem.pair, m, values, problem.responses)[0] for m in (up, down)
-        )
-        reach = np.where(problem.present, 0.5 * (high - low), 0.0)
-        covariance += reach[:, :, np.newaxis] * reach[:, np.newaxis, :]
-    factors = np.linalg.inv(np.linalg.cholesky(covariance))
-    return Weights(factors / scale)
