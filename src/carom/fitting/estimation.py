@@ -1,4 +1,4 @@
-"""The best fit: a scan for where to start, errors from the scatter, and lmfit at the end."""
+"""The best fit: a scan for where to start, descents from there, and lmfit at the end."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -7,7 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from carom.fitting.errors import NORMAL, Loss, Weights, gaussian_mean
+from carom.fitting.errors import (
+    NORMAL,
+    Loss,
+    Weights,
+    first_errors,
+    gaussian_mean,
+    least_error,
+    scatter,
+    too_small,
+    typical_deviation,
+)
 from carom.fitting.least_squares import Minimum, descend, jacobian
 from carom.fitting.model import Model
 from carom.fitting.problem import FitProblem, Mask
@@ -17,8 +27,6 @@ from carom.quantities.arrays import Array
 WEAK = 0.3  # standard deviations by which a coordinate changes the values, too few to tell
 STARTS = 6  # starting points that are followed to the end
 TURNS = 8  # times that errors are estimated and the fit is made anew
-SURE = 3.09  # standard deviations beyond which errors that were given are called too small
-RESOLVED = 1e-4  # of the largest measured value: errors below are those of the curves
 FINE = {"friction": 25, "kappa": 12, "tangential_restitution": 9}  # levels of the scan
 
 
@@ -148,7 +156,7 @@ def estimate(model: Model, loss: Loss, start: Array | None = None) -> Best:
     problem = model.problem
     unknown = problem.present & ~np.isfinite(problem.errors)
     estimated = np.asarray(unknown.any(axis=0))
-    sigma = np.where(unknown, _first_errors(problem), problem.errors)
+    sigma = np.where(unknown, first_errors(problem), problem.errors)
     scale = np.ones(len(problem.responses))
     at = scan(model, loss, sigma) if start is None else start
     rivals = Minimum(at, np.zeros(len(at)))
@@ -162,11 +170,11 @@ def estimate(model: Model, loss: Loss, start: Array | None = None) -> Best:
             at = at[:2]
         residuals = weights.whitened(problem, model.expected(at[:1]))[0]
         used = information(model, at[0], weights, loss).used
-        factors = _scatter(residuals, problem.present, used, loss)
-        sigma = np.where(unknown, np.maximum(sigma * factors, _least(problem)), sigma)
+        factors = scatter(residuals, problem.present, used, loss)
+        sigma = np.where(unknown, np.maximum(sigma * factors, least_error(problem)), sigma)
         given = np.where(estimated, 1.0, np.maximum(scale * factors, 1.0))
-        common = scale * _typical(residuals, problem.present)
-        scale = np.where(_significant(problem.present, given, common), given, 1.0)
+        common = scale * typical_deviation(residuals, problem.present)
+        scale = np.where(too_small(problem.present, given, common), given, 1.0)
         if np.all(np.abs(factors[estimated] - 1.0) < 1e-3) and turn:
             break
     weights = model.weights(at[0], sigma, scale)
@@ -233,53 +241,3 @@ def _likely_restitutions(problem: FitProblem) -> Array:
     else:
         return np.array([0.6, 0.8, 0.95])
     return np.clip([float(np.nanmedian(found))], 0.35, 0.999)
-
-
-def _first_errors(problem: FitProblem) -> Array:
-    """Return errors to begin with where none are known: a part of the spread of each response."""
-    spread = np.nanstd(problem.measured, axis=0)
-    return np.asarray(0.1 * spread + _least(problem))
-
-
-def _least(problem: FitProblem) -> Array:
-    return np.asarray(RESOLVED * np.nanmax(np.abs(problem.measured), axis=0) + 1e-12)
-
-
-def _scatter(residuals: Array, present: Mask, used: Array, loss: Loss) -> Array:
-    """Return by how much the scatter of each response exceeds its errors (Huber's proposal 2)."""
-    wanted = gaussian_mean(loss.influence(NORMAL) ** 2)
-    factors = np.ones(len(used))
-    for place, (column, there) in enumerate(zip(residuals.T, present.T, strict=True)):
-        if np.any(column[there]):
-            kept = max(1.0 - used[place] / there.sum(), 0.05)
-            factors[place] = _factor(column[there], loss, wanted * kept)
-    return factors
-
-
-def _factor(residuals: Array, loss: Loss, wanted: float) -> float:
-    """Return what residuals are to be divided by for their mean square influence to be this."""
-    factor = 1.0
-    for _ in range(50):
-        mean = float(np.mean(loss.influence(residuals / factor) ** 2))
-        step = np.sqrt(mean / wanted)
-        factor *= float(step)
-        if abs(step - 1.0) < 1e-5:
-            break
-    return factor
-
-
-def _typical(residuals: Array, present: Mask) -> Array:
-    """Return the median deviation of each response, in its errors; few outliers do not move it."""
-    shown = np.where(present, np.abs(residuals), np.nan)
-    return np.asarray(np.nanmedian(shown, axis=0) / 0.6745)
-
-
-def _significant(present: Mask, factors: Array, typical: Array) -> Any:
-    """Tell which scatter is larger than errors that were given allow.
-
-    Chi squared (Wilson & Hilferty 1931) and the median deviation (Huber 1981, section 5.1) must
-    both say so: not a few outliers, but most of the values.
-    """
-    counts = np.maximum(present.sum(axis=0), 1)
-    bound = (1.0 - 2.0 / (9.0 * counts) + SURE * np.sqrt(2.0 / (9.0 * counts))) ** 1.5
-    return (factors > bound) & (typical > 1.0 + SURE * 1.17 / np.sqrt(counts))
