@@ -86,7 +86,7 @@ def fit(
     options = read_options(problem, vary, fixed)
     level = checked_confidence(confidence)
     check_count(problem, options.free)
-    held = {name: value for name, value in options.start.items() if name not in options.free}
+    model = Model(EXACT, problem, (), options.start).freeing(options.free)
     loss = Loss(2.0 if robust else inf)
-    settled = settle(Model(EXACT, problem, options.free, held), loss, options.start)
+    settled = settle(model, loss, options.start)
     return assembled(settled, level)

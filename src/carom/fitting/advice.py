@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from carom.fitting.errors import Loss
 from carom.fitting.estimates import FitRecord
-from carom.fitting.estimation import Best
-from carom.fitting.least_squares import jacobian
+from carom.fitting.estimation import Best, information
 from carom.fitting.problem import FitProblem
 from carom.impacts.curves import REGIMES
 from carom.quantities.arrays import Array
@@ -109,8 +109,7 @@ def _with_all(fit: FitRecord) -> Best:
     )
     if not missing:
         return best
-    held = {name: value for name, value in best.model.held.items() if name not in missing}
-    model = replace(best.model, free=(*best.model.free, *missing), held=held)
+    model = best.model.freeing(missing)
     return replace(best, model=model, at=np.clip(model.coordinates(best.values), *model.bounds))
 
 
@@ -131,14 +130,9 @@ def _candidates(best: Best) -> tuple[Array, list[str]]:
     seen = best.model.problem
     model = replace(best.model, problem=_impacts(seen))
     sigma = np.array([np.median(s[p]) for s, p in zip(best.sigma.T, seen.present.T, strict=True)])
-    shape = model.problem.measured.shape
-    weights = model.weights(best.at, np.broadcast_to(sigma, shape), best.scale)
-
-    def whitened(at: Array) -> Array:
-        return weights.whitened(model.problem, model.expected(at)).reshape(len(at), -1)
-
-    at = best.at[np.newaxis]
-    slopes = jacobian(whitened, at, whitened(at), model.bounds)[0].reshape(*shape, -1)
+    everywhere = np.broadcast_to(sigma, model.problem.measured.shape)
+    weights = model.weights(best.at, everywhere, best.scale)
+    slopes = information(model, best.at, weights, Loss(inf)).slopes
     gains = np.einsum("rjp,rjq->rpq", slopes, slopes) / best.spread
     return gains, [REGIMES[index] for index in model.regimes(best.at)]
 

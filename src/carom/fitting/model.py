@@ -1,6 +1,6 @@
 """A law with some parameters free: from coordinates to residuals, for batches of them."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -105,6 +105,11 @@ class Model:
         """Return the model with one of the free parameters held."""
         free = tuple(each for each in self.free if each != name)
         return replace(self, free=free, held={**self.held, name: value})
+
+    def freeing(self, names: Collection[str]) -> "Model":
+        """Return the model with some of the parameters that are held free."""
+        held = {name: value for name, value in self.held.items() if name not in names}
+        return replace(self, free=(*self.free, *names), held=held)
 
 
 def offset_parameter(problem: FitProblem) -> Parameter:

@@ -120,7 +120,7 @@ def read_problem(data: Any, pair: Pair | None) -> FitProblem:
         )
     bodies = _bodies(pair, table.case)
     before = {name: rows[name] for name in BEFORE if name in rows.columns}
-    _check_before(rows, before, responses, SCALED)
+    _check_before(rows, before, responses)
     problem = FitProblem(
         pair=bodies,
         before=before,
@@ -149,24 +149,19 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> Pair:
             "--case FILE in a shell, or write the bodies as JSON into a comment '# case: {...}' "
             "of the file"
         )
-    if bodies.friction > 0.0:
-        return bodies
-    return Pair(bodies.first, bodies.second, START)
+    return bodies if bodies.friction > 0.0 else Pair(bodies.first, bodies.second, START)
 
 
 def _errors(rows: Results, name: str) -> Array:
     """Return the standard deviations of a response, NaN where they are not given."""
-    unknown = np.full(len(rows), np.nan)
-    errors = np.asarray(rows.get(name + ERROR, unknown))
-    rows_with = np.isfinite(rows[name])
-    if name + ERROR in rows.columns:
-        rows.refuse(name + ERROR, rows_with & ~(errors > 0.0), "a standard deviation is positive")
-    return np.where(rows_with, errors, np.nan)
+    if name + ERROR not in rows.columns:
+        return np.full(len(rows), np.nan)
+    errors, measured = rows[name + ERROR], np.isfinite(rows[name])
+    rows.refuse(name + ERROR, measured & ~(errors > 0.0), "a standard deviation is positive")
+    return np.where(measured, errors, np.nan)
 
 
-def _check_before(
-    rows: Results, before: Mapping[str, Array], responses: Collection[str], scaled: Collection[str]
-) -> None:
+def _check_before(rows: Results, before: Mapping[str, Array], responses: Collection[str]) -> None:
     """Raise InputError if the motion before is missing, said twice, or out of range."""
     ways = [n for n in ("tangential_speed", "angle", "contact_angle", "psi_in") if n in before]
     if not ways:
@@ -178,7 +173,7 @@ def _check_before(
     for name in ("speed", "normal_speed"):
         if name in before:
             rows.refuse(name, before[name] <= 0.0, "must be positive: the bodies must approach")
-    needing = sorted(set(scaled) & {*before, *responses})
+    needing = sorted(set(SCALED) & {*before, *responses})
     if needing and not {"speed", "normal_speed"} & set(before):
         raise InputError(
             f"speed: column missing; {needing[0]} needs speed and angle, or normal_speed"
