@@ -10,7 +10,7 @@ from rival_solvers import Problem, largest_eigenvalue
 
 from carom.halfspace.compliance import Compliance, Materials
 from carom.halfspace.influence import Field
-from carom.halfspace.motion import Motion, move
+from carom.halfspace.motion import BodyMotion, move
 from carom.halfspace.quasistatic import Patch, Tolerances
 from carom.halfspace.traction import at_bound
 
@@ -53,7 +53,7 @@ def patch_of(grid: int, nu: float, tolerances: Tolerances) -> Patch:
     return Patch(Compliance(2 * ceil(0.53 * grid), 2.0 / grid, materials), tolerances)
 
 
-def impact(grid: int, case: Case, tolerances: Tolerances) -> tuple[Patch, list[Motion]]:
+def impact(grid: int, case: Case, tolerances: Tolerances) -> tuple[Patch, list[BodyMotion]]:
     """Return an impact, step by step, and its contact."""
     patch = patch_of(grid, case.nu, tolerances)
     psi = case.psi * np.array([np.cos(case.angle), np.sin(case.angle)])

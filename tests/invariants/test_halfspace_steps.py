@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from carom.halfspace.compliance import Materials
-from carom.halfspace.motion import Motion, move
+from carom.halfspace.motion import BodyMotion, move
 from carom.halfspace.quasistatic import Patch
 
 CHI = 1.4412
@@ -22,7 +22,7 @@ NOISE = 3e-5 * 2.0 / np.pi  # in tractions, what solvers in turns leave, each to
 
 class Hit(NamedTuple):
     patch: Patch
-    motions: list[Motion]
+    motions: list[BodyMotion]
 
     def contacts(self):
         """Return pairs of an instant and the next, but for the last: the bodies have parted."""

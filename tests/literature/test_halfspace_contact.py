@@ -15,7 +15,7 @@ import pytest
 from scipy.optimize import brentq
 
 from carom.halfspace.compliance import Compliance, Materials
-from carom.halfspace.quasistatic import Patch, Step
+from carom.halfspace.quasistatic import ContactStep, Patch
 
 DATA = Path(__file__).parent / "data"
 RADII = {"cattaneo": 50.0, "catt_to_cart_case1": 168.75}  # R* in mm
@@ -40,7 +40,7 @@ class Pushed(NamedTuple):
 
     row: dict
     patch: Patch
-    step: Step
+    step: ContactStep
     depth: float
     friction: float
     force: float

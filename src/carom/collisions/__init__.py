@@ -126,7 +126,7 @@ def _collide_numpy(
     shape = common_shape(arrays)
     kind = _kind(given)
     *before, axis = (_whole(each, shape, kind) for each in arrays)
-    moving = 4 if inertia.inverse_mass2 > 0.0 else 2
+    moving = 4 if inertia.factors[2] > 0.0 else 2
     if inplace:
         _check_writable(given, [*before, axis], moving)
         after = before
@@ -137,8 +137,7 @@ def _collide_numpy(
     old, normal = Motions(*(_read_only(each) for each in before)), _read_only(axis)
     new = Motions(*(each.reshape(-1) for each in after))
     collide_all(old, normal, inertia, rule, new, status.reshape(-1), threads)
-    velocities1, spins1, velocities2, spins2 = after
-    return Collisions(velocities1, spins1, velocities2, spins2, status)
+    return Collisions._make((*after, status))
 
 
 def _kind(given: tuple[Any, ...]) -> np.dtype[Any]:
@@ -168,14 +167,12 @@ def _check_writable(
     given: tuple[Any, ...], used: Sequence[NDArray[np.floating]], moving: int
 ) -> None:
     """Refuse to write into what had to be copied to be used, or lies in the same memory."""
-    for place, (name, values, whole) in enumerate(zip(NAMES, given, used, strict=True)):
-        if values is None or place >= moving:
+    for name, values, whole in zip(NAMES[:moving], given, used, strict=False):
+        if values is None:
             continue
+        kind = whole.shape, whole.dtype
         wanted = f"a C-ordered {whole.dtype} array of shape {whole.shape}"
-        if not isinstance(values, np.ndarray) or (values.shape, values.dtype) != (
-            whole.shape,
-            whole.dtype,
-        ):
+        if not isinstance(values, np.ndarray) or (values.shape, values.dtype) != kind:
             raise refusal(name, values, f"to be written in place it must be {wanted}")
         if not values.flags.c_contiguous:
             raise refusal(name, values, f"it has gaps or another order; it must be {wanted}")

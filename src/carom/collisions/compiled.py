@@ -45,10 +45,7 @@ class Scratch(NamedTuple):
 def new_scratch() -> Scratch:
     """Return room for one chunk."""
     vectors, numbers = np.empty((4, 3 * CHUNK)), np.empty((3, CHUNK))
-    linear, angular, axis, sliding = vectors
-    closing, slope, fraction = numbers
-    panel = np.empty(CHUNK, dtype=np.int32)
-    return Scratch(linear, angular, axis, sliding, closing, slope, fraction, panel)
+    return Scratch._make((*vectors, *numbers, np.empty(CHUNK, dtype=np.int32)))
 
 
 @kernel
@@ -137,20 +134,23 @@ def collide_block(
     after: Motions,
     status: NDArray[np.int8],
     inplace: bool,
+    start: int,
 ) -> None:
-    """Write the motions after collisions, chunk by chunk; in place `after` is `before`."""
-    for low in range(0, status.size, CHUNK):
-        high = min(low + CHUNK, status.size)
+    """Write the motions after a block of collisions, chunk by chunk; `after` may be `before`."""
+    stop = min(start + BLOCK, status.size)
+    for low in range(start, stop, CHUNK):
+        high = min(low + CHUNK, stop)
         old, new, code = part(before, low, high), part(after, low, high), status[low:high]
         approach(old, inertia, scratch)
         contact_velocity(normal[3 * low : 3 * high], rule.scale, scratch, code)
         one_plus_beta(scratch.slope, high - low, rule, scratch.panel, scratch.fraction)
         impulses(inertia, rule.restitution, scratch, code)
-        add(old.velocity1, -inertia.inverse_mass1, scratch.linear, new.velocity1, inplace)
-        add(old.spin1, -inertia.spin_rate1, scratch.angular, new.spin1, inplace)
-        if inertia.inverse_mass2 > 0.0:
-            add(old.velocity2, inertia.inverse_mass2, scratch.linear, new.velocity2, inplace)
-            add(old.spin2, -inertia.spin_rate2, scratch.angular, new.spin2, inplace)
+        velocity1, spin1, velocity2, spin2 = inertia.factors
+        add(old.velocity1, velocity1, scratch.linear, new.velocity1, inplace)
+        add(old.spin1, spin1, scratch.angular, new.spin1, inplace)
+        if velocity2 > 0.0:
+            add(old.velocity2, velocity2, scratch.linear, new.velocity2, inplace)
+            add(old.spin2, spin2, scratch.angular, new.spin2, inplace)
 
 
 def collide_all(
@@ -164,18 +164,15 @@ def collide_all(
 ) -> None:
     """Write the motions after all collisions; the result does not depend on the threads."""
 
-    def block(low: int) -> None:
-        high = min(low + BLOCK, status.size)
-        flat, some = slice(3 * low, 3 * high), slice(low, high)
-        old, new = (Motions(*(each[flat] for each in whole)) for whole in (before, after))
-        collide_block(old, normal[flat], inertia, rule, new_scratch(), new, status[some], inplace)
+    def block(start: int) -> None:
+        collide_block(before, normal, inertia, rule, new_scratch(), after, status, inplace, start)
 
     inplace = np.may_share_memory(before.velocity1, after.velocity1)
     starts = range(0, status.size, BLOCK)
     workers = min(threads or available_cores(), len(starts))
     if workers <= 1:
-        for low in starts:
-            block(low)
+        for start in starts:
+            block(start)
         return
     block(0)  # compiles, if need be, in one thread
     with ThreadPoolExecutor(workers) as pool:

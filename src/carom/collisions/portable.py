@@ -54,15 +54,11 @@ def collide_arrays(given: tuple[Any, ...], inertia: Inertia, rule: Rule) -> Coll
     harmless = (along, 0.0 * along, 0.0 * along, 0.0 * along, along)
     safe = [xp.where(hit, each, calm) for each, calm in zip(whole, harmless, strict=True)]
     impulse, twist = _impulses(_approach(safe, inertia, xp), inertia, rule, xp)
-    factors = (
-        -inertia.inverse_mass1,
-        -inertia.spin_rate1,
-        inertia.inverse_mass2,
-        -inertia.spin_rate2,
-    )
     velocity1, spin1, velocity2, spin2 = (
         xp.where(hit, before + factor * change, before) if factor else before
-        for before, factor, change in zip(whole, factors, 2 * (impulse, twist), strict=False)
+        for before, factor, change in zip(
+            whole, inertia.factors, 2 * (impulse, twist), strict=False
+        )
     )
     return Collisions(velocity1, spin1, velocity2, spin2, status)
 

@@ -1,4 +1,4 @@
-"""What a collision takes and gives: status, inertia of the pair, velocities and spins."""
+"""What collisions give, velocities and spins with a status, and what they take, read from users."""
 
 from collections.abc import Sequence
 from enum import IntEnum
@@ -47,19 +47,6 @@ MESSAGES = {
 }
 
 
-class Inertia(NamedTuple):
-    """How a pair takes an impulse; inverse masses and spin rates R/I of a fixed body are zero."""
-
-    radius1: float
-    radius2: float
-    inverse_mass1: float
-    inverse_mass2: float
-    spin_rate1: float
-    spin_rate2: float
-    normal_mass: float
-    tangential_mass: float
-
-
 class Collisions(NamedTuple):
     """Velocities and spins after collisions, as arrays like those before; SI units.
 
@@ -83,22 +70,32 @@ class Collisions(NamedTuple):
 
     def _repr_html_(self) -> str:
         """Return a table for a notebook."""
-        rows = _counted(self.status)
-        return card(f"{sum(rows.values()):,} collisions", {k: f"{n:,}" for k, n in rows.items()})
+        values, counts = np.unique(np.asarray(self.status), return_counts=True)
+        known = zip(values.tolist(), counts.tolist(), strict=True)
+        rows = {CollisionStatus(value).message: f"{count:,}" for value, count in known}
+        return card(f"{counts.sum():,} collisions", rows)
 
 
-def _counted(status: Any) -> dict[str, int]:
-    """Return how many pairs came out how, in words; arrays of any library."""
-    values, counts = np.unique(np.asarray(status), return_counts=True)
-    return {MESSAGES[CollisionStatus(int(v))]: int(n) for v, n in zip(values, counts, strict=True)}
+class Inertia(NamedTuple):
+    """How a pair takes an impulse; what stands for a fixed body is zero.
+
+    `factors` are the changes of velocity1, spin1, velocity2 and spin2: -1/M_1, -R_1/I_1, 1/M_2,
+    -R_2/I_2, of velocities by the impulse J on the second body, of spins by n x J.
+    """
+
+    radius1: float
+    radius2: float
+    factors: tuple[float, float, float, float]
+    normal_mass: float
+    tangential_mass: float
 
 
 def inertia_of(pair: Pair) -> Inertia:
     """Return the inertia of a pair in SI units."""
     radius1, mass1, spin1 = _response(pair.first)
     radius2, mass2, spin2 = _response(pair.second)
-    effective = pair.normal_mass, pair.tangential_mass
-    return Inertia(radius1, radius2, mass1, mass2, spin1, spin2, *effective)
+    factors = -mass1, -spin1, mass2, -spin2
+    return Inertia(radius1, radius2, factors, pair.normal_mass, pair.tangential_mass)
 
 
 def _response(body: Counterbody) -> tuple[float, float, float]:

@@ -1,11 +1,12 @@
 """Parameters from measured rebounds: friction, stiffness ratio, restitution, with intervals."""
 
 from collections.abc import Collection, Mapping
+from math import inf
 from typing import Any
 
 from carom.bodies.pairs import Pair
 from carom.fitting.assembly import assembled
-from carom.fitting.errors import SoftL1, Squares
+from carom.fitting.errors import Loss
 from carom.fitting.estimates import Estimate
 from carom.fitting.intervals import settle
 from carom.fitting.laws import EXACT
@@ -85,7 +86,7 @@ def fit(
     options = read_options(problem, vary, fixed)
     level = checked_confidence(confidence)
     check_count(problem, options.free)
-    held = {name: value for name, value in options.start.items() if name not in options.free}
-    loss = SoftL1() if robust else Squares()
-    settled = settle(Model(EXACT, problem, options.free, held), loss, options.start)
+    model = Model(EXACT, problem, (), options.start).freeing(options.free)
+    loss = Loss(2.0 if robust else inf)
+    settled = settle(model, loss, options.start)
     return assembled(settled, level)

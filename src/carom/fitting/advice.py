@@ -1,25 +1,19 @@
 """Where to measure next: incidences that shorten an interval most, by expected information."""
 
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil, inf, log10
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from carom.fitting.errors import weights_at
-from carom.fitting.estimation import Best
-from carom.fitting.intervals import row_regimes
-from carom.fitting.least_squares import jacobian
-from carom.fitting.model import Model
-from carom.fitting.problem import Problem
+from carom.fitting.errors import Loss
+from carom.fitting.estimates import FitRecord
+from carom.fitting.estimation import Best, information
+from carom.fitting.problem import FitProblem
 from carom.impacts.curves import REGIMES
 from carom.quantities.arrays import Array
 from carom.quantities.units import InputError, counted, nearest
-
-if TYPE_CHECKING:
-    from carom.fitting.result import Fit
-
 
 DEGREES = np.arange(1.0, 86.0)  # incidences that are considered
 MOST = 10_000  # further measurements that are worth a thought
@@ -29,7 +23,7 @@ HALF = 4.0  # the variance that is to be divided by
 
 
 @dataclass(frozen=True)
-class Place:
+class Incidence:
     """An incidence to measure at, and how often there would halve the interval by itself."""
 
     angle: float
@@ -47,15 +41,18 @@ class Advice:
     """
 
     parameter: str
-    places: tuple[Place, ...]
-    best: Place
+    places: tuple[Incidence, ...]
+    best: Incidence
     shorter: float
 
     def to_dict(self) -> dict[str, Any]:
         """Return the advice as plain numbers and texts; angles in rad."""
-        places = [vars(place) for place in self.places]
-        numbers = {"parameter": self.parameter, "shorter": self.shorter}
-        return {**numbers, "best": vars(self.best), "places": places}
+        return {
+            "parameter": self.parameter,
+            "shorter": self.shorter,
+            "best": vars(self.best),
+            "places": [vars(place) for place in self.places],
+        }
 
     def __str__(self) -> str:
         best = f"{np.degrees(self.best.angle):.0f} deg"
@@ -69,7 +66,7 @@ class Advice:
         return "\n".join([*lines, f"interval then: {self.shorter:.2f} of what it is now"])
 
 
-def advise(fit: "Fit", n: int, parameter: str | None) -> Advice:
+def advise(fit: FitRecord, n: int, parameter: str | None) -> Advice:
     """Return the n incidences that shorten the interval of a parameter most (c-optimal design).
 
     Expected Fisher information (Atkinson, Donev & Tobias 2007, chapter 10): one more impact at an
@@ -86,7 +83,9 @@ def advise(fit: "Fit", n: int, parameter: str | None) -> Advice:
     now = np.linalg.inv(matrix)[place, place]
     needed = [_needed(matrix, gain, place, now) for gain in gains]
     places = [
-        Place(float(np.radians(degrees)), regime, None if need > MOST else ceil(need - ROUNDING))
+        Incidence(
+            float(np.radians(degrees)), regime, None if need > MOST else ceil(need - ROUNDING)
+        )
         for degrees, regime, need in zip(DEGREES, regimes, needed, strict=True)
     ]
     chosen = []
@@ -100,7 +99,7 @@ def advise(fit: "Fit", n: int, parameter: str | None) -> Advice:
     return Advice(wanted, tuple(chosen), places[int(np.argmin(needed))], shorter)
 
 
-def _with_all(fit: "Fit") -> Best:
+def _with_all(fit: FitRecord) -> Best:
     """Return the fit with what could not be determined free again."""
     best = fit.best
     missing = tuple(
@@ -110,24 +109,11 @@ def _with_all(fit: "Fit") -> Best:
     )
     if not missing:
         return best
-    held = {name: value for name, value in best.model.held.items() if name not in missing}
-    model = Model(best.model.law, best.model.problem, (*best.model.free, *missing), held)
-    values = {name: float(v[0, 0]) for name, v in best.model.values(best.at[np.newaxis]).items()}
-    at = np.clip(model.coordinates(values), *model.bounds)
-    return Best(
-        model,
-        at,
-        best.sum,
-        best.weights,
-        best.loss,
-        best.sigma,
-        best.scale,
-        best.estimated,
-        best.rivals,
-    )
+    model = best.model.freeing(missing)
+    return replace(best, model=model, at=np.clip(model.coordinates(best.values), *model.bounds))
 
 
-def _wanted(fit: "Fit", best: Best, parameter: str | None) -> str:
+def _wanted(fit: FitRecord, best: Best, parameter: str | None) -> str:
     """Return the parameter that is advised on, by default the least certain in its coordinate."""
     free = best.model.free
     if parameter is None:
@@ -141,39 +127,18 @@ def _wanted(fit: "Fit", best: Best, parameter: str | None) -> str:
 
 def _candidates(best: Best) -> tuple[Array, list[str]]:
     """Return the information of one impact at each incidence, and its regime."""
-    old = best.model.problem
-    problem = _impacts(old)
-    model = Model(best.model.law, problem, best.model.free, best.model.held)
-    sigma = np.array([np.median(s[p]) for s, p in zip(best.sigma.T, old.present.T, strict=True)])
-    shape = problem.measured.shape
-    at = best.at[np.newaxis]
-    weights = weights_at(
-        model.law, problem, model.values(at), np.broadcast_to(sigma, shape), best.scale
-    )
-
-    def whitened(point: Array) -> Array:
-        return weights.whitened(problem, model.expected(point)).reshape(len(point), -1)
-
-    slopes = jacobian(whitened, at, whitened(at), model.bounds)[0].reshape(*shape, -1)
+    seen = best.model.problem
+    model = replace(best.model, problem=_impacts(seen))
+    sigma = np.array([np.median(s[p]) for s, p in zip(best.sigma.T, seen.present.T, strict=True)])
+    everywhere = np.broadcast_to(sigma, model.problem.measured.shape)
+    weights = model.weights(best.at, everywhere, best.scale)
+    slopes = information(model, best.at, weights, Loss(inf)).slopes
     gains = np.einsum("rjp,rjq->rpq", slopes, slopes) / best.spread
-    here = Best(
-        model,
-        best.at,
-        0.0,
-        weights,
-        best.loss,
-        sigma,
-        best.scale,
-        best.estimated,
-        best.rivals,
-    )
-    return gains, [REGIMES[index] for index in row_regimes(here)]
+    return gains, [REGIMES[index] for index in model.regimes(best.at)]
 
 
-def _impacts(problem: Problem) -> Problem:
+def _impacts(problem: FitProblem) -> FitProblem:
     """Return impacts at all incidences that are considered, as usual otherwise."""
-    from dataclasses import replace
-
     motion, count = problem.motion, len(DEGREES)
     speed = float(np.median(np.hypot(motion.normal_speed, motion.tangential_speed)))
     before = {"angle": np.radians(DEGREES), "speed": np.full(count, speed)}

@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.fitting.estimation import Best
 from carom.fitting.intervals import settle
-from carom.fitting.laws import EXACT, RIVALS, Law
+from carom.fitting.laws import EXACT, OFFSET, RIVALS, FittedLaw
 from carom.fitting.model import Model
 
 START = {"tangential_restitution": 0.4}  # of a solid sphere that sticks, about
@@ -18,7 +18,7 @@ CLEAR = 10.0  # from which one is out of the question
 
 
 @dataclass(frozen=True, eq=False)
-class Standing:
+class LawFit:
     """A law fitted: its criterion, how much it exceeds the least, parameters by name.
 
     `free` counts what was fitted, parameters and errors that were taken from the scatter.
@@ -37,12 +37,12 @@ class Standing:
 class Comparison:
     """Laws by Akaike's criterion on the same data, corrected for few values (AICc)."""
 
-    standings: tuple[Standing, ...]
+    standings: tuple[LawFit, ...]
 
-    def __getitem__(self, law: str) -> Standing:
+    def __getitem__(self, law: str) -> LawFit:
         return {each.law: each for each in self.standings}[law]
 
-    def __iter__(self) -> Iterator[Standing]:
+    def __iter__(self) -> Iterator[LawFit]:
         return iter(self.standings)
 
     @property
@@ -69,9 +69,9 @@ class Comparison:
         """Return the comparison as plain numbers, by law; what cannot be computed is None."""
         return {
             each.law: {
-                "aicc": _plain(each.criterion),
-                "excess": _plain(each.excess),
-                "weight": _plain(each.weight),
+                "aicc": finite_or_none(each.criterion),
+                "excess": finite_or_none(each.excess),
+                "weight": finite_or_none(each.weight),
                 "free": each.free,
                 "parameters": each.values,
             }
@@ -93,24 +93,17 @@ def compare(best: Best) -> Comparison:
     least = np.nanmin(criteria) if np.isfinite(criteria).any() else nan
     weights = np.exp(-0.5 * (criteria - least))
     weights /= np.nansum(weights)
+    numbers = zip(criteria.tolist(), (criteria - least).tolist(), weights.tolist(), strict=True)
     return Comparison(
         tuple(
-            Standing(
-                law=each.model.law.name,
-                criterion=float(value),
-                excess=float(value - least),
-                weight=float(weight),
-                free=_free(each),
-                values=_values(each),
-                best=each,
-            )
-            for each, value, weight in zip(fits, criteria, weights, strict=True)
+            LawFit(each.model.law.name, *known, _free(each), _values(each), each)
+            for each, known in zip(fits, numbers, strict=True)
         )
     )
 
 
 def criterion(best: Best) -> float:
-    """Return AICc = -2 log L + 2 k n/(n - k - 1) (Hurvich & Tsai 1989); infinite for few values.
+    """Return AICc = -2 log L + 2 k n/(n - k - 1) (Hurvich & Tsai 1989); NaN for few values.
 
     -2 log L is the sum of losses and the logarithm of the determinant of the covariances.
     """
@@ -123,27 +116,25 @@ def criterion(best: Best) -> float:
     return likelihood + 2.0 * free * values / (values - free - 1)
 
 
+def finite_or_none(value: float) -> float | None:
+    """Return a number for JSON, None for what it cannot hold."""
+    return value if isfinite(value) else None
+
+
 def _free(best: Best) -> int:
     return len(best.model.free) + int(best.estimated.sum() + (best.scale > 1.0).sum())
 
 
 def _values(best: Best) -> dict[str, float]:
-    values = best.model.values(best.at[np.newaxis])
-    offset = "spin_offset" in best.model.free
-    names = [parameter.name for parameter in best.model.law.parameters]
-    return {name: float(values[name][0, 0]) for name in [*names, *["spin_offset"] * offset]}
+    """Return the parameters of a law, and the offset of the spin if it was fitted."""
+    offset = (OFFSET,) if OFFSET in best.model.free else ()
+    values = best.values
+    return {name: values[name] for name in (*best.model.law.names, *offset)}
 
 
-def _rival(law: Law, best: Best) -> Best:
+def _rival(law: FittedLaw, best: Best) -> Best:
     """Return another law fitted to the same data."""
     held = best.model.held
-    own = [parameter.name for parameter in law.parameters if parameter.name not in held]
-    free = (*own, *(("spin_offset",) if "spin_offset" in best.model.free else ()))
+    free = tuple(name for name in (*law.names, OFFSET) if name not in held)
     model = Model(law, best.model.problem, free, held)
-    values = best.model.values(best.at[np.newaxis])
-    start = {name: float(value[0, 0]) for name, value in values.items()}
-    return settle(model, best.loss, {**START, **start}).best
-
-
-def _plain(value: float) -> float | None:
-    return value if isfinite(value) else None
+    return settle(model, best.loss, START | best.values).best

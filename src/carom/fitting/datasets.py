@@ -1,16 +1,17 @@
 """A fit as one labelled dataset: data, curves, residuals, intervals, laws."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from carom.dimensionless.rebounds import regime_borders
+from carom.fitting.estimates import FitRecord
 from carom.fitting.estimation import Best
-from carom.fitting.interpolation import borders
-from carom.fitting.intervals import rise_of, row_regimes
-from carom.fitting.laws import Motion, half_ratio, predicted
+from carom.fitting.intervals import rise_of
+from carom.fitting.laws import IncomingMotion, half_ratio
 from carom.fitting.least_squares import jacobian
-from carom.fitting.model import Model
-from carom.fitting.problem import Problem
+from carom.fitting.problem import FitProblem
 from carom.impacts.curves import REGIMES
 from carom.io.labels import flags, labelled_dataset
 from carom.quantities.arrays import Array
@@ -18,29 +19,27 @@ from carom.quantities.arrays import Array
 if TYPE_CHECKING:
     import xarray as xr
 
-    from carom.fitting.result import Fit
-
-
 SMOOTH = 241  # points of a curve
 BEYOND = np.radians(4.0)  # how far curves go beyond the data
 STEEPEST = np.radians(88.0)
+OWN = "in the unit of the response"
+WIDE, ALONG = ("row", "response"), ("curve", "response")
 
 
-def fit_dataset(fit: "Fit") -> "xr.Dataset":
+def fit_dataset(fit: FitRecord) -> "xr.Dataset":
     """Return a fit as a dataset along row, response, curve, law and parameter.
 
     Responses are in SI units, which `response_unit` names; incidences are those of the contact
     point, tan = V_x/V_n, in rad.
     """
-    best = fit.best
-    problem = best.model.problem
-    variables = {**_rows(best), **_curves(fit), **_parameters(fit)}
+    problem = fit.best.model.problem
+    variables = {**_rows(fit.best), **_curves(fit), **_parameters(fit)}
     coords = {
-        "row": ("row", problem.rows.rows, {"long_name": f"{problem.rows.word} of the data"}),
-        "response": ("response", list(problem.responses), {"long_name": "what was measured"}),
-        "law": ("law", [each.law for each in fit.comparison], {"long_name": "law of rebound"}),
-        "parameter": ("parameter", list(fit.estimates), {"long_name": "parameter"}),
-        "regime_border": ("regime_border", list(REGIMES[1:]), {"long_name": "regime from here on"}),
+        "row": _named("row", problem.rows.rows, f"{problem.rows.word} of the data"),
+        "response": _named("response", list(problem.responses), "what was measured"),
+        "law": _named("law", [each.law for each in fit.comparison], "law of rebound"),
+        "parameter": _named("parameter", list(fit.estimates), "parameter"),
+        "regime_border": _named("regime_border", list(REGIMES[1:]), "regime from here on"),
     }
     attrs = {
         "title": "parameters from measured rebounds",
@@ -52,70 +51,51 @@ def fit_dataset(fit: "Fit") -> "xr.Dataset":
     return labelled_dataset(variables, coords, attrs)
 
 
+def _named(
+    dims: str | Sequence[str], values: Any, words: str, unit: str = ""
+) -> tuple[Any, Any, dict[str, str]]:
+    """Return a variable with its meaning, and its unit if it has one of its own."""
+    return dims, values, ({"units": unit} if unit else {}) | {"long_name": words}
+
+
 def _rows(best: Best) -> dict[str, Any]:
-    problem = best.model.problem
-    wide = ("row", "response")
-    expected = best.model.expected(best.at[np.newaxis])[0]
+    problem, expected = best.model.problem, best.expected
     factors = best.weights.factors
     covariance = np.linalg.inv(np.einsum("rji,rjk->rik", factors, factors))
-    error = np.sqrt(np.einsum("rjj->rj", covariance))
-    present = problem.present
-    own = "in the unit of the response"
+    error = np.where(problem.present, np.sqrt(np.einsum("rjj->rj", covariance)), np.nan)
+    residual = np.where(problem.present, problem.measured - expected, np.nan)
     angle = np.arctan2(problem.contact_velocity, problem.motion.normal_speed)
-    residual = np.where(present, problem.measured - expected, np.nan)
+    deviation = f"standard deviation with the part of the motion before, {OWN}"
     return {
-        "incidence": ("row", angle, {"units": "rad", "long_name": "incidence of contact point"}),
-        "measured": (wide, problem.measured, {"long_name": f"what was measured, {own}"}),
-        "error": (
-            wide,
-            np.where(present, error, np.nan),
-            {"long_name": f"standard deviation with the part of the motion before, {own}"},
-        ),
-        "expected": (wide, expected, {"long_name": f"what the fit gives, {own}"}),
-        "residual": (wide, residual, {"long_name": f"measured less expected, {own}"}),
-        "regime": ("row", row_regimes(best), flags(REGIMES)),
+        "incidence": _named("row", angle, "incidence of contact point", "rad"),
+        "measured": _named(WIDE, problem.measured, f"what was measured, {OWN}"),
+        "error": _named(WIDE, error, deviation),
+        "expected": _named(WIDE, expected, f"what the fit gives, {OWN}"),
+        "residual": _named(WIDE, residual, f"measured less expected, {OWN}"),
+        "regime": ("row", best.model.regimes(best.at), flags(REGIMES)),
     }
 
 
-def _curves(fit: "Fit") -> dict[str, Any]:
+def _curves(fit: FitRecord) -> dict[str, Any]:
     best = fit.best
-    model, problem = best.model, best.model.problem
-    angles, motion = _usual(problem)
-    lines = [
-        predicted(
-            each.best.model.law,
-            problem.pair,
-            motion,
-            each.best.model.values(each.best.at[np.newaxis]),
-            problem.responses,
-        )[0]
-        for each in fit.comparison
-    ]
+    angles, motion = _usual(best.model.problem)
+    fits = [each.best for each in fit.comparison]
+    lines = [each.model.expected(each.at[np.newaxis], motion)[0] for each in fits]
     half_width = _band(fit, motion)
-    values = model.values(best.at[np.newaxis])
-    mu, kappa, e = (float(values[name][0, 0]) for name in ("friction", "kappa", "restitution"))
-    psi = borders(half_ratio(problem.pair) * kappa, e)[1:]
-    words = {"units": "rad", "long_name": "incidence of the contact point at which a regime starts"}
-    own = "in the unit of the response"
-    wide = ("curve", "response")
+    mu, kappa, e = (best.values[name] for name in ("friction", "kappa", "restitution"))
+    psi = regime_borders(half_ratio(best.model.problem.pair) * kappa, e)
+    border = np.arctan(mu / kappa * psi)
+    words = "incidence of the contact point at which a regime starts"
     return {
-        "curve_incidence": (
-            "curve",
-            angles,
-            {"units": "rad", "long_name": "incidence of contact point"},
-        ),
-        "curve_expected": (
-            ("law", *wide),
-            np.stack(lines),
-            {"long_name": f"what laws give, {own}"},
-        ),
-        "curve_low": (wide, lines[0] - half_width, {"long_name": f"lower end of the band, {own}"}),
-        "curve_high": (wide, lines[0] + half_width, {"long_name": f"upper end of the band, {own}"}),
-        "border": ("regime_border", np.arctan(mu / kappa * psi), words),
+        "curve_incidence": _named("curve", angles, "incidence of contact point", "rad"),
+        "curve_expected": _named(("law", *ALONG), np.stack(lines), f"what laws give, {OWN}"),
+        "curve_low": _named(ALONG, lines[0] - half_width, f"lower end of the band, {OWN}"),
+        "curve_high": _named(ALONG, lines[0] + half_width, f"upper end of the band, {OWN}"),
+        "border": _named("regime_border", border, words, "rad"),
     }
 
 
-def _usual(problem: Problem) -> tuple[Array, Motion]:
+def _usual(problem: FitProblem) -> tuple[Array, IncomingMotion]:
     """Return incidences over the range of the data and the motion there, at the usual speed."""
     normal, velocity = problem.motion.normal_speed, problem.contact_velocity
     seen = np.arctan2(velocity, normal)
@@ -129,41 +109,32 @@ def _usual(problem: Problem) -> tuple[Array, Motion]:
     else:
         along = np.full(angles.size, float(np.median(normal)))
     nothing = np.zeros(angles.size)
-    return angles, Motion(along, along * np.tan(angles), nothing, nothing)
+    return angles, IncomingMotion(along, along * np.tan(angles), nothing, nothing)
 
 
-def _band(fit: "Fit", motion: Motion) -> Array:
+def _band(fit: FitRecord, motion: IncomingMotion) -> Array:
     """Return half the width of the band of the curve, to first order in the parameters."""
     best = fit.best
-    model: Model = best.model
-    names = model.problem.responses
+    model = best.model
 
     def lines(at: Array) -> Array:
-        seen = predicted(model.law, model.problem.pair, motion, model.values(at), names)
-        return seen.reshape(len(at), -1)
+        return model.expected(at, motion).reshape(len(at), -1)
 
     at = best.at[np.newaxis]
     slopes = jacobian(lines, at, lines(at), model.bounds)[0]
     variance = np.einsum("mp,pq,mq->m", slopes, best.information.covariance, slopes)
     rise = float((best.caution * rise_of(fit.confidence, best.freedom)).max())
-    return np.asarray(np.sqrt(best.spread * rise * variance).reshape(-1, len(names)))
+    half_width = np.sqrt(best.spread * rise * variance)
+    return np.asarray(half_width.reshape(-1, len(model.problem.responses)))
 
 
-def _parameters(fit: "Fit") -> dict[str, Any]:
+def _parameters(fit: FitRecord) -> dict[str, Any]:
     each = list(fit.estimates.values())
-    words = {"long_name": "why it is not determined"}
+    criteria = [law.criterion for law in fit.comparison]
     return {
-        "value": ("parameter", [e.value for e in each], {"long_name": "value, SI"}),
-        "low": ("parameter", [e.low for e in each], {"long_name": "lower end of the interval, SI"}),
-        "high": (
-            "parameter",
-            [e.high for e in each],
-            {"long_name": "upper end of the interval, SI"},
-        ),
-        "reason": ("parameter", [e.reason for e in each], words),
-        "aicc": (
-            "law",
-            [s.criterion for s in fit.comparison],
-            {"units": "1", "long_name": "Akaike's criterion, corrected"},
-        ),
+        "value": _named("parameter", [e.value for e in each], "value, SI"),
+        "low": _named("parameter", [e.low for e in each], "lower end of the interval, SI"),
+        "high": _named("parameter", [e.high for e in each], "upper end of the interval, SI"),
+        "reason": _named("parameter", [e.reason for e in each], "why it is not determined"),
+        "aicc": _named("law", criteria, "Akaike's criterion, corrected", "1"),
     }

@@ -1,23 +1,27 @@
-"""Errors of what is measured: covariances row by row, whitened residuals, and a robust loss."""
+"""Errors of what is measured: a robust loss, weights, and errors that come from the scatter."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from carom.fitting.laws import Law, Values, predicted
-from carom.fitting.problem import Problem
+from carom.fitting.problem import FitProblem, Mask
 from carom.quantities.arrays import Array
+
+NORMAL = np.linspace(-10.0, 10.0, 2001)  # where means over a normal distribution are taken
+SURE = 3.09  # standard deviations beyond which errors that were given are called too small
+RESOLVED = 1e-4  # of the largest measured value: errors below are those of the curves
 
 
 @dataclass(frozen=True)
-class SoftL1:
+class Loss:
     """Loss 2 c^2 (sqrt(1 + (r/c)^2) - 1) of a residual r in standard deviations.
 
     r^2 for small r, 2 c |r| for outliers (Charbonnier et al. 1997; scipy's soft_l1). With c = 2 it
-    keeps 97 % of the efficiency where errors are Gaussian.
+    keeps 97 % of the efficiency where errors are Gaussian; with c infinite it is r^2, maximum
+    likelihood for them.
     """
 
-    c: float = 2.0
+    c: float
 
     def root(self, residual: Array) -> Array:
         """Return the residual whose square is the loss, of the same sign."""
@@ -33,33 +37,10 @@ class SoftL1:
         return np.asarray((1.0 + (residual / self.c) ** 2) ** -1.5)
 
 
-@dataclass(frozen=True)
-class Squares:
-    """Loss r^2: maximum likelihood for Gaussian errors."""
-
-    def root(self, residual: Array) -> Array:
-        """Return the residual."""
-        return residual
-
-    def influence(self, residual: Array) -> Array:
-        """Return the residual."""
-        return residual
-
-    def slope(self, residual: Array) -> Array:
-        """Return one."""
-        return np.ones_like(residual)
-
-
-Loss = SoftL1 | Squares
-
-
-def gaussian_mean(values: Array, at: Array) -> float:
-    """Return the mean of a function, given at points, over a standard normal distribution."""
-    density = np.exp(-0.5 * at**2)
+def gaussian_mean(values: Array) -> float:
+    """Return the mean of a function, given at NORMAL, over a standard normal distribution."""
+    density = np.exp(-0.5 * NORMAL**2)
     return float((values * density).sum() / density.sum())
-
-
-NORMAL = np.linspace(-10.0, 10.0, 2001)  # where such means are taken
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,29 +49,58 @@ class Weights:
 
     factors: Array
 
-    def whitened(self, problem: Problem, expected: Array) -> Array:
+    def whitened(self, problem: FitProblem, expected: Array) -> Array:
         """Return the residuals in standard deviations, 0 where nothing was measured."""
         residual = np.where(problem.present, problem.measured - expected, 0.0)
         return np.asarray(np.einsum("rij,brj->bri", self.factors, residual))
 
 
-def weights_at(law: Law, problem: Problem, values: Values, sigma: Array, scale: Array) -> Weights:
-    """Return the weights where the parameters are these, a batch of one.
+def first_errors(problem: FitProblem) -> Array:
+    """Return errors to begin with where none are known: a part of the spread of each response."""
+    spread = np.nanstd(problem.measured, axis=0)
+    return np.asarray(0.1 * spread + least_error(problem))
 
-    Covariance of the responses of a row: S (diag(sigma^2) + sum_x d_x d_x^T) S, with d_x half the
-    difference of the responses when a column x of the motion before goes one standard deviation up
-    and down (effective variance; Orear 1982), and S the factors by which given errors are too
-    small. `sigma` has the shape (rows, responses), `scale` (responses,).
+
+def least_error(problem: FitProblem) -> Array:
+    """Return the error of each response that the curves have themselves."""
+    return np.asarray(RESOLVED * np.nanmax(np.abs(problem.measured), axis=0) + 1e-12)
+
+
+def scatter(residuals: Array, present: Mask, used: Array, loss: Loss) -> Array:
+    """Return by how much the scatter of each response exceeds its errors (Huber's proposal 2)."""
+    wanted = gaussian_mean(loss.influence(NORMAL) ** 2)
+    factors = np.ones(len(used))
+    for place, (column, there) in enumerate(zip(residuals.T, present.T, strict=True)):
+        if np.any(column[there]):
+            kept = max(1.0 - used[place] / there.sum(), 0.05)
+            factors[place] = _factor(column[there], loss, wanted * kept)
+    return factors
+
+
+def _factor(residuals: Array, loss: Loss, wanted: float) -> float:
+    """Return what residuals are to be divided by for their mean square influence to be this."""
+    factor = 1.0
+    for _ in range(50):
+        mean = float(np.mean(loss.influence(residuals / factor) ** 2))
+        step = np.sqrt(mean / wanted)
+        factor *= float(step)
+        if abs(step - 1.0) < 1e-5:
+            break
+    return factor
+
+
+def typical_deviation(residuals: Array, present: Mask) -> Array:
+    """Return the median deviation of each response, in its errors; few outliers do not move it."""
+    shown = np.where(present, np.abs(residuals), np.nan)
+    return np.asarray(np.nanmedian(shown, axis=0) / 0.6745)
+
+
+def too_small(present: Mask, factors: Array, typical: Array) -> Mask:
+    """Tell which scatter is larger than errors that were given allow.
+
+    Chi squared (Wilson & Hilferty 1931) and the median deviation (Huber 1981, section 5.1) must
+    both say so: not a few outliers, but most of the values.
     """
-    shape = problem.measured.shape
-    covariance = np.einsum(
-        "rj,jk->rjk", np.where(problem.present, sigma, 1.0) ** 2, np.eye(shape[1])
-    )
-    for up, down in problem.shaken:
-        high, low = (
-            predicted(law, problem.pair, m, values, problem.responses)[0] for m in (up, down)
-        )
-        reach = np.where(problem.present, 0.5 * (high - low), 0.0)
-        covariance += reach[:, :, np.newaxis] * reach[:, np.newaxis, :]
-    factors = np.linalg.inv(np.linalg.cholesky(covariance))
-    return Weights(factors / scale)
+    counts = np.maximum(present.sum(axis=0), 1)
+    bound = (1.0 - 2.0 / (9.0 * counts) + SURE * np.sqrt(2.0 / (9.0 * counts))) ** 1.5
+    return np.asarray((factors > bound) & (typical > 1.0 + SURE * 1.17 / np.sqrt(counts)))

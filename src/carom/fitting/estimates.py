@@ -1,7 +1,13 @@
-"""A fitted parameter: value, interval, or why there is none."""
+"""What a fit found: parameters with intervals, or why there is none, and what else is known."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
 from math import floor, inf, isfinite, isnan, log10, nan
+from typing import Any
+
+from carom.fitting.comparison import Comparison, compare, finite_or_none
+from carom.fitting.estimation import Best
 
 LIMITS = {  # what a parameter can be at all
     "friction": (0.0, inf),
@@ -46,6 +52,11 @@ class Estimate:
         lowest, highest = LIMITS[self.name]
         return self.determined and (self.low == lowest or self.high == highest)
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return value, ends and reason as plain numbers and texts; what is open is None."""
+        numbers = {name: finite_or_none(getattr(self, name)) for name in ("value", "low", "high")}
+        return {**numbers, "determined": self.determined, "reason": self.reason}
+
     def __str__(self) -> str:
         lowest, highest = LIMITS[self.name]
         unit = f" {UNITS[self.name]}" if self.name in UNITS else ""
@@ -60,6 +71,22 @@ class Estimate:
         digits = significant(self.value, self.high - self.low)
         low, value, high = (f"{each:.{digits}g}" for each in (self.low, self.value, self.high))
         return f"{value}{unit} ({low} to {high})"
+
+
+@dataclass(frozen=True, eq=False)
+class FitRecord:
+    """What a fit found, as data: the parameters by name, rows by regime, notes, the best fit."""
+
+    estimates: Mapping[str, Estimate]
+    confidence: float
+    regimes: Mapping[str, int]
+    notes: tuple[str, ...]
+    best: Best = field(repr=False)
+
+    @cached_property
+    def comparison(self) -> Comparison:
+        """Akaike's criterion of the exact law, rigid Coulomb and Walton's, on the same data."""
+        return compare(self.best)
 
 
 def significant(value: float, width: float) -> int:

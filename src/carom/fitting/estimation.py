@@ -1,4 +1,4 @@
-"""The best fit: where to start, the errors from the scatter, lmfit at the end."""
+"""The best fit: a scan for where to start, descents from there, and lmfit at the end."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -6,21 +6,28 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.fitting.errors import NORMAL, Loss, Weights, gaussian_mean, weights_at
+from carom.fitting.errors import (
+    NORMAL,
+    Loss,
+    Weights,
+    first_errors,
+    gaussian_mean,
+    least_error,
+    scatter,
+    too_small,
+    typical_deviation,
+)
 from carom.fitting.least_squares import Minimum, descend, jacobian
 from carom.fitting.model import Model
-from carom.fitting.problem import Problem
+from carom.fitting.problem import FitProblem, Mask
 from carom.io.extras import extra
 from carom.quantities.arrays import Array
 
 WEAK = 0.3  # standard deviations by which a coordinate changes the values, too few to tell
 STARTS = 6  # starting points that are followed to the end
 TURNS = 8  # times that errors are estimated and the fit is made anew
-SURE = 3.09  # standard deviations beyond which errors that were given are called too small
-RESOLVED = 1e-4  # of the largest measured value: errors below are those of the curves
-FINE = {"friction": 25, "kappa": 12, "tangential_restitution": 9, "restitution": 4}
+FINE = {"friction": 25, "kappa": 12, "tangential_restitution": 9}  # levels of the scan
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,15 +83,24 @@ class Best:
     loss: Loss
     sigma: Array
     scale: Array
-    estimated: NDArray[np.bool_]
+    estimated: Mask
     rivals: Minimum
     result: Any = None
 
     @property
+    def values(self) -> dict[str, float]:
+        """Values of all parameters."""
+        return self.model.values_at(self.at)
+
+    @property
+    def expected(self) -> Array:
+        """The responses that the fit gives, of shape (rows, responses)."""
+        return np.asarray(self.model.expected(self.at[np.newaxis])[0])
+
+    @property
     def residuals(self) -> Array:
         """Residuals in standard deviations, of shape (rows, responses), 0 where not measured."""
-        expected = self.model.expected(self.at[np.newaxis])
-        return np.asarray(self.weights.whitened(self.model.problem, expected)[0])
+        return np.asarray(self.weights.whitened(self.model.problem, self.expected[np.newaxis])[0])
 
     @cached_property
     def information(self) -> Information:
@@ -125,8 +141,8 @@ class Best:
 
         E[influence^2]/E[slope] (Huber 1981, section 7.6): 1 for squares.
         """
-        influence = gaussian_mean(self.loss.influence(NORMAL) ** 2, NORMAL)
-        expected = gaussian_mean(self.loss.slope(NORMAL), NORMAL)
+        influence = gaussian_mean(self.loss.influence(NORMAL) ** 2)
+        expected = gaussian_mean(self.loss.slope(NORMAL))
         found = self.loss.slope(self.residuals[self.model.problem.present])
         return influence / min(expected, float(found.mean()))
 
@@ -140,36 +156,38 @@ def estimate(model: Model, loss: Loss, start: Array | None = None) -> Best:
     problem = model.problem
     unknown = problem.present & ~np.isfinite(problem.errors)
     estimated = np.asarray(unknown.any(axis=0))
-    sigma = np.where(unknown, _first_errors(problem), problem.errors)
+    sigma = np.where(unknown, first_errors(problem), problem.errors)
     scale = np.ones(len(problem.responses))
     at = scan(model, loss, sigma) if start is None else start
     rivals = Minimum(at, np.zeros(len(at)))
     for turn in range(TURNS):
-        weights = weights_at(model.law, problem, model.values(at[:1]), sigma, scale)
-        residuals = model.residuals(weights, loss)
-        found = descend(residuals, at, model.bounds)
+        weights = model.weights(at[0], sigma, scale)
+        found = descend(model.residuals(weights, loss), at, model.bounds)
         order = np.argsort(found.sums)
-        at, sums = found.at[order], found.sums[order]
+        at = found.at[order]
         if turn == 0:
-            rivals = Minimum(at, sums)
-            at, sums = at[:2], sums[:2]
-        factors = _scatter(model, at[:1], weights, loss)
-        sigma = np.where(unknown, np.maximum(sigma * factors, _least(problem)), sigma)
+            rivals = Minimum(at, found.sums[order])
+            at = at[:2]
+        residuals = weights.whitened(problem, model.expected(at[:1]))[0]
+        used = information(model, at[0], weights, loss).used
+        factors = scatter(residuals, problem.present, used, loss)
+        sigma = np.where(unknown, np.maximum(sigma * factors, least_error(problem)), sigma)
         given = np.where(estimated, 1.0, np.maximum(scale * factors, 1.0))
-        common = scale * _typical(model, at[:1], weights)
-        scale = np.where(_significant(problem, given, common), given, 1.0)
+        common = scale * typical_deviation(residuals, problem.present)
+        scale = np.where(too_small(problem.present, given, common), given, 1.0)
         if np.all(np.abs(factors[estimated] - 1.0) < 1e-3) and turn:
             break
-    weights = weights_at(model.law, problem, model.values(at[:1]), sigma, scale)
-    at, result = polished(model, weights, loss, at[0])
-    total = float(np.square(model.residuals(weights, loss)(at[None])).sum())
-    return Best(model, at, total, weights, loss, sigma, scale, estimated, rivals, result)
+    weights = model.weights(at[0], sigma, scale)
+    best, result = polished(model, weights, loss, at[0])
+    total = float(np.square(model.residuals(weights, loss)(best[np.newaxis])).sum())
+    return Best(model, best, total, weights, loss, sigma, scale, estimated, rivals, result)
 
 
 def scan(model: Model, loss: Loss, sigma: Array) -> Array:
     """Return a few starting points: the best of a grid over the ranges, unlike each other."""
     grid = np.array(list(product(*(_levels(model, name) for name in model.free))))
-    weights = Weights(_diagonal(model.problem, sigma))
+    inverse = 1.0 / np.where(model.problem.present, sigma, 1.0)
+    weights = Weights(inverse[:, :, np.newaxis] * np.eye(sigma.shape[1]))
     sums = np.square(model.residuals(weights, loss)(grid)).sum(axis=1)
     chosen: list[int] = []
     apart = np.array([max(np.ptp(column), 1e-9) for column in grid.T]) / 8.0
@@ -202,18 +220,18 @@ def polished(model: Model, weights: Weights, loss: Loss, at: Array) -> tuple[Arr
 
 def _levels(model: Model, name: str) -> Array:
     """Return the coordinates of a parameter in the scan."""
-    place = model.free.index(name)
-    low, high = model.bounds.low[place], model.bounds.high[place]
-    if name not in FINE:
-        return np.zeros(1)
-    if name == "friction":
-        low, high = np.log(5e-3), np.log(3.0)
     if name == "restitution":
         return _likely_restitutions(model.problem)
+    if name not in FINE:
+        return np.zeros(1)
+    place = model.free.index(name)
+    low, high = model.bounds.low[place], model.bounds.high[place]
+    if name == "friction":
+        low, high = np.log(5e-3), np.log(3.0)
     return np.linspace(low, high, FINE[name] + 2)[1:-1]
 
 
-def _likely_restitutions(problem: Problem) -> Array:
+def _likely_restitutions(problem: FitProblem) -> Array:
     """Return normal restitutions to start from: what was measured, or a few."""
     measured = dict(zip(problem.responses, problem.measured.T, strict=True))
     if "normal_restitution" in measured:
@@ -223,62 +241,3 @@ def _likely_restitutions(problem: Problem) -> Array:
     else:
         return np.array([0.6, 0.8, 0.95])
     return np.clip([float(np.nanmedian(found))], 0.35, 0.999)
-
-
-def _first_errors(problem: Problem) -> Array:
-    """Return errors to begin with where none are known: a part of the spread of each response."""
-    spread = np.nanstd(problem.measured, axis=0)
-    return np.asarray(0.1 * spread + _least(problem))
-
-
-def _least(problem: Problem) -> Array:
-    return np.asarray(RESOLVED * np.nanmax(np.abs(problem.measured), axis=0) + 1e-12)
-
-
-def _diagonal(problem: Problem, sigma: Array) -> Array:
-    inverse = 1.0 / np.where(problem.present, sigma, 1.0)
-    return np.asarray(np.einsum("rj,jk->rjk", inverse, np.eye(sigma.shape[1])))
-
-
-def _scatter(model: Model, at: Array, weights: Weights, loss: Loss) -> Array:
-    """Return by how much the scatter of each response exceeds its errors (Huber's proposal 2)."""
-    problem = model.problem
-    residuals = weights.whitened(problem, model.expected(at))[0]
-    wanted = gaussian_mean(loss.influence(NORMAL) ** 2, NORMAL)
-    used = information(model, at[0], weights, loss).used
-    factors = np.ones(residuals.shape[1])
-    for place, (column, there) in enumerate(zip(residuals.T, problem.present.T, strict=True)):
-        if np.any(column[there]):
-            kept = max(1.0 - used[place] / there.sum(), 0.05)
-            factors[place] = _factor(column[there], loss, wanted * kept)
-    return factors
-
-
-def _factor(residuals: Array, loss: Loss, wanted: float) -> float:
-    """Return what residuals are to be divided by for their mean square influence to be this."""
-    factor = 1.0
-    for _ in range(50):
-        mean = float(np.mean(loss.influence(residuals / factor) ** 2))
-        step = np.sqrt(mean / wanted)
-        factor *= float(step)
-        if abs(step - 1.0) < 1e-5:
-            break
-    return factor
-
-
-def _typical(model: Model, at: Array, weights: Weights) -> Array:
-    """Return the median deviation of each response, in its errors; few outliers do not move it."""
-    residuals = weights.whitened(model.problem, model.expected(at))[0]
-    shown = np.where(model.problem.present, np.abs(residuals), np.nan)
-    return np.asarray(np.nanmedian(shown, axis=0) / 0.6745)
-
-
-def _significant(problem: Problem, factors: Array, typical: Array) -> Any:
-    """Tell which scatter is larger than errors that were given allow.
-
-    Chi squared (Wilson & Hilferty 1931) and the median deviation (Huber 1981, section 5.1) must
-    both say so: not a few outliers, but most of the values.
-    """
-    counts = np.maximum(problem.present.sum(axis=0), 1)
-    bound = (1.0 - 2.0 / (9.0 * counts) + SURE * np.sqrt(2.0 / (9.0 * counts))) ** 1.5
-    return (factors > bound) & (typical > 1.0 + SURE * 1.17 / np.sqrt(counts))

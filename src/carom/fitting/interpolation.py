@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.rebounds import regime_borders
 from carom.quantities.arrays import Array
-
-Indices = NDArray[np.int64]
 
 TABLE = "data/fit_curves.npz"  # made by studies/fit_curves.py
 PANELS, NODES = 4, 33  # of a curve; nodes even in arccos, for roots at the kinks
@@ -24,12 +23,9 @@ THROUGHOUT = PANELS - 1  # the regime of gross slip throughout
 
 
 def borders(chi: Any, restitution: Any) -> Array:
-    """Return |psi_1| where panels begin, along a new last axis: 0, 1, 2 chi, 4 chi - 1 for e = 1.
-
-    With losses the last is 2 chi (1 + e) - e, where slip in gross just ends with the contact.
-    """
-    top = np.maximum(2.0 * chi * (1.0 + restitution) - restitution, 1.0)
-    return np.stack((0.0 * top, 0.0 * top + 1.0, 0.5 + 0.5 * top, top), axis=-1)
+    """Return |psi_1| where panels begin, along a new last axis: 0 and the borders of regimes."""
+    edges = regime_borders(chi, restitution)
+    return np.concatenate((np.zeros_like(edges[..., :1]), edges), axis=-1)
 
 
 def psi_out(psi: Array, chi: Array, restitution: Array) -> Array:
@@ -49,7 +45,7 @@ def psi_out(psi: Array, chi: Array, restitution: Array) -> Array:
 
 def regimes(psi: Array, chi: float, restitution: float) -> NDArray[np.int8]:
     """Return the place of the regime of each psi_1 in `carom.impacts.curves.REGIMES`."""
-    ends = borders(chi, restitution)[1:]
+    ends = regime_borders(chi, restitution)
     return np.searchsorted(ends, np.abs(psi), side="right").astype(np.int8)
 
 

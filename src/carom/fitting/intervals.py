@@ -1,147 +1,135 @@
-"""Intervals by profile likelihood: how far a parameter can go, the others following it."""
+"""Intervals by profile likelihood, and which parameters the data do not determine."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from scipy.special import ndtri, stdtrit
 
 from carom.fitting.errors import Loss
 from carom.fitting.estimation import WEAK, Best, Information, estimate
-from carom.fitting.interpolation import THROUGHOUT, regimes
-from carom.fitting.laws import half_ratio
+from carom.fitting.interpolation import THROUGHOUT
+from carom.fitting.laws import OFFSET
 from carom.fitting.least_squares import descend
-from carom.fitting.model import OFFSET, Model
+from carom.fitting.model import Model
+from carom.fitting.problem import Mask
 from carom.quantities.arrays import Array
 
-Mask = NDArray[np.bool_]
+TRIES = 4  # better fits that the search for the ends may meet
 FIRST = 4.0  # parts of the range in which an open side is searched for, at first
+ROUNDS, CLOSE = 16, 2e-3  # at most; of the distance at which the loss has risen enough
 HELD_FIRST = (OFFSET, "restitution", "tangential_restitution", "kappa", "friction")
 EXAMPLES = {"restitution": 0.98, "kappa": 0.82, "friction": 0.1, OFFSET: 0.0}
 MEMBER = 0.25  # part of a direction that a parameter of a group has at least
 WORSE = 0.5  # rise of the loss at which a starting value contradicts the data
-ROUNDS, CLOSE = 16, 2e-3  # at most; of the distance at which the loss has risen enough
 
 
 @dataclass(frozen=True, eq=False)
-class Profile:
-    """The ends of the intervals: coordinates (parameters, 2, parameters), low end first.
+class ProfiledFit:
+    """A fit, and the ends of its intervals: coordinates (parameters, 2, parameters), low end first.
 
-    `open` tells where the loss did not rise enough up to the end of the range. `better` is a point
-    with a smaller loss than the fit, if one was met.
+    `open` tells where the loss did not rise enough up to the end of the range.
     """
-
-    ends: Array
-    open: Mask
-    rise: Array
-    better: Array | None
-
-
-@dataclass(eq=False)
-class _Search:
-    """Both ends of every parameter at once: each is a problem of a batch."""
 
     best: Best
-    bounds: Array  # rise of the loss at the ends, of shape (batch,)
-
-    @cached_property
-    def which(self) -> NDArray[np.int64]:
-        return np.repeat(np.arange(self.count), 2)
-
-    @cached_property
-    def sides(self) -> Array:
-        return np.tile([-1.0, 1.0], self.count)
-
-    @property
-    def count(self) -> int:
-        return len(self.best.at)
-
-    @cached_property
-    def limits(self) -> Array:
-        low, high = self.best.model.bounds
-        return np.where(self.sides < 0.0, low[self.which], high[self.which])
-
-    @cached_property
-    def directions(self) -> Array:
-        """How all coordinates go along with one, to first order, of shape (batch, parameters)."""
-        covariance = self.best.information.covariance[self.which]
-        own = np.take_along_axis(covariance, self.which[:, np.newaxis], axis=1)
-        return np.asarray(covariance / own)
-
-    def follow(self, start: Array) -> tuple[Array, Array]:
-        """Return where the others go, and the root of the rise of the loss over its bound."""
-        best = self.best
-        free = np.arange(self.count) != self.which[:, np.newaxis]
-        residuals = best.model.residuals(best.weights, best.loss)
-        found = descend(residuals, start, best.model.bounds, free)
-        return found.at, (found.sums - best.sum) / self.bounds
+    ends: Array
+    open: Mask
 
 
-def profile(best: Best, quantiles: Array) -> Profile:
-    """Return the ends of the intervals of all parameters.
+def profiled(best: Best, confidence: float) -> ProfiledFit:
+    """Return a fit with the ends of its intervals, or a better fit if the search meets one.
 
-    The loss may rise by the spread of the loss times a quantile of chi squared, or of F.
+    The loss may rise by its spread times a quantile of chi squared, or of F.
     """
-    search = _Search(best, np.repeat(best.spread * quantiles, 2))
-    which, sides, limits = search.which, search.sides, search.limits
-    own = best.at[which]
-    deviation = np.sqrt(np.diag(best.information.covariance))[which]
-    width = np.sqrt(search.bounds) * deviation
-    low, high = best.model.bounds
-    width = np.minimum(width, ((high - low) / FIRST)[which])
-    target = _within(own + sides * width, limits, sides)
-    inside, outside = np.zeros(len(own)), np.full(len(own), np.inf)  # distances from the fit
-    root_in, root_out = np.zeros(len(own)), np.full(len(own), np.inf)
-    at = np.repeat(best.at[np.newaxis], len(own), axis=0)
-    ends, done, rise = at.copy(), np.zeros(len(own), dtype=bool), np.zeros(len(own))
-    for _ in range(ROUNDS):
-        start = at + search.directions * (target - at[np.arange(len(own)), which])[:, np.newaxis]
-        start[np.arange(len(own)), which] = target
-        at, excess = search.follow(start)
-        if np.any(excess < -0.02):
-            return Profile(ends.reshape(-1, 2, search.count), done, rise, at[np.argmin(excess)])
-        root = np.sqrt(np.maximum(excess, 0.0))
-        distance = np.abs(target - own)
-        ends = np.where(done[:, np.newaxis], ends, at)
-        rise = np.where(done, rise, excess)
-        within = root < 1.0
-        inside, root_in = np.where(within, distance, inside), np.where(within, root, root_in)
-        outside = np.where(within, outside, distance)
-        root_out = np.where(within, root_out, root)
-        stuck = within & (target == limits)
-        done |= (np.abs(root - 1.0) < CLOSE) | stuck
-        if done.all():
+    for _ in range(TRIES):
+        rises = best.spread * (best.caution * rise_of(confidence, best.freedom))
+        found, better = _profile(best, np.repeat(rises, 2))
+        if better is None:
             break
-        target = _within(own + sides * _next(inside, outside, root_in, root_out), limits, sides)
-    opened = (ends[np.arange(len(own)), which] == limits) & (rise < 1.0 - CLOSE)
-    return Profile(ends.reshape(-1, 2, search.count), opened.reshape(-1, 2), rise, None)
-
-
-def _within(target: Array, limits: Array, sides: Array) -> Array:
-    return np.where(sides < 0.0, np.maximum(target, limits), np.minimum(target, limits))
-
-
-def _next(inside: Array, outside: Array, root_in: Array, root_out: Array) -> Array:
-    """Return the next distance to try: a secant in a bracket, or farther out."""
-    with np.errstate(invalid="ignore", divide="ignore"):
-        bracket = outside - inside
-        part = np.clip((1.0 - root_in) / (root_out - root_in), 0.05, 0.95)
-        secant = inside + np.where(np.isfinite(bracket), bracket * part, 0.0)
-        farther = inside * np.clip(1.02 / np.maximum(root_in, 1e-9), 1.05, 3.0)
-    return np.where(np.isfinite(outside), secant, farther)
+        best = estimate(best.model, best.loss, better[np.newaxis])
+    return ProfiledFit(best, found.ends, found.open)
 
 
 def rise_of(confidence: float, freedom: Array) -> Array:
     """Return the square of Student's t, a quantile of F(1, freedom); of chi squared if infinite."""
-    from scipy.special import ndtri, stdtrit
-
     level = 0.5 + 0.5 * confidence
     bounded = np.where(np.isfinite(freedom), freedom, 1.0)
     return np.asarray(np.where(np.isfinite(freedom), stdtrit(bounded, level), ndtri(level)) ** 2)
 
 
-EXAMPLES |= {"tangential_restitution": 0.4}
+def _profile(best: Best, rises: Array) -> tuple[ProfiledFit, Array | None]:
+    """Return both ends of all intervals, searched for at once, and a better fit if one was met.
+
+    `rises`, of shape (2 parameters,), is what the loss may rise by, the other parameters following.
+    """
+    low, high = best.model.bounds
+    residuals = best.model.residuals(best.weights, best.loss)
+    count = len(best.at)
+    which, sides = np.repeat(np.arange(count), 2), np.tile([-1.0, 1.0], count)
+    own, place = best.at[which], (np.arange(2 * count), which)
+    limits = np.where(sides < 0.0, low[which], high[which])
+    others = np.arange(count) != which[:, np.newaxis]
+    covariance = best.information.covariance[which]
+    variance = covariance[place]
+    directions = covariance / variance[:, np.newaxis]  # how the others follow, to first order
+    width = np.minimum(np.sqrt(rises) * np.sqrt(variance), ((high - low) / FIRST)[which])
+    brackets = _Brackets.around(2 * count)
+    at = np.tile(best.at, (2 * count, 1))
+    ends, done, rise = at.copy(), np.zeros(2 * count, dtype=bool), np.zeros(2 * count)
+    better = None
+    for _ in range(ROUNDS):
+        target = np.clip(own + sides * width, low[which], high[which])
+        start = at + directions * (target - at[place])[:, np.newaxis]
+        start[place] = target
+        at, sums = descend(residuals, start, best.model.bounds, others)
+        excess = (sums - best.sum) / rises
+        if np.any(excess < -0.02):
+            better = at[np.argmin(excess)]
+            break
+        ends = np.where(done[:, np.newaxis], ends, at)
+        rise = np.where(done, rise, excess)
+        root = np.sqrt(np.maximum(excess, 0.0))
+        done |= (np.abs(root - 1.0) < CLOSE) | ((root < 1.0) & (target == limits))
+        if done.all():
+            break
+        brackets = brackets.narrowed(np.abs(target - own), root)
+        width = brackets.next_distance()
+    opened = (ends[place] == limits) & (rise < 1.0 - CLOSE)
+    return ProfiledFit(best, ends.reshape(-1, 2, count), opened.reshape(-1, 2)), better
+
+
+class _Brackets(NamedTuple):
+    """Distances from the fit between which the loss rises enough, and the roots of the rises."""
+
+    inside: Array
+    outside: Array
+    root_in: Array
+    root_out: Array
+
+    @classmethod
+    def around(cls, count: int) -> "_Brackets":
+        """Return brackets that may end anywhere."""
+        return cls(*(np.full(count, end) for end in (0.0, np.inf, 0.0, np.inf)))
+
+    def narrowed(self, distance: Array, root: Array) -> "_Brackets":
+        """Return the brackets with one end moved to a distance where the root is known."""
+        within = root < 1.0
+        return _Brackets(
+            np.where(within, distance, self.inside),
+            np.where(within, self.outside, distance),
+            np.where(within, root, self.root_in),
+            np.where(within, self.root_out, root),
+        )
+
+    def next_distance(self) -> Array:
+        """Return the next distance to try: a secant in a bracket, or farther out."""
+        with np.errstate(invalid="ignore", divide="ignore"):
+            bracket = self.outside - self.inside
+            part = np.clip((1.0 - self.root_in) / (self.root_out - self.root_in), 0.05, 0.95)
+            secant = self.inside + np.where(np.isfinite(bracket), bracket * part, 0.0)
+            farther = self.inside * np.clip(1.02 / np.maximum(self.root_in, 1e-9), 1.05, 3.0)
+        return np.where(np.isfinite(self.outside), secant, farther)
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,11 +148,10 @@ def settle(model: Model, loss: Loss, start: Mapping[str, float]) -> Settled:
     """Fit, and hold one parameter after the other until the data tell all that are free."""
     whole = best = estimate(model, loss)
     groups: list[tuple[str, ...]] = []
-    while len(best.model.free):
-        group = weak_group(best.information, best.model.free)
-        if not group or len(best.model.free) == 1:
-            return Settled(best, (*groups, *((group,) if group else ())), whole)
+    while group := weak_group(best.information, best.model.free):
         groups.append(group)
+        if len(best.model.free) == 1:
+            break
         best = _held(best, group[0], start[group[0]], loss)
     return Settled(best, tuple(groups), whole)
 
@@ -184,30 +171,16 @@ def weak_group(told: Information, names: tuple[str, ...]) -> tuple[str, ...]:
 def _held(best: Best, name: str, start: float, loss: Loss) -> Best:
     """Return the fit with a parameter held where it starts, or where it was if that is worse."""
     at_start = estimate(best.model.holding(name, start), loss)
-    found = float(best.model.values(best.at[np.newaxis])[name][0, 0])
     if abs(at_start.sum - best.sum) < WORSE * best.spread or at_start.estimated.any():
         return at_start
-    return estimate(best.model.holding(name, found), loss)
-
-
-def row_regimes(best: Best, at: Array | None = None) -> NDArray[np.int8]:
-    """Return the place of each row's regime in `curves.REGIMES`, by default at the fit."""
-    model, problem = best.model, best.model.problem
-    point = best.at if at is None else at
-    values = {name: float(v[0, 0]) for name, v in model.values(point[np.newaxis]).items()}
-    motion = problem.motion
-    velocity = problem.contact_velocity + problem.pair.first.radius * values[OFFSET]
-    psi = values["kappa"] * velocity / (values["friction"] * motion.normal_speed)
-    chi = half_ratio(problem.pair) * values["kappa"]
-    return regimes(psi, chi, values["restitution"])
+    return estimate(best.model.holding(name, best.values[name]), loss)
 
 
 def reason(group: tuple[str, ...], best: Best) -> str:
     """Return why the data do not tell a group of parameters."""
     if len(group) > 1:
         return _together(group)
-    name = group[0]
-    found = row_regimes(best)
+    name, found = group[0], best.model.regimes(best.at)
     if name == "kappa" and np.all(found == THROUGHOUT):
         return "every row slips throughout, where the stiffness does not matter"
     if name == "friction" and np.all(found == 0):

@@ -1,8 +1,8 @@
-"""What is fitted: the exact rebound, and the rival laws of rigid spheres."""
+"""The laws that are fitted, exact and of rigid spheres: their parameters, and what they predict."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,7 +12,18 @@ from carom.fitting.interpolation import LEAST_CHI, LEAST_E, MOST_CHI, psi_out
 from carom.quantities.arrays import Array
 
 Values = Mapping[str, Array]  # of parameters by name, each of shape (batch, 1)
+OutgoingVelocity = Callable[[Pair, Array, Array, Values], Array]
+OFFSET = "spin_offset"
 ROUNDING = 1e-9
+
+
+class IncomingMotion(NamedTuple):
+    """Motion before the impacts, one a row, in SI units."""
+
+    normal_speed: Array
+    tangential_speed: Array
+    spin: Array
+    spin2: Array
 
 
 class Parameter(NamedTuple):
@@ -32,76 +43,71 @@ class Parameter(NamedTuple):
         return np.exp(coordinate) if self.scale is None else coordinate * self.scale
 
 
+@dataclass(frozen=True)
+class FittedLaw:
+    """A law of rebound: `contact_velocity_out` is V_x' of V_n, V_x, and what can be varied.
+
+    V_n and V_x have the shape (rows,), V_x' has (batch, rows). Besides `parameters` an offset of
+    the spin can be varied.
+    """
+
+    name: str
+    parameters: tuple[Parameter, ...]
+    contact_velocity_out: OutgoingVelocity
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the parameters."""
+        return tuple(parameter.name for parameter in self.parameters)
+
+    def predicted(
+        self, pair: Pair, motion: IncomingMotion, values: Values, names: Sequence[str]
+    ) -> Array:
+        """Return the observables of these names, of shape (batch, rows, names)."""
+        normal, tangential, spin, spin2 = motion
+        turning = spin + values[OFFSET]
+        before = Tangential(tangential + 0.0 * turning, turning, spin2)  # type: ignore[arg-type]
+        velocity = np.asarray(before.contact_velocity(pair))
+        after = self.contact_velocity_out(pair, normal, velocity, values)
+        impulse = pair.tangential_mass * (velocity - after)
+        rebound = Rebound(pair, normal, before, values["restitution"] + 0.0 * turning, impulse)
+        return np.stack([getattr(rebound, name) for name in names], axis=-1)
+
+
+def half_ratio(pair: Pair) -> float:
+    """Return chi/kappa, (1/2) m_n/m_t."""
+    return 0.5 * pair.normal_mass / pair.tangential_mass
+
+
+def exact(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> Array:
+    """Return V_x' = mu V_n psi_2/kappa, psi_1 = kappa V_x/(mu V_n), chi = (kappa/2)(m_n/m_t)."""
+    unit = values["friction"] * normal_speed / values["kappa"]
+    chi = half_ratio(pair) * values["kappa"][:, 0]
+    return unit * psi_out(velocity / unit, chi, values["restitution"][:, 0])
+
+
+def rigid(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> Array:
+    """Return V_x' of rigid spheres, |J_t| = min(m_t (1 + beta_0) |V_x|, mu J_n).
+
+    Sticking or sliding takes the smaller impulse; beta_0 = 0 without `tangential_restitution`
+    (Walton 1993; Foerster et al. 1994).
+    """
+    stuck = 1.0 + values.get("tangential_restitution", 0.0)
+    whole = values["friction"] * (1.0 + values["restitution"]) * normal_speed
+    bound = 2.0 * half_ratio(pair) * whole
+    return velocity - np.copysign(np.minimum(stuck * np.abs(velocity), bound), velocity)
+
+
 FRICTION = Parameter("friction", 1e-3, 10.0, None)
 KAPPA = Parameter("kappa", 0.1, 4.0, None)
 RESTITUTION = Parameter("restitution", LEAST_E, 1.0)
 BETA = Parameter("tangential_restitution", -1.0, 1.0)
 
-
-class Law(Protocol):
-    """A law of rebound whose parameters can be fitted."""
-
-    @property
-    def name(self) -> str:
-        """What it is called."""
-
-    @property
-    def parameters(self) -> tuple[Parameter, ...]:
-        """What can be varied, besides an offset of the spin."""
-
-    def contact_velocity_out(
-        self, pair: Pair, normal_speed: Array, contact_velocity: Array, values: Values
-    ) -> Array:
-        """Return V_x' of shape (batch, rows)."""
-
-
-@dataclass(frozen=True)
-class Exact:
-    """V_x' = mu V_n psi_2/kappa, psi_1 = kappa V_x/(mu V_n), chi = (kappa/2)(m_n/m_t)."""
-
-    name: str = "exact"
-    parameters: tuple[Parameter, ...] = (FRICTION, KAPPA, RESTITUTION)
-
-    def contact_velocity_out(
-        self, pair: Pair, normal_speed: Array, contact_velocity: Array, values: Values
-    ) -> Array:
-        """Return V_x' of shape (batch, rows)."""
-        unit = values["friction"] * normal_speed / values["kappa"]
-        chi = half_ratio(pair) * values["kappa"][:, 0]
-        return unit * psi_out(contact_velocity / unit, chi, values["restitution"][:, 0])
-
-
-@dataclass(frozen=True)
-class RigidCoulomb:
-    """|J_t| = min(m_t |V_x|, mu J_n): a rigid sphere slides, or its contact point comes to rest."""
-
-    name: str = "rigid Coulomb"
-    parameters: tuple[Parameter, ...] = (FRICTION, RESTITUTION)
-
-    def contact_velocity_out(
-        self, pair: Pair, normal_speed: Array, contact_velocity: Array, values: Values
-    ) -> Array:
-        """Return V_x' of shape (batch, rows)."""
-        return _limited(pair, normal_speed, contact_velocity, values, 1.0)
-
-
-@dataclass(frozen=True)
-class Walton:
-    """|J_t| = min(m_t (1 + beta_0) |V_x|, mu J_n) (Walton 1993; Foerster et al. 1994)."""
-
-    name: str = "Walton"
-    parameters: tuple[Parameter, ...] = (FRICTION, RESTITUTION, BETA)
-
-    def contact_velocity_out(
-        self, pair: Pair, normal_speed: Array, contact_velocity: Array, values: Values
-    ) -> Array:
-        """Return V_x' of shape (batch, rows)."""
-        reversed_part = 1.0 + values["tangential_restitution"]
-        return _limited(pair, normal_speed, contact_velocity, values, reversed_part)
-
-
-EXACT = Exact()
-RIVALS: tuple[Law, ...] = (RigidCoulomb(), Walton())
+EXACT = FittedLaw("exact", (FRICTION, KAPPA, RESTITUTION), exact)
+RIVALS = (
+    FittedLaw("rigid Coulomb", (FRICTION, RESTITUTION), rigid),
+    FittedLaw("Walton", (FRICTION, RESTITUTION, BETA), rigid),
+)
 
 
 def ranged(parameter: Parameter, pair: Pair) -> Parameter:
@@ -111,43 +117,3 @@ def ranged(parameter: Parameter, pair: Pair) -> Parameter:
     half = half_ratio(pair)
     low, high = max(parameter.low, LEAST_CHI / half), min(parameter.high, MOST_CHI / half)
     return parameter._replace(low=low * (1.0 + ROUNDING), high=high * (1.0 - ROUNDING))
-
-
-def half_ratio(pair: Pair) -> float:
-    """Return chi/kappa, (1/2) m_n/m_t."""
-    return 0.5 * pair.normal_mass / pair.tangential_mass
-
-
-def _limited(
-    pair: Pair, normal_speed: Array, velocity: Array, values: Values, stuck: Array | float
-) -> Array:
-    """Return V_x less what the smaller of the impulses of sticking and sliding takes."""
-    whole = values["friction"] * (1.0 + values["restitution"]) * normal_speed
-    bound = 2.0 * half_ratio(pair) * whole
-    return velocity - np.copysign(np.minimum(stuck * np.abs(velocity), bound), velocity)
-
-
-class Motion(NamedTuple):
-    """Motion before the impacts, one a row, in SI units."""
-
-    normal_speed: Array
-    tangential_speed: Array
-    spin: Array
-    spin2: Array
-
-
-def rebounds(law: Law, pair: Pair, motion: Motion, values: Values) -> Rebound:
-    """Return the rebounds from a motion, of shape (batch, rows)."""
-    normal, tangential, spin, spin2 = motion
-    turning = spin + values["spin_offset"]
-    before = Tangential(tangential + 0.0 * turning, turning, spin2)  # type: ignore[arg-type]
-    velocity = np.asarray(before.contact_velocity(pair))
-    after = law.contact_velocity_out(pair, normal, velocity, values)
-    impulse = pair.tangential_mass * (velocity - after)
-    return Rebound(pair, normal, before, values["restitution"] + 0.0 * turning, impulse)
-
-
-def predicted(law: Law, pair: Pair, motion: Motion, values: Values, names: Sequence[str]) -> Array:
-    """Return the observables of these names, of shape (batch, rows, names)."""
-    rebound = rebounds(law, pair, motion, values)
-    return np.stack([getattr(rebound, name) for name in names], axis=-1)

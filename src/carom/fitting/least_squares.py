@@ -15,7 +15,7 @@ ROUNDS, ENOUGH = 60, 1e-7  # steps at most; part of the sum that no longer count
 FREER, TIGHTER = 0.2, 6.0  # of the damping after a step that helped, or did not
 
 
-class Bounds(NamedTuple):
+class BoxBounds(NamedTuple):
     """Least and largest coordinates, each of shape (parameters,)."""
 
     low: Array
@@ -29,7 +29,7 @@ class Minimum(NamedTuple):
     sums: Array
 
 
-def jacobian(residuals: Residuals, at: Array, base: Array, bounds: Bounds) -> Array:
+def jacobian(residuals: Residuals, at: Array, base: Array, bounds: BoxBounds) -> Array:
     """Return derivatives of residuals, of shape (batch, residuals, parameters), one-sided."""
     batch, count = at.shape
     steps = np.where(at + STEP <= bounds.high, STEP, -STEP)
@@ -40,7 +40,7 @@ def jacobian(residuals: Residuals, at: Array, base: Array, bounds: Bounds) -> Ar
 
 
 def descend(
-    residuals: Residuals, start: Array, bounds: Bounds, free: NDArray[np.bool_] | None = None
+    residuals: Residuals, start: Array, bounds: BoxBounds, free: NDArray[np.bool_] | None = None
 ) -> Minimum:
     """Return where sums of squares are least, from each starting point of a batch.
 
@@ -77,7 +77,7 @@ def _steps(
     damping: Array,
     movable: NDArray[np.bool_],
     at: Array,
-    bounds: Bounds,
+    bounds: BoxBounds,
 ) -> Array:
     """Return the damped steps; what is held, or pressed against a bound, stays."""
     downhill = -np.einsum("bmp,bm->bp", slopes, base)

@@ -3,9 +3,9 @@
 from collections.abc import Collection, Mapping
 from typing import Any, NamedTuple
 
-from carom.fitting.laws import EXACT, KAPPA, half_ratio, ranged
-from carom.fitting.model import OFFSET, offset_parameter
-from carom.fitting.problem import Problem
+from carom.fitting.laws import EXACT, KAPPA, OFFSET, half_ratio, ranged
+from carom.fitting.model import offset_parameter
+from carom.fitting.problem import FitProblem
 from carom.quantities.units import InputError, nearest, number, refusal
 
 NAMES = ("friction", "kappa", "chi", "restitution", OFFSET)
@@ -20,7 +20,7 @@ class Options(NamedTuple):
 
 
 def read_options(
-    problem: Problem, vary: Collection[str] | str | None, fixed: Mapping[str, Any] | None
+    problem: FitProblem, vary: Collection[str] | str | None, fixed: Mapping[str, Any] | None
 ) -> Options:
     """Return what is varied and what it starts from, or raise InputError."""
     held = _fixed(problem, {} if fixed is None else fixed)
@@ -55,7 +55,7 @@ def checked_confidence(value: Any) -> float:
     return confidence
 
 
-def check_count(problem: Problem, free: Collection[str]) -> None:
+def check_count(problem: FitProblem, free: Collection[str]) -> None:
     """Raise InputError if there are too few values for so many parameters."""
     least = len(free) + (not problem.all_errors_known)
     if problem.count < least:
@@ -74,7 +74,7 @@ def _varied(vary: Collection[str] | str) -> list[str]:
     return list(dict.fromkeys(plain))
 
 
-def _fixed(problem: Problem, fixed: Mapping[str, Any]) -> dict[str, float]:
+def _fixed(problem: FitProblem, fixed: Mapping[str, Any]) -> dict[str, float]:
     """Return the parameters that are held, in SI units; chi becomes kappa."""
     if not isinstance(fixed, Mapping):
         raise refusal("fixed", fixed, "must be values by name, e.g. {'restitution': 0.98}")

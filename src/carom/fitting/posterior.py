@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from carom.fitting.estimates import FitRecord
 from carom.fitting.laws import half_ratio
 from carom.io.extras import extra
 from carom.io.labels import labelled_dataset
@@ -14,21 +15,13 @@ from carom.quantities.units import counted
 if TYPE_CHECKING:
     import xarray as xr
 
-    from carom.fitting.result import Fit
-
-
 WALKERS = 8  # per parameter
 BURN = 0.25  # part of the steps that is left out
 CHUNK = 50  # steps between two words of progress
 LONG = 50.0  # autocorrelation times that a chain should have (emcee's documentation)
 
 
-def sample(
-    fit: "Fit",
-    steps: int = 1000,
-    seed: int | None = None,
-    progress: Progress = None,
-) -> "xr.Dataset":
+def sample(fit: FitRecord, steps: int, seed: int | None, progress: Progress) -> "xr.Dataset":
     """Return samples of the parameters that the data determine, as a dataset along `sample`.
 
     Walkers move by differential evolution (ter Braak 2006). The likelihood is
@@ -74,13 +67,14 @@ def _within(at: Array, low: Array, high: Array) -> Array:
     return np.asarray(np.clip(inside, low, high))
 
 
-def _dataset(fit: "Fit", chain: Array, times: Array, steps: int, seed: int | None) -> "xr.Dataset":
+def _dataset(
+    fit: FitRecord, chain: Array, times: Array, steps: int, seed: int | None
+) -> "xr.Dataset":
     model = fit.best.model
     values = model.values(chain)
     variables: dict[str, Any] = {name: ("sample", values[name][:, 0]) for name in model.free}
     if "kappa" in model.free:
-        chi = half_ratio(model.problem.pair) * values["kappa"][:, 0]
-        variables["chi"] = ("sample", chi)
+        variables["chi"] = ("sample", half_ratio(model.problem.pair) * values["kappa"][:, 0])
     longest = float(np.nanmax(times)) if np.isfinite(times).any() else float("nan")
     told = {
         "title": "posterior of parameters from measured rebounds",

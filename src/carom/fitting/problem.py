@@ -11,82 +11,23 @@ from numpy.typing import NDArray
 from carom.bodies.cases import pair_of
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import BEFORE, OBSERVABLES, SCALED, convert
-from carom.fitting.laws import Motion
+from carom.fitting.laws import IncomingMotion
 from carom.io.columns import ERROR, Results, in_units, others, with_errors
 from carom.io.tables import read_table
 from carom.quantities.arrays import Array
 from carom.quantities.units import InputError, refusal
 
+Mask = NDArray[np.bool_]
+
 MOST = 1.5  # normal restitution that scatter may reach; beyond it is a percentage
 NOTHING = 1e-9  # part of the speed that is no tangential speed
 RELATIVE = ("tangential_restitution", "contact_restitution", "contact_beta")
-Mask = NDArray[np.bool_]
 START = 0.3  # friction of bodies of which none is known, to begin with
 STEEPEST = np.radians(89.9)
 
 
-def check_before(
-    rows: Results, before: Mapping[str, Array], responses: Collection[str], scaled: Collection[str]
-) -> None:
-    """Raise InputError if the motion before is missing, said twice, or out of range."""
-    ways = [n for n in ("tangential_speed", "angle", "contact_angle", "psi_in") if n in before]
-    if not ways:
-        rows.require("angle")
-    if len(ways) > 1:
-        raise InputError(
-            f"data: {' and '.join(ways)} say the same twice; leave all but one of them out"
-        )
-    for name in ("speed", "normal_speed"):
-        if name in before:
-            rows.refuse(name, before[name] <= 0.0, "must be positive: the bodies must approach")
-    needing = sorted(set(scaled) & {*before, *responses})
-    if needing and not {"speed", "normal_speed"} & set(before):
-        raise InputError(
-            f"speed: column missing; {needing[0]} needs speed and angle, or normal_speed"
-        )
-    for name in before:
-        if name + ERROR in rows.columns:
-            negative = ~(rows[name + ERROR] >= 0.0)
-            rows.refuse(name + ERROR, negative, "a standard deviation is zero or positive")
-
-
-def check_responses(rows: Results, motion: Motion, velocity: Array) -> None:
-    """Raise InputError for responses that contradict the motion before, or are out of range."""
-    for name in RELATIVE:
-        if name in rows.columns:
-            basis = motion.tangential_speed if name == RELATIVE[0] else velocity
-            rested = np.abs(basis) <= NOTHING * motion.normal_speed
-            allowed = "nothing moved sideways there before; write '-', or give tangential_speed_out"
-            rows.refuse(name, rested & np.isfinite(rows[name]), allowed)
-    if "normal_restitution" in rows.columns:
-        values = rows["normal_restitution"]
-        rows.refuse(
-            "normal_restitution",
-            (values < 0.0) | (values > MOST),
-            "must lie between 0 and 1, 0.98 for 98 percent",
-        )
-    if "normal_speed_out" in rows.columns:
-        ratio = rows["normal_speed_out"] / motion.normal_speed
-        allowed = "must be positive and no larger than the normal speed before, but for scatter"
-        rows.refuse("normal_speed_out", (ratio < 0.0) | (ratio > MOST), allowed)
-    _check_sense(rows, motion, velocity)
-
-
-def _check_sense(rows: Results, motion: Motion, velocity: Array) -> None:
-    """Raise InputError if friction drove the spin on in every row: its sign is another's."""
-    if "spin_out" not in rows.columns:
-        return
-    change = (rows["spin_out"] - motion.spin) * np.sign(velocity)
-    moving = np.isfinite(change) & (np.abs(velocity) > 0.05 * motion.normal_speed)
-    if moving.sum() > 1 and np.all(change[moving] > 0.0):
-        raise InputError(
-            f"spin_out: friction would have driven the contact point on in {rows.named(moving)}; "
-            "positive spin adds to its tangential speed, so change the signs of the spins"
-        )
-
-
 @dataclass(frozen=True, eq=False)
-class Problem:
+class FitProblem:
     """Measured rebounds in SI units: `measured` and `errors` have the shape (rows, responses).
 
     NaN stands for what was not measured, and for errors that are not known; `doi` is that of the
@@ -130,7 +71,7 @@ class Problem:
         return not bool(sideways.any())
 
     @cached_property
-    def motion(self) -> Motion:
+    def motion(self) -> IncomingMotion:
         """The motion before, as it was measured."""
         return self.moved({})
 
@@ -143,7 +84,7 @@ class Problem:
             motion.tangential_speed + self.pair.first.radius * motion.spin + radius2 * motion.spin2
         )
 
-    def moved(self, changes: Mapping[str, Array]) -> Motion:
+    def moved(self, changes: Mapping[str, Array]) -> IncomingMotion:
         """Return the motion before with some of its columns changed by so much."""
         known = {name: values + changes.get(name, 0.0) for name, values in self.before.items()}
         if "angle" in known:
@@ -155,10 +96,10 @@ class Problem:
             for name in ("normal_speed", "tangential_speed")
         )
         spins = (known.get(name, np.zeros(len(self.measured))) for name in ("spin", "spin2"))
-        return Motion(*speeds, *spins)
+        return IncomingMotion(*speeds, *spins)
 
     @cached_property
-    def shaken(self) -> tuple[tuple[Motion, Motion], ...]:
+    def shaken(self) -> tuple[tuple[IncomingMotion, IncomingMotion], ...]:
         """The motion with each of its uncertain columns one standard deviation up, and down."""
         return tuple(
             (self.moved({name: error}), self.moved({name: -error}))
@@ -166,7 +107,7 @@ class Problem:
         )
 
 
-def read_problem(data: Any, pair: Pair | None) -> Problem:
+def read_problem(data: Any, pair: Pair | None) -> FitProblem:
     """Return what was measured, or raise InputError for what cannot be used."""
     table = read_table(data)
     known = with_errors((*BEFORE, *OBSERVABLES))
@@ -180,8 +121,8 @@ def read_problem(data: Any, pair: Pair | None) -> Problem:
         )
     bodies = _bodies(pair, table.case)
     before = {name: rows[name] for name in BEFORE if name in rows.columns}
-    check_before(rows, before, responses, SCALED)
-    problem = Problem(
+    _check_before(rows, before, responses)
+    problem = FitProblem(
         pair=bodies,
         before=before,
         before_errors={name: rows[name + ERROR] for name in before if name + ERROR in rows.columns},
@@ -192,7 +133,7 @@ def read_problem(data: Any, pair: Pair | None) -> Problem:
         ignored=ignored,
         doi=table.comments.get("doi", ""),
     )
-    check_responses(problem.rows, problem.motion, problem.contact_velocity)
+    _check_responses(problem.rows, problem.motion, problem.contact_velocity)
     return problem
 
 
@@ -209,16 +150,71 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> Pair:
             "--case FILE in a shell, or write the bodies as JSON into a comment '# case: {...}' "
             "of the file"
         )
-    if bodies.friction > 0.0:
-        return bodies
-    return Pair(bodies.first, bodies.second, START)
+    return bodies if bodies.friction > 0.0 else Pair(bodies.first, bodies.second, START)
 
 
 def _errors(rows: Results, name: str) -> Array:
     """Return the standard deviations of a response, NaN where they are not given."""
-    unknown = np.full(len(rows), np.nan)
-    errors = np.asarray(rows.get(name + ERROR, unknown))
-    rows_with = np.isfinite(rows[name])
-    if name + ERROR in rows.columns:
-        rows.refuse(name + ERROR, rows_with & ~(errors > 0.0), "a standard deviation is positive")
-    return np.where(rows_with, errors, np.nan)
+    if name + ERROR not in rows.columns:
+        return np.full(len(rows), np.nan)
+    errors, measured = rows[name + ERROR], np.isfinite(rows[name])
+    rows.refuse(name + ERROR, measured & ~(errors > 0.0), "a standard deviation is positive")
+    return np.where(measured, errors, np.nan)
+
+
+def _check_before(rows: Results, before: Mapping[str, Array], responses: Collection[str]) -> None:
+    """Raise InputError if the motion before is missing, said twice, or out of range."""
+    ways = [n for n in ("tangential_speed", "angle", "contact_angle", "psi_in") if n in before]
+    if not ways:
+        rows.require("angle")
+    if len(ways) > 1:
+        raise InputError(
+            f"data: {' and '.join(ways)} say the same twice; leave all but one of them out"
+        )
+    for name in ("speed", "normal_speed"):
+        if name in before:
+            rows.refuse(name, before[name] <= 0.0, "must be positive: the bodies must approach")
+    needing = sorted(set(SCALED) & {*before, *responses})
+    if needing and not {"speed", "normal_speed"} & set(before):
+        raise InputError(
+            f"speed: column missing; {needing[0]} needs speed and angle, or normal_speed"
+        )
+    for name in before:
+        if name + ERROR in rows.columns:
+            negative = ~(rows[name + ERROR] >= 0.0)
+            rows.refuse(name + ERROR, negative, "a standard deviation is zero or positive")
+
+
+def _check_responses(rows: Results, motion: IncomingMotion, velocity: Array) -> None:
+    """Raise InputError for responses that contradict the motion before, or are out of range."""
+    for name in RELATIVE:
+        if name in rows.columns:
+            basis = motion.tangential_speed if name == RELATIVE[0] else velocity
+            rested = np.abs(basis) <= NOTHING * motion.normal_speed
+            allowed = "nothing moved sideways there before; write '-', or give tangential_speed_out"
+            rows.refuse(name, rested & np.isfinite(rows[name]), allowed)
+    if "normal_restitution" in rows.columns:
+        values = rows["normal_restitution"]
+        rows.refuse(
+            "normal_restitution",
+            (values < 0.0) | (values > MOST),
+            "must lie between 0 and 1, 0.98 for 98 percent",
+        )
+    if "normal_speed_out" in rows.columns:
+        ratio = rows["normal_speed_out"] / motion.normal_speed
+        allowed = "must be positive and no larger than the normal speed before, but for scatter"
+        rows.refuse("normal_speed_out", (ratio < 0.0) | (ratio > MOST), allowed)
+    _check_sense(rows, motion, velocity)
+
+
+def _check_sense(rows: Results, motion: IncomingMotion, velocity: Array) -> None:
+    """Raise InputError if friction drove the spin on in every row: its sign is another's."""
+    if "spin_out" not in rows.columns:
+        return
+    change = (rows["spin_out"] - motion.spin) * np.sign(velocity)
+    moving = np.isfinite(change) & (np.abs(velocity) > 0.05 * motion.normal_speed)
+    if moving.sum() > 1 and np.all(change[moving] > 0.0):
+        raise InputError(
+            f"spin_out: friction would have driven the contact point on in {rows.named(moving)}; "
+            "positive spin adds to its tangential speed, so change the signs of the spins"
+        )

@@ -1,20 +1,16 @@
 """The result of a fit in words."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from carom.fitting.estimates import FitRecord
 from carom.fitting.estimation import Best
-from carom.fitting.intervals import Profile, row_regimes
-
-if TYPE_CHECKING:
-    from carom.fitting.result import Fit
+from carom.fitting.intervals import ProfiledFit
 
 FAR = 4.0  # standard deviations of an outlier
 COLUMN = 14
 
 
-def as_text(fit: "Fit") -> str:
+def as_text(fit: FitRecord) -> str:
     """Return a small table of the parameters, and what else is to be known."""
     problem = fit.best.model.problem
     head = (
@@ -28,21 +24,18 @@ def as_text(fit: "Fit") -> str:
     return "\n".join([*lines, str(fit.comparison)])
 
 
-def notes(best: Best, ends: Profile) -> tuple[str, ...]:
+def notes(found: ProfiledFit) -> tuple[str, ...]:
     """Return what is to be known besides the numbers."""
+    best = found.best
     problem = best.model.problem
-    found = [
-        *_about_errors(best),
-        *_about_outliers(best),
-        *_about_regimes(best, ends),
-        *_about_others(best),
-    ]
+    lines = [*_about_errors(best), *_about_outliers(best), *_about_regimes(found)]
+    lines += _about_others(best)
     if problem.ignored:
-        found.append(f"columns that were not used: {', '.join(problem.ignored)}")
+        lines.append(f"columns that were not used: {', '.join(problem.ignored)}")
     gaps = np.asarray(~problem.present.any(axis=1))
     if gaps.any():
-        found.append(f"nothing was measured in {problem.rows.named(gaps)}")
-    return tuple(found)
+        lines.append(f"nothing was measured in {problem.rows.named(gaps)}")
+    return tuple(lines)
 
 
 def _about_errors(best: Best) -> list[str]:
@@ -66,17 +59,17 @@ def _about_outliers(best: Best) -> list[str]:
     return [f"outliers: {rows.named(far)}"] if far.any() else []
 
 
-def _about_regimes(best: Best, ends: Profile) -> list[str]:
+def _about_regimes(found: ProfiledFit) -> list[str]:
     """Return which rows may lie in more than one regime, as far as the data can tell."""
-    problem = best.model.problem
-    at_fit = row_regimes(best)
+    model = found.best.model
+    at_fit = model.regimes(found.best.at)
     unsure = np.zeros(len(at_fit), dtype=bool)
-    for at in ends.ends.reshape(-1, ends.ends.shape[-1]):
-        unsure |= row_regimes(best, at) != at_fit
-    unsure &= problem.present.any(axis=1)
+    for point in found.ends.reshape(-1, len(found.best.at)):
+        unsure |= model.regimes(point) != at_fit
+    unsure &= model.problem.present.any(axis=1)
     if not unsure.any():
         return []
-    return [f"regime within the intervals not certain: {problem.rows.named(unsure)}"]
+    return [f"regime within the intervals not certain: {model.problem.rows.named(unsure)}"]
 
 
 def _about_others(best: Best) -> list[str]:
@@ -85,8 +78,8 @@ def _about_others(best: Best) -> list[str]:
     near = rivals.sums - rivals.sums[0] < 4.0 * best.spread
     apart = np.any(np.abs(rivals.at - rivals.at[0]) > 0.1, axis=1)
     lines = []
-    for at in rivals.at[near & apart][:1]:
-        values = best.model.values(at[np.newaxis])
-        shown = ", ".join(f"{name} {float(values[name][0, 0]):.3g}" for name in best.model.free)
+    for point in rivals.at[near & apart][:1]:
+        values = best.model.values_at(point)
+        shown = ", ".join(f"{name} {values[name]:.3g}" for name in best.model.free)
         lines.append(f"fits nearly as well: {shown}")
     return lines

@@ -1,28 +1,25 @@
-"""The result of a fit."""
+"""The result of a fit, as users have it."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from functools import cached_property
-from math import isfinite
-from pathlib import Path
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from carom.bodies.pairs import Pair
-from carom.fitting.estimates import Estimate
-from carom.fitting.estimation import Best
+from carom.fitting.advice import Advice, advise
+from carom.fitting.datasets import fit_dataset
+from carom.fitting.estimates import Estimate, FitRecord
+from carom.fitting.posterior import sample
+from carom.fitting.report import as_text
 from carom.io.citations import FITS, SAMPLES, VISCOUS, bibtex, with_doi
 from carom.io.progress import Progress
+from carom.plots.result import Result, card
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-    from carom.fitting.advice import Advice
-    from carom.fitting.comparison import Comparison
-
 
 @dataclass(frozen=True, eq=False)
-class Fit:
+class Fit(FitRecord, Result):
     """Parameters from measured rebounds; made by `carom.fit`.
 
     `estimates` holds friction, kappa, chi, restitution and spin_offset by name, `fit["friction"]`
@@ -35,12 +32,6 @@ class Fit:
     >>> found.friction.low < 0.092 < found.friction.high  # that of the literature
     True
     """
-
-    estimates: Mapping[str, Estimate]
-    confidence: float
-    regimes: Mapping[str, int]
-    notes: tuple[str, ...]
-    best: Best = field(repr=False)
 
     def __getitem__(self, name: str) -> Estimate:
         return self.estimates[name]
@@ -81,14 +72,7 @@ class Fit:
         """What lmfit returned, in transformed coordinates: log friction, log kappa."""
         return self.best.result
 
-    @cached_property
-    def comparison(self) -> "Comparison":
-        """Akaike's criterion of the exact law, rigid Coulomb and Walton's, on the same data."""
-        from carom.fitting.comparison import compare
-
-        return compare(self.best)
-
-    def advice(self, n: int = 5, parameter: str | None = None) -> "Advice":
+    def advice(self, n: int = 5, parameter: str | None = None) -> Advice:
         """Return which incidences to measure next, and what that would give.
 
         c-optimal design (Atkinson, Donev & Tobias 2007, chapter 10): one more impact at an angle
@@ -123,15 +107,10 @@ class Fit:
         >>> len(advised.places), advised.shorter < 1.0
         (3, True)
         """
-        from carom.fitting.advice import advise
-
         return advise(self, n, parameter)
 
     def posterior(
-        self,
-        steps: int = 1000,
-        seed: int | None = None,
-        progress: Progress = None,
+        self, steps: int = 1000, seed: int | None = None, progress: Progress = None
     ) -> "xr.Dataset":
         """Return samples of the posterior of what the data determine, along `sample`.
 
@@ -170,8 +149,6 @@ class Fit:
         >>> bool(abs(samples.friction.mean() - found.friction.value) < 0.01)
         True
         """
-        from carom.fitting.posterior import sample
-
         return sample(self, steps, seed, progress)
 
     def to_dataset(self) -> "xr.Dataset":
@@ -185,8 +162,6 @@ class Fit:
             over curve_incidence (curve) in rad; border (regime_border) in rad; value, low, high and
             reason (parameter); aicc (law).
         """
-        from carom.fitting.datasets import fit_dataset
-
         return fit_dataset(self)
 
     def to_dict(self) -> dict[str, Any]:
@@ -199,7 +174,7 @@ class Fit:
             comparison; SI units.
         """
         return {
-            "parameters": {name: _plain(each) for name, each in self.estimates.items()},
+            "parameters": {name: each.to_dict() for name, each in self.estimates.items()},
             "confidence": self.confidence,
             "values": self.best.model.problem.count,
             "rows": len(self.best.model.problem.rows),
@@ -233,52 +208,15 @@ class Fit:
         doi = self.best.model.problem.doi
         return "\n".join([bibtex(*keys), *([with_doi(doi)] if doi else [])])
 
-    def plot(self, path: str | Path | None = None) -> "Figure":
-        """Draw data, curves and residuals.
+    def _draw(self, dataset: Any) -> "Figure":
+        from carom.plots.fits import plot_fit  # loads matplotlib
 
-        Parameters
-        ----------
-        path : str or Path, optional
-            Where the figure is stored, too: .png, .pdf or .svg.
-
-        Returns
-        -------
-        matplotlib.figure.Figure
-            The figure.
-
-        Raises
-        ------
-        InputError
-            If the name ends otherwise or the file cannot be written.
-
-        Examples
-        --------
-        >>> import carom
-        >>> len(carom.fit(carom.datasets.load("kharaz2001")).plot().axes) > 1
-        True
-        """
-        from carom.plots.fits import plot_fit
-        from carom.plots.style import save_figure
-
-        figure = plot_fit(self.to_dataset())
-        if path is not None:
-            save_figure(figure, path)
-        return figure
+        return plot_fit(dataset)
 
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
-        from carom.plots.result import card
-
         rows = {name: str(estimate) for name, estimate in self.estimates.items()}
         return card("Parameters from rebounds", rows, self.plot(), "\n".join(self.notes))
 
     def __str__(self) -> str:
-        from carom.fitting.report import as_text
-
         return as_text(self)
-
-
-def _plain(estimate: Estimate) -> dict[str, Any]:
-    numbers = {name: getattr(estimate, name) for name in ("value", "low", "high")}
-    plain = {name: value if isfinite(value) else None for name, value in numbers.items()}
-    return {**plain, "determined": estimate.determined, "reason": estimate.reason}

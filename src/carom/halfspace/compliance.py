@@ -91,16 +91,14 @@ class Compliance:
         """Return about the pressure under which the surface gives way so: a preconditioner."""
         self.rough_transforms += 2
         spectrum = scipy.fft.rfft2(displacement)
-        pressure: Field = scipy.fft.irfft2(self._normal_inverse * spectrum, displacement.shape)
-        return pressure
+        return np.asarray(scipy.fft.irfft2(self._normal_inverse * spectrum, displacement.shape))
 
     def roughly_traction(self, displacement: Field) -> Field:
         """Return about the traction under which the surface gives way so: a preconditioner."""
         self.rough_transforms += 4
         spectrum = scipy.fft.rfft2(displacement)
         loads = self._own_inverse * spectrum - self._cross_inverse * spectrum[::-1]
-        traction: Field = scipy.fft.irfft2(loads, displacement.shape[1:])
-        return traction
+        return np.asarray(scipy.fft.irfft2(loads, displacement.shape[1:]))
 
     def _spectrum(self, kernel: Field) -> Spectrum:
         """Return the spectrum of a kernel, without the offsets of `size` that no two elements have.
@@ -109,21 +107,18 @@ class Compliance:
         """
         used = np.ones((2 * self.size, 2 * self.size))
         used[self.size] = used[:, self.size] = 0.0
-        spectrum: Spectrum = scipy.fft.rfft2(used * kernel)
-        return spectrum
+        return np.asarray(scipy.fft.rfft2(used * kernel))
 
     def _forward(self, field: Field) -> Spectrum:
         """Return the spectrum on the doubled grid; lines of padding are not transformed."""
         self._count(field)
         rows = scipy.fft.rfft(field, 2 * self.size, axis=-1)
-        spectrum: Spectrum = scipy.fft.fft(rows, 2 * self.size, axis=-2)
-        return spectrum
+        return np.asarray(scipy.fft.fft(rows, 2 * self.size, axis=-2))
 
     def _backward(self, spectrum: Spectrum) -> Field:
         self._count(spectrum)
         columns = scipy.fft.ifft(spectrum, axis=-2, overwrite_x=True)[..., : self.size, :]
-        field: Field = scipy.fft.irfft(columns, 2 * self.size, axis=-1)[..., : self.size]
-        return field
+        return np.asarray(scipy.fft.irfft(columns, 2 * self.size, axis=-1)[..., : self.size])
 
     def _count(self, fields: Field | Spectrum) -> None:
         self.transforms += fields.shape[0] if fields.ndim == 3 else 1
@@ -138,5 +133,4 @@ class Compliance:
         faded = kernel * fade[:, None] * fade
         halves = faded[..., :size, :] + faded[..., size:, :]
         periodic = halves[..., :size] + halves[..., size:]
-        spectrum: Field = scipy.fft.rfft2(periodic).real
-        return spectrum
+        return np.asarray(scipy.fft.rfft2(periodic).real)

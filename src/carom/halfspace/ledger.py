@@ -6,16 +6,16 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.halfspace.influence import Field, Mask
-from carom.halfspace.motion import Motion
-from carom.halfspace.quasistatic import Patch, Step
+from carom.halfspace.motion import BodyMotion
+from carom.halfspace.quasistatic import ContactStep, Patch
 from carom.halfspace.traction import at_bound
 
 
-class Entry(NamedTuple):
+class LedgerEntry(NamedTuple):
     """One instant of an impact, or all of them; `across` is along y, all else along x.
 
-    Units as in `Compliance` and `Motion`; energies of the normal motion in E* a_max d_max^2, of the
-    tangential motion in friction^2 times that. What is `lost` and the angles belong to the step
+    Units as in `Compliance` and `BodyMotion`; energies of the normal motion in E* a_max d_max^2, of
+    the tangential motion in friction^2 times that. What is `lost` and the angles belong to the step
     that ends here.
     """
 
@@ -54,13 +54,14 @@ class Entry(NamedTuple):
         return 0.5 * self.drag
 
 
-def entry(patch: Patch, before: Motion, now: Motion) -> Entry:
+def entry(patch: Patch, before: BodyMotion, now: BodyMotion) -> LedgerEntry:
     """Return what the step from one instant to the next comes to."""
     state, old = now.step.state, before.step.state
     moved, slips = now.step.moved, slipping(now.step)
     work = patch.element * 0.5 * (old.traction + state.traction) * moved
     mean, largest = _angles(state.traction[:, slips], moved[:, slips])
-    return Entry(
+    touching, gripped = np.count_nonzero(state.pressure > 0.0), np.count_nonzero(now.step.gripped)
+    return LedgerEntry(
         now.time,
         state.depth,
         now.approach,
@@ -69,8 +70,8 @@ def entry(patch: Patch, before: Motion, now: Motion) -> Entry:
         float(now.velocity[1]),
         now.force,
         float(now.drag[0]),
-        _radius(patch, state.pressure > 0.0),
-        _share(slips, now.step.gripped),
+        sqrt(touching * patch.element / pi),
+        np.count_nonzero(slips) / gripped if gripped else 1.0,
         0.5 * patch.element * float(np.sum(state.pressure * (state.depth - patch.gap))),
         0.5 * patch.element * float(np.sum(state.traction * state.yielded)),
         float(work.sum()),
@@ -81,17 +82,9 @@ def entry(patch: Patch, before: Motion, now: Motion) -> Entry:
     )
 
 
-def slipping(step: Step) -> Mask:
+def slipping(step: ContactStep) -> Mask:
     """Return the elements whose traction is as large as friction allows."""
     return step.gripped & at_bound(step.state.traction, step.state.pressure)
-
-
-def _radius(patch: Patch, elements: Mask) -> float:
-    return sqrt(np.count_nonzero(elements) * patch.element / pi)
-
-
-def _share(part: Mask, whole: Mask) -> float:
-    return float(np.count_nonzero(part)) / np.count_nonzero(whole) if whole.any() else 1.0
 
 
 def _angles(pulled: Field, slid: Field) -> tuple[float, float]:

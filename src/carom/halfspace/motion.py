@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.halfspace.influence import Field
-from carom.halfspace.quasistatic import Patch, Step
+from carom.halfspace.quasistatic import ContactStep, Patch
 
 DURATION = 0.8 * sqrt(pi) * gamma(0.4) / gamma(0.9)  # of Hertz's impact, 2.9433 d_max/V_1
 NORMAL = 15.0 / 16.0  # d'' = -NORMAL P
@@ -16,30 +16,23 @@ SLOWEST = 0.05  # of V_1: near the turning point the number of steps decides
 SHARE = 0.5  # of the time scale of the tangential motion on its springs
 
 
-class Motion(NamedTuple):
+class BodyMotion(NamedTuple):
     """The bodies at an instant. The tangential velocity is psi/kappa, in friction V_1."""
 
     time: float
     approach: float  # velocity, d'
     velocity: Field  # shape (2,)
-    step: Step
+    step: ContactStep
     force: float  # P
     drag: Field  # F over friction, shape (2,)
 
 
-class Inertia(NamedTuple):
-    """How forces change velocities: d'' = -normal P, V' = -tangential F."""
-
-    normal: float
-    tangential: float
+def tangential_response(chi: float, kappa: float) -> float:
+    """Return how forces change tangential velocities, V' = -(15/8) (chi/kappa) F."""
+    return 2.0 * NORMAL * chi / kappa
 
 
-def inertia(chi: float, kappa: float) -> Inertia:
-    """Return the response of bodies to forces: tangential (15/8) chi/kappa."""
-    return Inertia(NORMAL, 2.0 * NORMAL * chi / kappa)
-
-
-def move(patch: Patch, psi: Field, chi: float, steps: int) -> Iterator[Motion]:
+def move(patch: Patch, psi: Field, chi: float, steps: int) -> Iterator[BodyMotion]:
     """Yield the impact step by step, from the first touch to the last.
 
     Verlet's method, of second order: half of the change of velocities, the path, the quasi-static
@@ -49,42 +42,37 @@ def move(patch: Patch, psi: Field, chi: float, steps: int) -> Iterator[Motion]:
     last one is cut where the bodies part.
     """
     kappa = patch.compliance.materials.kappa
-    response, spacing = inertia(chi, kappa), patch.compliance.spacing
+    response, spacing = tangential_response(chi, kappa), patch.compliance.spacing
     longest = min(DURATION / steps, SHARE / sqrt(4.0 * NORMAL * chi))
-    now = Motion(0.0, 1.0, psi / kappa, _apart(patch, np.zeros(2)), 0.0, np.zeros(2))
+    now = BodyMotion(0.0, 1.0, psi / kappa, _apart(patch, np.zeros(2)), 0.0, np.zeros(2))
     yield now
     while True:
         state = now.step.state
         length = min(longest, _edge_limit(now, spacing))
-        approach = now.approach - 0.5 * length * response.normal * now.force
-        velocity = now.velocity - 0.5 * length * response.tangential * now.drag
+        approach = now.approach - 0.5 * length * NORMAL * now.force
+        velocity = now.velocity - 0.5 * length * response * now.drag
         depth = state.depth + length * approach
         if depth <= 0.0:
             left = state.depth / -approach
             apart = _apart(patch, state.displacement + left * velocity)
-            yield Motion(now.time + left, approach, velocity, apart, 0.0, np.zeros(2))
+            yield BodyMotion(now.time + left, approach, velocity, apart, 0.0, np.zeros(2))
             return
         step = patch.advance(state, depth, state.displacement + length * velocity)
         force = patch.element * float(step.state.pressure.sum())
         drag = patch.element * step.state.traction.sum(axis=(1, 2))
-        now = Motion(
-            now.time + length,
-            approach - 0.5 * length * response.normal * force,
-            velocity - 0.5 * length * response.tangential * drag,
-            step,
-            force,
-            drag,
-        )
+        approach = approach - 0.5 * length * NORMAL * force
+        velocity = velocity - 0.5 * length * response * drag
+        now = BodyMotion(now.time + length, approach, velocity, step, force, drag)
         yield now
 
 
-def _apart(patch: Patch, displacement: Field) -> Step:
+def _apart(patch: Patch, displacement: Field) -> ContactStep:
     """Return the step at whose end the bodies do not touch."""
     state = patch.untouched()._replace(displacement=displacement)
-    return Step(state, state.yielded, state.pressure > 0.0)
+    return ContactStep(state, state.yielded, state.pressure > 0.0)
 
 
-def _edge_limit(now: Motion, spacing: float) -> float:
+def _edge_limit(now: BodyMotion, spacing: float) -> float:
     """Return the time in which the edge, a = sqrt d, moves by REACH elements."""
     radius = max(sqrt(now.step.state.depth), 0.25 * spacing)
     return REACH * spacing * 2.0 * radius / max(abs(now.approach), SLOWEST)

@@ -21,7 +21,7 @@ ROUNDING = 8.0 * np.finfo(np.float64).eps  # of the work that energies are made 
 DECREASE = 1e-4  # of what the slope promises (Armijo)
 
 
-class Solved(NamedTuple):
+class SurfaceLoad(NamedTuple):
     """Tractions, and the displacement that they cause."""
 
     load: Field
@@ -35,7 +35,7 @@ class Face(NamedTuple):
     bend: Field | float
 
 
-class Bounds(Protocol):
+class AdmissibleSet(Protocol):
     """Where tractions may be."""
 
     def project(self, load: Field) -> Field:
@@ -57,8 +57,8 @@ class Operator(NamedTuple):
 
 
 def minimise(
-    operator: Operator, given: Field, bounds: Bounds, start: Field, tolerance: float
-) -> Solved:
+    operator: Operator, given: Field, bounds: AdmissibleSet, start: Field, tolerance: float
+) -> SurfaceLoad:
     """Return the tractions of least energy within the bounds.
 
     Newton's method projected (Bertsekas 1982, SIAM J. Control Optim. 20:221): preconditioned
@@ -74,12 +74,11 @@ def minimise(
         downhill = pull / operator.diagonal
         allowed = tolerance * bounds.largest(load)
         if np.abs(bounds.project(load + downhill) - load).max() <= allowed:
-            return Solved(load, displacement)
+            return SurfaceLoad(load, displacement)
         face = bounds.face(load, pull)
         newton = _newton(operator, face, pull, FINEST * allowed * operator.diagonal)
         change = _search(operator, bounds, load, newton, pull)
-        if change is None:
-            change = _search(operator, bounds, load, downhill, pull)
+        change = change or _search(operator, bounds, load, downhill, pull)
         if change is None:
             raise RuntimeError("no traction of lower energy was found")
         load, displacement = load + change.load, displacement + change.displacement
@@ -109,8 +108,8 @@ def _newton(operator: Operator, face: Face, pull: Field, finest: float) -> Field
 
 
 def _search(
-    operator: Operator, bounds: Bounds, load: Field, direction: Field, pull: Field
-) -> Solved | None:
+    operator: Operator, bounds: AdmissibleSet, load: Field, direction: Field, pull: Field
+) -> SurfaceLoad | None:
     """Return a change along the projected direction that lowers the energy, or None."""
     length, rounding = 1.0, ROUNDING * float(np.sum(np.abs(pull * load)))
     for _ in range(HALVINGS):
@@ -120,6 +119,6 @@ def _search(
             displacement = operator.displacement(change)
             bent = 0.5 * float(np.sum(change * displacement))
             if bent <= (1.0 - DECREASE) * slope + rounding:
-                return Solved(change, displacement)
+                return SurfaceLoad(change, displacement)
         length *= 0.5
     return None

@@ -26,7 +26,7 @@ class Tolerances(NamedTuple):
 DEFAULT = Tolerances()
 
 
-class State(NamedTuple):
+class ContactState(NamedTuple):
     """The contact at an instant: position of the bodies and the tractions that belong to it."""
 
     depth: float  # d, approach of the bodies
@@ -36,10 +36,10 @@ class State(NamedTuple):
     yielded: Field  # tangential displacement that the surfaces gave way, shape (2, n, n)
 
 
-class Step(NamedTuple):
+class ContactStep(NamedTuple):
     """What one step leads to."""
 
-    state: State
+    state: ContactState
     moved: Field  # U less what the surfaces gave way, in this step, shape (2, n, n)
     gripped: Mask  # elements under friction in this step: not those that touch since its middle
 
@@ -67,13 +67,13 @@ class Patch:
             size += 2
         return cls(Compliance(size, 2.0 / elements, materials), tolerances)
 
-    def untouched(self) -> State:
+    def untouched(self) -> ContactState:
         """Return the state at the first touch."""
         size = self.compliance.size
         nothing = np.zeros((2, size, size))
-        return State(0.0, np.zeros(2), nothing[0], nothing, nothing)
+        return ContactState(0.0, np.zeros(2), nothing[0], nothing, nothing)
 
-    def advance(self, state: State, depth: float, displacement: Field) -> Step:
+    def advance(self, state: ContactState, depth: float, displacement: Field) -> ContactStep:
         """Return the contact after the bodies have moved in a straight line.
 
         Elements that come to touch in the second half of the step take no traction yet and stick
@@ -86,7 +86,8 @@ class Patch:
         given = (displacement - state.displacement)[:, None, None] + state.yielded
         for _ in range(EXCHANGES):
             before = pressure, traction
-            pressure = self._pressure(depth, traction, pressure)
+            overlap = self._overlap(depth, traction)
+            pressure = solve_pressure(self.compliance, overlap, pressure, self.tolerances.normal)
             skewed = self.compliance.tangential_of_pressure(pressure)
             bound = np.where(late, 0.0, pressure)
             traction, dragged = solve_traction(
@@ -94,32 +95,25 @@ class Patch:
             )
             yielded = dragged + skewed
             if not self.compliance.couples or self._settled(before, (pressure, traction)):
-                moved = given - yielded
-                return Step(
-                    State(depth, displacement, pressure, traction, yielded), moved, bound > 0.0
-                )
+                reached = ContactState(depth, displacement, pressure, traction, yielded)
+                return ContactStep(reached, given - yielded, bound > 0.0)
         product = self.compliance.materials.friction * abs(self.compliance.materials.beta)
         raise RuntimeError(
             f"normal and tangential contact do not agree in {EXCHANGES} exchanges; friction times "
             f"Dundurs' beta is {product:.3g}, boundary elements want about 1 at most"
         )
 
-    def _pressure(self, depth: float, traction: Field, start: Field) -> Field:
-        return solve_pressure(
-            self.compliance, self._overlap(depth, traction), start, self.tolerances.normal
-        )
-
     def _overlap(self, depth: float, traction: Field) -> Field:
         return depth - self.gap - self.compliance.normal_of_traction(traction)
 
-    def _late(self, state: State, depth: float) -> Mask:
+    def _late(self, state: ContactState, depth: float) -> Mask:
         """Return the elements that come to touch in the second half of a step."""
         if depth <= state.depth:
             return np.zeros(self.gap.shape, dtype=bool)
         overlap = self._overlap(0.5 * (state.depth + depth), state.traction)
         middle = solve_pressure(self.compliance, overlap, state.pressure, self.tolerances.touch)
-        late: Mask = (state.pressure == 0.0) & (middle <= self.tolerances.normal * middle.max())
-        return late
+        apart = middle <= self.tolerances.normal * middle.max()
+        return np.asarray((state.pressure == 0.0) & apart)
 
     def _settled(self, before: tuple[Field, Field], after: tuple[Field, Field]) -> bool:
         return all(

@@ -10,10 +10,10 @@ import numpy as np
 
 from carom.halfspace.compliance import Materials
 from carom.halfspace.influence import Field
-from carom.halfspace.ledger import Entry, entry
-from carom.halfspace.motion import DURATION, NORMAL, Motion, inertia, move
-from carom.halfspace.quasistatic import Patch, Step
-from carom.halfspace.stages import Stage, stages
+from carom.halfspace.ledger import LedgerEntry, entry
+from carom.halfspace.motion import DURATION, NORMAL, BodyMotion, move, tangential_response
+from carom.halfspace.quasistatic import ContactStep, Patch
+from carom.halfspace.stages import SlipStage, stages
 
 Progress = Callable[[int], object]
 FAINT = 1e-6  # of the normal force: slip that pulls so little has no sign
@@ -35,7 +35,7 @@ class Resolution(NamedTuple):
 STANDARD = Resolution()
 
 
-class History(NamedTuple):
+class GridHistory(NamedTuple):
     """An impact at some times; units d_max, d_max/V_1, and for tangential motion those of psi."""
 
     time: Field
@@ -58,8 +58,8 @@ class History(NamedTuple):
 class Snapshot(NamedTuple):
     """The contact at the end of a step, with the velocity of slip during it."""
 
-    entry: Entry
-    step: Step
+    entry: LedgerEntry
+    step: ContactStep
     slip_velocity: Field
 
 
@@ -71,14 +71,13 @@ class HalfspaceSolution:
     chi: float
     materials: Materials
     resolution: Resolution
-    ledger: Field  # one row an Entry
+    ledger: Field  # a row a LedgerEntry
     snapshots: tuple[Snapshot, ...]
     patch: Patch
 
     def column(self, name: str) -> Field:
-        """Return one quantity of `Entry` along the steps."""
-        values: Field = getattr(Entry(*self.ledger.T), name)
-        return values
+        """Return one quantity of `LedgerEntry` along the steps."""
+        return np.asarray(getattr(LedgerEntry(*self.ledger.T), name))
 
     @property
     def psi_out(self) -> float:
@@ -113,11 +112,16 @@ class HalfspaceSolution:
     @property
     def energy_error(self) -> float:
         """Largest change of the sum of all energies, as a share of those before the impact."""
-        total = self._normal_energy() + self._tangential_energy()
+        response = tangential_response(self.chi, self.materials.kappa)
+        square = self.column("velocity") ** 2 + self.column("velocity_across") ** 2
+        tangential = 0.5 * square / response + self.column("tangential_stored")
+        normal = 0.5 * self.column("approach") ** 2 / NORMAL + self.column("normal_stored")
+        lost = np.cumsum(self.column("lost"))
+        total = normal + self.materials.friction**2 * (tangential + lost)
         return float(np.abs(total - total[0]).max() / total[0])
 
     @property
-    def phases(self) -> tuple[Stage, ...]:
+    def phases(self) -> tuple[SlipStage, ...]:
         """Stick, slip and gross slip in order, as far as the grid shows them."""
         pull = self.column("slip_drag")
         sign = np.where(np.abs(pull) > FAINT * self.column("force"), np.sign(pull), 0.0)
@@ -133,10 +137,12 @@ class HalfspaceSolution:
         mean = np.sum(self.column("slip_angle")[within] * work) / work.sum()
         return float(self.column("slip_angle_max")[within].max()), float(mean)
 
-    def history(self, n: int) -> History:
+    def history(self, n: int) -> GridHistory:
         """Return the impact at n evenly spaced times, linear between the steps."""
         time = np.linspace(0.0, self.duration, n)
-        return History(time, *(np.interp(time, self.column("time"), c) for c in self._columns()))
+        return GridHistory(
+            time, *(np.interp(time, self.column("time"), c) for c in self._columns())
+        )
 
     def snapshot(self, time: float) -> Snapshot:
         """Return the kept step that ends nearest to a time."""
@@ -163,15 +169,6 @@ class HalfspaceSolution:
             self.column("slip_angle_max"),
         )
 
-    def _normal_energy(self) -> Field:
-        return 0.5 * self.column("approach") ** 2 / NORMAL + self.column("normal_stored")
-
-    def _tangential_energy(self) -> Field:
-        response = inertia(self.chi, self.materials.kappa).tangential
-        square = self.column("velocity") ** 2 + self.column("velocity_across") ** 2
-        kept = 0.5 * square / response + self.column("tangential_stored")
-        return self.materials.friction**2 * (kept + np.cumsum(self.column("lost")))
-
 
 def solve(
     psi: float,
@@ -186,7 +183,7 @@ def solve(
     `progress` is called after every step with how many of `resolution.steps` it makes up for.
     """
     patch = Patch.across(resolution.elements, materials)
-    rows: list[Entry] = []
+    rows: list[LedgerEntry] = []
     snapshots: list[Snapshot] = []
     every = ceil(max(resolution) / SNAPSHOTS)
     motions = move(patch, np.array([psi, 0.0]), chi, resolution.steps)
@@ -195,7 +192,8 @@ def solve(
             rows.append(entry(patch, before, before))
         rows.append(entry(patch, before, now))
         if count % every == 0:
-            snapshots.append(_snapshot(rows[-1], before, now))
+            slip_velocity = now.step.moved / (now.time - before.time)
+            snapshots.append(Snapshot(rows[-1], now.step, slip_velocity))
         if progress is not None:
             progress(_steps_until(now, resolution) - _steps_until(before, resolution))
     return HalfspaceSolution(
@@ -203,12 +201,8 @@ def solve(
     )
 
 
-def _steps_until(now: Motion, resolution: Resolution) -> int:
+def _steps_until(now: BodyMotion, resolution: Resolution) -> int:
     """Return how many steps of equal length an instant is worth; all of them at the end."""
     apart = now.approach < 0.0 and now.force == 0.0
     passed = 1.0 if apart else min(now.time / DURATION, 1.0)
     return round(passed * resolution.steps)
-
-
-def _snapshot(row: Entry, before: Motion, now: Motion) -> Snapshot:
-    return Snapshot(row, now.step, now.step.moved / (now.time - before.time))

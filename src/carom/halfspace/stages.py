@@ -17,7 +17,7 @@ CAUSES = {
 }
 
 
-class Stage(NamedTuple):
+class SlipStage(NamedTuple):
     """A stretch of time in which all sticks, all slips, or both; `cause` is what comes next."""
 
     kind: str
@@ -27,7 +27,7 @@ class Stage(NamedTuple):
     cause: str
 
 
-def stages(time: Field, slipping: Field, sign: Field) -> tuple[Stage, ...]:
+def stages(time: Field, slipping: Field, sign: Field) -> tuple[SlipStage, ...]:
     """Return the stages of an impact, those too short for the grid left out.
 
     `slipping` is the share of the contact that slips in the step that ends at each time, `sign` the
@@ -46,7 +46,7 @@ def stages(time: Field, slipping: Field, sign: Field) -> tuple[Stage, ...]:
     ends = [*begins[1:], float(time[-1])]
     causes = [*(CAUSES[kind] for (kind, _), _ in kept[1:]), "separation"]
     return tuple(
-        Stage(kind, sign, begin, end, cause)
+        SlipStage(kind, sign, begin, end, cause)
         for ((kind, sign), _), begin, end, cause in zip(kept, begins, ends, causes, strict=True)
     )
 

@@ -1,4 +1,7 @@
-"""Tangential contact: Coulomb's law as a vector, for a pressure that is known."""
+"""The two problems of contact: pressures that only push, and tractions that friction bounds.
+
+Each knows the other's result; what makes them one kind of problem is in `projected`.
+"""
 
 from typing import NamedTuple
 
@@ -6,7 +9,40 @@ import numpy as np
 
 from carom.halfspace.compliance import Compliance
 from carom.halfspace.influence import Field, Mask
-from carom.halfspace.projected import Face, Operator, Solved, minimise
+from carom.halfspace.projected import Face, Operator, SurfaceLoad, minimise
+
+
+class Pushing:
+    """Pressures cannot pull: p >= 0."""
+
+    def project(self, load: Field) -> Field:
+        """Return the pressure without what pulls."""
+        return np.maximum(load, 0.0)
+
+    def face(self, load: Field, pull: Field) -> Face:
+        """Return the elements that touch or overlap."""
+        touching = (load > 0.0) | (pull > 0.0)
+        return Face(lambda vectors: np.where(touching, vectors, 0.0), 0.0)
+
+    def largest(self, load: Field) -> float:
+        """Return the largest pressure."""
+        return float(load.max())
+
+
+def solve_pressure(
+    compliance: Compliance, overlap: Field, start: Field, tolerance: float = 1e-6
+) -> Field:
+    """Return the pressure p >= 0 with N p = overlap where p > 0 and N p >= overlap elsewhere.
+
+    Of the pressures that do not pull it has the least energy (1/2) p.N p - overlap.p (Kalker 1990,
+    section 4.2): conjugate gradients on the elements that touch, with pressures that would pull cut
+    off and elements that overlap taken in. `overlap` is that of the undeformed bodies.
+    """
+    if overlap.max() <= 0.0:
+        return np.zeros_like(start)
+    operator = Operator(compliance.normal, compliance.roughly_pressure, compliance.normal_diagonal)
+    guess = start if start.any() else np.maximum(overlap, 0.0)
+    return minimise(operator, overlap, Pushing(), guess, tolerance).load
 
 
 class Discs(NamedTuple):
@@ -45,13 +81,12 @@ class Discs(NamedTuple):
 
 def at_bound(traction: Field, bound: Field) -> Mask:
     """Return where a traction is as large as friction allows."""
-    reached: Mask = np.hypot(*traction) >= bound * (1.0 - 1e-12)
-    return reached
+    return np.asarray(np.hypot(*traction) >= bound * (1.0 - 1e-12))
 
 
 def solve_traction(
     compliance: Compliance, given: Field, bound: Field, start: Field, tolerance: float = 1e-6
-) -> Solved:
+) -> SurfaceLoad:
     """Return the traction with |q| <= bound that follows a given displacement as far as it can.
 
     Of all such tractions it has the least energy (1/2) q.T q - given.q (Kalker 1990, section 4.2):
@@ -65,36 +100,3 @@ def solve_traction(
     met = float(np.abs(given * (bound > 0.0)).max()) / compliance.tangential_diagonal
     bounds = Discs(bound, min(float(bound.max()), met))
     return minimise(operator, given, bounds, start, tolerance)
-
-
-class Pushing:
-    """Pressures cannot pull: p >= 0."""
-
-    def project(self, load: Field) -> Field:
-        """Return the pressure without what pulls."""
-        return np.maximum(load, 0.0)
-
-    def face(self, load: Field, pull: Field) -> Face:
-        """Return the elements that touch or overlap."""
-        touching = (load > 0.0) | (pull > 0.0)
-        return Face(lambda vectors: np.where(touching, vectors, 0.0), 0.0)
-
-    def largest(self, load: Field) -> float:
-        """Return the largest pressure."""
-        return float(load.max())
-
-
-def solve_pressure(
-    compliance: Compliance, overlap: Field, start: Field, tolerance: float = 1e-6
-) -> Field:
-    """Return the pressure p >= 0 with N p = overlap where p > 0 and N p >= overlap elsewhere.
-
-    Of the pressures that do not pull it has the least energy (1/2) p.N p - overlap.p (Kalker 1990,
-    section 4.2): conjugate gradients on the elements that touch, with pressures that would pull cut
-    off and elements that overlap taken in. `overlap` is that of the undeformed bodies.
-    """
-    if overlap.max() <= 0.0:
-        return np.zeros_like(start)
-    operator = Operator(compliance.normal, compliance.roughly_pressure, compliance.normal_diagonal)
-    guess = start if start.any() else np.maximum(overlap, 0.0)
-    return minimise(operator, overlap, Pushing(), guess, tolerance).load

@@ -12,7 +12,7 @@ from carom.bodies.pairs import Pair
 from carom.contacts.fields import OUTSIDE, SLIP, STICK, ZONES
 from carom.dimensionless.states import SlipAngle
 from carom.halfspace.compliance import Materials
-from carom.halfspace.ledger import Entry, slipping
+from carom.halfspace.ledger import LedgerEntry, slipping
 from carom.halfspace.solution import HalfspaceSolution, Resolution, solve
 from carom.impacts.result import Course
 from carom.impacts.validity import judge_contact, judge_errors
@@ -206,7 +206,7 @@ class HalfspaceImpact(Course):
         """E* d_max/a_max in Pa: Hertz's largest pressure is 2/pi of it."""
         return 0.5 * np.pi * self.scales.pressure
 
-    def _numbers(self, entry: Entry) -> dict[str, float]:
+    def _numbers(self, entry: LedgerEntry) -> dict[str, float]:
         scales, kappa = self.scales, self.pair.kappa
         return {
             "friction": self.pair.friction,
