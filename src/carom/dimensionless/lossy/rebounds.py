@@ -7,19 +7,10 @@ from numpy.typing import NDArray
 
 from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
+from carom.dimensionless.lossy import record as layout
 from carom.dimensionless.lossy.impacts import run
 from carom.dimensionless.lossy.normal import Loss
-from carom.dimensionless.lossy.record import (
-    DEEPEST,
-    NUMBERS,
-    PSI_OUT,
-    RESTITUTION,
-    STRONGEST,
-    TIME,
-    WIDEST,
-    Trace,
-    new_record,
-)
+from carom.dimensionless.lossy.record import PSI_OUT, Trace, new_record
 from carom.dimensionless.lossy.work import Arrays, new_work
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
@@ -126,14 +117,14 @@ def lossy_rebounds(
 
     NaN where the status is not SOLVED.
     """
-    numbers, status = np.ones((psi.size, NUMBERS)), np.zeros(psi.size, dtype=np.int8)
+    numbers, status = np.ones((psi.size, layout.NUMBERS)), np.zeros(psi.size, dtype=np.int8)
     elastic = np.array([is_elastic(loss, float(value)) for value in parameter], dtype=bool)
-    numbers[:, TIME] = hertz.DURATION
+    numbers[:, layout.TIME] = hertz.DURATION
     numbers[elastic, PSI_OUT], status[elastic], _ = solved(psi[elastic], chi[elastic], threads)
     numbers[status != Status.SOLVED] = np.nan
     lossy = np.flatnonzero(~elastic)
     psis, chis, parameters = psi[lossy], chi[lossy], parameter[lossy]
-    found, codes = np.empty((lossy.size, NUMBERS)), np.empty(lossy.size, dtype=np.int8)
+    found, codes = np.empty((lossy.size, layout.NUMBERS)), np.empty(lossy.size, dtype=np.int8)
 
     def block(part: slice) -> None:
         given = psis[part], chis[part], int(loss), parameters[part]
@@ -143,10 +134,10 @@ def lossy_rebounds(
     numbers[lossy], status[lossy] = found, codes
     return LossyRebounds(
         psi_out=numbers[:, PSI_OUT],
-        restitution=numbers[:, RESTITUTION],
-        duration=numbers[:, TIME],
-        max_penetration=numbers[:, DEEPEST],
-        max_force=numbers[:, STRONGEST],
-        max_radius=numbers[:, WIDEST],
+        restitution=numbers[:, layout.RESTITUTION],
+        duration=numbers[:, layout.TIME],
+        max_penetration=numbers[:, layout.DEEPEST],
+        max_force=numbers[:, layout.STRONGEST],
+        max_radius=numbers[:, layout.WIDEST],
         status=status,
     )

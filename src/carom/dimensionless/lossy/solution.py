@@ -6,31 +6,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.dimensionless.elastic.phases import Kind, Status
+from carom.dimensionless.lossy import record as layout
 from carom.dimensionless.lossy.collocation import NODES, TO_SERIES, place
 from carom.dimensionless.lossy.rebounds import outgoing
-from carom.dimensionless.lossy.record import (
-    AT_B,
-    AT_D,
-    AT_LOST,
-    AT_P,
-    AT_PSI,
-    AT_Q,
-    AT_SQUARE,
-    AT_STORED,
-    AT_STUCK,
-    AT_TIME,
-    AT_U,
-    AT_V,
-    DEEPEST,
-    NUMBERS,
-    PSI_OUT,
-    RESTITUTION,
-    STRONGEST,
-    TIME,
-    WIDEST,
-    Trace,
-    new_record,
-)
+from carom.dimensionless.lossy.record import Trace, new_record
 from carom.dimensionless.lossy.work import new_work
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.states import KIND_NAMES, History, Phase, Trajectory, times_within
@@ -86,56 +65,56 @@ class LossySolution(Trajectory):
             raise ValueError(f"psi = {self.psi_in:g}, chi = {self.chi:g}: {self.status.message}")
         wanted = times_within(self.duration, time)
         rows, scale = self._sampled(wanted), self._scale
-        first, psi = self._record.rows[0, AT_PSI, 0], rows[AT_PSI]
-        stored = 1.875 * self.chi * rows[AT_SQUARE]
+        first, psi = self._record.rows[0, layout.AT_PSI, 0], rows[layout.AT_PSI]
+        stored = 1.875 * self.chi * rows[layout.AT_SQUARE]
         return History(
             time=wanted,
-            penetration=rows[AT_D],
-            speed=rows[AT_V],
+            penetration=rows[layout.AT_D],
+            speed=rows[layout.AT_V],
             psi=scale * psi,
-            displacement=scale * rows[AT_U],
-            force=scale * rows[AT_Q],
-            stick_radius=np.minimum(rows[AT_STUCK], rows[AT_B]),
-            contact_radius=rows[AT_B],
+            displacement=scale * rows[layout.AT_U],
+            force=scale * rows[layout.AT_Q],
+            stick_radius=np.minimum(rows[layout.AT_STUCK], rows[layout.AT_B]),
+            contact_radius=rows[layout.AT_B],
             stored=scale**2 * stored,
             dissipated=scale**2 * (0.5 * (first - psi) * (first + psi) - stored),
-            normal_force=rows[AT_P],
-            normal_stored=rows[AT_STORED],
-            normal_lost=rows[AT_LOST],
+            normal_force=rows[layout.AT_P],
+            normal_stored=rows[layout.AT_STORED],
+            normal_lost=rows[layout.AT_LOST],
         )
 
     def _sampled(self, wanted: Array) -> Array:
         """Return all rows of the record at these times, shape (rows, times)."""
-        rows, starts = self._record.rows, self._record.rows[:, AT_TIME, 0]
+        rows, starts = self._record.rows, self._record.rows[:, layout.AT_TIME, 0]
         panels = np.clip(np.searchsorted(starts, wanted, side="right") - 1, 0, len(rows) - 1)
         found, series = np.empty((rows.shape[1], wanted.size)), rows @ TO_SERIES.T
         for i, (panel, instant) in enumerate(zip(panels, wanted, strict=True)):
-            x = place(series, panel, AT_TIME, instant, -1.0, 1.0)
+            x = place(series, panel, layout.AT_TIME, instant, -1.0, 1.0)
             found[:, i] = np.polynomial.chebyshev.chebval(x, series[panel].T)
         return found
 
 
 def solve_with_losses(psi: float, chi: float, loss: int, parameter: float) -> LossySolution:
     """Solve one oblique impact whose normal motion loses energy; ValueError for bad numbers."""
-    record, numbers = new_record(True), np.zeros(NUMBERS)
+    record, numbers = new_record(True), np.zeros(layout.NUMBERS)
     code, panels = outgoing(psi, chi, int(loss), parameter, new_work(), record, numbers)
     status = Status(code)
     if status in (Status.PSI_NOT_FINITE, Status.CHI_NOT_POSITIVE):
         name, value = ("psi", psi) if status is Status.PSI_NOT_FINITE else ("chi", chi)
         raise ValueError(f"{name}: {value:g} is not allowed; {status.message}")
     kept = Trace(record.rows[:panels].copy(), record.kinds[:panels].copy())
-    first = float(kept.rows[0, AT_PSI, 0]) if panels else 1.0
+    first = float(kept.rows[0, layout.AT_PSI, 0]) if panels else 1.0
     return LossySolution(
         psi_in=psi,
         chi=chi,
-        psi_out=float(numbers[PSI_OUT]),
+        psi_out=float(numbers[layout.PSI_OUT]),
         status=status,
         phases=_phases(kept, -1 if psi < 0.0 else 1),
-        restitution=float(numbers[RESTITUTION]),
-        duration=float(numbers[TIME]),
-        max_penetration=float(numbers[DEEPEST]),
-        max_force=float(numbers[STRONGEST]),
-        max_radius=float(numbers[WIDEST]),
+        restitution=float(numbers[layout.RESTITUTION]),
+        duration=float(numbers[layout.TIME]),
+        max_penetration=float(numbers[layout.DEEPEST]),
+        max_force=float(numbers[layout.STRONGEST]),
+        max_radius=float(numbers[layout.WIDEST]),
         _record=kept,
         _scale=psi / first,
     )
@@ -146,7 +125,7 @@ def _phases(record: Trace, mirror: int) -> tuple[Phase, ...]:
     found: list[Phase] = []
     for rows, (kind, sign) in zip(record.rows, record.kinds.tolist(), strict=True):
         start = found[-1].end if found else 0.0
-        end = float(rows[AT_TIME, NODES - 1])
+        end = float(rows[layout.AT_TIME, NODES - 1])
         name, sign = KIND_NAMES[Kind(kind)], mirror * sign
         if found and ((found[-1].kind, found[-1].sign) == (name, sign) or end - start <= SHORTEST):
             found[-1] = found[-1]._replace(end=end)
