@@ -106,6 +106,17 @@ def rebound(
     return result
 
 
+def regime_borders(chi: ArrayLike, restitution: ArrayLike = 1.0) -> Array:
+    """Return the |psi_1| at which the regime changes, along a new last axis: 1, 2 chi, 4 chi - 1.
+
+    For chi <= 1/2 all are 1. With losses the last is 2 chi (1 + e) - e, where slip in gross just
+    ends with the contact.
+    """
+    e = np.asarray(restitution, dtype=np.float64)
+    last = np.maximum(2.0 * np.asarray(chi) * (1.0 + e) - e, 1.0)
+    return np.stack((np.ones_like(last), 0.5 + 0.5 * last, last), axis=-1)
+
+
 def _real(name: str, values: ArrayLike) -> Array:
     try:
         given = np.asarray(values)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.normal import NormalLoss
-from carom.dimensionless.rebounds import rebound
+from carom.dimensionless.rebounds import rebound, regime_borders
 from carom.dimensionless.solution import solve
 from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
@@ -55,9 +55,8 @@ def borders(chi: float) -> tuple[float, float, float]:
     >>> borders(1.5)
     (1.0, 3.0, 5.0)
     """
-    if chi <= 0.5:
-        return 1.0, 1.0, 1.0
-    return 1.0, 2.0 * chi, 4.0 * chi - 1.0
+    first, second, third = regime_borders(chi).tolist()
+    return first, second, third
 
 
 def curve(

@@ -16,6 +16,7 @@ from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.chebyshev import Panels, fitted
+from carom.dimensionless.rebounds import regime_borders
 from carom.io.progress import advancing
 from carom.laws.rules import DEGREE
 from carom.quantities.arrays import Array
@@ -54,7 +55,7 @@ def borders(chi: float, restitution: float) -> list[float]:
     """Return psi_1 between which panels lie, of the first and the last and of known kinks."""
     if restitution != 1.0:
         return [LOSSY_SMALLEST, END * reach_of(chi, restitution).sliding]
-    return [SMALLEST, 1.0] if chi <= 0.5 else [SMALLEST, 1.0, 2.0 * chi, 4.0 * chi - 1.0]
+    return [SMALLEST, *np.unique(regime_borders(chi)).tolist()]
 
 
 def elastic_panels(chi: float) -> Panels:
