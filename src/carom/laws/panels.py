@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 from carom.bodies.losses import KelvinVoigt
 from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.chebyshev import Panels, fitted
-from carom.dimensionless.rebounds import regime_borders
+from carom.dimensionless.rebounds import rebound, regime_borders
 from carom.io.progress import advancing
 from carom.laws.rules import DEGREE
 from carom.quantities.arrays import Array
@@ -75,15 +74,14 @@ def elastic_panels(chi: float) -> Panels:
 def lossy_panels(chi: float, restitution: float) -> Panels:
     """Return the table of r at one e, found by its error alone; a bar tells of it after 2 s."""
     reach, ends = reach_of(chi, restitution), borders(chi, restitution)
-    loss, parameter = KelvinVoigt(restitution=restitution).scale_free()
+    loss = KelvinVoigt(restitution=restitution)
     with advancing("table of rebounds", None, unit="impacts") as advance:
 
         def outgoing(psi: Array) -> Array:
-            known = np.full(psi.size, chi), loss, np.full(psi.size, parameter)
-            found = lossy_rebounds(psi, *known)
-            _refuse_unsolved(chi, found.status)
+            psi_out, status = rebound(psi, chi, normal=loss, return_status=True)
+            _refuse_unsolved(chi, status)
             advance(psi.size)
-            return found.psi_out
+            return np.asarray(psi_out)
 
         far = FAR * reach.sliding
         lacking = far * (outgoing(np.array([far]))[0] - (far - reach.sliding))

@@ -10,14 +10,8 @@ from typing import ClassVar
 
 from carom.laws.dem.base import ContactLaw
 from carom.laws.dem.coefficients import MINDLIN, SPRING, Coefficients
-from carom.laws.dem.damping import (
-    COEFF_RESTITUTION,
-    RULES,
-    check_restitution,
-    hertz_damping,
-    thornton_damping,
-)
-from carom.quantities.units import not_negative, positive, refusal
+from carom.laws.dem.damping import COEFF_RESTITUTION, RULES, hertz_damping, thornton_damping
+from carom.quantities.units import refusal
 
 KEPT = {  # powers n, while the contact grows and while it shrinks
     "mindlin": (1.0, 1.0),
@@ -77,11 +71,7 @@ class LammpsMindlin(ContactLaw):
             raise refusal("variant", self.variant, f"must be one of {', '.join(KEPT)}")
         if self.damping not in RULES:
             raise refusal("damping", self.damping, f"must be {' or '.join(RULES)}")
-        object.__setattr__(self, "stiffness", positive("stiffness", self.stiffness))
-        check_restitution(self)
-        object.__setattr__(
-            self, "tangential_damping", not_negative("tangential_damping", self.tangential_damping)
-        )
+        super().__post_init__()
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
@@ -128,9 +118,6 @@ class LiggghtsHertz(ContactLaw):
     source: ClassVar[str] = "LIGGGHTS-PUBLIC documentation, gran model hertz, tangential history"
 
     restitution: float = 1.0
-
-    def __post_init__(self) -> None:
-        check_restitution(self)
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
@@ -206,9 +193,6 @@ class YadeMindlin(ContactLaw):
     source: ClassVar[str] = "YADE documentation, Law2_ScGeom_MindlinPhys_Mindlin"
 
     restitution: float = 1.0
-
-    def __post_init__(self) -> None:
-        check_restitution(self)
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
