@@ -65,10 +65,15 @@ CATALOGUE = (
 )
 
 
+def called(law: Law) -> str:
+    """Return what a law is called, its variant included."""
+    return str(getattr(law, "variant", law.name))
+
+
 def as_entry(given: object) -> Entry:
     """Return an entry as it is, or one for a law; raise InputError for anything else."""
     if isinstance(given, Law):
-        return Entry(str(getattr(given, "variant", given.name)), given, "")
+        return Entry(called(given), given, "")
     if not isinstance(given, Entry):
         raise refusal("law", given, "must be a contact law, e.g. carom.LinearSpring()")
     return given
