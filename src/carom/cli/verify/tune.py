@@ -13,8 +13,7 @@ if TYPE_CHECKING:
 
 def tune_command(
     case: Annotated[
-        Path | None,
-        typer.Argument(help="Case file as of `carom impact`: bodies, friction, speed."),
+        Path | None, typer.Argument(help="Case file as of `carom impact`: bodies, friction, speed.")
     ] = None,
     chi: Annotated[str | None, typer.Option(help="Instead of a case: chi, positive.")] = None,
     kappa: Annotated[
@@ -46,12 +45,7 @@ def tune_command(
     from carom.verify.tuning import tune
 
     setting = setting_of(case, chi, kappa, start, stop, restitution)
-    tuning = tune(
-        chi=setting.chi,
-        kappa=setting.kappa,
-        psi=setting.psi,
-        measure=measure,
-    )
+    tuning = tune(chi=setting.chi, kappa=setting.kappa, psi=setting.psi, measure=measure)
     given = {"normal_speed": setting.normal_speed, "duration": setting.duration}
     record = tuning.as_record() | {"inputs": _inputs(setting, tuning)} | given
     typer.echo(json.dumps(record, indent=2) if as_json else _text(tuning, record))

@@ -9,7 +9,7 @@ from math import sqrt
 from typing import ClassVar
 
 from carom.laws.dem.base import ContactLaw
-from carom.laws.dem.coefficients import MINDLIN, SPRING, Coefficients
+from carom.laws.dem.coefficients import MINDLIN, SPRING, Coefficients, hertzian
 from carom.laws.dem.damping import COEFF_RESTITUTION, RULES, hertz_damping, thornton_damping
 from carom.quantities.units import refusal
 
@@ -77,10 +77,9 @@ class LammpsMindlin(ContactLaw):
         """Return the law as numbers in the units of Hertz's impact."""
         loading, unloading = KEPT[self.variant]
         damping = hertz_damping(self.restitution, self.damping)
-        return Coefficients(
-            chi=chi,
-            normal_damping=damping,
-            damping_power=0.5,
+        return hertzian(
+            chi,
+            damping,
             stiffness=MINDLIN * self.stiffness,
             kept_loading=loading,
             kept_unloading=unloading,
@@ -122,10 +121,9 @@ class LiggghtsHertz(ContactLaw):
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
         damping = hertz_damping(self.restitution)
-        return Coefficients(
-            chi=chi,
-            normal_damping=damping,
-            damping_power=0.5,
+        return hertzian(
+            chi,
+            damping,
             kept_loading=1.0,
             kept_unloading=1.0,
             shear_damping=damping * kappa**-0.5,
@@ -197,10 +195,9 @@ class YadeMindlin(ContactLaw):
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
         damping = 2.0 * sqrt(SPRING * MINDLIN) * thornton_damping(self.restitution)
-        return Coefficients(
-            chi=chi,
-            normal_damping=damping,
-            damping_power=0.5,
+        return hertzian(
+            chi,
+            damping,
             pulls=False,
             shear_damping=damping * kappa**-0.5,
             limits_damping=False,

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from carom.laws.dem.base import ContactLaw
-from carom.laws.dem.coefficients import MINDLIN, SPRING, Coefficients, Normal
+from carom.laws.dem.coefficients import MINDLIN, SPRING, Coefficients, hertzian, linear
 from carom.laws.dem.damping import damping_ratio, hertz_damping
 
 
@@ -47,13 +47,9 @@ class LinearSpring(ContactLaw):
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
         damping = 2.0 * SPRING * damping_ratio(self.restitution)
-        return Coefficients(
-            chi=chi,
-            normal=Normal.LINEAR.value,
-            normal_damping=damping,
-            stiffness=SPRING * (self.stiffness_ratio or kappa) / kappa,
-            stiffness_power=0.0,
-            shear_damping=self.tangential_damping * damping / kappa,
+        shear_damping = self.tangential_damping * damping / kappa
+        return linear(
+            chi, kappa, self.stiffness_ratio, normal_damping=damping, shear_damping=shear_damping
         )
 
 
@@ -93,10 +89,9 @@ class HertzLinearHistory(ContactLaw):
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
         damping = hertz_damping(self.restitution)
-        return Coefficients(
-            chi=chi,
-            normal_damping=damping,
-            damping_power=0.5,
+        return hertzian(
+            chi,
+            damping,
             stiffness=MINDLIN * self.stiffness,
             stiffness_power=0.0,
             shear_damping=self.tangential_damping * damping / kappa,
@@ -112,13 +107,7 @@ class BilinearLaw(ContactLaw):
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
-        return Coefficients(
-            chi=chi,
-            normal=Normal.LINEAR.value,
-            unloading=self.restitution**-2,
-            stiffness=SPRING * (self.stiffness_ratio or kappa) / kappa,
-            stiffness_power=0.0,
-        )
+        return linear(chi, kappa, self.stiffness_ratio, unloading=self.restitution**-2)
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from carom.dimensionless.rebounds import rebound
 from carom.quantities.arrays import Array
 from carom.quantities.units import positive, refusal
 from carom.verify.engines.arrangement import (
+    SKIN,
     Placed,
     placed,
     restitution,
@@ -19,7 +20,7 @@ from carom.verify.engines.arrangement import (
     spacing,
 )
 from carom.verify.engines.experiments import Experiment, Outcomes
-from carom.verify.engines.lammps import SKIN, coefficients, tangential_damping
+from carom.verify.engines.lammps import coefficients
 
 FLIGHT = 8  # steps that the driver runs after the commands
 FASTER = 4.0  # drift over the largest tangential speed
@@ -98,7 +99,7 @@ def unit_test_yaml(
     if outcomes is None:
         outcomes, reference = exact(experiment), "the exact elastic impact"
     before, pair = placed(experiment), experiment.pair
-    x, drift = spacing(pair), FASTER * _fastest(before)
+    x, drift = spacing(pair), FASTER * max(abs(v) for body in before for v in (body.vx, body.vz))
     velocities = _speeds(experiment, outcomes) + np.array([drift, 0.0, 0.0])
     places = np.array([[x, body.y, body.z] for body in before])
     time = (run_length(experiment) - experiment.steps + FLIGHT) * experiment.time_step
@@ -139,10 +140,6 @@ def exact(experiment: Experiment) -> Outcomes:
         np.array(experiment.tangential_speed) - impulse / pair.normal_mass,
         np.array(experiment.spin) - turned,
     )
-
-
-def _fastest(bodies: list[Placed]) -> float:
-    return max(max(abs(body.vx), abs(body.vz)) for body in bodies)
 
 
 def _speeds(experiment: Experiment, outcomes: Outcomes) -> Array:
@@ -205,10 +202,9 @@ def _sphere(number: int, body: Placed, x: float, drift: float) -> list[str]:
 def _contact(experiment: Experiment, drift: float) -> list[str]:
     """Return the commands of motion and contact; the driver asks for a fix called test."""
     law, pair = coefficients(experiment), experiment.pair
-    damping = tangential_damping(experiment.law)
     # the driver's pair_style zero reaches farther than the box: no bins
     start = [f"neighbor {SKIN * spacing(pair)!r} nsq"]
-    words = law.words(*map(repr, (law.kn, law.kt, law.loss, damping, pair.friction)))
+    words = law.words(law.number)
     if isinstance(pair.second, Sphere):
         granular = ["pair_style granular", f"pair_coeff * * {words}"]
         return [*start, *granular, "fix test all nve/sphere"]

@@ -14,18 +14,15 @@ from carom.verify.engines.arrangement import (
     data_file,
     outcomes_of,
     read_dump,
-    remarks,
     restitution,
-    run_length,
-    spacing,
+    shared_values,
     spring,
     young_moduli,
 )
 from carom.verify.engines.experiments import Experiment, Outcomes
-from carom.verify.engines.running import Program
+from carom.verify.engines.running import Engine
 
 INPUT, SPHERES, RESULT = "in.liggghts", "spheres.data", "results.dump"
-SKIN = 0.025  # of the distance between neighbours
 
 SCRIPT = Template("""\
 # $count oblique impacts of $bodies, side by side and far apart. Written by Carom.
@@ -64,7 +61,7 @@ run             $run
 
 
 @dataclass(frozen=True)
-class Liggghts(Program):
+class Liggghts(Engine):
     """LIGGGHTS-PUBLIC: Hertz or linear springs, with tangential history.
 
     The contact point of LIGGGHTS lies at R - d/2 from the centre, which costs a few d/R of psi_2:
@@ -107,24 +104,20 @@ class Liggghts(Program):
 
 
 def _script(experiment: Experiment) -> str:
-    pair = experiment.pair
     linear = isinstance(experiment.law, LinearSpring)
     model = f"{'hooke/stiffness' if linear else 'hertz'} tangential history"
     options = f"tangential_damping {'off' if linear else 'on'}"
     wall = f"fix             wall all wall/gran model {model} primitive type 2 zplane 0.0 {options}"
+    if isinstance(experiment.pair.second, Sphere):
+        wall = "# no wall: the second bodies are spheres"
     return SCRIPT.substitute(
-        remarks(experiment),
+        shared_values(experiment),
         input=INPUT,
         result=RESULT,
         spheres=SPHERES,
-        skin=f"{SKIN * spacing(pair):.6g}",
         properties="\n".join(_properties(experiment)),
         model=f"{model} {options}",
-        wall="# no wall: the second bodies are spheres"
-        if isinstance(pair.second, Sphere)
-        else wall,
-        time_step=repr(experiment.time_step),
-        run=run_length(experiment),
+        wall=wall,
     )
 
 

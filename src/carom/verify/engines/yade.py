@@ -15,16 +15,15 @@ from carom.laws.dem import ContactLaw, LammpsMindlin, LinearSpring, YadeMindlin
 from carom.verify.engines.arrangement import (
     HAIR,
     outcomes_of,
-    remarks,
     restitution,
-    run_length,
+    shared_values,
     spacing,
     spring,
     touching,
     young_moduli,
 )
 from carom.verify.engines.experiments import Experiment, Outcomes
-from carom.verify.engines.running import Program
+from carom.verify.engines.running import Engine
 
 SCRIPT, RESULT = "impacts.py", "results.txt"
 
@@ -96,7 +95,7 @@ ABOUT_MINDLIN = """
 
 
 @dataclass(frozen=True)
-class Yade(Program):
+class Yade(Engine):
     """YADE: its law Mindlin, which accumulates the force as LAMMPS's mindlin/force, and springs.
 
     HertzWithLinearShear with nonLin = 1 is the same law; with nonLin = 0, its default, k_t does not
@@ -146,7 +145,7 @@ def _script(experiment: Experiment) -> str:
     physics, functor = _law(experiment)
     motions = zip(experiment.tangential_speed, experiment.spin, strict=True)
     return IMPACTS.substitute(
-        remarks(experiment),
+        shared_values(experiment),
         script=SCRIPT,
         result=RESULT,
         first_material=_material(pair.first, first_young),
@@ -161,8 +160,6 @@ def _script(experiment: Experiment) -> str:
         physics=physics,
         functor=functor,
         comment=ABOUT_MINDLIN if functor == MINDLIN else "",
-        time_step=experiment.time_step,
-        run=run_length(experiment),
     )
 
 
