@@ -1,10 +1,15 @@
-"""The commands. No physics here: they read, call the library, and print."""
+"""The commands. No physics here: they read, call the library, and print.
+
+Imports inside functions are for what only one command needs, so that `carom --help` is quick; in
+the rest of the package, for third-party packages that are heavy or optional.
+"""
 
 import sys
 
 import typer
 
-from carom.cli import cases as interpreting
+import carom
+from carom.cli import cases
 from carom.cli.curve import curve_command
 from carom.cli.explore import explore_command
 from carom.cli.fit import fit_command
@@ -34,9 +39,7 @@ app.add_typer(verify_app)
 @app.callback(invoke_without_command=True)
 def _common(version: bool = typer.Option(False, "--version", help="Print the version.")) -> None:
     if version:
-        from carom.io.labels import carom_version
-
-        typer.echo(carom_version())
+        typer.echo(carom.__version__)
         raise typer.Exit
 
 
@@ -66,5 +69,5 @@ def _refuse(message: str) -> int:
 
 def run() -> None:
     """Run a command from the shell, in a process of its own."""
-    interpreting.allowed = True
+    cases.allowed = True
     sys.exit(main())

@@ -1,17 +1,23 @@
-"""Cases on the command line: flags that override a file, and the files that are asked for."""
+"""What commands share: flags that override a case file, and the files that are asked for."""
 
 import sys
 from collections.abc import Mapping
 from itertools import combinations
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
-from carom.bodies.cases import LOSSES, OUTPUT, Case, motion_of, normal_of, pair_of
+import typer
+
+import carom
 from carom.quantities.units import refusal
 
 if TYPE_CHECKING:
-    from carom.impacts.boundary_elements import BoundaryElements
-    from carom.impacts.result import Course
+    from carom.bodies.cases import Case
+    from carom.fitting import Fit
+    from carom.plots.result import Result
+
+Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
+Plot = Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")]
 
 allowed = False  # in a process that runs one command
 
@@ -24,39 +30,29 @@ class Output(NamedTuple):
     data: str | None
 
 
-def merged(case: Case, flags: Mapping[str, Any]) -> Case:
+def merged(case: "Case", flags: Mapping[str, Any]) -> "Case":
     """Return the case with what the flags give in place of what the file gives."""
+    from carom.bodies.cases import LOSSES
+
     result = {key: dict(value) if isinstance(value, dict) else value for key, value in case.items()}
     given = {name for name, value in flags.items() if value is not None}
-    if given & {"speed", "angle"}:
-        result.pop("normal_speed", None), result.pop("tangential_speed", None)
-    if given & {"normal_speed", "tangential_speed"}:
-        result.pop("speed", None), result.pop("angle", None)
-    for name in LOSSES if given & set(LOSSES) else ():
-        result.pop(name, None)
+    polar, cartesian = {"speed", "angle"}, {"normal_speed", "tangential_speed"}
+    for one, other in ((polar, cartesian), (cartesian, polar), (set(LOSSES), set(LOSSES))):
+        if given & one:
+            result = {name: value for name, value in result.items() if name not in other}
     for name in given:
         table, _, key = name.rpartition(".")
-        if table:
-            result.setdefault(table, {})[key] = flags[name]
-        else:
-            result[name] = flags[name]
+        (result.setdefault(table, {}) if table else result)[key] = flags[name]
     return result
 
 
-def solve_case(case: Case, method: "str | BoundaryElements" = "exact") -> "Course":
-    """Solve the impact that a case describes."""
-    from carom.impacts.solve import impact
-
-    return impact(pair_of(case), **motion_of(case), normal=normal_of(case), method=method)
-
-
-def outputs(case: Case) -> Output:
+def outputs(case: "Case") -> Output:
     """Return the files that a case asks for."""
     table = case.get("output", {})
     for name, value in table.items():
         if not isinstance(value, str):
             raise refusal(name, value, "must be the name of a file")
-    return Output(*(table.get(name) for name in OUTPUT))
+    return Output(*(table.get(name) for name in Output._fields))
 
 
 def refuse_same(files: Mapping[str, str | Path | None]) -> None:
@@ -65,6 +61,29 @@ def refuse_same(files: Mapping[str, str | Path | None]) -> None:
     for (one, path), (other, same) in combinations(given.items(), 2):
         if path == same:
             raise refusal(other, str(files[other]), f"it is the file of {one}; give another name")
+
+
+def check_outputs(*files: tuple[str | None, tuple[str, ...]]) -> None:
+    """Raise InputError if one of the files that are asked for cannot be, or ends otherwise."""
+    from carom.io.files import checked_output
+
+    for path, endings in files:
+        if path is not None:
+            checked_output(path, endings)
+
+
+def store(result: "Fit | Result", output: str | None, plot: str | None) -> None:
+    """Store a result and its figure, where they are asked for."""
+    if output is not None:
+        stored(carom.save(result, output))
+    if plot is not None:
+        result.plot(plot)
+        stored(plot)
+
+
+def stored(path: str | Path) -> None:
+    """Tell that a file was written."""
+    typer.echo(f"stored {path}", err=True)
 
 
 def interpret() -> None:

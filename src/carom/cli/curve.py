@@ -5,6 +5,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+import carom
+from carom.cli.cases import Json, Plot, check_outputs, stored
+from carom.quantities.units import InputError, finite, positive, refusal
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -25,8 +29,8 @@ def curve_command(
         str | None, typer.Option("--to", help="Last psi_1, by default 4 chi + 1.")
     ] = None,
     points: Annotated[str, typer.Option(help="Number of psi_1, at least 2.")] = "401",
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
-    plot: Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")] = None,
+    as_json: Json = False,
+    plot: Plot = None,
     output: Annotated[
         str | None, typer.Option(help="Store the curve: .csv or .nc; with --export c: .h.")
     ] = None,
@@ -50,13 +54,9 @@ def curve_command(
         return
     import numpy as np
 
-    from carom.impacts.curves import curve
-    from carom.io.files import FIGURES, TABLES, checked_output, save
-    from carom.quantities.units import finite, positive, refusal
+    from carom.io.files import FIGURES, TABLES
 
-    for path, endings in ((plot, FIGURES), (output, TABLES)):
-        if path is not None:
-            checked_output(path, endings)
+    check_outputs((plot, FIGURES), (output, TABLES))
     values = [positive("chi", value) for value in chi]
     first = finite("from", start, "1")
     last = 4.0 * max(values) + 1.0 if stop is None else finite("to", stop, "1")
@@ -65,20 +65,16 @@ def curve_command(
     if not points.isdecimal() or int(points) < 2:
         raise refusal("points", points, "must be a whole number of at least 2, e.g. 401")
     psi = np.linspace(first, last, int(points))
-    dataset = curve(values, psi, normal=_normal(restitution))
+    dataset = carom.curve(values, psi, normal=_normal(restitution))
     if output is not None:
-        typer.echo(f"stored {save(dataset, output)}", err=True)
+        stored(carom.save(dataset, output))
     if plot is not None:
-        from carom.plots import plot_curve, save_figure
-
-        typer.echo(f"stored {save_figure(plot_curve(dataset), plot)}", err=True)
+        stored(carom.plots.save_figure(carom.plots.plot_curve(dataset), plot))
     typer.echo(json.dumps(_record(dataset), indent=2) if as_json else _table(dataset))
 
 
 def _normal(restitution: str | None) -> "KelvinVoigt | None":
-    from carom.bodies.losses import KelvinVoigt
-
-    return None if restitution is None else KelvinVoigt(restitution=restitution)
+    return None if restitution is None else carom.KelvinVoigt(restitution=restitution)
 
 
 def _export(
@@ -90,9 +86,7 @@ def _export(
 ) -> None:
     """Print or store a header that holds the rebound at each chi."""
     from carom.io.files import checked_output, replace_whole
-    from carom.laws.exact import ReboundLaw
     from carom.laws.header import c_header
-    from carom.quantities.units import InputError, positive, refusal
 
     if language != "c":
         raise refusal("export", language, "must be c, a header for C and C++")
@@ -101,12 +95,12 @@ def _export(
         raise InputError(f"{unused}: is of no use with --export; leave one of them out")
     target = None if output is None else checked_output(output, HEADERS)
     normal = _normal(restitution)
-    text = c_header([ReboundLaw(positive("chi", value), normal=normal) for value in chi])
+    text = c_header([carom.ReboundLaw(positive("chi", value), normal=normal) for value in chi])
     if target is None:
         typer.echo(text, nl=False)
         return
     replace_whole(target, lambda where: where.write_text(text, encoding="utf-8", newline="\n"))
-    typer.echo(f"stored {target}", err=True)
+    stored(target)
 
 
 def _record(dataset: "xr.Dataset") -> list[dict[str, Any]]:

@@ -7,6 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+import carom
+from carom.cli.cases import Json, Plot, check_outputs, refuse_same, store, stored
+from carom.quantities.units import InputError, number, refusal
+
 if TYPE_CHECKING:
     from carom.bodies.pairs import Pair
     from carom.fitting import Fit
@@ -50,9 +54,9 @@ def fit_command(
     ] = None,
     steps: Annotated[int, typer.Option(help="Steps of the sampling.")] = 1000,
     seed: Annotated[int, typer.Option(help="Seed of the sampling.")] = 0,
-    plot: Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")] = None,
+    plot: Plot = None,
     output: Annotated[str | None, typer.Option(help="Store the fit: .csv or .nc.")] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    as_json: Json = False,
 ) -> None:
     """Find friction, stiffness ratio and normal restitution from measured rebounds.
 
@@ -66,35 +70,25 @@ def fit_command(
 
     Own data: carom fit rebounds.csv --case ball.toml --fix restitution=0.98 --advice 5
     """
-    from carom.cli.cases import refuse_same
-    from carom.fitting import fit
-    from carom.io.files import FIGURES, TABLES, checked_output, save
-    from carom.quantities.units import refusal
+    from carom.io.files import FIGURES, TABLES
 
     source = _source(data, dataset)
     if about is not None and advice is None:
         raise refusal("for", about, "it is the parameter of --advice; give that, too")
     files = {"data": source, "case": case, "plot": plot, "output": output, "posterior": posterior}
     refuse_same(files)
-    allowed = ((plot, FIGURES), (output, TABLES), (posterior, (*TABLES, *FIGURES)))
-    for path, endings in allowed:
-        if path is not None:
-            checked_output(path, endings)
-    found = fit(
+    check_outputs((plot, FIGURES), (output, TABLES), (posterior, (*TABLES, *FIGURES)))
+    found = carom.fit(
         source,
         pair=_pair(case),
         vary=None if vary is None else [name.strip() for name in vary.split(",")],
         fixed=_fixed(fix or []),
         robust=not squares,
-        confidence=_number(confidence),
+        confidence=number("confidence", confidence, "1"),
     )
-    if output is not None:
-        typer.echo(f"stored {save(found, output)}", err=True)
-    if plot is not None:
-        found.plot(plot)
-        typer.echo(f"stored {plot}", err=True)
+    store(found, output, plot)
     if posterior is not None:
-        typer.echo(f"stored {_sampled(found, posterior, steps, seed)}", err=True)
+        stored(_sampled(found, posterior, steps, seed))
     advised = None if advice is None else found.advice(advice, about)
     if as_json:
         extra = {} if advised is None else {"advice": advised.to_dict()}
@@ -105,14 +99,10 @@ def fit_command(
 
 def _source(data: Path | None, dataset: str | None) -> Path:
     """Return the file of the data, or raise InputError."""
-    from carom.measurements import datasets
-    from carom.quantities.units import InputError
-
     if (data is None) == (dataset is None):
-        raise InputError(
-            "data: give a CSV file, or --dataset with one of " + ", ".join(datasets.names())
-        )
-    return data if data is not None else datasets.path(str(dataset))
+        known = ", ".join(carom.datasets.names())
+        raise InputError(f"data: give a CSV file, or --dataset with one of {known}")
+    return data if data is not None else carom.datasets.path(str(dataset))
 
 
 def _pair(case: Path | None) -> "Pair | None":
@@ -125,8 +115,6 @@ def _pair(case: Path | None) -> "Pair | None":
 
 def _fixed(given: list[str]) -> dict[str, Any]:
     """Return the values of texts like "restitution=0.98", or raise InputError."""
-    from carom.quantities.units import refusal
-
     for text in given:
         if "=" not in text:
             raise refusal("fix", text, "write a name and a value, e.g. restitution=0.98")
@@ -134,15 +122,9 @@ def _fixed(given: list[str]) -> dict[str, Any]:
     return {name.strip(): value.strip() for name, _, value in pairs}
 
 
-def _number(text: str) -> float:
-    from carom.quantities.units import number
-
-    return number("confidence", text, "1")
-
-
 def _sampled(found: "Fit", target: str, steps: int, seed: int) -> Path:
     """Store samples of the posterior, or a corner plot of them, and return the file."""
-    from carom.io.files import FIGURES, save
+    from carom.io.files import FIGURES
 
     samples = found.posterior(steps, seed)
     if not samples.attrs["converged"]:
@@ -153,8 +135,7 @@ def _sampled(found: "Fit", target: str, steps: int, seed: int) -> Path:
             err=True,
         )
     if Path(target).suffix.lower() not in FIGURES:
-        return save(samples, target)
+        return carom.save(samples, target)
     from carom.plots.fits import plot_corner
-    from carom.plots.style import save_figure
 
-    return save_figure(plot_corner(samples), target)
+    return carom.plots.save_figure(plot_corner(samples), target)

@@ -1,15 +1,18 @@
 """`carom impact`: one impact from flags or a case file."""
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+import carom
+from carom.cli.cases import Json, Output, Plot, check_outputs, interpret, merged, outputs, stored
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.units import refusal
 
 if TYPE_CHECKING:
-    from carom.cli.cases import Output
     from carom.impacts.boundary_elements import BoundaryElements
     from carom.impacts.result import Course
 
@@ -74,8 +77,8 @@ def impact_command(
     steps: Annotated[
         int | None, typer.Option(help="Time steps of the boundary elements (default: 300).")
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
-    plot: Annotated[Text, typer.Option(help="Store a figure: .png, .pdf or .svg.")] = None,
+    as_json: Json = False,
+    plot: Plot = None,
     animate: Annotated[
         Text, typer.Option(help="Store an animation of the patch: .gif, or .mp4 with ffmpeg.")
     ] = None,
@@ -91,8 +94,7 @@ def impact_command(
 
     A case file with figures: carom impact examples/steel_ball.toml --plot hit.png --animate hit.gif
     """
-    from carom.bodies.cases import normal_of, read_case
-    from carom.cli.cases import interpret, merged, outputs, solve_case
+    from carom.bodies.cases import motion_of, normal_of, pair_of, read_case
 
     flags = {
         "first.radius": radius,
@@ -102,76 +104,53 @@ def impact_command(
         "second.kind": against,
         "second.radius": second_radius,
         "second.material": second_material,
-        "friction": friction,
-        "speed": speed,
-        "angle": angle,
-        "normal_speed": normal_speed,
-        "tangential_speed": tangential_speed,
-        "spin": spin,
-        "spin2": spin2,
-        "restitution": restitution,
-        "loss_time": loss_time,
-        "yield_velocity": yield_velocity,
-        "output.plot": plot,
-        "output.animation": animate,
-        "output.data": output,
+        **{"output.plot": plot, "output.animation": animate, "output.data": output},
+        **{"friction": friction, "speed": speed, "angle": angle, "spin": spin, "spin2": spin2},
+        **{"normal_speed": normal_speed, "tangential_speed": tangential_speed},
+        **{"restitution": restitution, "loss_time": loss_time, "yield_velocity": yield_velocity},
     }
     content = merged(read_case(case, losses=True) if case else {}, flags)
     files = outputs(content)
     if files.animation is None:
         interpret()
-    _check_outputs(files, elastic=normal_of(content) is None)
+    normal = normal_of(content)
+    _check_outputs(files, elastic=normal is None)
     solver = _method(method, elements, steps)
-    hit = solve_case(content, solver)
-    stored = _store(hit, files)
+    hit = carom.impact(pair_of(content), **motion_of(content), normal=normal, method=solver)
+    paths = list(_store(hit, files))
     typer.echo(json.dumps(hit.to_dict(), indent=2) if as_json else str(hit))
-    for path in stored:
-        typer.echo(f"stored {path}", err=True)
+    for path in paths:
+        stored(path)
 
 
 def _method(name: str, elements: int | None, steps: int | None) -> "str | BoundaryElements":
-    from carom.quantities.units import refusal
-
     if name not in METHODS:
         raise refusal("method", name, f"must be {' or '.join(METHODS)}")
     asked = {"elements": elements, "steps": steps}
     given = {key: value for key, value in asked.items() if value is not None}
-    if not given:
-        return name
-    from carom.impacts.boundary_elements import BoundaryElements
-
-    if name != "halfspace":
+    if given and name != "halfspace":
         key, value = next(iter(given.items()))
         raise refusal(key, value, "only boundary elements have it; add --method halfspace")
-    return BoundaryElements(**given)
+    return carom.BoundaryElements(**given) if given else name
 
 
-def _check_outputs(files: "Output", *, elastic: bool) -> None:
-    from carom.io.files import FIGURES, TABLES, checked_output
-    from carom.quantities.units import refusal
+def _check_outputs(files: Output, *, elastic: bool) -> None:
+    from carom.io.files import FIGURES, TABLES
 
-    for path, endings in ((files.plot, FIGURES), (files.data, TABLES)):
-        if path is not None:
-            checked_output(path, endings)
+    check_outputs((files.plot, FIGURES), (files.data, TABLES))
     if files.animation is not None:
-        from carom.plots.animation import checked_animation
-
         if not elastic:
             allowed = "fields are those of elastic impacts; leave it or the losses out"
             raise refusal("animation", files.animation, allowed)
-        checked_animation(files.animation)
+        carom.plots.checked_animation(files.animation)
 
 
-def _store(hit: "Course", files: "Output") -> list[Path]:
-    stored = []
+def _store(hit: "Course", files: Output) -> Iterator[Path]:
     if files.data is not None:
-        from carom.io.files import save
-
-        stored.append(save(hit.to_dataset(), files.data))
+        yield carom.save(hit, files.data)
     if files.plot is not None:
         hit.plot(files.plot)
-        stored.append(Path(files.plot))
+        yield Path(files.plot)
     if files.animation is not None:
         hit.animate(files.animation, FRAMES)
-        stored.append(Path(files.animation))
-    return stored
+        yield Path(files.animation)

@@ -5,20 +5,21 @@ from typing import Annotated, Any
 
 import typer
 
+import carom
 from carom.bodies.materials import VALUES
+from carom.cli.cases import Json
+from carom.quantities.glossary import GLOSSARY
 
 
 def materials_command(
     name: Annotated[str | None, typer.Argument(help="Show one material with its sources.")] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    as_json: Json = False,
 ) -> None:
     """List the materials that have a name, or one of them with the source of each value.
 
     Example: carom materials soda-lime-glass
     """
-    from carom.bodies.materials import material, materials
-
-    names = list(materials()) if name is None else [str(material(name).name)]
+    names = list(carom.materials()) if name is None else [str(carom.material(name).name)]
     records = {key: _record(key) for key in names}
     if as_json:
         typer.echo(json.dumps(records, indent=2, ensure_ascii=False))
@@ -29,13 +30,11 @@ def materials_command(
 
 
 def _record(name: str) -> dict[str, Any]:
-    from carom.bodies.materials import material, material_sources
-
-    stuff = material(name)
+    stuff = carom.material(name)
     values = {key: getattr(stuff, key) for key in VALUES}
     if stuff.is_rigid:
         values["young"] = None
-    return values | {"sources": material_sources(name)}
+    return values | {"sources": carom.material_sources(name)}
 
 
 def _list(records: dict[str, dict[str, Any]]) -> str:
@@ -49,8 +48,6 @@ def _list(records: dict[str, dict[str, Any]]) -> str:
 
 
 def _details(records: dict[str, dict[str, Any]]) -> str:
-    from carom.quantities.glossary import GLOSSARY
-
     lines = []
     for name, record in records.items():
         lines.append(name if record["young"] else f"{name}: does not deform")

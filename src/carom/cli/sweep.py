@@ -9,7 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+import carom
+from carom.cli.cases import Json, check_outputs, outputs, stored
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.units import refusal
 
 if TYPE_CHECKING:
     from carom.bodies.cases import Case
@@ -29,7 +32,7 @@ def sweep_command(
         str | None, typer.Option(help="Use a dask cluster, e.g. tcp://host:8786.")
     ] = None,
     workers: Annotated[int | None, typer.Option(help="Threads (default: all cores).")] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    as_json: Json = False,
     progress: Annotated[
         bool | None,
         typer.Option("--progress/--no-progress", help="Show a bar (default: on a terminal)."),
@@ -42,42 +45,29 @@ def sweep_command(
     One that may be killed: carom sweep examples/sweep.toml --store sweep.zarr --resume
     """
     from carom.bodies.cases import read_case
-    from carom.io.files import TABLES, checked_output, save
-    from carom.sweeps import sweep
+    from carom.io.files import TABLES
     from carom.sweeps.plans import plan
     from carom.sweeps.summaries import summary
 
     content = read_case(case, losses=True)
     file = output or _file(content)
-    if file is not None:
-        checked_output(file, TABLES)
-    design, outputs = plan(content, case)
+    check_outputs((file, TABLES))
+    design, chosen = plan(content, case)
     with _stopping():
-        dataset = sweep(
-            content,
-            design,
-            outputs=outputs,
-            store=store,
-            resume=resume,
-            scheduler=scheduler,
-            workers=workers,
-            progress=progress,
-        )
+        how: dict[str, Any] = {"scheduler": scheduler, "workers": workers, "progress": progress}
+        dataset = carom.sweep(content, design, outputs=chosen, store=store, resume=resume, **how)
     if file is not None:
-        save(dataset, file)
-    result = summary(dataset, outputs)
+        carom.save(dataset, file)
+    result = summary(dataset, chosen)
     typer.echo(json.dumps(_record(result, store, file), indent=2) if as_json else _table(result))
     for path in filter(None, (store, file)):
-        typer.echo(f"stored {path}", err=True)
+        stored(path)
     if store is None and file is None:
         typer.echo("not stored; --store sweep.zarr or --output sweep.nc keeps it", err=True)
 
 
 def _file(content: "Case") -> str | None:
     """Return the file that the case asks for; figures are of one impact."""
-    from carom.cli.cases import outputs
-    from carom.quantities.units import refusal
-
     files = outputs(content)
     for name in ("plot", "animation"):
         if (path := getattr(files, name)) is not None:

@@ -1,19 +1,19 @@
-"""How far long work is: tqdm in a notebook, rich in a terminal, nothing where nobody watches."""
+"""How far long work is: rich shows it where somebody watches, a callable is told, else nothing."""
 
 import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from enum import Enum, auto
-from importlib.util import find_spec
-from threading import Lock, Timer
-from types import TracebackType
-from typing import TYPE_CHECKING, NamedTuple
+from dataclasses import dataclass
+from enum import Enum
+from functools import partial
+from threading import Event, Lock, Thread
+from typing import TYPE_CHECKING
 
 from carom.quantities.units import refusal
 
 if TYPE_CHECKING:
-    from rich.progress import Progress as RichProgress
+    from rich.progress import Progress as Bar
 
 Told = Callable[[int, int], object]  # is told how many are done, and of how many
 Progress = bool | Told | None  # what functions take: whether a bar is shown, or who is told
@@ -24,21 +24,25 @@ _shown = Lock()  # one bar at a time: what is part of other work has none
 
 
 class Place(Enum):
-    """Where a bar is shown."""
+    """Where a bar is shown, and after how many seconds it is drawn again."""
 
-    NOTEBOOK = auto()
-    TERMINAL = auto()
-    TEXT = auto()
-    NOWHERE = auto()
+    NOTEBOOK = 0.5
+    TERMINAL = 0.1
+    TEXT = 10.0
+    NOWHERE = None
 
 
-class Work(NamedTuple):
-    """What takes long: how much of it there is, if that is known, and was done before."""
+@dataclass
+class _Work:
+    """What takes long: how much of it there is, if that is known, and how much is done."""
 
     what: str
     unit: str
     total: int | None
     done: int
+
+    def advance(self, more: int) -> None:
+        self.done += more
 
 
 def advancing(
@@ -58,14 +62,14 @@ def advancing(
     2 of 3
     3 of 3
     """
-    work = Work(what, unit, total, done)
-    if progress is None or isinstance(progress, bool):
-        where = place(progress)
-        return nullcontext(_unseen) if where is Place.NOWHERE else _bar(where, work)
-    if not callable(progress):
+    work = _Work(what, unit, total, done)
+    if callable(progress):
+        return nullcontext(partial(_tell, progress, work))
+    if progress is not None and not isinstance(progress, bool):
         allowed = "must be True, False, or what is called with how many are done and their number"
         raise refusal("progress", progress, allowed)
-    return nullcontext(_telling(progress, work))
+    where = place(progress)
+    return nullcontext(_unseen) if where is Place.NOWHERE else _showing(where, work)
 
 
 def place(progress: bool | None) -> Place:
@@ -73,10 +77,9 @@ def place(progress: bool | None) -> Place:
     if progress is False:
         return Place.NOWHERE
     if _in_notebook():
-        return Place.NOTEBOOK if find_spec("ipywidgets") else Place.TEXT
+        return Place.NOTEBOOK
     if sys.stderr is not None and sys.stderr.isatty():
-        plain = os.environ.get("TERM") == "dumb"
-        return Place.TEXT if plain else Place.TERMINAL
+        return Place.TEXT if os.environ.get("TERM") == "dumb" else Place.TERMINAL
     return Place.TEXT if progress else Place.NOWHERE
 
 
@@ -91,118 +94,79 @@ def _unseen(_: int) -> None:
     pass
 
 
-def _telling(told: Told, work: Work) -> Advance:
-    done = work.done
-
-    def advance(more: int) -> None:
-        nonlocal done
-        done += more
-        told(done, work.total or 0)
-
-    return advance
+def _tell(told: Told, work: _Work, more: int) -> None:
+    work.advance(more)
+    told(work.done, work.total or 0)
 
 
 @contextmanager
-def _bar(where: Place, work: Work) -> Iterator[Advance]:
+def _showing(where: Place, work: _Work) -> Iterator[Advance]:
+    """Let a thread show the work, so that work of few steps is seen, too."""
     if not _shown.acquire(blocking=False):
         yield _unseen
         return
+    over = Event()
+    painter = Thread(target=_paint, args=(where, work, over), daemon=True)
+    painter.start()
     try:
-        with _on_terminal(work) if where is Place.TERMINAL else _by_tqdm(where, work) as advance:
-            yield advance
+        yield work.advance
+    except BaseException:
+        work.what += ", stopped"
+        raise
     finally:
+        over.set()
+        painter.join()
         _shown.release()
 
 
-@contextmanager
-def _by_tqdm(where: Place, work: Work) -> Iterator[Advance]:
-    if where is Place.NOTEBOOK:
-        from tqdm.notebook import tqdm
-    else:
-        from tqdm import tqdm
-    with tqdm(
-        desc=work.what,
-        total=work.total,
-        initial=work.done,
-        unit=f" {work.unit}",
-        unit_scale=True,
-        delay=PATIENCE,
-        file=sys.stderr,
-        dynamic_ncols=True,
-    ) as bar:
-        yield bar.update
+def _paint(where: Place, work: _Work, over: Event) -> None:
+    """Draw the bar again and again, from when the patience ends until the work is over."""
+    if over.wait(PATIENCE):
+        return
+    bar = _bar(where, work)
+    task = bar.add_task(work.what, total=work.total, completed=work.done)
+    draw = _drawing(where, bar)
+    while not over.wait(where.value):
+        bar.update(task, completed=work.done)
+        draw()
+    bar.update(task, completed=work.done, description=work.what)
+    draw()
+    if where is Place.TERMINAL:
+        bar.stop()
 
 
-@contextmanager
-def _on_terminal(work: Work) -> Iterator[Advance]:
-    with TerminalBar(work) as bar:
-        yield bar.advance
-
-
-class TerminalBar:
-    """A bar of rich that a timer shows, so that work with few steps is seen, too.
-
-    It vanishes at the end. The cursor stays, so that a process that is killed leaves it there.
-    """
-
-    def __init__(self, work: Work) -> None:
-        self.work, self.done = work, work.done
-        self.bar: RichProgress | None = None
-        self.timer = Timer(PATIENCE, self._show)
-        self.timer.daemon = True
-
-    def __enter__(self) -> "TerminalBar":
-        self.timer.start()
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.timer.cancel()
-        self.timer.join()
-        if self.bar is not None:
-            self.bar.stop()
-
-    def advance(self, more: int) -> None:
-        """Show that more is done."""
-        self.done += more
-        if self.bar is not None:
-            self.bar.update(self.bar.task_ids[0], completed=self.done)
-
-    def _show(self) -> None:
-        bar = _rich_bar(self.work)
-        bar.add_task(self.work.what, total=self.work.total, completed=self.done)
+def _drawing(where: Place, bar: "Bar") -> Callable[[], object]:
+    """Draw the bar for the first time; return what draws it again."""
+    if where is Place.TERMINAL:  # the cursor stays, so that a process that is killed leaves it
         bar.start()
         bar.console.show_cursor(True)
-        self.bar = bar
+        return bar.refresh
+    if where is Place.TEXT:
+        bar.console.print(bar)
+        return partial(bar.console.print, bar)
+    from IPython.display import display
+
+    shown = display(bar, display_id=True)  # type: ignore[no-untyped-call]
+    return partial(shown.update, bar)
 
 
-def _rich_bar(work: Work) -> "RichProgress":
+def _bar(where: Place, work: _Work) -> "Bar":
     """Return a bar on stderr; what is printed to a redirected stdout stays there."""
+    from rich import progress as columns
     from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        Progress,
-        ProgressColumn,
-        SpinnerColumn,
-        TextColumn,
-        TimeElapsedColumn,
-        TimeRemainingColumn,
-    )
 
-    name, unit = TextColumn("{task.description}", markup=False), f" {work.unit}" * bool(work.unit)
+    count, unit = "{task.completed:,}", f" {work.unit}" * bool(work.unit)
+    name = columns.TextColumn("{task.description}", markup=False)
     if work.total is None:
-        count = TextColumn(f"{{task.completed:,}}{unit}")
-        columns: tuple[ProgressColumn, ...] = SpinnerColumn(), name, count, TimeElapsedColumn()
+        shown: list[columns.ProgressColumn] = [columns.SpinnerColumn(), name]
+        shown += [columns.TextColumn(f"{count}{unit}"), columns.TimeElapsedColumn()]
     else:
-        count = TextColumn(f"{{task.completed:,}}/{{task.total:,}}{unit}")
-        columns = name, BarColumn(24), count, TimeRemainingColumn(), TextColumn("left")
-    return Progress(
-        *columns,
-        console=Console(file=sys.stderr, force_terminal=True),
+        shown = [name, columns.BarColumn(24), columns.TextColumn(f"{count}/{{task.total:,}}{unit}")]
+        shown += [columns.TimeRemainingColumn(), columns.TextColumn("left")]
+    return columns.Progress(
+        *shown,
+        console=Console(file=sys.stderr, force_terminal=where is Place.TERMINAL),
+        auto_refresh=False,
         transient=True,
         redirect_stdout=sys.stdout is not None and sys.stdout.isatty(),
     )
