@@ -209,6 +209,13 @@ def kappa_or_solid(kappa: float | None, chi: float) -> float:
     return SOLID * chi if kappa is None else positive("kappa", kappa)
 
 
+def dashed(value: float | None, width: int, form: str) -> str:
+    """Return a number for a column of a table, a dash where there is none."""
+    return (
+        f"{'-':>{width}s}" if value is None or not np.isfinite(value) else f"{value:{width}{form}}"
+    )
+
+
 def pure(meaning: str) -> dict[str, str]:
     """Return the attributes of a pure number."""
     return {"units": "1", "long_name": meaning}

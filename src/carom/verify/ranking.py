@@ -17,6 +17,7 @@ from carom.quantities.units import positive, refusal
 from carom.verify.catalogue import CATALOGUE, Entry, as_entry
 from carom.verify.errors import (
     INCIDENCES,
+    dashed,
     energy_gain,
     exact_rebound,
     force_error,
@@ -242,8 +243,8 @@ def _table(ranking: Ranking) -> str:
     head = f"{'max':>7s} {'at':>5s} {'rms':>7s} {'force':>7s} {'steps':>6s} {'fine':>5s}"
     rows = [
         f"  {s.entry.label:32s} {s.max_error:7.3f} {s.worst:5.2f} {s.rms_error:7.3f}"
-        f" {_short(s.force_error)} {s.step.steps if s.step else '-':>6}"
-        f" {s.fine_step.steps if s.fine_step else '-':>5}  {s.entry.used_by}"
+        f" {dashed(s.force_error, 7, '.3f')} {dashed(s.step and s.step.steps, 6, 'd')}"
+        f" {dashed(s.fine_step and s.fine_step.steps, 5, 'd')}  {s.entry.used_by}"
         + (f"; gains energy, {s.energy_gain:.2g} in psi" if s.energy_gain > 1e-9 else "")
         for s in ranking.standings
     ]
@@ -258,7 +259,3 @@ def _table(ranking: Ranking) -> str:
             f" fine: less than {FINE:g}",
         ]
     )
-
-
-def _short(value: float) -> str:
-    return f"{value:7.3f}" if np.isfinite(value) else f"{'-':>7s}"

@@ -24,6 +24,7 @@ from carom.quantities.units import positive, refusal
 from carom.verify.catalogue import CATALOGUE, called
 from carom.verify.errors import (
     as_law,
+    dashed,
     exact_rebound,
     incidences,
     kappa_or_solid,
@@ -134,9 +135,10 @@ class Tuning:
     def __str__(self) -> str:
         head = f"{'parameter':>24s} {'value':>8s} {'max':>7s} {'rms':>7s} {'as given':>9s} "
         rows = [
-            f"  {called(one.law):32s} {one.parameter or '-':>24s} {_short(one.value, 4)}"
+            f"  {called(one.law):32s} {one.parameter or '-':>24s} {dashed(one.value, 8, '.4f')}"
             f" {one.max_error:7.3f} {one.rms_error:7.3f} {one.before:9.3f}"
-            f" {_stepped(one.step)}"
+            f" {dashed(one.step and one.step.steps, 6, 'd')}"
+            f" {dashed(one.step and one.step.error, 7, '.4f')}"
             for one in self.advice
         ]
         return "\n".join(
@@ -282,11 +284,3 @@ def _told(one: TunedLaw) -> str:
     if one.value is None:
         return error
     return f"{one.parameter} {one.value:.4g}: {error}, {one.before:.3f} before"
-
-
-def _stepped(step: TimeSteps | None) -> str:
-    return f"{step.steps:6d} {step.error:7.4f}" if step else f"{'-':>6s} {'-':>7s}"
-
-
-def _short(value: float | None, digits: int) -> str:
-    return f"{'-':>8s}" if value is None else f"{value:8.{digits}f}"

@@ -17,14 +17,7 @@ from typing import ClassVar
 from carom.bodies.shapes import Sphere
 from carom.laws.dem import ContactLaw, HertzLinearHistory, LammpsMindlin, LinearSpring
 from carom.quantities.units import refusal
-from carom.verify.engines.arrangement import (
-    data_file,
-    outcomes_of,
-    read_dump,
-    shared_values,
-    spacing,
-    spring,
-)
+from carom.verify.engines import arrangement
 from carom.verify.engines.experiments import Experiment, Outcomes
 from carom.verify.engines.running import Engine
 
@@ -126,7 +119,7 @@ def coefficients(experiment: Experiment) -> GranularLaw:
         raise refusal("law", law, "LAMMPS does not have it")
     share = law.tangential_damping, pair.friction
     if isinstance(law, LinearSpring):
-        kn, kt, dashpot = spring(experiment)
+        kn, kt, dashpot = arrangement.spring(experiment)
         return GranularLaw("hooke", "linear_history", kn, kt, *share, loss=dashpot)
     model, damping = "linear_history", "coeff_restitution"
     kn, kt = 4.0 / 3.0 * pair.effective_modulus, law.stiffness * 2.0 * pair.effective_shear_modulus
@@ -143,12 +136,12 @@ def script(experiment: Experiment) -> str:
     law, pair = coefficients(experiment), experiment.pair
     words = law.words("${{{}}}".format)
     return SCRIPT.substitute(
-        shared_values(experiment) | {name: law.number(name) for name in NUMBERS},
+        arrangement.shared_values(experiment) | {name: law.number(name) for name in NUMBERS},
         friction=law.number("mu"),
         input=INPUT,
         result=RESULT,
         spheres=SPHERES,
-        cutoff=f"{spacing(pair):.6g}",
+        cutoff=f"{arrangement.spacing(pair):.6g}",
         meanings=law.meanings,
         loss_meaning=law.loss_meaning,
         contact=(IN_PAIRS if isinstance(pair.second, Sphere) else ON_WALL).format(words=words),
@@ -208,11 +201,11 @@ class Lammps(Engine):
 
     def files(self, experiment: Experiment) -> dict[str, str]:
         """Return the input script and the spheres that it reads, by file name."""
-        return {INPUT: script(experiment), SPHERES: data_file(experiment)}
+        return {INPUT: script(experiment), SPHERES: arrangement.data_file(experiment)}
 
     def outcomes(self, folder: Path, experiment: Experiment) -> Outcomes:
         """Return how the spheres leave; ValueError or OSError if no such results are there."""
-        return outcomes_of(experiment, read_dump(folder / RESULT))
+        return arrangement.outcomes_of(experiment, arrangement.read_dump(folder / RESULT))
 
 
 def _wheel() -> Path | None:

@@ -10,15 +10,7 @@ from typing import ClassVar
 
 from carom.bodies.shapes import Sphere
 from carom.laws.dem import ContactLaw, LiggghtsHertz, LinearSpring
-from carom.verify.engines.arrangement import (
-    data_file,
-    outcomes_of,
-    read_dump,
-    restitution,
-    shared_values,
-    spring,
-    young_moduli,
-)
+from carom.verify.engines import arrangement
 from carom.verify.engines.experiments import Experiment, Outcomes
 from carom.verify.engines.running import Engine
 
@@ -96,11 +88,11 @@ class Liggghts(Engine):
 
     def files(self, experiment: Experiment) -> dict[str, str]:
         """Return complete inputs: text by file name."""
-        return {INPUT: _script(experiment), SPHERES: data_file(experiment)}
+        return {INPUT: _script(experiment), SPHERES: arrangement.data_file(experiment)}
 
     def outcomes(self, folder: Path, experiment: Experiment) -> Outcomes:
         """Return what a run has left in its folder; ValueError or OSError if it is not there."""
-        return outcomes_of(experiment, read_dump(folder / RESULT))
+        return arrangement.outcomes_of(experiment, arrangement.read_dump(folder / RESULT))
 
 
 def _script(experiment: Experiment) -> str:
@@ -111,7 +103,7 @@ def _script(experiment: Experiment) -> str:
     if isinstance(experiment.pair.second, Sphere):
         wall = "# no wall: the second bodies are spheres"
     return SCRIPT.substitute(
-        shared_values(experiment),
+        arrangement.shared_values(experiment),
         input=INPUT,
         result=RESULT,
         spheres=SPHERES,
@@ -135,13 +127,13 @@ def _properties(experiment: Experiment) -> Iterator[str]:
 
     yield both("coefficientFriction", pair.friction)
     if isinstance(law, LinearSpring):
-        normal, tangential, dashpot = spring(experiment)
+        normal, tangential, dashpot = arrangement.spring(experiment)
         yield both("kn", normal)
         yield both("kt", tangential)
         # LIGGGHTS multiplies gamman by the effective mass; gammat is not used, yet must be there
         yield both("gamman", dashpot / pair.normal_mass)
         yield both("gammat", 0.0)
     else:
-        yield each("youngsModulus", *young_moduli(pair))
+        yield each("youngsModulus", *arrangement.young_moduli(pair))
         yield each("poissonsRatio", pair.first.material.poisson, pair.second.material.poisson)
-        yield both("coefficientRestitution", restitution(experiment))
+        yield both("coefficientRestitution", arrangement.restitution(experiment))
