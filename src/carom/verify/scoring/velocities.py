@@ -98,7 +98,7 @@ def _cause(ratio: float) -> str:
 
 
 class Velocities(NamedTuple):
-    """Velocities of many impacts before or after, arrays along rows; the normal speed is positive."""
+    """Velocities before or after many impacts, arrays along rows; the normal speed is positive."""
 
     normal_speed: Any
     tangential: Tangential
