@@ -70,10 +70,9 @@ def step_error(
     True
     """
     counted("steps", steps, FEWEST)
-    psis, chi = finite_line("psi", psi), positive("chi", chi)
-    converged = as_law(law).rebound(psis, chi, kappa=kappa)
-    stepped = law.rebound(psis, chi, kappa=kappa, steps=steps)
-    return largest(stepped - converged)
+    own = finite_line("psi", psi), positive("chi", chi)
+    converged = as_law(law).rebound(*own, kappa=kappa)
+    return largest(law.rebound(*own, kappa=kappa, steps=steps) - converged)
 
 
 def advised_steps(
@@ -119,16 +118,15 @@ def advised_steps(
     28
     """
     positive("tolerance", allowed)
-    psis, chi = finite_line("psi", psi), positive("chi", chi)
-    converged = as_law(law).rebound(psis, chi, kappa=kappa)
+    own = finite_line("psi", psi), positive("chi", chi)
+    converged = as_law(law).rebound(*own, kappa=kappa)
     if not np.all(np.isfinite(converged)):
         return None
     held: list[TimeSteps] = []
     wanted = float(FEWEST)
     while wanted <= MOST:
         steps = round(wanted)
-        stepped = law.rebound(psis, chi, kappa=kappa, steps=steps)
-        error = largest(stepped - converged)
+        error = largest(law.rebound(*own, kappa=kappa, steps=steps) - converged)
         held = [*held, TimeSteps(steps, error)] if error <= allowed else []
         if len(held) == 3:
             return held[0]

@@ -98,11 +98,6 @@ class GranularLaw:
         shear = "kt a U, kt = 2 G*, 1/G* = sum (2 - nu)/(4 G)" if per_radius else "kt U"
         return f"# {springs[self.normal]}\n# F_t = {shear}; at most mu F_n"
 
-    @property
-    def loss_meaning(self) -> str:
-        """Comment on the damping."""
-        return "N s/m" if self.damping == "velocity" else "coefficient of restitution"
-
 
 def coefficients(experiment: Experiment) -> GranularLaw:
     """Return the law of an experiment as LAMMPS takes it.
@@ -143,7 +138,7 @@ def script(experiment: Experiment) -> str:
         spheres=SPHERES,
         cutoff=f"{arrangement.spacing(pair):.6g}",
         meanings=law.meanings,
-        loss_meaning=law.loss_meaning,
+        loss_meaning="N s/m" if law.damping == "velocity" else "coefficient of restitution",
         contact=(IN_PAIRS if isinstance(pair.second, Sphere) else ON_WALL).format(words=words),
     )
 

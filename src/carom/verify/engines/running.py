@@ -235,7 +235,8 @@ def _crash(engine: Engine, folder: Path, code: int) -> EngineError:
         return EngineError(
             f"{engine.name} does not start: {lacking[1]} is missing; {engine.advice}"
         )
-    return _failure(engine, folder, f"has crashed ({_reason(code)})")
+    reason = f"exit code {code}" if code > 0 else f"signal {signal.Signals(-code).name}"
+    return _failure(engine, folder, f"has crashed ({reason})")
 
 
 def _failure(
@@ -256,7 +257,3 @@ def _printed(folder: Path) -> str:
         content += printed.read(READ)
     text = content.decode("utf-8", errors="replace")
     return "".join(c if c.isprintable() or c in "\n\t" else "?" for c in text)
-
-
-def _reason(code: int) -> str:
-    return f"exit code {code}" if code > 0 else f"signal {signal.Signals(-code).name}"
