@@ -50,7 +50,7 @@ def reach_of(chi: float, restitution: float) -> Reach:
     return Reach(sliding, 0.0 if restitution == 1.0 else 1.0 / sliding)
 
 
-def borders(chi: float, restitution: float) -> list[float]:
+def panel_ends(chi: float, restitution: float) -> list[float]:
     """Return psi_1 between which panels lie, of the first and the last and of known kinks."""
     if restitution != 1.0:
         return [LOSSY_SMALLEST, END * reach_of(chi, restitution).sliding]
@@ -68,12 +68,12 @@ def elastic_panels(chi: float) -> Panels:
             advance(psi.size)
             return outgoing / psi, sequence
 
-        return fitted(ratio, borders(chi, 1.0), DEGREE, TOLERANCE, singular=(1.0,))
+        return fitted(ratio, panel_ends(chi, 1.0), DEGREE, TOLERANCE, singular=(1.0,))
 
 
 def lossy_panels(chi: float, restitution: float) -> Panels:
     """Return the table of r at one e, found by its error alone; a bar tells of it after 2 s."""
-    reach, ends = reach_of(chi, restitution), borders(chi, restitution)
+    reach, ends = reach_of(chi, restitution), panel_ends(chi, restitution)
     loss = KelvinVoigt(restitution=restitution)
     with advancing("table of rebounds", None, unit="impacts") as advance:
 
