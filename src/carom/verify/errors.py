@@ -55,7 +55,7 @@ def in_words(psi: Sequence[float]) -> str:
     Examples
     --------
     >>> from carom.verify.errors import INCIDENCES, in_words
-    >>> in_words(INCIDENCES), inpure([1.0])
+    >>> in_words(INCIDENCES), in_words([1.0])
     ('at 15 incidences, psi_1 from 0.1 to 6', 'at psi_1 = 1')
     """
     if len(psi) == 1:
