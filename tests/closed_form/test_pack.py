@@ -16,7 +16,7 @@ from carom.bodies.kinematics import inertia
 from carom.verify.pack import VERSION
 from carom.verify.pack.frozen import _texts, frozen_files
 from carom.verify.pack.references import case_of, references
-from carom.verify.pack.tables import ERROR, Table, read_table, uncertain
+from carom.verify.pack.tables import ERROR, DecimalTable, read_table, uncertain
 from carom.verify.scoring import score
 
 SETS = (
@@ -82,7 +82,7 @@ def test_what_an_installer_compiles_is_not_part_of_it(tmp_path):
     assert _texts(copy, "") == frozen_files()
 
 
-def reference(folder: str) -> Table:
+def reference(folder: str) -> DecimalTable:
     return read_table(frozen_files()[f"{folder}/reference.csv"])
 
 

@@ -10,7 +10,7 @@ import pytest
 
 import carom
 from carom.cli import main
-from carom.verify import CATALOGUE, Lammps, rank, recipes, tuning
+from carom.verify import CATALOGUE, Lammps, rank, recipes, tune
 
 CASE = """\
 friction = 0.2
@@ -51,8 +51,8 @@ def run(capsys, monkeypatch, tmp_path):
 def few_laws(monkeypatch):
     """Let `tune` have three laws instead of all, as that takes long; return that `tune`."""
     laws = (carom.LinearSpring(), carom.HardSphere(0.4), carom.LiggghtsHertz())
-    few = partial(tuning.tune, laws)
-    monkeypatch.setattr(tuning, "tune", few)
+    few = partial(tune, laws)
+    monkeypatch.setattr(carom.verify, "tune", few)
     return few
 
 

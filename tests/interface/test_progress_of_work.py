@@ -113,17 +113,17 @@ def test_a_sweep_that_goes_on_counts_from_what_is_stored(tmp_path, capsys):
 
 @pytest.mark.usefixtures("_at_once")
 def test_a_table_with_losses_counts_its_impacts(monkeypatch, capsys):
-    """How many there will be is not known; what is shown is what `lossy_rebounds` got."""
+    """How many there will be is not known; what is shown is what `rebound` got."""
     import carom.laws.panels as panels
 
     solved = []
-    genuine = panels.lossy_rebounds
+    genuine = panels.rebound
 
-    def counted(psi, *known):
+    def counted(psi, chi, **known):
         solved.append(np.size(psi))
-        return genuine(psi, *known)
+        return genuine(psi, chi, **known)
 
-    monkeypatch.setattr(panels, "lossy_rebounds", counted)
+    monkeypatch.setattr(panels, "rebound", counted)
     monkeypatch.setattr("carom.io.progress.place", lambda progress: Place.TEXT)
     carom.ReboundLaw(1.0, normal=carom.KelvinVoigt(restitution=0.8))
     shown = capsys.readouterr().err

@@ -11,7 +11,7 @@ import pytest
 from carom.bodies.cases import pair_of
 from carom.verify.pack.frozen import frozen_files
 from carom.verify.pack.references import case_of
-from carom.verify.pack.tables import Table, read_table
+from carom.verify.pack.tables import DecimalTable, read_table
 
 SERIES = {
     "chung_ooi/test4_aluminium_oxide": "DEM aluminium oxide",
@@ -21,11 +21,11 @@ RANGE = {"restitution": 0.6, "spin": 800.0}  # of the axes of test 4
 COLUMN = {"restitution": "tangential_restitution", "spin": "spin_out"}
 
 
-def table(path: str) -> Table:
+def table(path: str) -> DecimalTable:
     return read_table(frozen_files()[f"chung_ooi/{path}.csv"])
 
 
-def picked(published: Table, column: str, **wanted: str) -> tuple[np.ndarray, np.ndarray]:
+def picked(published: DecimalTable, column: str, **wanted: str) -> tuple[np.ndarray, np.ndarray]:
     """Return abscissa and value of the points of a series and a kind."""
     chosen = np.ones(len(published.rows), dtype=bool)
     for name, value in wanted.items():

@@ -16,7 +16,7 @@ from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.chebyshev import Panels
 from carom.io.citations import IMPACT, VISCOUS, bibtex
-from carom.laws.panels import borders, elastic_panels, lossy_panels, reach_of
+from carom.laws.panels import elastic_panels, lossy_panels, panel_ends, reach_of
 from carom.laws.portable import applied, lost
 from carom.laws.rules import DEGREE, Rule, frozen
 from carom.quantities.arrays import Array
@@ -269,7 +269,7 @@ def law_of(chi: float, normal: KelvinVoigt | None = None) -> ReboundLaw:
 
 def _is_whole(chi: float, restitution: float, edges: Array, rows: Array) -> bool:
     """Tell whether a table is that of a law: its ends, its order, no gap in psi_2 at an edge."""
-    ends, reach = borders(chi, restitution), reach_of(chi, restitution)
+    ends, reach = panel_ends(chi, restitution), reach_of(chi, restitution)
     if rows.shape != (edges.size - 1, DEGREE + 1) or edges.ndim != 1:
         return False
     if not np.all(np.isfinite(edges)) or [edges[0], edges[-1]] != [ends[0], ends[-1]]:

@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 from carom.bodies.losses import KelvinVoigt
 from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.chebyshev import Panels, fitted
-from carom.dimensionless.rebounds import regime_borders
+from carom.dimensionless.rebounds import rebound, regime_borders
 from carom.io.progress import advancing
 from carom.laws.rules import DEGREE
 from carom.quantities.arrays import Array
@@ -51,7 +50,7 @@ def reach_of(chi: float, restitution: float) -> Reach:
     return Reach(sliding, 0.0 if restitution == 1.0 else 1.0 / sliding)
 
 
-def borders(chi: float, restitution: float) -> list[float]:
+def panel_ends(chi: float, restitution: float) -> list[float]:
     """Return psi_1 between which panels lie, of the first and the last and of known kinks."""
     if restitution != 1.0:
         return [LOSSY_SMALLEST, END * reach_of(chi, restitution).sliding]
@@ -68,21 +67,20 @@ def elastic_panels(chi: float) -> Panels:
             advance(psi.size)
             return outgoing / psi, sequence
 
-        return fitted(ratio, borders(chi, 1.0), DEGREE, TOLERANCE, singular=(1.0,))
+        return fitted(ratio, panel_ends(chi, 1.0), DEGREE, TOLERANCE, singular=(1.0,))
 
 
 def lossy_panels(chi: float, restitution: float) -> Panels:
     """Return the table of r at one e, found by its error alone; a bar tells of it after 2 s."""
-    reach, ends = reach_of(chi, restitution), borders(chi, restitution)
-    loss, parameter = KelvinVoigt(restitution=restitution).scale_free()
+    reach, ends = reach_of(chi, restitution), panel_ends(chi, restitution)
+    loss = KelvinVoigt(restitution=restitution)
     with advancing("table of rebounds", None, unit="impacts") as advance:
 
         def outgoing(psi: Array) -> Array:
-            known = np.full(psi.size, chi), loss, np.full(psi.size, parameter)
-            found = lossy_rebounds(psi, *known)
-            _refuse_unsolved(chi, found.status)
+            psi_out, status = rebound(psi, chi, normal=loss, return_status=True)
+            _refuse_unsolved(chi, status)
             advance(psi.size)
-            return found.psi_out
+            return np.asarray(psi_out)
 
         far = FAR * reach.sliding
         lacking = far * (outgoing(np.array([far]))[0] - (far - reach.sliding))

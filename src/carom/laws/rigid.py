@@ -48,7 +48,7 @@ class SmoothLaw:
 
     def rule(self, pair: Pair) -> Rule:
         """Return what a collision of this pair needs."""
-        return constant_rule(self.restitution, 1.0, 0.0, 0.0)
+        return constant_rule(self.restitution, 0.0, 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,7 +79,7 @@ class RoughLaw:
 
     def rule(self, pair: Pair) -> Rule:
         """Return what a collision of this pair needs."""
-        return constant_rule(self.restitution, 1.0, inf, 2.0)
+        return constant_rule(self.restitution, inf, 2.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,4 +122,4 @@ class WaltonLaw:
     def rule(self, pair: Pair) -> Rule:
         """Return what a collision of this pair needs."""
         bound = self.friction * (1.0 + self.restitution) * pair.normal_mass / pair.tangential_mass
-        return constant_rule(self.restitution, 1.0, bound, 1.0 + self.tangential_restitution)
+        return constant_rule(self.restitution, bound, 1.0 + self.tangential_restitution)

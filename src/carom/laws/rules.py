@@ -32,12 +32,10 @@ class Rule(NamedTuple):
     powers: Array  # (n, DEGREE + 1), or (1, 1) of a constant
 
 
-def constant_rule(restitution: float, scale: float, sliding: float, one_plus_beta: float) -> Rule:
+def constant_rule(restitution: float, sliding: float, one_plus_beta: float) -> Rule:
     """Return the rule of a law with one beta, up to the bound of sliding."""
-    zero = np.zeros(1)
-    return frozen(
-        Rule(restitution, scale, sliding, 0.0, zero, zero, zero, np.full((1, 1), one_plus_beta))
-    )
+    zero, power = np.zeros(1), np.full((1, 1), one_plus_beta)
+    return frozen(Rule(restitution, 1.0, sliding, 0.0, zero, zero, zero, power))
 
 
 def frozen(rule: Rule) -> Rule:

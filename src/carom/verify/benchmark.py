@@ -20,7 +20,7 @@ from carom.quantities.units import InputError, refusal
 from carom.verify.catalogue import CATALOGUE, Entry, as_entry
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
 from carom.verify.engines.running import Engine, EngineError, EngineKilled, run
-from carom.verify.errors import INCIDENCES, in_words
+from carom.verify.errors import INCIDENCES, in_words, largest, root_mean_square
 
 STEPS = 2000  # per duration of Hertz's contact
 OVERLAP = 1e-6  # d_max/R*: so small that the turning of a normal costs some 2e-5 in psi_2
@@ -64,7 +64,7 @@ class Bench:
         rows = results_csv(*self.outcomes[self.measured[0].entry.label])
         return f"{CASE} {json.dumps(case_of(self.pair))}\n{rows}"
 
-    def as_record(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, Any]:
         """Return the measurements as what JSON can hold."""
         return {
             "engine": self.engine,
@@ -74,6 +74,8 @@ class Bench:
             "steps": self.steps,
             "laws": [_record(one) for one in self.measured],
         }
+
+    as_record = to_dict
 
     def __str__(self) -> str:
         head = f"{'max':>7s} {'at':>5s} {'rms':>7s} {'law':>8s} {'seconds':>8s}"
@@ -199,15 +201,9 @@ def _measured(entry: Entry, experiment: Experiment, outcomes: Outcomes, seconds:
     given = psi_out(experiment, outcomes)
     error = given - rebound(psi, pair.chi)
     same = entry.law.rebound(psi, pair.chi, kappa=pair.kappa, steps=experiment.steps)
-    return Measured(
-        entry,
-        float(np.max(np.abs(error))),
-        float(psi[int(np.argmax(np.abs(error)))]),
-        float(np.sqrt(np.mean(error**2))),
-        float(np.max(np.abs(given - same))),
-        seconds,
-        None,
-    )
+    worst = float(psi[int(np.argmax(np.abs(error)))])
+    off = largest(given - same)
+    return Measured(entry, largest(error), worst, root_mean_square(error), off, seconds, None)
 
 
 def _row(one: Measured) -> str:
@@ -222,6 +218,6 @@ def _row(one: Measured) -> str:
 def _record(one: Measured) -> dict[str, Any]:
     if one.failure:
         return {"law": one.entry.label, "failure": one.failure}
-    values = one._asdict()
-    numbers = {name: values[name] for name in values if name not in ("entry", "failure")}
+    numbers = one._asdict()
+    del numbers["entry"], numbers["failure"]
     return {"law": one.entry.label, **numbers}

@@ -17,6 +17,7 @@ from carom.laws.dem import (
     YadeMindlin,
 )
 from carom.quantities.units import nearest, refusal
+from carom.verify.errors import as_law
 
 
 class Entry(NamedTuple):
@@ -65,13 +66,17 @@ CATALOGUE = (
 )
 
 
+def called(law: Law) -> str:
+    """Return what a law is called, its variant included."""
+    return str(getattr(law, "variant", law.name))
+
+
 def as_entry(given: object) -> Entry:
     """Return an entry as it is, or one for a law; raise InputError for anything else."""
-    if isinstance(given, Law):
-        return Entry(str(getattr(given, "variant", given.name)), given, "")
-    if not isinstance(given, Entry):
-        raise refusal("law", given, "must be a contact law, e.g. carom.LinearSpring()")
-    return given
+    if isinstance(given, Entry):
+        return given
+    law = as_law(given)
+    return Entry(called(law), law, "")
 
 
 def named(label: str | None) -> Sequence[Entry]:

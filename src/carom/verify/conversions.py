@@ -10,8 +10,14 @@ from typing import NamedTuple
 from carom.bodies.pairs import Pair
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.laws.dem import LammpsMindlin, LinearSpring
-from carom.laws.dem.damping import SMALLEST, damping_ratio, thornton_damping, tsuji_damping
-from carom.quantities.units import not_negative, number, positive, refusal
+from carom.laws.dem.damping import (
+    SMALLEST,
+    damped_restitution,
+    damping_ratio,
+    thornton_damping,
+    tsuji_damping,
+)
+from carom.quantities.units import not_negative, positive, refusal
 
 SPRING, MINDLIN = LinearSpring(), LammpsMindlin("mindlin_rescale/force")
 
@@ -153,9 +159,7 @@ def damping(restitution: float, convention: str = "critical") -> float:
     >>> round(zeta, 4), round(carom.verify.restitution(zeta), 12)
     (0.2155, 0.5)
     """
-    value = number("restitution", restitution)
-    if not SMALLEST <= value <= 1.0:
-        raise refusal("restitution", restitution, f"must be from {SMALLEST:g} to 1")
+    value = damped_restitution("restitution", restitution)
     return _rule(convention)(value) + 0.0  # no -0 at e = 1
 
 

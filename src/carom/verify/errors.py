@@ -11,6 +11,7 @@ from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.dimensionless.rebounds import rebound
 from carom.dimensionless.solution import solve
+from carom.io.labels import labelled_dataset
 from carom.laws.dem import ContactLaw, Law
 from carom.laws.dem.base import SOLID
 from carom.quantities.arrays import Array, finite_line, positive_line
@@ -111,8 +112,6 @@ def error_map(
     >>> found.error.values.round(3)
     array([[0.176, 0.   ]])
     """
-    from carom.io.labels import labelled_dataset
-
     rule = as_law(law)
     chis = np.linspace(7.0 / 6.0, 7.0 / 4.0, 15) if chi is None else positive_line("chi", chi)
     top = 4.0 * float(chis.max())
@@ -126,13 +125,13 @@ def error_map(
     return labelled_dataset(
         {
             "psi_out": (wide, given),
-            "psi_out_exact": (wide, exact, _words("psi_2 of the exact impact")),
-            "error": (wide, error, _words("error in psi_2")),
-            "max_error": ("chi", np.abs(error).max(axis=1), _words("largest |error in psi_2|")),
+            "psi_out_exact": (wide, exact, pure("psi_2 of the exact impact")),
+            "error": (wide, error, pure("error in psi_2")),
+            "max_error": ("chi", np.abs(error).max(axis=1), pure("largest |error in psi_2|")),
             "rms_error": (
                 "chi",
                 np.sqrt(np.mean(error**2, axis=1)),
-                _words("root mean square of the error in psi_2"),
+                pure("root mean square of the error in psi_2"),
             ),
         },
         {"chi": chis, "psi_in": psis},
@@ -186,9 +185,17 @@ def force_error(law: Law, psi: float, chi: float, *, kappa: float | None = None)
     elapsed = history["time"] / history["time"][-1]
     force = np.interp(parts, elapsed, history["tangential_force"])
     exact = 1.5 * solve(psi, chi).at(parts * DURATION).force
-    return ForceError(
-        float(np.max(np.abs(force - exact))), float(np.sqrt(np.mean((force - exact) ** 2)))
-    )
+    return ForceError(largest(force - exact), root_mean_square(force - exact))
+
+
+def largest(error: Array) -> float:
+    """Return the largest |error|."""
+    return float(np.max(np.abs(error)))
+
+
+def root_mean_square(error: Array) -> float:
+    """Return the root of the mean square of errors."""
+    return float(np.sqrt(np.mean(error**2)))
 
 
 def energy_gain(psi: Array, psi_out: Array) -> float:
@@ -197,10 +204,18 @@ def energy_gain(psi: Array, psi_out: Array) -> float:
     return float(np.max(gain[np.isfinite(gain)], initial=0.0))
 
 
-def solid_kappa(chi: float) -> float:
-    """Return kappa of solid spheres with this chi."""
-    return SOLID * chi
+def kappa_or_solid(kappa: float | None, chi: float) -> float:
+    """Return kappa as given, else that of solid spheres with this chi."""
+    return SOLID * chi if kappa is None else positive("kappa", kappa)
 
 
-def _words(meaning: str) -> dict[str, str]:
+def dashed(value: float | None, width: int, form: str) -> str:
+    """Return a number for a column of a table, a dash where there is none."""
+    return (
+        f"{'-':>{width}s}" if value is None or not np.isfinite(value) else f"{value:{width}{form}}"
+    )
+
+
+def pure(meaning: str) -> dict[str, str]:
+    """Return the attributes of a pure number."""
     return {"units": "1", "long_name": meaning}

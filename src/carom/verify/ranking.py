@@ -7,26 +7,36 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from carom import plots
+from carom.io.citations import IMPACT, bibtex
+from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.laws.dem import ContactLaw, Law
+from carom.plots.result import Result, card
 from carom.quantities.units import positive, refusal
 from carom.verify.catalogue import CATALOGUE, Entry, as_entry
 from carom.verify.errors import (
     INCIDENCES,
+    dashed,
     energy_gain,
     exact_rebound,
     force_error,
     in_words,
     incidences,
-    solid_kappa,
+    kappa_or_solid,
+    largest,
+    pure,
+    root_mean_square,
 )
-from carom.verify.steps import Step, advised_steps
+from carom.verify.steps import TimeSteps, advised_steps, told_steps
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.figure import Figure
 
 CHI = 1.4412  # solid spheres with nu = 0.3
 FINE = 0.01  # error in psi_2 of a fine step
+NUMBERS = ("max_error", "worst", "rms_error", "force_error", "energy_gain")
 
 
 class Standing(NamedTuple):
@@ -43,12 +53,12 @@ class Standing(NamedTuple):
     rms_error: float
     force_error: float
     energy_gain: float
-    step: Step | None
-    fine_step: Step | None
+    step: TimeSteps | None
+    fine_step: TimeSteps | None
 
 
 @dataclass(frozen=True)
-class Ranking:
+class Ranking(Result):
     """Contact laws by their largest error in psi_2, the best first; made by `rank`.
 
     `standings` holds a law each: its errors in psi_2 and in the force, and the time step it needs.
@@ -71,14 +81,11 @@ class Ranking:
 
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
-        from carom.plots import plot_laws
-        from carom.plots.result import card
-
         rows = {s.entry.label: f"{s.max_error:.3f} at psi_1 = {s.worst:g}" for s in self.standings}
         title = f"Largest |error in psi_2| at chi = {self.chi:g}"
-        return card(title, rows, plot_laws(self.to_dataset()))
+        return card(title, rows, self.plot())
 
-    def as_record(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, Any]:
         """Return the ranking as what JSON can hold.
 
         Returns
@@ -89,6 +96,15 @@ class Ranking:
         laws = [_record(standing) for standing in self.standings]
         return {"chi": self.chi, "kappa": self.kappa, "psi_in": list(self.psi), "laws": laws}
 
+    as_record = to_dict
+
+    def cite(self) -> str:
+        """Return what to cite for the exact answer, as BibTeX."""
+        return bibtex(*IMPACT)
+
+    def _draw(self, dataset: "xr.Dataset") -> "Figure":
+        return plots.plot_laws(dataset)
+
     def to_dataset(self) -> "xr.Dataset":
         """Return psi_2 of each law and of the exact impact, and all errors, as one dataset.
 
@@ -98,8 +114,6 @@ class Ranking:
             psi_out (law, psi_in), psi_out_exact (psi_in), max_error, rms_error, force_error and
             energy_gain (law), steps (law, step_kind), -1 where none suffice; chi and kappa.
         """
-        from carom.io.labels import labelled_dataset
-
         laws = [standing.entry.law for standing in self.standings]
         given = [law.rebound(self.psi, self.chi, kappa=self.kappa) for law in laws]
         exact = exact_rebound(np.array(self.psi), self.chi)
@@ -113,15 +127,15 @@ class Ranking:
             "energy_gain": "largest |psi_2| - |psi_1|",
         }
         errors = {
-            name: ("law", [getattr(s, name) for s in self.standings], _words(meaning))
+            name: ("law", [getattr(s, name) for s in self.standings], pure(meaning))
             for name, meaning in meanings.items()
         }
         return labelled_dataset(
             {
                 "psi_out": (("law", "psi_in"), np.array(given)),
-                "psi_out_exact": ("psi_in", exact, _words("psi_2 of the exact impact")),
+                "psi_out_exact": ("psi_in", exact, pure("psi_2 of the exact impact")),
                 **errors,
-                "steps": (("law", "step_kind"), steps, _words("steps per contact, -1: none")),
+                "steps": (("law", "step_kind"), steps, pure("steps per contact, -1: none")),
                 "chi": self.chi,
                 "kappa": self.kappa,
             },
@@ -182,7 +196,7 @@ def rank(
     ratio, psis = positive("chi", chi), incidences(psi)
     if not entries:
         raise refusal("entries", entries, "give one law at least")
-    own = solid_kappa(ratio) if kappa is None else positive("kappa", kappa)
+    own = kappa_or_solid(kappa, ratio)
     standings = []
     with advancing("ranking", len(entries), progress, unit="laws") as advance:
         for entry in map(as_entry, entries):
@@ -196,17 +210,16 @@ def _standing(entry: Entry, psi: Any, chi: float, kappa: float) -> Standing:
     law = entry.law
     given = law.rebound(psi, chi, kappa=kappa)
     error = given - exact_rebound(psi, chi)
-    largest = float(np.max(np.abs(error)))
+    most = largest(error)
     forces = [force_error(law, value, chi, kappa=kappa).rms for value in psi if value != 0.0]
     step = fine = None
-    if isinstance(law, ContactLaw) and largest > 0.0:
-        step = advised_steps(law, largest, psi, chi, kappa=kappa)
-        fine = advised_steps(law, FINE, psi, chi, kappa=kappa)
+    if isinstance(law, ContactLaw) and most > 0.0:
+        step, fine = (advised_steps(law, e, psi, chi, kappa=kappa) for e in (most, FINE))
     return Standing(
         entry,
-        largest,
+        most,
         float(psi[int(np.argmax(np.abs(error)))]),
-        float(np.sqrt(np.mean(error**2))),
+        root_mean_square(error),
         float(np.max(forces)) if forces else float("nan"),
         energy_gain(psi, given),
         step,
@@ -215,29 +228,23 @@ def _standing(entry: Entry, psi: Any, chi: float, kappa: float) -> Standing:
 
 
 def _record(standing: Standing) -> dict[str, Any]:
-    numbers = {name: getattr(standing, name) for name in ("max_error", "worst", "rms_error")}
-    more = {name: getattr(standing, name) for name in ("force_error", "energy_gain")}
+    entry, numbers = standing.entry, {name: getattr(standing, name) for name in NUMBERS}
     return {
-        "law": standing.entry.label,
-        "used_by": standing.entry.used_by,
-        "source": standing.entry.law.source,
-        **{name: _finite(value) for name, value in (numbers | more).items()},
-        "steps": standing.step.steps if standing.step else None,
-        "step_error": standing.step.error if standing.step else None,
+        "law": entry.label,
+        "used_by": entry.used_by,
+        "source": entry.law.source,
+        **{name: value if np.isfinite(value) else None for name, value in numbers.items()},
+        **told_steps(standing.step),
         "fine_steps": standing.fine_step.steps if standing.fine_step else None,
     }
-
-
-def _finite(value: float) -> float | None:
-    return value if np.isfinite(value) else None
 
 
 def _table(ranking: Ranking) -> str:
     head = f"{'max':>7s} {'at':>5s} {'rms':>7s} {'force':>7s} {'steps':>6s} {'fine':>5s}"
     rows = [
         f"  {s.entry.label:32s} {s.max_error:7.3f} {s.worst:5.2f} {s.rms_error:7.3f}"
-        f" {_short(s.force_error)} {s.step.steps if s.step else '-':>6}"
-        f" {s.fine_step.steps if s.fine_step else '-':>5}  {s.entry.used_by}"
+        f" {dashed(s.force_error, 7, '.3f')} {dashed(s.step and s.step.steps, 6, 'd')}"
+        f" {dashed(s.fine_step and s.fine_step.steps, 5, 'd')}  {s.entry.used_by}"
         + (f"; gains energy, {s.energy_gain:.2g} in psi" if s.energy_gain > 1e-9 else "")
         for s in ranking.standings
     ]
@@ -252,11 +259,3 @@ def _table(ranking: Ranking) -> str:
             f" fine: less than {FINE:g}",
         ]
     )
-
-
-def _short(value: float) -> str:
-    return f"{value:7.3f}" if np.isfinite(value) else f"{'-':>7s}"
-
-
-def _words(meaning: str) -> dict[str, str]:
-    return {"units": "1", "long_name": meaning}

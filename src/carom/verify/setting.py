@@ -14,6 +14,7 @@ from carom.dimensionless.numerics.hertz import DURATION
 from carom.quantities.units import InputError, finite, number, positive, refusal
 
 POINTS = 61
+SPEEDS = ("speed", "angle", "normal_speed", "tangential_speed")
 SPEED = 1.0  # m/s, of a case without one: k_n of linear springs depends on it
 
 
@@ -58,10 +59,8 @@ def setting_of(
     pair, motion = pair_of(content), motion_of(content)
     if pair.friction == 0.0:
         raise refusal("friction", 0.0, "must be positive: without it nothing is to tune")
-    given = {name: motion.get(name) for name in ("speed", "angle")}
-    more = {name: motion.get(name) for name in ("normal_speed", "tangential_speed")}
-    moves = any(value is not None for value in (*given.values(), *more.values()))
-    speed = approach(**given, **more)[0] if moves else SPEED
+    given = {name: motion.get(name) for name in SPEEDS}
+    speed = approach(**given)[0] if any(value is not None for value in given.values()) else SPEED
     per_slope = pair.kappa / pair.friction  # psi_1 = kappa tan(angle)/mu
     last = 4.0 * pair.chi if stop is None else per_slope * tan(slope(stop))
     psi = _range(per_slope * tan(slope(start)), last, start, stop)

@@ -1,6 +1,6 @@
 """What a time step costs: how far a law in fixed steps is from the law itself."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -8,17 +8,23 @@ from numpy.typing import ArrayLike
 from carom.laws.dem import Law
 from carom.quantities.arrays import finite_line
 from carom.quantities.units import counted, positive
-from carom.verify.errors import INCIDENCES, as_law
+from carom.verify.errors import INCIDENCES, as_law, largest
 
 FEWEST, MOST = 10, 2_000_000
 GROWTH = 2.0**0.5
 
 
-class Step(NamedTuple):
+class TimeSteps(NamedTuple):
     """Steps per duration of the elastic contact, and the error in psi_2 that they cause."""
 
     steps: int
     error: float
+
+
+def told_steps(given: TimeSteps | None) -> dict[str, Any]:
+    """Return steps and their error for a record, None for none."""
+    steps, error = given or (None, None)
+    return {"steps": steps, "step_error": error}
 
 
 def step_error(
@@ -64,10 +70,9 @@ def step_error(
     True
     """
     counted("steps", steps, FEWEST)
-    psis, chi = finite_line("psi", psi), positive("chi", chi)
-    converged = as_law(law).rebound(psis, chi, kappa=kappa)
-    stepped = law.rebound(psis, chi, kappa=kappa, steps=steps)
-    return float(np.max(np.abs(stepped - converged)))
+    own = finite_line("psi", psi), positive("chi", chi)
+    converged = as_law(law).rebound(*own, kappa=kappa)
+    return largest(law.rebound(*own, kappa=kappa, steps=steps) - converged)
 
 
 def advised_steps(
@@ -77,7 +82,7 @@ def advised_steps(
     chi: float = 1.4412,
     *,
     kappa: float | None = None,
-) -> Step | None:
+) -> TimeSteps | None:
     """Return the fewest time steps whose error in psi_2 stays within what is allowed.
 
     The error of twice as many steps must be within it, too; numbers are tried in steps of sqrt 2.
@@ -98,7 +103,7 @@ def advised_steps(
 
     Returns
     -------
-    Step or None
+    TimeSteps or None
         `steps` per duration of Hertz's contact, and their `error` in psi_2.
 
     Raises
@@ -113,17 +118,16 @@ def advised_steps(
     28
     """
     positive("tolerance", allowed)
-    psis, chi = finite_line("psi", psi), positive("chi", chi)
-    converged = as_law(law).rebound(psis, chi, kappa=kappa)
+    own = finite_line("psi", psi), positive("chi", chi)
+    converged = as_law(law).rebound(*own, kappa=kappa)
     if not np.all(np.isfinite(converged)):
         return None
-    held: list[Step] = []
+    held: list[TimeSteps] = []
     wanted = float(FEWEST)
     while wanted <= MOST:
         steps = round(wanted)
-        stepped = law.rebound(psis, chi, kappa=kappa, steps=steps)
-        error = float(np.max(np.abs(stepped - converged)))
-        held = [*held, Step(steps, error)] if error <= allowed else []
+        error = largest(law.rebound(*own, kappa=kappa, steps=steps) - converged)
+        held = [*held, TimeSteps(steps, error)] if error <= allowed else []
         if len(held) == 3:
             return held[0]
         wanted *= GROWTH

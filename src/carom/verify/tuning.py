@@ -10,22 +10,28 @@ from numpy.typing import ArrayLike
 from carom.io.progress import Progress, advancing
 from carom.laws.dem import (
     ContactLaw,
-    EdemHertzMindlin,
     HardSphere,
     HertzLinearHistory,
     LammpsMindlin,
     Law,
-    LiggghtsHertz,
     LinearSpring,
     StrongeLaw,
-    ThorntonLaw,
     WaltonBraunLaw,
-    YadeMindlin,
 )
+from carom.plots.result import card
 from carom.quantities.arrays import Array
 from carom.quantities.units import positive, refusal
-from carom.verify.errors import as_law, exact_rebound, incidences, solid_kappa
-from carom.verify.steps import Step, advised_steps
+from carom.verify.catalogue import CATALOGUE, called
+from carom.verify.errors import (
+    as_law,
+    dashed,
+    exact_rebound,
+    incidences,
+    kappa_or_solid,
+    largest,
+    root_mean_square,
+)
+from carom.verify.steps import TimeSteps, advised_steps, told_steps
 
 AnyLaw = TypeVar("AnyLaw", bound=Law)
 
@@ -37,26 +43,16 @@ FREE = {  # the parameter that can be chosen, and its range; of a stiffness_rati
     WaltonBraunLaw: ("stiffness_ratio", 0.05, 2.5),
     HardSphere: ("tangential_restitution", -1.0, 1.0),
 }
-TUNED: tuple[Law, ...] = (
-    LinearSpring(),
-    HertzLinearHistory(),
-    LammpsMindlin("mindlin"),
-    LammpsMindlin("mindlin/force"),
-    LammpsMindlin("mindlin_rescale"),
-    LammpsMindlin("mindlin_rescale/force"),
-    LiggghtsHertz(),
-    EdemHertzMindlin(),
-    YadeMindlin(),
-    ThorntonLaw(),
-    WaltonBraunLaw(),
-    StrongeLaw(),
-    HardSphere(0.4),
+TUNED: tuple[Law, ...] = tuple(  # of each kind the first in the catalogue
+    entry.law
+    for place, entry in enumerate(CATALOGUE)
+    if called(entry.law) not in [called(other.law) for other in CATALOGUE[:place]]
 )
 TRIALS = 17  # of a parameter, before the best is refined
-MEASURES = ("max", "rms")
+MEASURES = {"max": largest, "rms": root_mean_square}
 
 
-class Advice(NamedTuple):
+class TunedLaw(NamedTuple):
     """A law with the parameter that comes closest, and the error in psi_2 that remains.
 
     `before` is the largest error of the law as it was given; `step` the fewest steps per contact
@@ -69,7 +65,7 @@ class Advice(NamedTuple):
     max_error: float
     rms_error: float
     before: float
-    step: Step | None
+    step: TimeSteps | None
 
 
 @dataclass(frozen=True)
@@ -90,7 +86,7 @@ class Tuning:
     chi: float
     kappa: float
     span: tuple[float, float]
-    advice: tuple[Advice, ...]
+    advice: tuple[TunedLaw, ...]
 
     def best(self, kind: type[AnyLaw]) -> AnyLaw | None:
         """Return the law of a kind that comes closest, or None if there is none of that kind.
@@ -116,12 +112,10 @@ class Tuning:
 
     def _repr_html_(self) -> str:
         """Return a table for a notebook."""
-        from carom.plots.result import card
-
         rows = {called(one.law): _told(one) for one in self.advice}
         return card(f"Closest to the exact psi_2 at chi = {self.chi:g}", rows)
 
-    def as_record(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, Any]:
         """Return the advice as what JSON can hold.
 
         Returns
@@ -136,12 +130,15 @@ class Tuning:
             "laws": [_record(one) for one in self.advice],
         }
 
+    as_record = to_dict
+
     def __str__(self) -> str:
         head = f"{'parameter':>24s} {'value':>8s} {'max':>7s} {'rms':>7s} {'as given':>9s} "
         rows = [
-            f"  {called(one.law):32s} {one.parameter or '-':>24s} {_short(one.value, 4)}"
+            f"  {called(one.law):32s} {one.parameter or '-':>24s} {dashed(one.value, 8, '.4f')}"
             f" {one.max_error:7.3f} {one.rms_error:7.3f} {one.before:9.3f}"
-            f" {_stepped(one.step)}"
+            f" {dashed(one.step and one.step.steps, 6, 'd')}"
+            f" {dashed(one.step and one.step.error, 7, '.4f')}"
             for one in self.advice
         ]
         return "\n".join(
@@ -207,7 +204,7 @@ def tune(
     ('stiffness', 0.7, 0.61, 0.17)
     """
     ratio = positive("chi", chi)
-    own = solid_kappa(ratio) if kappa is None else positive("kappa", kappa)
+    own = kappa_or_solid(kappa, ratio)
     psis = np.linspace(0.0, 4.0 * ratio, 61)[1:] if psi is None else incidences(psi)
     if measure not in MEASURES:
         raise refusal("measure", measure, f"must be {' or '.join(MEASURES)}")
@@ -223,14 +220,13 @@ def tune(
     return Tuning(ratio, own, (float(psis.min()), float(psis.max())), tuple(ordered))
 
 
-def _advice(law: Law, psi: Array, exact: Array, chi: float, kappa: float, measure: str) -> Advice:
+def _advice(law: Law, psi: Array, exact: Array, chi: float, kappa: float, measure: str) -> TunedLaw:
     def error(candidate: Law) -> Array:
         return np.asarray(candidate.rebound(psi, chi, kappa=kappa)) - exact
 
     def cost(candidate: Law) -> float:
-        wrong = error(candidate)
-        value = np.max(np.abs(wrong)) if measure == "max" else np.sqrt(np.mean(wrong**2))
-        return float(value) if np.isfinite(value) else np.inf
+        value = MEASURES[measure](error(candidate))
+        return value if np.isfinite(value) else np.inf
 
     name, best = None, law
     if type(law) in FREE:
@@ -238,20 +234,13 @@ def _advice(law: Law, psi: Array, exact: Array, chi: float, kappa: float, measur
         if name == "stiffness_ratio":
             low, high = kappa * low, kappa * high
         best = _closest(law, name, low, high, cost)
-    left, before = error(best), error(law)
-    largest = float(np.max(np.abs(left)))
-    step = None
-    if isinstance(best, ContactLaw) and largest > 0.0:
-        step = advised_steps(best, 0.1 * largest, psi, chi, kappa=kappa)
-    return Advice(
-        best,
-        name,
-        None if name is None else float(getattr(best, name) or kappa),
-        largest,
-        float(np.sqrt(np.mean(left**2))),
-        float(np.max(np.abs(before))),
-        step,
-    )
+    left, step = error(best), None
+    most = largest(left)
+    if isinstance(best, ContactLaw) and most > 0.0:
+        step = advised_steps(best, 0.1 * most, psi, chi, kappa=kappa)
+    value = None if name is None else float(getattr(best, name) or kappa)
+    before = largest(error(law))
+    return TunedLaw(best, name, value, most, root_mean_square(left), before, step)
 
 
 def _closest(law: Law, name: str, low: float, high: float, cost: Callable[[Law], float]) -> Law:
@@ -278,12 +267,7 @@ def _closest(law: Law, name: str, low: float, high: float, cost: Callable[[Law],
     return changed(value) if least < cost(law) else law
 
 
-def called(law: Law) -> str:
-    """Return what a law is called, its variant included."""
-    return str(getattr(law, "variant", law.name))
-
-
-def _record(one: Advice) -> dict[str, Any]:
+def _record(one: TunedLaw) -> dict[str, Any]:
     return {
         "law": called(one.law),
         "parameter": one.parameter,
@@ -291,21 +275,12 @@ def _record(one: Advice) -> dict[str, Any]:
         "max_error": one.max_error,
         "rms_error": one.rms_error,
         "max_error_before": one.before,
-        "steps": one.step.steps if one.step else None,
-        "step_error": one.step.error if one.step else None,
+        **told_steps(one.step),
     }
 
 
-def _told(one: Advice) -> str:
+def _told(one: TunedLaw) -> str:
     error = f"|error in psi_2| {one.max_error:.3f}"
     if one.value is None:
         return error
     return f"{one.parameter} {one.value:.4g}: {error}, {one.before:.3f} before"
-
-
-def _stepped(step: Step | None) -> str:
-    return f"{step.steps:6d} {step.error:7.4f}" if step else f"{'-':>6s} {'-':>7s}"
-
-
-def _short(value: float | None, digits: int) -> str:
-    return f"{'-':>8s}" if value is None else f"{value:8.{digits}f}"

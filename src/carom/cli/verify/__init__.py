@@ -2,7 +2,7 @@
 
 import typer
 
-from carom.cli.verify.engines import lammps_command, liggghts_command, yade_command
+from carom.cli.verify.engines import COMMANDS, engine_command
 from carom.cli.verify.laws import laws_command
 from carom.cli.verify.pack import pack_command
 from carom.cli.verify.score import score_command
@@ -16,9 +16,8 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 app.command("laws")(laws_command)
-app.command("lammps")(lammps_command)
-app.command("liggghts")(liggghts_command)
-app.command("yade")(yade_command)
+for name, words in COMMANDS.items():
+    app.command(name, help=words)(engine_command)
 app.command("pack")(pack_command)
 app.command("score")(score_command)
 app.command("tune")(tune_command)

@@ -6,6 +6,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+import carom
+from carom.cli.cases import Json, Plot, check_outputs, refuse_same, store, stored
+from carom.quantities.units import InputError, finite, positive
+
 if TYPE_CHECKING:
     from carom.laws.dem import Law
 
@@ -19,8 +23,8 @@ def laws_command(
         list[str] | None, typer.Option(help="Incidence psi_1; repeat for several.")
     ] = None,
     law: Annotated[str | None, typer.Option(help="Only this law, e.g. mindlin_rescale.")] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
-    plot: Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")] = None,
+    as_json: Json = False,
+    plot: Plot = None,
     output: Annotated[str | None, typer.Option(help="Store the ranking: .csv or .nc.")] = None,
     error_map: Annotated[
         str | None,
@@ -38,44 +42,30 @@ def laws_command(
 
     One law for all solid spheres: carom verify laws --law mindlin --map mindlin.png
     """
-    from carom.cli.cases import refuse_same
-    from carom.io.files import FIGURES, TABLES, checked_output, save
-    from carom.quantities.units import InputError, finite, positive
+    from carom.io.files import FIGURES, TABLES
     from carom.verify.catalogue import named
     from carom.verify.errors import INCIDENCES
-    from carom.verify.ranking import rank
 
     if error_map is not None and law is None:
         raise InputError("map: is of one law; give --law, e.g. --law mindlin")
     if error_map is not None and (kappa is not None or psi):
         raise InputError("map: is of solid spheres, all psi_1; leave --kappa and --psi out")
     refuse_same({"plot": plot, "output": output, "map": error_map})
-    for path, endings in ((plot, FIGURES), (output, TABLES), (error_map, (*FIGURES, *TABLES))):
-        if path is not None:
-            checked_output(path, endings)
-    incidences = INCIDENCES if not psi else tuple(finite("psi_in", value) for value in psi)
+    check_outputs((plot, FIGURES), (output, TABLES), (error_map, (*FIGURES, *TABLES)))
+    incidences = [finite("psi_in", value) for value in psi or INCIDENCES]
     ratio = None if kappa is None else positive("kappa", kappa)
-    ranking = rank(named(law), chi=positive("chi", chi), kappa=ratio, psi=incidences)
-    if output is not None:
-        typer.echo(f"stored {save(ranking, output)}", err=True)
-    if plot is not None:
-        from carom.plots.laws import plot_laws
-        from carom.plots.style import save_figure
-
-        typer.echo(f"stored {save_figure(plot_laws(ranking.to_dataset()), plot)}", err=True)
+    ranking = carom.verify.rank(named(law), chi=positive("chi", chi), kappa=ratio, psi=incidences)
+    store(ranking, output, plot)
     if error_map is not None:
-        typer.echo(f"stored {_store_map(ranking.standings[0].entry.law, error_map)}", err=True)
-    typer.echo(json.dumps(ranking.as_record(), indent=2) if as_json else str(ranking))
+        stored(_store_map(ranking.standings[0].entry.law, error_map))
+    typer.echo(json.dumps(ranking.to_dict(), indent=2) if as_json else str(ranking))
 
 
 def _store_map(law: "Law", path: str) -> Path:
     """Store the error map of a law as a figure or a table."""
-    from carom.io.files import TABLES, save
-    from carom.plots.laws import plot_error_map
-    from carom.plots.style import save_figure
-    from carom.verify.errors import error_map
+    from carom.io.files import TABLES
 
-    dataset = error_map(law)
+    dataset = carom.verify.error_map(law)
     if path.lower().endswith(TABLES):
-        return save(dataset, path)
-    return save_figure(plot_error_map(dataset), path)
+        return carom.save(dataset, path)
+    return carom.plots.save_figure(carom.plots.plot_error_map(dataset), path)

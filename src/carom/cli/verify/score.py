@@ -6,6 +6,9 @@ from typing import Annotated
 
 import typer
 
+import carom
+from carom.cli.cases import Json, Plot, check_outputs, refuse_same, store
+
 
 def score_command(
     results: Annotated[Path, typer.Argument(help="CSV file with a header; comments after #.")],
@@ -22,9 +25,9 @@ def score_command(
             help="Largest |error in psi_2| that passes, and of the audit; the best laws reach 0.05."
         ),
     ] = "0.01",
-    plot: Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")] = None,
+    plot: Plot = None,
     output: Annotated[str | None, typer.Option(help="Store the score: .csv or .nc.")] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    as_json: Json = False,
 ) -> None:
     """Score your own results against the exact impact; exit code 0 if they pass, 1 if they fail.
 
@@ -40,20 +43,12 @@ def score_command(
 
     Velocities or forces: carom verify score results.csv --case examples/steel_ball.toml
     """
-    from carom.cli.cases import refuse_same
-    from carom.io.files import FIGURES, TABLES, checked_output, save
-    from carom.verify.scoring import score
+    from carom.io.files import FIGURES, TABLES
 
     refuse_same({"results": results, "case": case, "plot": plot, "output": output})
-    for path, endings in ((plot, FIGURES), (output, TABLES)):
-        if path is not None:
-            checked_output(path, endings)
-    result = score(results, case=case, chi=chi, tolerance=tolerance)
-    if output is not None:
-        typer.echo(f"stored {save(result, output)}", err=True)
-    if plot is not None:
-        result.plot(plot)
-        typer.echo(f"stored {plot}", err=True)
-    typer.echo(json.dumps(result.as_record(), indent=2) if as_json else str(result))
-    if not result.passed:
+    check_outputs((plot, FIGURES), (output, TABLES))
+    score = carom.verify.score(results, case=case, chi=chi, tolerance=tolerance)
+    store(score, output, plot)
+    typer.echo(json.dumps(score.to_dict(), indent=2) if as_json else str(score))
+    if not score.passed:
         raise typer.Exit(1)

@@ -6,6 +6,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+import carom
+from carom.cli.cases import Json
+
 if TYPE_CHECKING:
     from carom.verify.setting import Setting
     from carom.verify.tuning import Tuning
@@ -13,8 +16,7 @@ if TYPE_CHECKING:
 
 def tune_command(
     case: Annotated[
-        Path | None,
-        typer.Argument(help="Case file as of `carom impact`: bodies, friction, speed."),
+        Path | None, typer.Argument(help="Case file as of `carom impact`: bodies, friction, speed.")
     ] = None,
     chi: Annotated[str | None, typer.Option(help="Instead of a case: chi, positive.")] = None,
     kappa: Annotated[
@@ -31,7 +33,7 @@ def tune_command(
         str, typer.Option(help="Wanted normal restitution e, for the dampings.")
     ] = "1",
     measure: Annotated[str, typer.Option(help="Error to minimise: max or rms.")] = "max",
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
+    as_json: Json = False,
 ) -> None:
     """Find the parameters of each contact law that come closest to the exact rebound.
 
@@ -43,34 +45,26 @@ def tune_command(
     Without bodies: carom verify tune --chi 1.4412
     """
     from carom.verify.setting import setting_of
-    from carom.verify.tuning import tune
 
     setting = setting_of(case, chi, kappa, start, stop, restitution)
-    tuning = tune(
-        chi=setting.chi,
-        kappa=setting.kappa,
-        psi=setting.psi,
-        measure=measure,
+    tuning = carom.verify.tune(
+        chi=setting.chi, kappa=setting.kappa, psi=setting.psi, measure=measure
     )
     given = {"normal_speed": setting.normal_speed, "duration": setting.duration}
-    record = tuning.as_record() | {"inputs": _inputs(setting, tuning)} | given
+    record = tuning.to_dict() | {"inputs": _inputs(setting, tuning)} | given
     typer.echo(json.dumps(record, indent=2) if as_json else _text(tuning, record))
 
 
 def _inputs(setting: "Setting", tuning: "Tuning") -> dict[str, str]:
     """Return what to write into the inputs of codes: the stiffnesses that come closest."""
-    from carom.laws.dem import LammpsMindlin, LinearSpring
-    from carom.verify.conversions import MINDLIN, SPRING, recipes
+    from carom.verify.conversions import MINDLIN, SPRING
 
     if setting.pair is None or setting.normal_speed is None:
         return {}
-    return recipes(
-        setting.pair,
-        setting.normal_speed,
-        setting.restitution,
-        spring=tuning.best(LinearSpring) or SPRING,
-        mindlin=tuning.best(LammpsMindlin) or MINDLIN,
-    )
+    spring = tuning.best(carom.LinearSpring) or SPRING
+    mindlin = tuning.best(carom.LammpsMindlin) or MINDLIN
+    bodies, speed, restitution = setting.pair, setting.normal_speed, setting.restitution
+    return carom.verify.recipes(bodies, speed, restitution, spring=spring, mindlin=mindlin)
 
 
 def _text(tuning: "Tuning", record: dict[str, Any]) -> str:

@@ -151,13 +151,7 @@ def error_of(law: Coefficients, h: float, y: Array, work: Array) -> float:
 
 @kernel
 def event(
-    law: Coefficients,
-    slip: int,
-    branch: int,
-    loading: bool,
-    peak: float,
-    pushing: bool,
-    y: Array,
+    law: Coefficients, slip: int, branch: int, loading: bool, peak: float, pushing: bool, y: Array
 ) -> int:
     """Return what has happened by this state, if anything."""
     b, v, psi = y[B], y[V], y[PSI]

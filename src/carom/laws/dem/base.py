@@ -11,13 +11,20 @@ from numpy.typing import ArrayLike, NDArray
 from carom.dimensionless.numerics.threads import available_cores
 from carom.laws.dem.adaptive import rebounds
 from carom.laws.dem.coefficients import Coefficients
-from carom.laws.dem.stepping import HISTORY, longest, stepped, stepped_rebounds
+from carom.laws.dem.damping import damped_restitution
+from carom.laws.dem.stepping import HISTORY, PATIENCE, stepped, stepped_rebounds
 from carom.quantities.arrays import Array
-from carom.quantities.units import counted, finite, positive, refusal
+from carom.quantities.units import counted, finite, not_negative, positive, refusal
 
 SOLID = 4.0 / 7.0  # kappa/chi of solid spheres, and of one on a half-space
 FEWEST_STEPS = 4
 BLOCK = 16  # impacts that a thread takes at once
+READERS = {  # of the parameters that laws have
+    "stiffness_ratio": lambda name, value: None if value is None else positive(name, value),
+    "stiffness": positive,
+    "restitution": damped_restitution,
+    "tangential_damping": not_negative,
+}
 
 
 @dataclass(frozen=True)
@@ -26,6 +33,11 @@ class Law(ABC):
 
     name: ClassVar[str]
     source: ClassVar[str]
+
+    def __post_init__(self) -> None:
+        for name, read in READERS.items():
+            if name in vars(self):
+                object.__setattr__(self, name, read(name, getattr(self, name)))
 
     @abstractmethod
     def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
@@ -159,7 +171,7 @@ class ContactLaw(Law):
         counted("steps", steps, FEWEST_STEPS)
         chi, psi = positive("chi", chi), finite("psi_in", psi)
         law = self.coefficients(chi, SOLID * chi if kappa is None else positive("kappa", kappa))
-        record = np.empty((longest(steps), len(HISTORY)))
+        record = np.empty((PATIENCE * steps + 2, len(HISTORY)))
         count, _ = stepped(law, abs(psi), steps, record)
         if count < 0:
             raise refusal("steps", steps, "the bodies do not part; take more steps")

@@ -7,7 +7,7 @@ b = sqrt(d), in units of the largest one.
 """
 
 from enum import IntEnum
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -57,6 +57,19 @@ class Coefficients(NamedTuple):
     kept_unloading: float = 0.0
     shear_damping: float = 0.0
     limits_damping: bool = True
+
+
+def hertzian(chi: float, damping: float, **more: Any) -> Coefficients:
+    """Return a law with Hertz's normal force and a damping that grows as the root of the radius."""
+    return Coefficients(chi=chi, normal_damping=damping, damping_power=0.5, **more)
+
+
+def linear(chi: float, kappa: float, ratio: float | None, **more: Any) -> Coefficients:
+    """Return a law with springs of constant stiffness, k_t/k_n as given or else kappa."""
+    stiffness = SPRING * (ratio or kappa) / kappa
+    return Coefficients(
+        chi=chi, normal=Normal.LINEAR.value, stiffness=stiffness, stiffness_power=0.0, **more
+    )
 
 
 @kernel

@@ -1,6 +1,7 @@
 """Damping for a wanted restitution, as the codes define it."""
 
 from math import exp, log, pi, sqrt
+from typing import Any
 
 from carom.laws.dem.coefficients import SPRING
 from carom.quantities.units import number, refusal
@@ -10,13 +11,12 @@ RULES = (COEFF_RESTITUTION, TSUJI)
 SMALLEST = 1e-6  # restitution
 
 
-def check_restitution(law: object) -> None:
-    """Read the restitution of a frozen law; raise InputError unless it lies from 1e-6 to 1."""
-    given = law.restitution  # type: ignore[attr-defined]
-    value = number("restitution", given, "1")
-    if not SMALLEST <= value <= 1.0:
-        raise refusal("restitution", given, f"must be from {SMALLEST:g} to 1")
-    object.__setattr__(law, "restitution", value)
+def damped_restitution(name: str, value: Any) -> float:
+    """Return a restitution that a damping is made for, or raise InputError."""
+    result = number(name, value, "1")
+    if not SMALLEST <= result <= 1.0:
+        raise refusal(name, value, f"must be from {SMALLEST:g} to 1")
+    return result
 
 
 def damping_ratio(restitution: float) -> float:

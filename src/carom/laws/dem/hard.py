@@ -6,7 +6,6 @@ from typing import ClassVar
 import numpy as np
 
 from carom.laws.dem.base import Law
-from carom.laws.dem.damping import check_restitution
 from carom.quantities.arrays import Array
 from carom.quantities.units import number, refusal
 
@@ -46,7 +45,7 @@ class HardSphere(Law):
     restitution: float = 1.0
 
     def __post_init__(self) -> None:
-        check_restitution(self)
+        super().__post_init__()
         beta = number("tangential_restitution", self.tangential_restitution, "1")
         if not -1.0 <= beta <= 1.0:
             raise refusal("tangential_restitution", beta, "must lie between -1 and 1")

@@ -4,9 +4,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from carom.laws.dem.base import ContactLaw
-from carom.laws.dem.coefficients import SPRING, Coefficients, Normal, Shear
-from carom.laws.dem.damping import check_restitution
-from carom.laws.dem.springs import check_ratio
+from carom.laws.dem.coefficients import Coefficients, Shear
+from carom.laws.dem.springs import BilinearLaw
 
 
 @dataclass(frozen=True)
@@ -35,7 +34,7 @@ class ThorntonLaw(ContactLaw):
 
 
 @dataclass(frozen=True)
-class WaltonBraunLaw(ContactLaw):
+class WaltonBraunLaw(BilinearLaw):
     """Walton & Braun's law: a normal spring that unloads stiffer, a tangential one that softens.
 
     F_n = K_1 d while loading, K_1/e^2 (d - d_p) while unloading; dT = K_0 (1 - (T - T*)/(mu N -
@@ -64,20 +63,6 @@ class WaltonBraunLaw(ContactLaw):
     name: ClassVar[str] = "Walton & Braun"
     source: ClassVar[str] = "Walton & Braun (1986), J. Rheol. 30:949"
 
-    stiffness_ratio: float | None = None
-    restitution: float = 1.0
-
-    def __post_init__(self) -> None:
-        check_ratio(self)
-        check_restitution(self)
-
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
-        return Coefficients(
-            chi=chi,
-            normal=Normal.LINEAR.value,
-            unloading=self.restitution**-2,
-            shear=Shear.WALTON_BRAUN.value,
-            stiffness=SPRING * (self.stiffness_ratio or kappa) / kappa,
-            stiffness_power=0.0,
-        )
+        return super().coefficients(chi, kappa)._replace(shear=Shear.WALTON_BRAUN.value)

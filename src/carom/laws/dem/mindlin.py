@@ -9,15 +9,9 @@ from math import sqrt
 from typing import ClassVar
 
 from carom.laws.dem.base import ContactLaw
-from carom.laws.dem.coefficients import MINDLIN, SPRING, Coefficients
-from carom.laws.dem.damping import (
-    COEFF_RESTITUTION,
-    RULES,
-    check_restitution,
-    hertz_damping,
-    thornton_damping,
-)
-from carom.quantities.units import not_negative, positive, refusal
+from carom.laws.dem.coefficients import MINDLIN, SPRING, Coefficients, hertzian
+from carom.laws.dem.damping import COEFF_RESTITUTION, RULES, hertz_damping, thornton_damping
+from carom.quantities.units import refusal
 
 KEPT = {  # powers n, while the contact grows and while it shrinks
     "mindlin": (1.0, 1.0),
@@ -77,20 +71,15 @@ class LammpsMindlin(ContactLaw):
             raise refusal("variant", self.variant, f"must be one of {', '.join(KEPT)}")
         if self.damping not in RULES:
             raise refusal("damping", self.damping, f"must be {' or '.join(RULES)}")
-        object.__setattr__(self, "stiffness", positive("stiffness", self.stiffness))
-        check_restitution(self)
-        object.__setattr__(
-            self, "tangential_damping", not_negative("tangential_damping", self.tangential_damping)
-        )
+        super().__post_init__()
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
         loading, unloading = KEPT[self.variant]
         damping = hertz_damping(self.restitution, self.damping)
-        return Coefficients(
-            chi=chi,
-            normal_damping=damping,
-            damping_power=0.5,
+        return hertzian(
+            chi,
+            damping,
             stiffness=MINDLIN * self.stiffness,
             kept_loading=loading,
             kept_unloading=unloading,
@@ -129,16 +118,12 @@ class LiggghtsHertz(ContactLaw):
 
     restitution: float = 1.0
 
-    def __post_init__(self) -> None:
-        check_restitution(self)
-
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
         damping = hertz_damping(self.restitution)
-        return Coefficients(
-            chi=chi,
-            normal_damping=damping,
-            damping_power=0.5,
+        return hertzian(
+            chi,
+            damping,
             kept_loading=1.0,
             kept_unloading=1.0,
             shear_damping=damping * kappa**-0.5,
@@ -207,16 +192,12 @@ class YadeMindlin(ContactLaw):
 
     restitution: float = 1.0
 
-    def __post_init__(self) -> None:
-        check_restitution(self)
-
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
         damping = 2.0 * sqrt(SPRING * MINDLIN) * thornton_damping(self.restitution)
-        return Coefficients(
-            chi=chi,
-            normal_damping=damping,
-            damping_power=0.5,
+        return hertzian(
+            chi,
+            damping,
             pulls=False,
             shear_damping=damping * kappa**-0.5,
             limits_damping=False,

@@ -4,16 +4,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from carom.laws.dem.base import ContactLaw
-from carom.laws.dem.coefficients import MINDLIN, SPRING, Coefficients, Normal
-from carom.laws.dem.damping import check_restitution, damping_ratio, hertz_damping
-from carom.quantities.units import not_negative, positive
-
-
-def check_ratio(law: object) -> None:
-    """Read k_t/k_n of a frozen law; None stays, for kappa."""
-    given = law.stiffness_ratio  # type: ignore[attr-defined]
-    if given is not None:
-        object.__setattr__(law, "stiffness_ratio", positive("stiffness_ratio", given))
+from carom.laws.dem.coefficients import MINDLIN, SPRING, Coefficients, hertzian, linear
+from carom.laws.dem.damping import damping_ratio, hertz_damping
 
 
 @dataclass(frozen=True)
@@ -52,23 +44,12 @@ class LinearSpring(ContactLaw):
     restitution: float = 1.0
     tangential_damping: float = 0.0
 
-    def __post_init__(self) -> None:
-        check_ratio(self)
-        check_restitution(self)
-        object.__setattr__(
-            self, "tangential_damping", not_negative("tangential_damping", self.tangential_damping)
-        )
-
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
         damping = 2.0 * SPRING * damping_ratio(self.restitution)
-        return Coefficients(
-            chi=chi,
-            normal=Normal.LINEAR.value,
-            normal_damping=damping,
-            stiffness=SPRING * (self.stiffness_ratio or kappa) / kappa,
-            stiffness_power=0.0,
-            shear_damping=self.tangential_damping * damping / kappa,
+        shear_damping = self.tangential_damping * damping / kappa
+        return linear(
+            chi, kappa, self.stiffness_ratio, normal_damping=damping, shear_damping=shear_damping
         )
 
 
@@ -105,20 +86,12 @@ class HertzLinearHistory(ContactLaw):
     restitution: float = 1.0
     tangential_damping: float = 0.0
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "stiffness", positive("stiffness", self.stiffness))
-        check_restitution(self)
-        object.__setattr__(
-            self, "tangential_damping", not_negative("tangential_damping", self.tangential_damping)
-        )
-
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
         damping = hertz_damping(self.restitution)
-        return Coefficients(
-            chi=chi,
-            normal_damping=damping,
-            damping_power=0.5,
+        return hertzian(
+            chi,
+            damping,
             stiffness=MINDLIN * self.stiffness,
             stiffness_power=0.0,
             shear_damping=self.tangential_damping * damping / kappa,
@@ -126,7 +99,19 @@ class HertzLinearHistory(ContactLaw):
 
 
 @dataclass(frozen=True)
-class StrongeLaw(ContactLaw):
+class BilinearLaw(ContactLaw):
+    """A normal spring that unloads stiffer, by 1/e^2, and a linear tangential one beside it."""
+
+    stiffness_ratio: float | None = None
+    restitution: float = 1.0
+
+    def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
+        return linear(chi, kappa, self.stiffness_ratio, unloading=self.restitution**-2)
+
+
+@dataclass(frozen=True)
+class StrongeLaw(BilinearLaw):
     """Bilinear compliance: a normal spring that unloads stiffer, a linear tangential one beside it.
 
     F_n = k_n d while loading, k_n/e^2 (d - d_p) while unloading; F_t = k_t U, |F_t| <= mu F_n
@@ -153,20 +138,3 @@ class StrongeLaw(ContactLaw):
 
     name: ClassVar[str] = "Stronge, bilinear"
     source: ClassVar[str] = "Stronge (2000), Impact Mechanics, chapter 5"
-
-    stiffness_ratio: float | None = None
-    restitution: float = 1.0
-
-    def __post_init__(self) -> None:
-        check_ratio(self)
-        check_restitution(self)
-
-    def coefficients(self, chi: float, kappa: float) -> Coefficients:
-        """Return the law as numbers in the units of Hertz's impact."""
-        return Coefficients(
-            chi=chi,
-            normal=Normal.LINEAR.value,
-            unloading=self.restitution**-2,
-            stiffness=SPRING * (self.stiffness_ratio or kappa) / kappa,
-            stiffness_power=0.0,
-        )

@@ -19,22 +19,8 @@ from carom.laws.dem.coefficients import (
 )
 from carom.quantities.arrays import Array
 
-HISTORY = (
-    "time",
-    "penetration",
-    "normal_velocity",
-    "psi",
-    "normal_force",
-    "tangential_force",
-)
+HISTORY = ("time", "penetration", "normal_velocity", "psi", "normal_force", "tangential_force")
 PATIENCE = 8  # durations of the elastic contact after which the bodies ought to have parted
-
-
-def longest(steps: int) -> int:
-    """Return how many rows a history may have."""
-    return PATIENCE * steps + 2
-
-
 FORCE, LIMIT, RADIUS, UPPER, LOWER, BRANCH = range(6)  # what is remembered from step to step
 REMEMBERED = 6
 

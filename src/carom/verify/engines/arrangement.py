@@ -19,6 +19,7 @@ from carom.quantities.units import refusal
 from carom.verify.engines.experiments import Experiment, Outcomes
 
 SPACING = 4.0  # from centre to centre, in radii of the larger sphere
+SKIN = 0.025  # of that distance
 HAIR = 1.0 + 4.0 * sys.float_info.epsilon  # programs damp spheres that exactly touch
 RIGID = 1e9  # Young's modulus of a body that does not deform, in units of the other one's
 BEYOND = 1.15  # durations of an elastic contact that are run
@@ -130,8 +131,8 @@ def outcomes_of(experiment: Experiment, states: Array) -> Outcomes:
     return Outcomes(vz, vx, 0.0 - first[:, 4])
 
 
-def remarks(experiment: Experiment) -> dict[str, str]:
-    """Return what the comments of any input say, by the names that its template has for it."""
+def shared_values(experiment: Experiment) -> dict[str, str]:
+    """Return what any input says, by the names that its template has for it."""
     pair, two = experiment.pair, isinstance(experiment.pair.second, Sphere)
     point = "vx1 - R1 omegay1 - vx2 - R2 omegay2" if two else "vx - R omegay"
     overlap = experiment.scales.length / pair.first.radius
@@ -148,6 +149,9 @@ def remarks(experiment: Experiment) -> dict[str, str]:
         "count": str(len(experiment)),
         "steps": str(experiment.steps),
         "duration": f"{experiment.duration:.6g}",
+        "time_step": repr(experiment.time_step),
+        "run": str(run_length(experiment)),
+        "skin": f"{SKIN * spacing(pair):.6g}",
     }
 
 

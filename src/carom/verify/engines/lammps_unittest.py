@@ -10,16 +10,10 @@ from carom.bodies.shapes import Sphere
 from carom.dimensionless.rebounds import rebound
 from carom.quantities.arrays import Array
 from carom.quantities.units import positive, refusal
-from carom.verify.engines.arrangement import (
-    Placed,
-    placed,
-    restitution,
-    run_length,
-    share_of_first,
-    spacing,
-)
+from carom.verify.engines import arrangement
+from carom.verify.engines.arrangement import Placed
 from carom.verify.engines.experiments import Experiment, Outcomes
-from carom.verify.engines.lammps import SKIN, coefficients, tangential_damping
+from carom.verify.engines.lammps import coefficients
 
 FLIGHT = 8  # steps that the driver runs after the commands
 FASTER = 4.0  # drift over the largest tangential speed
@@ -97,11 +91,12 @@ def unit_test_yaml(
     reference = "as given"
     if outcomes is None:
         outcomes, reference = exact(experiment), "the exact elastic impact"
-    before, pair = placed(experiment), experiment.pair
-    x, drift = spacing(pair), FASTER * _fastest(before)
+    before, pair = arrangement.placed(experiment), experiment.pair
+    fastest = max(abs(speed) for body in before for speed in (body.vx, body.vz))
+    x, drift = arrangement.spacing(pair), FASTER * fastest
     velocities = _speeds(experiment, outcomes) + np.array([drift, 0.0, 0.0])
     places = np.array([[x, body.y, body.z] for body in before])
-    time = (run_length(experiment) - experiment.steps + FLIGHT) * experiment.time_step
+    time = (arrangement.run_length(experiment) - experiment.steps + FLIGHT) * experiment.time_step
     moved = velocities * time + np.array([drift * experiment.duration, 0.0, 0.0])
     return PAGE.substitute(
         count=len(experiment),
@@ -125,7 +120,7 @@ def exact(experiment: Experiment) -> Outcomes:
 
     The tangential impulse is J = m_t (V_x - V_x'); dv_t = -J/m_n, d spin = -J R/(M K^2).
     """
-    if restitution(experiment) != 1.0:
+    if arrangement.restitution(experiment) != 1.0:
         raise refusal(
             "law", experiment.law, "has damping, the exact theory has none; give outcomes"
         )
@@ -141,10 +136,6 @@ def exact(experiment: Experiment) -> Outcomes:
     )
 
 
-def _fastest(bodies: list[Placed]) -> float:
-    return max(max(abs(body.vx), abs(body.vz)) for body in bodies)
-
-
 def _speeds(experiment: Experiment, outcomes: Outcomes) -> Array:
     """Return velocities of all spheres after, (natoms, 3), the centre of mass at rest."""
     pair = experiment.pair
@@ -153,7 +144,7 @@ def _speeds(experiment: Experiment, outcomes: Outcomes) -> Array:
     )
     if not isinstance(pair.second, Sphere):
         return relative
-    share = share_of_first(pair)
+    share = arrangement.share_of_first(pair)
     return np.concatenate([share * relative, (share - 1.0) * relative])
 
 
@@ -167,7 +158,7 @@ def _epsilon(experiment: Experiment, along: Array, tolerance: float) -> float:
 
 def _before(experiment: Experiment, bodies: list[Placed], x: float, drift: float) -> list[str]:
     """Return the commands that make the spheres and run their impacts."""
-    edge = spacing(experiment.pair)
+    edge = arrangement.spacing(experiment.pair)
     region = f"0 {2.0 * edge!r} {-edge!r} {edge * len(experiment)!r} {-edge!r} {edge!r}"
     return [
         "variable newton_pair delete",
@@ -185,7 +176,7 @@ def _before(experiment: Experiment, bodies: list[Placed], x: float, drift: float
         *(line for i, body in enumerate(bodies, 1) for line in _sphere(i, body, x, drift)),
         *_contact(experiment, drift),
         f"timestep {experiment.time_step!r}",
-        f"run {run_length(experiment)}",
+        f"run {arrangement.run_length(experiment)}",
         "unfix test",
         *(() if isinstance(experiment.pair.second, Sphere) else ("unfix move",)),
         "reset_timestep 0",
@@ -205,10 +196,9 @@ def _sphere(number: int, body: Placed, x: float, drift: float) -> list[str]:
 def _contact(experiment: Experiment, drift: float) -> list[str]:
     """Return the commands of motion and contact; the driver asks for a fix called test."""
     law, pair = coefficients(experiment), experiment.pair
-    damping = tangential_damping(experiment.law)
     # the driver's pair_style zero reaches farther than the box: no bins
-    start = [f"neighbor {SKIN * spacing(pair)!r} nsq"]
-    words = law.words(*map(repr, (law.kn, law.kt, law.loss, damping, pair.friction)))
+    start = [f"neighbor {arrangement.SKIN * arrangement.spacing(pair)!r} nsq"]
+    words = law.words(law.number)
     if isinstance(pair.second, Sphere):
         granular = ["pair_style granular", f"pair_coeff * * {words}"]
         return [*start, *granular, "fix test all nve/sphere"]

@@ -10,22 +10,11 @@ from typing import ClassVar
 
 from carom.bodies.shapes import Sphere
 from carom.laws.dem import ContactLaw, LiggghtsHertz, LinearSpring
-from carom.verify.engines.arrangement import (
-    data_file,
-    outcomes_of,
-    read_dump,
-    remarks,
-    restitution,
-    run_length,
-    spacing,
-    spring,
-    young_moduli,
-)
+from carom.verify.engines import arrangement
 from carom.verify.engines.experiments import Experiment, Outcomes
-from carom.verify.engines.running import Program
+from carom.verify.engines.running import Engine
 
 INPUT, SPHERES, RESULT = "in.liggghts", "spheres.data", "results.dump"
-SKIN = 0.025  # of the distance between neighbours
 
 SCRIPT = Template("""\
 # $count oblique impacts of $bodies, side by side and far apart. Written by Carom.
@@ -64,7 +53,7 @@ run             $run
 
 
 @dataclass(frozen=True)
-class Liggghts(Program):
+class Liggghts(Engine):
     """LIGGGHTS-PUBLIC: Hertz or linear springs, with tangential history.
 
     The contact point of LIGGGHTS lies at R - d/2 from the centre, which costs a few d/R of psi_2:
@@ -99,32 +88,28 @@ class Liggghts(Program):
 
     def files(self, experiment: Experiment) -> dict[str, str]:
         """Return complete inputs: text by file name."""
-        return {INPUT: _script(experiment), SPHERES: data_file(experiment)}
+        return {INPUT: _script(experiment), SPHERES: arrangement.data_file(experiment)}
 
     def outcomes(self, folder: Path, experiment: Experiment) -> Outcomes:
         """Return what a run has left in its folder; ValueError or OSError if it is not there."""
-        return outcomes_of(experiment, read_dump(folder / RESULT))
+        return arrangement.outcomes_of(experiment, arrangement.read_dump(folder / RESULT))
 
 
 def _script(experiment: Experiment) -> str:
-    pair = experiment.pair
     linear = isinstance(experiment.law, LinearSpring)
     model = f"{'hooke/stiffness' if linear else 'hertz'} tangential history"
     options = f"tangential_damping {'off' if linear else 'on'}"
     wall = f"fix             wall all wall/gran model {model} primitive type 2 zplane 0.0 {options}"
+    if isinstance(experiment.pair.second, Sphere):
+        wall = "# no wall: the second bodies are spheres"
     return SCRIPT.substitute(
-        remarks(experiment),
+        arrangement.shared_values(experiment),
         input=INPUT,
         result=RESULT,
         spheres=SPHERES,
-        skin=f"{SKIN * spacing(pair):.6g}",
         properties="\n".join(_properties(experiment)),
         model=f"{model} {options}",
-        wall="# no wall: the second bodies are spheres"
-        if isinstance(pair.second, Sphere)
-        else wall,
-        time_step=repr(experiment.time_step),
-        run=run_length(experiment),
+        wall=wall,
     )
 
 
@@ -142,13 +127,13 @@ def _properties(experiment: Experiment) -> Iterator[str]:
 
     yield both("coefficientFriction", pair.friction)
     if isinstance(law, LinearSpring):
-        normal, tangential, dashpot = spring(experiment)
+        normal, tangential, dashpot = arrangement.spring(experiment)
         yield both("kn", normal)
         yield both("kt", tangential)
         # LIGGGHTS multiplies gamman by the effective mass; gammat is not used, yet must be there
         yield both("gamman", dashpot / pair.normal_mass)
         yield both("gammat", 0.0)
     else:
-        yield each("youngsModulus", *young_moduli(pair))
+        yield each("youngsModulus", *arrangement.young_moduli(pair))
         yield each("poissonsRatio", pair.first.material.poisson, pair.second.material.poisson)
-        yield both("coefficientRestitution", restitution(experiment))
+        yield both("coefficientRestitution", arrangement.restitution(experiment))

@@ -9,11 +9,12 @@ import shutil
 import signal
 import subprocess
 import warnings
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
-from typing import IO, ClassVar, NamedTuple, Protocol
+from typing import IO, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -36,42 +37,57 @@ class EngineKilled(EngineError):
     """It had to be killed; what comes next would most likely have to be, too."""
 
 
-class Engine(Protocol):
-    """A DEM program that is driven by files and a command."""
+@dataclass(frozen=True)
+class Engine(ABC):
+    """A DEM program that is driven by files and a command: the one at a path, else by its name.
 
-    @property
-    def name(self) -> str:
-        """What the program is called."""
+    Parameters
+    ----------
+    path : str or Path, optional
+        Where the program is.
+    """
 
-    @property
-    def versions(self) -> str:
-        """Versions that it was tested with."""
+    path: str | Path | None = None
+
+    name: ClassVar[str]
+    versions: ClassVar[str]  # that it was tested with
+    called: ClassVar[str]  # its executable
+    arguments: ClassVar[tuple[str, ...]]  # that run its inputs
+    advice: ClassVar[str]  # how to get it
+    greeting: ClassVar[str]  # the pattern in which it prints its version
+
+    @abstractmethod
+    def supports(self, law: ContactLaw) -> bool:
+        """Tell whether the program has this law."""
+
+    @abstractmethod
+    def files(self, experiment: Experiment) -> dict[str, str]:
+        """Return complete inputs: text by file name."""
+
+    @abstractmethod
+    def outcomes(self, folder: Path, experiment: Experiment) -> Outcomes:
+        """Return what a run has left in its folder; ValueError or OSError if it is not there."""
 
     @property
     def remedy(self) -> str:
         """What to do where it is absent."""
-
-    @property
-    def advice(self) -> str:
-        """How to install it."""
+        if self.path is not None:
+            return f"{str(self.path)!r} is not an executable; give another path"
+        return f"not found; {self.advice}"
 
     def executable(self) -> Path | None:
         """Return where the program is, or None."""
-
-    def supports(self, law: ContactLaw) -> bool:
-        """Tell whether the program has this law."""
-
-    def files(self, experiment: Experiment) -> dict[str, str]:
-        """Return complete inputs: text by file name."""
+        found = shutil.which(self.called if self.path is None else self.path)
+        return Path(found).absolute() if found else None
 
     def command(self, folder: Path) -> list[str]:
         """Return the command that runs the inputs in a folder."""
-
-    def outcomes(self, folder: Path, experiment: Experiment) -> Outcomes:
-        """Return what a run has left in its folder; ValueError or OSError if it is not there."""
+        return [str(self.executable() or self.called), *self.arguments]
 
     def version(self, printed: str) -> str:
         """Return the version that the program has printed."""
+        found = re.search(self.greeting, printed, re.MULTILINE)
+        return found.group(1) if found else "unknown"
 
 
 class Run(NamedTuple):
@@ -219,7 +235,8 @@ def _crash(engine: Engine, folder: Path, code: int) -> EngineError:
         return EngineError(
             f"{engine.name} does not start: {lacking[1]} is missing; {engine.advice}"
         )
-    return _failure(engine, folder, f"has crashed ({_reason(code)})")
+    reason = f"exit code {code}" if code > 0 else f"signal {signal.Signals(-code).name}"
+    return _failure(engine, folder, f"has crashed ({reason})")
 
 
 def _failure(
@@ -240,46 +257,3 @@ def _printed(folder: Path) -> str:
         content += printed.read(READ)
     text = content.decode("utf-8", errors="replace")
     return "".join(c if c.isprintable() or c in "\n\t" else "?" for c in text)
-
-
-def _reason(code: int) -> str:
-    return f"exit code {code}" if code > 0 else f"signal {signal.Signals(-code).name}"
-
-
-@dataclass(frozen=True)
-class Program:
-    """A program at a path, else the one that is found by its name.
-
-    Parameters
-    ----------
-    path : str or Path, optional
-        Where the program is.
-    """
-
-    path: str | Path | None = None
-
-    called: ClassVar[str]  # its executable
-    arguments: ClassVar[tuple[str, ...]]  # that run its inputs
-    advice: ClassVar[str]  # how to get it
-    greeting: ClassVar[str]  # the pattern in which it prints its version
-
-    @property
-    def remedy(self) -> str:
-        """What to do where it is absent."""
-        if self.path is not None:
-            return f"{str(self.path)!r} is not an executable; give another path"
-        return f"not found; {self.advice}"
-
-    def executable(self) -> Path | None:
-        """Return where the program is, or None."""
-        found = shutil.which(self.called if self.path is None else self.path)
-        return Path(found).absolute() if found else None
-
-    def command(self, folder: Path) -> list[str]:
-        """Return the command that runs the inputs in a folder."""
-        return [str(self.executable() or self.called), *self.arguments]
-
-    def version(self, printed: str) -> str:
-        """Return the version that the program has printed."""
-        found = re.search(self.greeting, printed, re.MULTILINE)
-        return found.group(1) if found else "unknown"

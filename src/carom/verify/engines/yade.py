@@ -12,19 +12,9 @@ import numpy as np
 from carom.bodies.pairs import Counterbody
 from carom.bodies.shapes import Sphere
 from carom.laws.dem import ContactLaw, LammpsMindlin, LinearSpring, YadeMindlin
-from carom.verify.engines.arrangement import (
-    HAIR,
-    outcomes_of,
-    remarks,
-    restitution,
-    run_length,
-    spacing,
-    spring,
-    touching,
-    young_moduli,
-)
+from carom.verify.engines import arrangement
 from carom.verify.engines.experiments import Experiment, Outcomes
-from carom.verify.engines.running import Program
+from carom.verify.engines.running import Engine
 
 SCRIPT, RESULT = "impacts.py", "results.txt"
 
@@ -96,7 +86,7 @@ ABOUT_MINDLIN = """
 
 
 @dataclass(frozen=True)
-class Yade(Program):
+class Yade(Engine):
     """YADE: its law Mindlin, which accumulates the force as LAMMPS's mindlin/force, and springs.
 
     HertzWithLinearShear with nonLin = 1 is the same law; with nonLin = 0, its default, k_t does not
@@ -137,16 +127,16 @@ class Yade(Program):
 
     def outcomes(self, folder: Path, experiment: Experiment) -> Outcomes:
         """Return what a run has left in its folder; ValueError or OSError if it is not there."""
-        return outcomes_of(experiment, np.loadtxt(folder / RESULT, ndmin=2))
+        return arrangement.outcomes_of(experiment, np.loadtxt(folder / RESULT, ndmin=2))
 
 
 def _script(experiment: Experiment) -> str:
     pair, second = experiment.pair, experiment.pair.second
-    first_young, second_young = young_moduli(pair)
+    first_young, second_young = arrangement.young_moduli(pair)
     physics, functor = _law(experiment)
     motions = zip(experiment.tangential_speed, experiment.spin, strict=True)
     return IMPACTS.substitute(
-        remarks(experiment),
+        arrangement.shared_values(experiment),
         script=SCRIPT,
         result=RESULT,
         first_material=_material(pair.first, first_young),
@@ -154,15 +144,13 @@ def _script(experiment: Experiment) -> str:
         friction=pair.friction,
         radius=pair.first.radius,
         second_radius=second.radius if isinstance(second, Sphere) else 0.0,
-        height=HAIR * touching(pair),
+        height=arrangement.HAIR * arrangement.touching(pair),
         normal_speed=experiment.normal_speed,
         impacts="\n".join(f"    ({speed!r}, {spin!r})," for speed, spin in motions),
-        spacing=spacing(pair),
+        spacing=arrangement.spacing(pair),
         physics=physics,
         functor=functor,
         comment=ABOUT_MINDLIN if functor == MINDLIN else "",
-        time_step=experiment.time_step,
-        run=run_length(experiment),
     )
 
 
@@ -174,13 +162,13 @@ def _material(body: Counterbody, young: float) -> str:
 def _law(experiment: Experiment) -> tuple[str, str]:
     """Return YADE's words for what a contact is made of, and for its law."""
     if isinstance(experiment.law, LinearSpring):
-        normal, tangential, _ = spring(experiment)
+        normal, tangential, _ = arrangement.spring(experiment)
         stiffnesses = f"kn={_matched(normal)}, ks={_matched(tangential)}"
         return (
             f"Ip2_FrictMat_FrictMat_FrictPhys({stiffnesses})",
             "Law2_ScGeom_FrictPhys_CundallStrack()",
         )
-    e = restitution(experiment)
+    e = arrangement.restitution(experiment)
     damping = "" if e == 1.0 else f"en={_matched(e)}, es={_matched(e)}"
     return f"Ip2_FrictMat_FrictMat_MindlinPhys({damping})", MINDLIN
 

@@ -13,7 +13,7 @@ from carom.io.files import replace_whole
 from carom.quantities.units import InputError, refusal
 from carom.verify.pack.frozen import CASE, INPUTS
 from carom.verify.pack.programs import AFTER, PROGRAMS, experiment_of
-from carom.verify.pack.tables import Table, read_table
+from carom.verify.pack.tables import DecimalTable, read_table
 
 
 def collect(folder: str | Path) -> Path:
@@ -44,7 +44,7 @@ def collect(folder: str | Path) -> Path:
         name: [repr(float(value)) for value in values]
         for name, values in zip(AFTER, outcomes, strict=True)
     }
-    text = Table((), given | after).as_csv()
+    text = DecimalTable((), given | after).as_csv()
     return replace_whole(place / INPUTS, lambda file: file.write_text(text, encoding="utf-8"))
 
 

@@ -1,7 +1,6 @@
 """Inputs of DEM codes for the sets of the pack, ready to run."""
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,17 +11,16 @@ from carom.verify.engines.experiments import Experiment, Outcomes
 from carom.verify.engines.lammps import Lammps
 from carom.verify.engines.lammps_unittest import unit_test_yaml
 from carom.verify.engines.liggghts import Liggghts
+from carom.verify.engines.running import Engine
 from carom.verify.engines.yade import Yade
 from carom.verify.pack.frozen import CASE, INPUTS, REFERENCE, folders_with, frozen_files
 from carom.verify.pack.references import case_of, inputs_of
-from carom.verify.pack.tables import Table, read_table
-
-Program = Lammps | Liggghts | Yade
+from carom.verify.pack.tables import DecimalTable, read_table
 
 STEPS = 2000  # per duration of the contact
 TOLERANCE = 0.01  # in psi_2, of LAMMPS's unit test; that of the scorer
 AFTER = ("normal_speed_out", "tangential_speed_out", "spin_out")
-PROGRAMS: Mapping[str, tuple[Program, ContactLaw]] = {  # each with a law that it has
+PROGRAMS: Mapping[str, tuple[Engine, ContactLaw]] = {  # each with a law that it has
     "lammps": (Lammps(), LammpsMindlin()),
     "liggghts": (Liggghts(), LiggghtsHertz()),
     "yade": (Yade(), LammpsMindlin("mindlin/force")),
@@ -49,14 +47,15 @@ def program_files() -> dict[str, str]:
         case, inputs = case_of(folder), inputs_of(folder)
         for name, (program, _) in PROGRAMS.items():
             experiment = experiment_of(name, case, inputs)
-            files = {**program.files(experiment), "run.sh": _run(name, program)}
+            command = " ".join([program.called, *program.arguments])
+            files = {**program.files(experiment), "run.sh": RUN.format(command=command)}
             if name == "lammps":
                 files[f"fix-timestep-{folder}.yaml"] = _unit_test(folder, experiment)
             found |= {f"{folder}/{name}/{file}": text for file, text in files.items()}
     return found
 
 
-def experiment_of(name: str, case: Mapping[str, Any], inputs: Table) -> Experiment:
+def experiment_of(name: str, case: Mapping[str, Any], inputs: DecimalTable) -> Experiment:
     """Return the impacts of a set as a program is to run them."""
     return Experiment(
         pair=pair_of(case),
@@ -80,8 +79,3 @@ def _unit_test(folder: str, experiment: Experiment) -> str:
     reference = read_table(frozen_files()[f"{folder}/{REFERENCE}"])
     exact = Outcomes(*(reference.numbers(name) for name in AFTER))
     return unit_test_yaml(experiment, tolerance=TOLERANCE, outcomes=exact)
-
-
-def _run(name: str, program: Program) -> str:
-    command = {"lammps": "lmp"}.get(name, name)
-    return RUN.format(command=" ".join([command, *program.command(Path())[1:]]))

@@ -20,7 +20,7 @@ from carom.impacts.exact import Impact
 from carom.impacts.solve import impact
 from carom.quantities.arrays import Array
 from carom.verify.pack.frozen import CASE, INPUTS, REFERENCE, folders_with, frozen_files
-from carom.verify.pack.tables import Columns, Table, exact, read_table, uncertain
+from carom.verify.pack.tables import Columns, DecimalTable, exact, read_table, uncertain
 
 ACCURACY = 1e-10  # of psi_2, in max(1, |psi_1|); of forces and speeds in a history, in their scales
 ROUNDING = 2e-15  # of the few operations between psi and SI units, relative to their terms
@@ -34,9 +34,9 @@ SIGNS = (
 )
 
 
-def references() -> dict[str, Table]:
+def references() -> dict[str, DecimalTable]:
     """Return every table of reference numbers by its path in the pack."""
-    found: dict[str, Table] = {}
+    found: dict[str, DecimalTable] = {}
     for folder in folders_with(INPUTS):
         made = _of_cases if f"{folder}/{CASE}" in frozen_files() else _of_numbers
         found[f"{folder}/{REFERENCE}"] = made(folder)
@@ -46,7 +46,7 @@ def references() -> dict[str, Table]:
     return found
 
 
-def inputs_of(folder: str) -> Table:
+def inputs_of(folder: str) -> DecimalTable:
     """Return the inputs of a set: its table of results, the outputs blank."""
     return read_table(frozen_files()[f"{folder}/{INPUTS}"])
 
@@ -62,7 +62,7 @@ def title_of(folder: str) -> tuple[str, ...]:
     return tuple(line.removeprefix("# ") for line in lines if line.startswith("# "))
 
 
-def _of_numbers(folder: str) -> Table:
+def _of_numbers(folder: str) -> DecimalTable:
     inputs = inputs_of(folder)
     psi, chi = inputs.numbers("psi_1"), inputs.numbers("chi")
     error = ACCURACY * np.maximum(1.0, np.abs(psi))
@@ -71,10 +71,10 @@ def _of_numbers(folder: str) -> Table:
         "psi_2 is odd in psi_1. psi_2_error bounds the error of psi_2; psi_1 and chi are exact.",
     )
     columns = exact("psi_1", psi) | exact("chi", chi)
-    return Table(notes, columns | uncertain("psi_2", rebound(psi, chi), error))
+    return DecimalTable(notes, columns | uncertain("psi_2", rebound(psi, chi), error))
 
 
-def _of_cases(folder: str) -> Table:
+def _of_cases(folder: str) -> DecimalTable:
     inputs, pair = inputs_of(folder), pair_of(case_of(folder))
     given = {name: inputs.numbers(name) for name in BEFORE if name in inputs.columns}
     rows = zip(*given.values(), strict=True)
@@ -85,7 +85,7 @@ def _of_cases(folder: str) -> Table:
     columns |= exact("normal_speed_out", given["normal_speed"])  # e = 1
     for name, (values, errors) in _outcomes(pair, hits).items():
         columns |= uncertain(name, values, errors)
-    return Table((*title_of(folder), *SIGNS), columns)
+    return DecimalTable((*title_of(folder), *SIGNS), columns)
 
 
 def _column(hits: list[Impact], name: str) -> Array:
@@ -120,7 +120,7 @@ def _velocity_error(hits: list[Impact]) -> Array:
     return np.asarray(ACCURACY * np.maximum(1.0, np.abs(psi)) * unit + rounding)
 
 
-def _of_history(folder: str) -> Table:
+def _of_history(folder: str) -> DecimalTable:
     case = case_of(folder)
     hit = impact(pair_of(case), **motion_of(case))
     history, pair, scales = hit.history(TIMES), hit.pair, hit.scales
@@ -144,7 +144,7 @@ def _of_history(folder: str) -> Table:
         "time since the first touch; normal_velocity is positive while the bodies approach;",
         "tangential_force is positive against +x, on the first body.",
     )
-    return Table((*title_of(folder), *notes, *SIGNS), columns)
+    return DecimalTable((*title_of(folder), *notes, *SIGNS), columns)
 
 
 def freeze(folder: Path) -> list[Path]:

@@ -20,7 +20,7 @@ Columns = dict[str, list[str]]
 
 
 @dataclass(frozen=True)
-class Table:
+class DecimalTable:
     """Columns of decimals as they are printed, and lines of notes above them."""
 
     notes: tuple[str, ...]
@@ -51,8 +51,8 @@ class Table:
         return np.array([float(cell) for cell in self.columns[name]])
 
 
-def read_table(text: str) -> Table:
-    """Return the table of which `Table.as_csv` made this text.
+def read_table(text: str) -> DecimalTable:
+    """Return the table of which `DecimalTable.as_csv` made this text.
 
     Examples
     --------
@@ -64,7 +64,7 @@ def read_table(text: str) -> Table:
     lines = text.splitlines()
     notes = tuple(line[1:].removeprefix(" ") for line in lines if line.startswith("#"))
     head, *rows = csv.reader(line for line in lines if not line.startswith("#"))
-    return Table(notes, {name: [row[i] for row in rows] for i, name in enumerate(head)})
+    return DecimalTable(notes, {name: [row[i] for row in rows] for i, name in enumerate(head)})
 
 
 def exact(name: str, values: ArrayLike) -> Columns:

@@ -19,7 +19,7 @@ from carom.quantities.arrays import Array
 from carom.quantities.units import InputError, nearest, number, positive, refusal
 from carom.verify.scoring.histories import NAMES as HISTORY, score_history
 from carom.verify.scoring.points import compared, energy_audit, friction_audit, notes_on
-from carom.verify.scoring.record import Score
+from carom.verify.scoring.result import Score
 from carom.verify.scoring.velocities import AFTER, BEFORE, score_velocities
 
 __all__ = ["TOLERANCE", "Score", "score"]
@@ -131,7 +131,7 @@ def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
 
 def _score_psi(results: Results, case: Any, chi: Any, limit: float) -> Score:
     results.require("psi_in", "psi_out")
-    _require_points(results)
+    results.require_rows(FEWEST)
     chis = _chis(results, case, chi)
     before, after = results["psi_in"], results["psi_out"]
     with np.errstate(over="ignore", invalid="ignore"):  # what is too large is refused next
@@ -159,7 +159,7 @@ def _chis(results: Results, case: Any, chi: Any) -> Array:
 
 
 def _score_velocities(results: Results, case: Any, _: Any, limit: float) -> Score:
-    _require_points(results)
+    results.require_rows(FEWEST)
     pair = _pair(case)
     points, audit, notes = score_velocities(results, pair, limit)
     return Score("velocities", limit, points, audit, notes, inputs=_inputs(pair))
@@ -169,11 +169,6 @@ def _score_history(results: Results, case: Any, _: Any, limit: float) -> Score:
     hit = _impact(case)
     points, audit, notes, forces = score_history(results, hit, limit)
     return Score("history", limit, points, audit, notes, forces, hit.inputs())
-
-
-def _require_points(results: Results) -> None:
-    if len(results) < FEWEST:
-        raise InputError(f"results: too few points: {len(results)}, at least {FEWEST} are needed")
 
 
 def _pair(case: Any) -> Pair:

@@ -7,13 +7,13 @@ import numpy as np
 from carom.impacts.curves import borders, curve
 from carom.io.labels import flags, labelled, labelled_dataset
 from carom.quantities.glossary import GLOSSARY
+from carom.verify.errors import pure
+from carom.verify.scoring.histories import Forces
+from carom.verify.scoring.record import ScoreRecord
 from carom.verify.scoring.report import verdict
 
 if TYPE_CHECKING:
     import xarray as xr
-
-    from carom.verify.scoring.histories import Forces
-    from carom.verify.scoring.record import Score
 
 CURVES = 5  # chi of which the exact curve is part of the dataset
 SMOOTH = 401  # psi_1 of such a curve
@@ -25,14 +25,18 @@ NUMBERS = {
 }
 
 
-def score_dataset(score: "Score") -> "xr.Dataset":
+def score_dataset(score: ScoreRecord) -> "xr.Dataset":
     """Return the score as a dataset: errors along `point`, findings along `audit`.
 
     Exact curves of few chi lie along `curve`, one after the other; a history along `time`.
     """
-    attrs: dict[str, Any] = {"title": "results against the exact impact", "kind": score.kind}
-    attrs |= {"verdict": verdict(score), "inputs": dict(score.inputs)}
-    numbers = {name: ((), getattr(score, name), _pure(words)) for name, words in NUMBERS.items()}
+    attrs = {
+        "title": "results against the exact impact",
+        "kind": score.kind,
+        "verdict": verdict(score),
+        "inputs": dict(score.inputs),
+    }
+    numbers = {name: ((), getattr(score, name), pure(words)) for name, words in NUMBERS.items()}
     passed = {"passed": ((), np.int8(score.passed), flags(("failed", "passed")))}
     variables = {**_points(score), **_findings(score), **numbers, **passed}
     points, words = score.points, {"long_name": f"{score.points.word} of the results"}
@@ -47,41 +51,39 @@ def score_dataset(score: "Score") -> "xr.Dataset":
     return _history(score.forces).merge(whole).assign_attrs(whole.attrs)
 
 
-def _pure(words: str) -> dict[str, str]:
-    return {"units": "1", "long_name": words}
-
-
-def _points(score: "Score") -> dict[str, Any]:
+def _points(score: ScoreRecord) -> dict[str, Any]:
     points = score.points
     energy = {"units": "1" if score.kind == "psi" else "J"}
     energy["long_name"] = "kinetic energy after less that before"
     if score.kind == "psi":
         energy["long_name"] += ", in m_t (mu V_1/kappa)^2/2"
-    order = _pure("sequence of phases of the exact impact, its place in sequence_name")
+    order = pure("sequence of phases of the exact impact, its place in sequence_name")
     return {
         "psi_in": ("point", points.psi_in),
         "psi_out": ("point", points.psi_out),
-        "psi_out_exact": ("point", points.exact, _pure("exact psi_2")),
-        "error": ("point", points.error, _pure("error in psi_2")),
+        "psi_out_exact": ("point", points.exact, pure("exact psi_2")),
+        "error": ("point", points.error, pure("error in psi_2")),
         "chi": ("point", points.chi),
         "energy_change": ("point", points.energy_change, energy),
         "sequence": ("point", points.sequence.astype(np.int16), order),
     }
 
 
-def _findings(score: "Score") -> dict[str, Any]:
+def _findings(score: ScoreRecord) -> dict[str, Any]:
     audit = score.audit
-    holds = np.array([finding.holds for finding in audit], dtype=np.int8)
-    return {
-        "audit_name": ("audit", [finding.name for finding in audit], {"long_name": "what is told"}),
-        "audit_value": ("audit", [finding.value for finding in audit], _pure("what was found")),
-        "audit_limit": ("audit", [finding.limit for finding in audit], _pure("its limit")),
-        "audit_holds": ("audit", holds, flags(("broken", "holds"))),
-        "audit_verdict": ("audit", [f.verdict for f in audit], {"long_name": "in words"}),
+    words: dict[str, dict[str, Any]] = {
+        "name": {"long_name": "what is told"},
+        "value": pure("what was found"),
+        "limit": pure("its limit"),
+        "holds": flags(("broken", "holds")),
+        "verdict": {"long_name": "in words"},
     }
+    columns: dict[str, Any] = {name: [getattr(one, name) for one in audit] for name in words}
+    columns["holds"] = np.array(columns["holds"], dtype=np.int8)
+    return {f"audit_{name}": ("audit", columns[name], words[name]) for name in words}
 
 
-def _curves(score: "Score") -> dict[str, Any]:
+def _curves(score: ScoreRecord) -> dict[str, Any]:
     """Return the exact curves, if they are few, and the borders of the regimes of a single one."""
     points = score.points
     chis = np.unique(points.chi)
@@ -91,17 +93,17 @@ def _curves(score: "Score") -> dict[str, Any]:
     psi = np.linspace(low, high, SMOOTH)
     exact = curve(chis.tolist(), psi)["psi_out"].values.ravel()
     lines = {
-        "curve_chi": ("curve", np.repeat(chis, SMOOTH), _pure(GLOSSARY["chi"].meaning)),
-        "curve_psi_in": ("curve", np.tile(psi, chis.size), _pure("psi_1")),
-        "curve_psi_out": ("curve", exact, _pure("exact psi_2")),
+        "curve_chi": ("curve", np.repeat(chis, SMOOTH), pure(GLOSSARY["chi"].meaning)),
+        "curve_psi_in": ("curve", np.tile(psi, chis.size), pure("psi_1")),
+        "curve_psi_out": ("curve", exact, pure("exact psi_2")),
     }
     if chis.size > 1:
         return lines
-    words = _pure("|psi_1| at which the regime changes")
+    words = pure("|psi_1| at which the regime changes")
     return lines | {"border": ("regime_border", list(borders(float(chis[0]))), words)}
 
 
-def _history(forces: "Forces") -> "xr.Dataset":
+def _history(forces: Forces) -> "xr.Dataset":
     hit = forces.hit
     dataset = labelled(
         {
@@ -114,13 +116,15 @@ def _history(forces: "Forces") -> "xr.Dataset":
         hit.inputs(),
     )
     exact = {
-        "normal_force_exact": forces.exact_normal_force,
-        "tangential_force_exact": forces.exact_tangential_force,
+        "normal force": forces.exact_normal_force,
+        "tangential force": forces.exact_tangential_force,
     }
     newton = {
-        name: ("time", values, {"units": "N", "long_name": f"exact {words}"})
-        for (name, values), words in zip(
-            exact.items(), ("normal force", "tangential force"), strict=True
+        f"{name.replace(' ', '_')}_exact": (
+            "time",
+            values,
+            {"units": "N", "long_name": f"exact {name}"},
         )
+        for name, values in exact.items()
     }
     return dataset.assign(labelled_dataset(newton, {}, {}).data_vars)

@@ -1,13 +1,11 @@
 """The score of a history of forces: the rebound that it makes, and what is found on the way."""
 
-from dataclasses import dataclass
-from functools import cached_property
 from math import isfinite
+from typing import NamedTuple
 
 import numpy as np
 
 from carom.dimensionless.numerics import hertz
-from carom.dimensionless.states import History
 from carom.impacts.exact import Impact
 from carom.io.columns import Results
 from carom.io.labels import Finding
@@ -20,107 +18,66 @@ TAIL = 64  # instants added where the exact contact outlasts the one that was gi
 NAMES = ("time", "normal_force", "tangential_force", "contact_velocity")
 
 
-@dataclass(frozen=True, eq=False)
-class Forces:
-    """A history of forces, its time since the first touch, and the exact history; SI units.
+class Forces(NamedTuple):
+    """A history of forces against time since the first touch, and the exact one; SI units.
 
-    Impulses are integrals, by trapezia, of the difference from the exact forces, whose own impulses
-    are known: however coarse it is sampled, the exact history has no error.
+    Errors of forces are in units of P_max and mu P_max; `psi` of the contact point is as the
+    tangential force that was given makes it, `restitution` as the normal one does.
     """
 
     hit: Impact
     samples: Samples
-
-    @cached_property
-    def time(self) -> Array:
-        """Time since the first touch, until neither contact lasts."""
-        own, exact = self.samples.time, self.hit.duration
-        if own[-1] >= exact * (1.0 - 1e-12):
-            return own
-        return np.concatenate([own, np.linspace(own[-1], exact, TAIL)[1:]])
-
-    @property
-    def normal_force(self) -> Array:
-        """The normal force that was given, zero after the last touch."""
-        return self._padded(self.samples.normal_force)
-
-    @property
-    def tangential_force(self) -> Array:
-        """The tangential force that was given, zero after the last touch."""
-        return self._padded(self.samples.tangential_force)
-
-    def _padded(self, values: Array) -> Array:
-        return np.concatenate([values, np.zeros(self.time.size - values.size)])
-
-    @cached_property
-    def solution(self) -> History:
-        """The exact impact at these times, dimensionless; as it ends where they go on."""
-        scale = self.hit.scales.time
-        return self.hit.solution.at(np.clip(self.time / scale, 0.0, hertz.DURATION))
-
-    @property
-    def exact_normal_force(self) -> Array:
-        """The exact normal force."""
-        return self.solution.penetration**1.5 * self.hit.scales.force
-
-    @property
-    def exact_tangential_force(self) -> Array:
-        """The exact tangential force."""
-        return self.solution.force * self.hit.scales.tangential_force
-
-    @cached_property
-    def normal_error(self) -> Array:
-        """Error in the normal force, in units of P_max."""
-        return (self.normal_force - self.exact_normal_force) / self.hit.scales.force
-
-    @cached_property
-    def tangential_error(self) -> Array:
-        """Error in the tangential force, in units of mu P_max."""
-        unit = self.hit.pair.friction * self.hit.scales.force
-        return (self.tangential_force - self.exact_tangential_force) / unit
-
-    @cached_property
-    def psi(self) -> Array:
-        """psi of the contact point as the tangential force that was given makes it."""
-        excess = self.tangential_force - self.exact_tangential_force
-        impulse = np.concatenate([[0.0], np.cumsum(np.diff(self.time) * _middles(excess))])
-        unit = self.hit.pair.tangential_mass * self.hit.scales.tangential_speed
-        return self.solution.psi - impulse / unit
-
-    @property
-    def restitution(self) -> float:
-        """Normal velocity after to before, from the impulse of the normal force."""
-        excess = self.normal_force - self.exact_normal_force
-        impulse = float(np.diff(self.time) @ _middles(excess))
-        return 1.0 + impulse / (self.hit.pair.normal_mass * self.hit.normal_speed)
-
-    @property
-    def duration_error(self) -> float:
-        """Error in the duration of the contact, relative."""
-        return self.samples.end / self.hit.duration - 1.0
-
-    @property
-    def peak_error(self) -> float:
-        """Error in the largest normal force of these times, in units of P_max."""
-        own, exact = self.normal_force.max(), self.exact_normal_force.max()
-        return float(own - exact) / self.hit.scales.force
-
-    @property
-    def energy_change(self) -> float:
-        """Kinetic energy after less that before, in J."""
-        normal = self.hit.scales.energy * (self.restitution**2 - 1.0)
-        return normal - self.lost
-
-    @property
-    def lost(self) -> float:
-        """Work that the tangential force has taken from the motion, in J."""
-        unit = 0.5 * self.hit.pair.tangential_mass * self.hit.scales.tangential_speed**2
-        return float(unit * (self.psi[0] - self.psi[-1]) * (self.psi[0] + self.psi[-1]))
+    time: Array
+    normal_force: Array
+    tangential_force: Array
+    exact_normal_force: Array
+    exact_tangential_force: Array
+    normal_error: Array
+    tangential_error: Array
+    psi: Array
+    restitution: float
+    duration_error: float
+    peak_error: float
 
     def rms(self, values: Array) -> float:
         """Return the root of the mean square over time."""
         squares = np.diff(self.time) @ _middles(values**2)
         return float(np.sqrt(squares / self.time[-1]))
+
+
+def forces_of(hit: Impact, samples: Samples) -> Forces:
+    """Return a history beside the exact one, until neither contact lasts.
+
+    Impulses are integrals, by trapezia, of the difference from the exact forces, whose own impulses
+    are known: however coarse it is sampled, the exact history has no error.
+    """
+    time, pair, scales = samples.time, hit.pair, hit.scales
+    if time[-1] < hit.duration * (1.0 - 1e-12):
+        time = np.concatenate([time, np.linspace(time[-1], hit.duration, TAIL)[1:]])
+    after = np.zeros(time.size - samples.time.size)
+    normal = np.concatenate([samples.normal_force, after])
+    tangential = np.concatenate([samples.tangential_force, after])
+    exact = hit.solution.at(np.clip(time / scales.time, 0.0, hertz.DURATION))
+    exact_normal = exact.penetration**1.5 * scales.force
+    exact_tangential = exact.force * scales.tangential_force
+    off_normal, off_tangential = normal - exact_normal, tangential - exact_tangential
+    impulse = np.concatenate([[0.0], np.cumsum(np.diff(time) * _middles(off_tangential))])
+    normal_impulse = float(np.diff(time) @ _middles(off_normal))
+    return Forces(
+        hit=hit,
+        samples=samples,
+        time=time,
+        normal_force=normal,
+        tangential_force=tangential,
+        exact_normal_force=exact_normal,
+        exact_tangential_force=exact_tangential,
+        normal_error=off_normal / scales.force,
+        tangential_error=off_tangential / (pair.friction * scales.force),
+        psi=exact.psi - impulse / (pair.tangential_mass * scales.tangential_speed),
+        restitution=1.0 + normal_impulse / (pair.normal_mass * hit.normal_speed),
+        duration_error=samples.end / hit.duration - 1.0,
+        peak_error=float(normal.max() - exact_normal.max()) / scales.force,
+    )
 
 
 def _middles(values: Array) -> Array:
@@ -137,8 +94,8 @@ def score_history(
     results.require("time", "normal_force", "tangential_force")
     if not isfinite(hit.psi_in):
         raise InputError("friction: without friction psi is infinite; there is nothing to score")
-    forces = Forces(hit, contact_samples(results, hit.scales))
-    change = np.array([forces.energy_change])
+    forces = forces_of(hit, contact_samples(results, hit.scales))
+    change = np.array([_energy_change(forces)])
     before, after = np.array([hit.psi_in]), forces.psi[-1:]
     one = Results({}, np.array([1]), "impact")
     points = compared(before, after, np.array([hit.pair.chi]), change, one)
@@ -155,6 +112,14 @@ def score_history(
         *_velocity_audit(results, forces, limit),
     )
     return points, findings, _notes(forces), forces
+
+
+def _energy_change(forces: Forces) -> float:
+    """Return kinetic energy after less that before, in J."""
+    psi, scales = forces.psi, forces.hit.scales
+    unit = 0.5 * forces.hit.pair.tangential_mass * scales.tangential_speed**2
+    lost = float(unit * (psi[0] - psi[-1]) * (psi[0] + psi[-1]))
+    return scales.energy * (forces.restitution**2 - 1.0) - lost
 
 
 def _off(name: str, forces: Forces, error: Array, unit: str, limit: float) -> Finding:

@@ -1,25 +1,21 @@
-"""The score in words and as a record for JSON."""
-
-from typing import TYPE_CHECKING, Any
+"""The score in words."""
 
 import numpy as np
 
 from carom.io.labels import MARKS
-
-if TYPE_CHECKING:
-    from carom.verify.scoring.record import Score
+from carom.verify.scoring.record import ScoreRecord
 
 LISTED = 40  # points; of more, as many of the worst are listed
 
 
-def as_text(score: "Score") -> str:
+def as_text(score: ScoreRecord) -> str:
     """Return the score as text to read, the verdict last."""
     parts = [*_points(score), *_groups(score), *_audit(score)]
     parts += [f"note: {note}" for note in score.notes]
     return "\n".join([*parts, verdict(score)])
 
 
-def verdict(score: "Score") -> str:
+def verdict(score: ScoreRecord) -> str:
     """Return pass or fail in one line."""
     points = score.points
     worst = f"max |error in psi_2| = {score.max_error:.4g}"
@@ -31,7 +27,7 @@ def verdict(score: "Score") -> str:
     return f"FAIL: {worst}; beyond the tolerance {score.tolerance:g}: {', '.join(score.failures)}"
 
 
-def _points(score: "Score") -> list[str]:
+def _points(score: ScoreRecord) -> list[str]:
     points = score.points
     shown = np.arange(points.rows.size)
     title = "psi_2 against the exact answer"
@@ -47,7 +43,7 @@ def _points(score: "Score") -> list[str]:
     return [title, f"  {points.word:>8s} {columns}", *rows]
 
 
-def _groups(score: "Score") -> list[str]:
+def _groups(score: ScoreRecord) -> list[str]:
     head = f"{'points':>7s} {'max |error|':>12s} {'rms':>11s} {'mean':>11s}"
     wide = max(44, *(len(group.name) for group in score.groups))
     rows = [
@@ -58,35 +54,8 @@ def _groups(score: "Score") -> list[str]:
     return ["Phase by phase, for psi_1 > 0", f"  {'':{wide}s} {head}", *rows]
 
 
-def _audit(score: "Score") -> list[str]:
+def _audit(score: ScoreRecord) -> list[str]:
     return ["Audit"] + [
         f"  {MARKS[finding.holds]} {finding.name + f' = {finding.value:.3g}':32s} {finding.verdict}"
         for finding in score.audit
     ]
-
-
-def as_record(score: "Score") -> dict[str, Any]:
-    """Return the score as what JSON can hold."""
-    points = score.points
-    columns = {
-        points.word: points.rows,
-        "psi_in": points.psi_in,
-        "psi_out": points.psi_out,
-        "chi": points.chi,
-        "psi_out_exact": points.exact,
-        "error": points.error,
-        "energy_change": points.energy_change,
-    }
-    return {
-        "passed": score.passed,
-        "tolerance": score.tolerance,
-        "failures": list(score.failures),
-        "kind": score.kind,
-        "max_error": score.max_error,
-        "rms_error": score.rms_error,
-        "mean_error": score.mean_error,
-        "points": {name: values.tolist() for name, values in columns.items()},
-        "phases": [group._asdict() for group in score.groups],
-        "audit": [finding._asdict() for finding in score.audit],
-        "notes": list(score.notes),
-    }

@@ -97,8 +97,8 @@ def _cause(ratio: float) -> str:
     return f", by the same factor {ratio:.4g}; {next(known, 'check units and sizes')}"
 
 
-class Motion(NamedTuple):
-    """Motion of many impacts before or after, arrays along rows; the normal speed is positive."""
+class Velocities(NamedTuple):
+    """Velocities before or after many impacts, arrays along rows; the normal speed is positive."""
 
     normal_speed: Any
     tangential: Tangential
@@ -143,11 +143,11 @@ def score_velocities(
     return points, findings, notes
 
 
-def _before(results: Results) -> Motion:
+def _before(results: Results) -> Velocities:
     normal, tangential = _speeds(results)
     nothing = np.zeros(len(results))
     spins = [results.get(name, nothing) for name in ("spin", "spin2")]
-    return Motion(normal, Tangential(tangential, *spins))
+    return Velocities(normal, Tangential(tangential, *spins))
 
 
 def _speeds(results: Results) -> tuple[Any, Any]:
@@ -167,7 +167,7 @@ def _speeds(results: Results) -> tuple[Any, Any]:
     return components(speed, angle)
 
 
-def _after(results: Results, pair: Pair, before: Motion) -> tuple[Motion, tuple[str, ...]]:
+def _after(results: Results, pair: Pair, before: Velocities) -> tuple[Velocities, tuple[str, ...]]:
     results.require("tangential_speed_out", "spin_out")
     notes = []
     normal = results.get("normal_speed_out", before.normal_speed)
@@ -182,7 +182,9 @@ def _after(results: Results, pair: Pair, before: Motion) -> tuple[Motion, tuple[
         impulse = (before.tangential.spin - spin) * inertia(pair.first) / pair.first.radius
         spin2 = before.tangential.after(pair, impulse).spin2
         notes.append("spin2_out is not given: taken from the impulse that changed the first spin")
-    return Motion(normal, Tangential(results["tangential_speed_out"], spin, spin2)), tuple(notes)
+    return Velocities(normal, Tangential(results["tangential_speed_out"], spin, spin2)), tuple(
+        notes
+    )
 
 
 def _refuse_second_spin(results: Results, pair: Pair) -> None:
