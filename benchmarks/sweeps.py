@@ -21,11 +21,7 @@ from carom.sweeps.designs import LatinHypercube
 from carom.sweeps.problem import SweepProblem
 
 SEED = 20261121
-CASE = {
-    "first": {"radius": "5 mm", "material": "steel"},
-    "friction": 0.2,
-    "speed": "2 m/s",
-}
+CASE = {"first": {"radius": "5 mm", "material": "steel"}, "friction": 0.2, "speed": "2 m/s"}
 # psi_1 from 0 to 5.9 at chi = 1.44: stick, microslip and slip, hardly any gross slip
 RANGES = {"angle": ("0 deg", "55 deg"), "spin": ("-50 rad/s", "50 rad/s")}
 LARGE = 10_000_000

@@ -180,11 +180,7 @@ def test_scaled_forces_scale_their_impulses():
 def test_all_ways_of_giving_results_are_one(tmp_path):
     """A mapping, a data frame, a file with comments; SI, units in the head or the cell; angles."""
     pair = carom.Pair(BALL, BODIES["plate"], friction=0.2)
-    case = {
-        "friction": 0.2,
-        "speed": "1 m/s",
-        "first": {"radius": "5 mm", "material": "steel"},
-    }
+    case = {"friction": 0.2, "speed": "1 m/s", "first": {"radius": "5 mm", "material": "steel"}}
     columns = velocities(pair)
     plain = score(columns, case=pair).points
     path = tmp_path / "results.csv"

@@ -12,14 +12,7 @@ from carom.halfspace.compliance import Materials
 from carom.halfspace.motion import move
 from carom.halfspace.quasistatic import Patch
 
-CASES = [
-    (0.3, 1.4412),
-    (1.5, 1.4412),
-    (3.5, 1.4412),
-    (0.3, 0.4),
-    (1.0, 2.2),
-    (4.0, 2.2),
-]
+CASES = [(0.3, 1.4412), (1.5, 1.4412), (3.5, 1.4412), (0.3, 0.4), (1.0, 2.2), (4.0, 2.2)]
 GRIDS = {8: 40, 16: 75, 32: 150}  # elements: steps
 
 

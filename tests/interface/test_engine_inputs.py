@@ -7,13 +7,7 @@ import pytest
 
 import carom
 from carom.dimensionless.numerics.hertz import DURATION
-from carom.verify.engines.arrangement import (
-    outcomes_of,
-    placed,
-    run_length,
-    spring,
-    touching,
-)
+from carom.verify.engines.arrangement import outcomes_of, placed, run_length, spring, touching
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
 from carom.verify.engines.lammps_unittest import exact
 from carom.verify.scoring import score

@@ -55,11 +55,7 @@ def patch():
         {
             "pressure": (wide, pressure),
             "traction_x": (("x", "y"), rng.normal(size=(7, 5)).astype(np.float32)),
-            "zone": (
-                wide,
-                zone,
-                {"long_name": "zone"} | flags(("outside", "stick", "slip")),
-            ),
+            "zone": (wide, zone, {"long_name": "zone"} | flags(("outside", "stick", "slip"))),
             "sticks": (wide, zone == 1, {"long_name": "whether it sticks"}),
             "note": (wide, np.full((5, 7), 'a, "b"\nµ; #1'), {"long_name": "words to quote"}),
             "distance": (("y",), abs(y)),

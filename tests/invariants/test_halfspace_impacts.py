@@ -23,10 +23,7 @@ def both():
     """One impact by both methods, with all phases, spin, and slip to the left first."""
     motion = {"normal_speed": 1.0, "tangential_speed": -0.9, "spin": 40.0}
     pair = against_wall()
-    return (
-        carom.impact(pair, **motion, method=COARSE),
-        carom.impact(pair, **motion),
-    )
+    return (carom.impact(pair, **motion, method=COARSE), carom.impact(pair, **motion))
 
 
 def test_the_rebound_is_the_theorys_within_its_error(both):

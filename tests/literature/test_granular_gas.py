@@ -26,8 +26,7 @@ def test_smooth_elastic_spheres_keep_energy_momentum_and_rate():
 
 
 @pytest.mark.parametrize(
-    ("restitution", "a_2"),
-    [(np.sqrt(0.5), 0.0), (0.9, -0.0145578), (0.3, 0.1180559)],
+    ("restitution", "a_2"), [(np.sqrt(0.5), 0.0), (0.9, -0.0145578), (0.3, 0.1180559)]
 )
 def test_smooth_inelastic_spheres_cool_by_haffs_law(restitution, a_2):
     """T^(-1/2) grows by (1 - e^2)/6 (1 + 3 a_2/16) per mean free time (van Noije & Ernst 1998).

@@ -119,10 +119,7 @@ def test_unloading_branch(load, force):
 
 @pytest.mark.parametrize(
     ("load", "force"),
-    [
-        pytest.param(1.2, 0.45, id="P up, T up"),
-        pytest.param(0.85, 0.2, id="P down, T up"),
-    ],
+    [pytest.param(1.2, 0.45, id="P up, T up"), pytest.param(0.85, 0.2, id="P down, T up")],
 )
 def test_reloading_branch(load, force):
     end = (load * P0, force * MU * P0)

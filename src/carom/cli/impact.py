@@ -32,8 +32,7 @@ def impact_command(
     case: Annotated[Path | None, typer.Argument(help="Case file; flags override it.")] = None,
     radius: Annotated[Text, _flag("radius", "'5 mm'")] = None,
     material: Annotated[
-        Text,
-        typer.Option(help="A name, or 'young=210 GPa, poisson=0.3, density=7850'."),
+        Text, typer.Option(help="A name, or 'young=210 GPa, poisson=0.3, density=7850'.")
     ] = None,
     gyration_radius: Annotated[Text, _flag("gyration_radius", "'3 mm'")] = None,
     inner_radius: Annotated[Text, _flag("inner_radius", "'4 mm'")] = None,

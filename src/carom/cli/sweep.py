@@ -91,11 +91,7 @@ def _stopping() -> Iterator[None]:
 def _record(result: "Summary", store: str | None, output: str | None) -> dict[str, Any]:
     """Return the summary as what JSON can hold; what is not a number becomes null."""
     ranges = {
-        name: {
-            "min": or_null(low),
-            "max": or_null(high),
-            "units": GLOSSARY[name].unit,
-        }
+        name: {"min": or_null(low), "max": or_null(high), "units": GLOSSARY[name].unit}
         for name, (low, high) in result.ranges.items()
     }
     return {

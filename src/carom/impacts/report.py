@@ -60,16 +60,7 @@ def impact_text(hit: Reported) -> str:
         f"  {MARKS[f.holds]} {f.name + ' = ' + format(f.value, '.3g'):34s} {f.verdict}"
         for f in hit.validity.findings
     ]
-    parts = (
-        "Rebound",
-        *lines,
-        "Phases",
-        head,
-        *phases,
-        note,
-        "Validity",
-        *findings,
-    )
+    parts = ("Rebound", *lines, "Phases", head, *phases, note, "Validity", *findings)
     return "\n".join(parts)
 
 

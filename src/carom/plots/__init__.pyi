@@ -1,36 +1,11 @@
 from . import style as style
-from .animation import (
-    animate as animate,
-    checked_animation as checked_animation,
-)
-from .cone import (
-    plot_cone as plot_cone,
-)
-from .impact import (
-    plot_forces as plot_forces,
-    plot_impact as plot_impact,
-    plot_radii as plot_radii,
-)
-from .laws import (
-    plot_error_map as plot_error_map,
-    plot_laws as plot_laws,
-)
-from .patch import (
-    plot_patch as plot_patch,
-)
-from .profiles import (
-    plot_profiles as plot_profiles,
-)
-from .regimes import (
-    plot_curve as plot_curve,
-    plot_regime_map as plot_regime_map,
-)
-from .scores import (
-    plot_score as plot_score,
-)
-from .stress import (
-    plot_stress as plot_stress,
-)
-from .style import (
-    save_figure as save_figure,
-)
+from .animation import animate as animate, checked_animation as checked_animation
+from .cone import plot_cone as plot_cone
+from .impact import plot_forces as plot_forces, plot_impact as plot_impact, plot_radii as plot_radii
+from .laws import plot_error_map as plot_error_map, plot_laws as plot_laws
+from .patch import plot_patch as plot_patch
+from .profiles import plot_profiles as plot_profiles
+from .regimes import plot_curve as plot_curve, plot_regime_map as plot_regime_map
+from .scores import plot_score as plot_score
+from .stress import plot_stress as plot_stress
+from .style import save_figure as save_figure

@@ -44,10 +44,7 @@ MARGIN = 1.08  # around the largest contact
 
 @draws(HISTORY, *FORCES, *RADII, "max_pressure", along="time")
 def animate(
-    history: xr.Dataset,
-    frames: Iterable[xr.Dataset],
-    path: str | Path,
-    progress: Progress = None,
+    history: xr.Dataset, frames: Iterable[xr.Dataset], path: str | Path, progress: Progress = None
 ) -> Path:
     """Store a film of the contact patch beside the history of the tangential force.
 
@@ -132,10 +129,7 @@ def checked_animation(path: str | Path) -> Path:
 
 
 def _pictures(
-    history: xr.Dataset,
-    frames: Iterable[xr.Dataset],
-    resolution: int,
-    advance: Advance,
+    history: xr.Dataset, frames: Iterable[xr.Dataset], resolution: int, advance: Advance
 ) -> Iterator[Image.Image]:
     """Yield the frames of the film as they are drawn."""
     film = _Film(history, resolution)

@@ -98,13 +98,7 @@ def position(node: Array, series: Series, row: int, target: float, falling: bool
 
 @kernel
 def sample(
-    nodes: Array,
-    series: Array,
-    chi: float,
-    times: Array,
-    moved: Array,
-    wanted: Array,
-    out: Array,
+    nodes: Array, series: Array, chi: float, times: Array, moved: Array, wanted: Array, out: Array
 ) -> None:
     """Write one row of `out` for each wanted time."""
     psi_in = series[0, 0, PSI]

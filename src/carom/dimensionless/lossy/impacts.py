@@ -49,14 +49,7 @@ class Plan(NamedTuple):
 def with_length(plan: Plan, h: float, natural: float, to_change: bool, to_end: bool) -> Plan:
     """Return a plan with another length and end."""
     return Plan(
-        h,
-        plan.clock,
-        natural,
-        plan.from_change,
-        to_change,
-        to_end,
-        plan.flat_is_worse,
-        plan.error,
+        h, plan.clock, natural, plan.from_change, to_change, to_end, plan.flat_is_worse, plan.error
     )
 
 

@@ -45,13 +45,7 @@ class LossyRebounds(NamedTuple):
 
 @kernel
 def outgoing(
-    psi: float,
-    chi: float,
-    loss: int,
-    parameter: float,
-    work: Arrays,
-    record: Trace,
-    numbers: Array,
+    psi: float, chi: float, loss: int, parameter: float, work: Arrays, record: Trace, numbers: Array
 ) -> tuple[int, int]:
     """Run an impact of any psi_1; return its status and the number of panels.
 
@@ -77,13 +71,7 @@ def outgoing(
 
 @kernel
 def run_beside(
-    psi: float,
-    chi: float,
-    loss: int,
-    parameter: float,
-    work: Arrays,
-    record: Trace,
-    numbers: Array,
+    psi: float, chi: float, loss: int, parameter: float, work: Arrays, record: Trace, numbers: Array
 ) -> tuple[int, int]:
     """Run an impact, psi_1 > 0, beside the border of stick if it lies on it."""
     beside = 0.0

@@ -6,13 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.dimensionless.lossy import normal
-from carom.dimensionless.lossy.collocation import (
-    NODES,
-    PLACES,
-    begin_smoothly,
-    evaluate,
-    integrate,
-)
+from carom.dimensionless.lossy.collocation import NODES, PLACES, begin_smoothly, evaluate, integrate
 from carom.dimensionless.lossy.memory import RADIUS
 from carom.dimensionless.lossy.normal import Loss, Motion
 from carom.dimensionless.lossy.panels import Panel, cut_memory, state_at_node

@@ -133,11 +133,7 @@ def _points(panels: Sequence[tuple[float, float]], degree: int) -> Array:
 
 
 def _look_between(
-    function: Branched,
-    points: Array,
-    rows: Array,
-    errors: Array,
-    tolerance: float,
+    function: Branched, points: Array, rows: Array, errors: Array, tolerance: float
 ) -> None:
     """Raise errors that seem small to those found between the two nodes at either end."""
     seem = np.flatnonzero(errors <= tolerance)
@@ -154,10 +150,7 @@ def _look_between(
 
 
 def _kinks(
-    function: Branched,
-    points: Array,
-    branches: NDArray[np.int64],
-    wanted: NDArray[np.bool_],
+    function: Branched, points: Array, branches: NDArray[np.int64], wanted: NDArray[np.bool_]
 ) -> list[list[float]]:
     """Return where each panel that is wanted changes its branch, by bisection."""
     changes = branches[:, 1:-2] != branches[:, 2:-1]  # an end may belong to either side

@@ -196,9 +196,5 @@ class YadeMindlin(ContactLaw):
         """Return the law as numbers in the units of Hertz's impact."""
         damping = 2.0 * sqrt(SPRING * MINDLIN) * thornton_damping(self.restitution)
         return hertzian(
-            chi,
-            damping,
-            pulls=False,
-            shear_damping=damping * kappa**-0.5,
-            limits_damping=False,
+            chi, damping, pulls=False, shear_damping=damping * kappa**-0.5, limits_damping=False
         )
