@@ -18,21 +18,10 @@ from PIL import Image
 
 from carom.io.files import ANIMATIONS, checked_output, replace_whole
 from carom.io.progress import Advance, advancing
+from carom.plots import style
 from carom.plots.bands import BANDS
 from carom.plots.impact import FORCES, HISTORY, RADII, forces_panel, phase_handles
 from carom.plots.patch import patch_panel, patch_title
-from carom.plots.style import (
-    BLACK,
-    BLUE,
-    DOUBLE,
-    MAP,
-    check_grid,
-    draws,
-    label,
-    new_figure,
-    prefixed,
-    scaled,
-)
 from carom.quantities.units import InputError, refusal
 
 Progress = bool | Callable[[], object] | None
@@ -42,7 +31,7 @@ RESOLUTION = {".gif": 110, ".mp4": 200}  # in dots per inch
 MARGIN = 1.08  # around the largest contact
 
 
-@draws(HISTORY, *FORCES, *RADII, "max_pressure", along="time")
+@style.draws(HISTORY, *FORCES, *RADII, "max_pressure", along="time")
 def animate(
     history: xr.Dataset, frames: Iterable[xr.Dataset], path: str | Path, progress: Progress = None
 ) -> Path:
@@ -143,19 +132,21 @@ class _Film:
 
     def __init__(self, history: xr.Dataset, resolution: int) -> None:
         self.history = history
-        self.figure, axes = new_figure(1, 2, width=DOUBLE, height=74.0, width_ratios=(1.0, 1.15))
+        self.figure, axes = style.new_figure(
+            1, 2, width=style.DOUBLE, height=74.0, width_ratios=(1.0, 1.15)
+        )
         self.canvas: Any = FigureCanvasAgg(self.figure)
         self.figure.dpi = resolution
         self.patch, self.force = axes[0]
         forces_panel(self.force, history)
         self.figure.legend(handles=phase_handles(history), loc="outside lower center", ncols=5)
-        self.line = self.force.axvline(0.0, color=BLACK, lw=0.8)
-        (self.dot,) = self.force.plot([0.0], [0.0], "o", color=BLACK, ms=5.0, zorder=5)
+        self.line = self.force.axvline(0.0, color=style.BLACK, lw=0.8)
+        (self.dot,) = self.force.plot([0.0], [0.0], "o", color=style.BLACK, ms=5.0, zorder=5)
         self.still: Any = None
 
     def picture(self, fields: xr.Dataset) -> Image.Image:
         """Return one frame."""
-        check_grid(fields, "traction_x", "y", "x")
+        style.check_grid(fields, "traction_x", "y", "x")
         self._draw_patch(fields)
         self._move_marker(fields)
         moving = (self.patch, self.line, self.dot)
@@ -180,7 +171,7 @@ class _Film:
     def _draw_patch(self, fields: xr.Dataset) -> None:
         history = self.history
         largest = float(history["friction"]) * float(history["max_pressure"])
-        scale, unit = prefixed(largest, "Pa")
+        scale, unit = style.prefixed(largest, "Pa")
         reach = MARGIN * float(history["contact_radius"].max())
         self.patch.clear()
         shading = patch_panel(
@@ -195,15 +186,15 @@ class _Film:
         title = patch_title(fields, reach, like=history["time"].values)
         self.patch.set_title(title if "\n" in title else title + "\n ")
         if self.still is None:
-            text = label("traction_x", unit)
+            text = style.label("traction_x", unit)
             self.figure.colorbar(shading, ax=self.patch, label=text, pad=0.02, aspect=28)
 
     def _move_marker(self, fields: xr.Dataset) -> None:
-        time = float(fields["time"]) * scaled(self.history, "time").scale
+        time = float(fields["time"]) * style.scaled(self.history, "time").scale
         limit = float(self.history["friction"]) * self.history["normal_force"].values
         force = float(fields["tangential_force"])
         self.line.set_xdata([time, time])
-        self.dot.set_data([time], [force * prefixed(limit, "N")[0]])
+        self.dot.set_data([time], [force * style.prefixed(limit, "N")[0]])
 
 
 def _write_gif(where: Path, pictures: Iterator[Image.Image]) -> None:
@@ -216,9 +207,13 @@ def _write_gif(where: Path, pictures: Iterator[Image.Image]) -> None:
 
 def _palette() -> Image.Image:
     """Return an image with the colours of a GIF: the same for all frames, so that none flickers."""
-    shades = matplotlib.colormaps[MAP](np.linspace(0.0, 1.0, 112))[:, :3]
+    shades = matplotlib.colormaps[style.MAP](np.linspace(0.0, 1.0, 112))[:, :3]
     hatched = 0.4 * shades[::4] + 0.6
-    inks = [BLUE, BLACK, *(c for band in BANDS.values() for c in (band.face, band.edge))]
+    inks = [
+        style.BLUE,
+        style.BLACK,
+        *(c for band in BANDS.values() for c in (band.face, band.edge)),
+    ]
     mixed = [to_rgb(ink) for ink in dict.fromkeys(inks)]
     faded = [0.5 * np.array(color) + 0.5 for color in mixed]
     greys = np.repeat(np.linspace(0.0, 1.0, 32)[:, np.newaxis], 3, axis=1)

@@ -8,26 +8,15 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from carom.plots import style
 from carom.plots.bands import phases
-from carom.plots.style import (
-    BLACK,
-    BLUE,
-    DASHES,
-    VERMILION,
-    draws,
-    label,
-    legend_above,
-    scaled,
-    single_axis,
-    span,
-)
 from carom.quantities.arrays import Array
 
 PATHS: dict[str, dict[str, Any]] = {
-    "stick": {"color": BLUE, "ls": "-", "lw": 2.0},
-    "slip": {"color": VERMILION, "ls": DASHES[1], "lw": 1.5},
-    "gross slip": {"color": BLACK, "ls": DASHES[2], "lw": 2.0},
-    "load path": {"color": BLUE, "ls": "-", "lw": 1.2},
+    "stick": {"color": style.BLUE, "ls": "-", "lw": 2.0},
+    "slip": {"color": style.VERMILION, "ls": style.DASHES[1], "lw": 1.5},
+    "gross slip": {"color": style.BLACK, "ls": style.DASHES[2], "lw": 2.0},
+    "load path": {"color": style.BLUE, "ls": "-", "lw": 1.2},
 }
 AHEAD = 0.02  # from the foot to the head of an arrow, as a share of the figure
 APART = 0.1  # between the heads of arrows, likewise
@@ -35,7 +24,7 @@ SHORTEST = 0.15  # of a phase with an arrow
 ARROWS = 8  # on a path without phases
 
 
-@draws(
+@style.draws(
     "the course of an impact or a load path, what Impact.history or LoadPath.to_dataset returns",
     *("normal_force", "tangential_force", "friction"),
 )
@@ -69,10 +58,10 @@ def plot_cone(dataset: xr.Dataset) -> Figure:
     >>> [text.get_text() for text in axis.get_legend().get_texts()[1:]]
     ['gross slip', 'stick', 'slip']
     """
-    figure, axis = single_axis(height=70.0)
+    figure, axis = style.single_axis(height=70.0)
     limit = 1.08 * float(dataset["friction"]) * float(dataset["normal_force"].max())
-    normal, unit, _ = scaled(dataset, "normal_force")
-    tangential, tangential_unit, scale = scaled(dataset, "tangential_force", like=limit)
+    normal, unit, _ = style.scaled(dataset, "normal_force")
+    tangential, tangential_unit, scale = style.scaled(dataset, "tangential_force", like=limit)
     edge = (1.08 * float(normal.max()) or 1.0, limit * scale or 1.0)  # without friction a line
     _draw_cone(axis, *edge)
     points = np.column_stack([normal, tangential])
@@ -82,11 +71,11 @@ def plot_cone(dataset: xr.Dataset) -> Figure:
         for ends in _apart(_arrows(part / edge, 1 if kind != "load path" else ARROWS)):
             _arrow(axis, ends * edge, PATHS[kind]["color"])
         if kind == "load path":
-            axis.plot(*part[0], "o", mfc="white", color=BLUE, ms=6.0, label="start")
-            axis.plot(*part[-1], "o", color=BLUE, ms=3.0, label="end")
-    axis.set_xlabel(label("normal_force", unit))
-    axis.set_ylabel(label("tangential_force", tangential_unit))
-    legend_above(axis, 4)
+            axis.plot(*part[0], "o", mfc="white", color=style.BLUE, ms=6.0, label="start")
+            axis.plot(*part[-1], "o", color=style.BLUE, ms=3.0, label="end")
+    axis.set_xlabel(style.label("normal_force", unit))
+    axis.set_ylabel(style.label("tangential_force", tangential_unit))
+    style.legend_above(axis, 4)
     return figure
 
 
@@ -96,7 +85,7 @@ def _draw_cone(axis: Axes, normal: float, tangential: float) -> None:
     axis.plot(corners, limit, color="0.45", lw=0.8, label=r"$\pm\mu F_z$")
     axis.plot(corners, -limit, color="0.45", lw=0.8)
     axis.axhline(0.0, color="0.6", lw=0.5, zorder=1)
-    span(axis, (0.0, normal), (-1.02 * tangential, 1.02 * tangential))
+    style.span(axis, (0.0, normal), (-1.02 * tangential, 1.02 * tangential))
 
 
 def _parts(dataset: xr.Dataset, points: Array) -> Iterator[tuple[str, Array]]:

@@ -9,33 +9,29 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from carom.io.extras import extra
+from carom.plots import style
 from carom.plots.bands import STICK, Band, mirrored, shade
-from carom.plots.style import (
-    BLACK,
-    BLUE,
-    DOUBLE,
-    MM,
-    SINGLE,
-    VERMILION,
-    draws,
-    new_figure,
-    prefixed,
-    styled,
-)
 from carom.quantities.glossary import GLOSSARY
 
 ACROSS = 2  # responses side by side
 UPPER, LOWER = 48.0, 20.0  # heights of curves and residuals, in mm
 TINTS = (STICK, *(Band(tint, tint, "") for tint in ("#FBEBCB", "#F6DDE8", "#E4E4E4")))
 LAW_STYLES: dict[str, Any] = {
-    "exact": {"color": BLACK, "lw": 1.3, "zorder": 4},
-    "rigid Coulomb": {"color": VERMILION, "lw": 0.9, "ls": (0, (5, 1.5)), "zorder": 3},
-    "Walton": {"color": BLUE, "lw": 0.9, "ls": (0, (1.5, 1)), "zorder": 3},
+    "exact": {"color": style.BLACK, "lw": 1.3, "zorder": 4},
+    "rigid Coulomb": {"color": style.VERMILION, "lw": 0.9, "ls": (0, (5, 1.5)), "zorder": 3},
+    "Walton": {"color": style.BLUE, "lw": 0.9, "ls": (0, (1.5, 1)), "zorder": 3},
 }
-POINTS: Any = {"fmt": "o", "ms": 2.6, "color": BLACK, "mfc": "white", "lw": 0.0, "elinewidth": 0.7}
+POINTS: Any = {
+    "fmt": "o",
+    "ms": 2.6,
+    "color": style.BLACK,
+    "mfc": "white",
+    "lw": 0.0,
+    "elinewidth": 0.7,
+}
 
 
-@draws(
+@style.draws(
     "a fit, what carom.fit(...).to_dataset() returns",
     *("measured", "residual", "curve_expected", "incidence"),
 )
@@ -64,9 +60,9 @@ def plot_fit(dataset: xr.Dataset) -> Figure:
     names = [str(name) for name in dataset["response"].values]
     across = min(ACROSS, len(names))
     down = -(-len(names) // across)
-    width, height = SINGLE if across == 1 else DOUBLE, down * (UPPER + LOWER) + 18.0
+    width, height = style.SINGLE if across == 1 else style.DOUBLE, down * (UPPER + LOWER) + 18.0
     shared: Any = {"sharex": "col", "height_ratios": [UPPER, LOWER] * down}
-    figure, axes = new_figure(2 * down, across, width=width, height=height, **shared)
+    figure, axes = style.new_figure(2 * down, across, width=width, height=height, **shared)
     for place, name in enumerate(names):
         row, column = divmod(place, across)
         _draw_response(axes[2 * row : 2 * row + 2, column], dataset, name)
@@ -80,7 +76,7 @@ def plot_fit(dataset: xr.Dataset) -> Figure:
     return figure
 
 
-@styled
+@style.styled
 def plot_corner(samples: xr.Dataset) -> Figure:
     """Draw samples of the posterior, parameter by parameter and pair by pair.
 
@@ -91,11 +87,11 @@ def plot_corner(samples: xr.Dataset) -> Figure:
     """
     corner = extra("corner", "a corner plot", "fit")
     names = [str(name) for name in samples.data_vars if name != "chi"]  # not beside kappa
-    side = max(SINGLE, 45.0 * len(names)) * MM
+    side = max(style.SINGLE, 45.0 * len(names)) * style.MM
     figure = Figure(figsize=(side, side))
     values = np.stack([samples[name].values for name in names], axis=1)
     labels = [GLOSSARY[name].symbol if name in GLOSSARY else name for name in names]
-    look = {"color": BLUE, "quantiles": (0.025, 0.5, 0.975), "max_n_ticks": 4}
+    look = {"color": style.BLUE, "quantiles": (0.025, 0.5, 0.975), "max_n_ticks": 4}
     corner.corner(values, labels=labels, fig=figure, quiet=True, **look)
     return figure
 
@@ -110,14 +106,14 @@ def _draw_response(axes: Any, dataset: xr.Dataset, name: str) -> None:
     for axis in axes:
         for tint, start, end in mirrored(TINTS, ends, line[0], line[-1]):
             shade(axis, start, end, tint)
-    for law, style in LAW_STYLES.items():
-        upper.plot(line, scale * data["curve_expected"].sel(law=law).values, **style)
+    for law, stroke in LAW_STYLES.items():
+        upper.plot(line, scale * data["curve_expected"].sel(law=law).values, **stroke)
     band = (scale * data[f"curve_{end}"].values for end in ("low", "high"))
     upper.fill_between(line, *band, color="0.4", alpha=0.35, lw=0.0, zorder=2)
     error = scale * data["error"].values
     upper.errorbar(incidence, scale * data["measured"].values, error, zorder=5, **POINTS)
     lower.errorbar(incidence, scale * data["residual"].values, error, zorder=5, **POINTS)
-    lower.axhline(0.0, color=BLACK, lw=0.6, zorder=1)
+    lower.axhline(0.0, color=style.BLACK, lw=0.6, zorder=1)
     upper.set_ylabel(_label(name, unit))
     lower.set_ylabel("residual")
     upper.margins(y=0.08)
@@ -129,7 +125,7 @@ def _scale(name: str, values: Any) -> tuple[float, str]:
     unit = GLOSSARY[name].unit if name in GLOSSARY else "1"
     if unit == "rad":
         return float(np.degrees(1.0)), "deg"
-    return prefixed(values, unit)
+    return style.prefixed(values, unit)
 
 
 def _label(name: str, unit: str) -> str:
@@ -144,7 +140,7 @@ def _incidence(dataset: xr.Dataset) -> str:
 
 
 def _key(dataset: xr.Dataset) -> list[Any]:
-    laws: list[Any] = [Line2D([], [], label=law, **style) for law, style in LAW_STYLES.items()]
+    laws: list[Any] = [Line2D([], [], label=law, **stroke) for law, stroke in LAW_STYLES.items()]
     names = ["stick from the first touch", *map(str, dataset["regime_border"].values)]
     tints = zip(TINTS, names, strict=True)
     return [*laws, *(Patch(facecolor=tint.face, label=name) for tint, name in tints)]

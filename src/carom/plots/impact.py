@@ -8,23 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from carom.plots import style
 from carom.plots.bands import BANDS, SIGNS, phases, shade
-from carom.plots.style import (
-    BLACK,
-    BLUE,
-    DASHES,
-    DOUBLE,
-    VERMILION,
-    draws,
-    label,
-    legend_above,
-    limit_lines,
-    new_figure,
-    scaled,
-    single_axis,
-    span,
-    zero_line,
-)
 from carom.quantities.arrays import Array
 
 ENERGIES = {
@@ -43,7 +28,7 @@ VELOCITIES = ("contact_velocity", "normal_velocity")
 RADII = ("contact_radius", "stick_radius", "time")
 
 
-@draws(HISTORY, *FORCES, *VELOCITIES, *RADII, *ENERGIES, along="time")
+@style.draws(HISTORY, *FORCES, *VELOCITIES, *RADII, *ENERGIES, along="time")
 def plot_impact(dataset: xr.Dataset) -> Figure:
     """Draw forces, velocities, radii and energies of an impact against time, phases shaded.
 
@@ -74,7 +59,7 @@ def plot_impact(dataset: xr.Dataset) -> Figure:
     >>> len(carom.plots.plot_impact(hit.history(50)).axes)
     4
     """
-    figure, axes = new_figure(2, 2, width=DOUBLE, height=112.0, sharex=True)
+    figure, axes = style.new_figure(2, 2, width=style.DOUBLE, height=112.0, sharex=True)
     panels = (forces_panel, velocities_panel, radii_panel, energies_panel)
     for axis, panel in zip(axes.flat, panels, strict=True):
         panel(axis, dataset)
@@ -84,7 +69,7 @@ def plot_impact(dataset: xr.Dataset) -> Figure:
     return figure
 
 
-@draws(HISTORY, *FORCES, along="time")
+@style.draws(HISTORY, *FORCES, along="time")
 def plot_forces(dataset: xr.Dataset) -> Figure:
     """Draw the tangential force between its limits, mu F_z, against time, in one column.
 
@@ -115,7 +100,7 @@ def plot_forces(dataset: xr.Dataset) -> Figure:
     return _single(dataset, forces_panel)
 
 
-@draws(HISTORY, *RADII, along="time")
+@style.draws(HISTORY, *RADII, along="time")
 def plot_radii(dataset: xr.Dataset) -> Figure:
     """Draw the radii of the contact and of its stick zone against time, in one column.
 
@@ -147,10 +132,10 @@ def plot_radii(dataset: xr.Dataset) -> Figure:
 
 
 def _single(dataset: xr.Dataset, panel: Any) -> Figure:
-    figure, axis = single_axis()
+    figure, axis = style.single_axis()
     panel(axis, dataset)
     lines, _ = axis.get_legend_handles_labels()
-    legend_above(axis, 3, handles=[*lines, *phase_handles(dataset)])
+    style.legend_above(axis, 3, handles=[*lines, *phase_handles(dataset)])
     return figure
 
 
@@ -162,11 +147,11 @@ def phase_handles(dataset: xr.Dataset) -> list[Patch]:
 
 def time_axis(axis: Axes, dataset: xr.Dataset) -> Array:
     """Shade the phases, label the axis of time, and return the times in its unit."""
-    time, unit, scale = scaled(dataset, "time")
+    time, unit, scale = style.scaled(dataset, "time")
     for phase in phases(dataset):
         shade(axis, phase.start * scale, phase.end * scale, BANDS[phase.kind, phase.sign])
-    span(axis, time)
-    axis.set_xlabel(label("time", unit))
+    style.span(axis, time)
+    axis.set_xlabel(style.label("time", unit))
     return time
 
 
@@ -174,12 +159,12 @@ def forces_panel(axis: Axes, dataset: xr.Dataset) -> None:
     """Draw F_x between -mu F_z and mu F_z."""
     time = time_axis(axis, dataset)
     limit = float(dataset["friction"]) * dataset["normal_force"].values
-    force, unit, scale = scaled(dataset, "tangential_force", like=limit)
-    zero_line(axis)
-    axis.plot(time, force, color=BLUE, label="$F_x$")
-    limit_lines(axis, time, limit * scale, r"$\pm\mu F_z$")
-    axis.set_ylabel(label("tangential_force", unit))
-    legend_above(axis, 2)
+    force, unit, scale = style.scaled(dataset, "tangential_force", like=limit)
+    style.zero_line(axis)
+    axis.plot(time, force, color=style.BLUE, label="$F_x$")
+    style.limit_lines(axis, time, limit * scale, r"$\pm\mu F_z$")
+    axis.set_ylabel(style.label("tangential_force", unit))
+    style.legend_above(axis, 2)
 
 
 def velocities_panel(axis: Axes, dataset: xr.Dataset) -> None:
@@ -187,25 +172,25 @@ def velocities_panel(axis: Axes, dataset: xr.Dataset) -> None:
     time = time_axis(axis, dataset)
     names = {"contact_velocity": "$V_x$, contact point", "normal_velocity": "$V_z$, approach"}
     largest = [np.abs(dataset[name].values).max() for name in names]
-    zero_line(axis)
-    for name, color, dash in zip(names, (BLUE, VERMILION), DASHES, strict=False):
-        values, unit, _ = scaled(dataset, name, like=largest)
+    style.zero_line(axis)
+    for name, color, dash in zip(names, (style.BLUE, style.VERMILION), style.DASHES, strict=False):
+        values, unit, _ = style.scaled(dataset, name, like=largest)
         axis.plot(time, values, color=color, ls=dash, label=names[name])
     axis.set_ylabel(f"velocity, $V_x$, $V_z$ ({unit})")
-    legend_above(axis, 2)
+    style.legend_above(axis, 2)
 
 
 def radii_panel(axis: Axes, dataset: xr.Dataset) -> None:
     """Draw the radii of the contact and of its stick zone; what lies between slips."""
     time = time_axis(axis, dataset)
-    contact, unit, scale = scaled(dataset, "contact_radius")
+    contact, unit, scale = style.scaled(dataset, "contact_radius")
     stick = dataset["stick_radius"].values * scale
-    axis.plot(time, contact, color=BLACK, label="contact, $b$")
+    axis.plot(time, contact, color=style.BLACK, label="contact, $b$")
     line = _stick_line(stick, contact)
-    axis.plot(time, line, color=BLUE, ls=DASHES[1], label="stick zone, $a$")
-    span(axis, y=(0.0, 1.06 * contact.max()))
+    axis.plot(time, line, color=style.BLUE, ls=style.DASHES[1], label="stick zone, $a$")
+    style.span(axis, y=(0.0, 1.06 * contact.max()))
     axis.set_ylabel(f"radius, $a$, $b$ ({unit})")
-    legend_above(axis, 2)
+    style.legend_above(axis, 2)
 
 
 def _stick_line(stick: Array, contact: Array) -> Array:
@@ -229,4 +214,6 @@ def energies_panel(axis: Axes, dataset: xr.Dataset) -> None:
         area.set(label=name, hatch=hatch, edgecolor="0.35", linewidth=0.4)
     axis.set_ylim(0.0, 1.0)
     axis.set_ylabel("share of energy")
-    legend_above(axis, 3, handlelength=1.0, handletextpad=0.3, columnspacing=0.5, fontsize=6.5)
+    style.legend_above(
+        axis, 3, handlelength=1.0, handletextpad=0.3, columnspacing=0.5, fontsize=6.5
+    )

@@ -12,30 +12,14 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from carom.plots import style
 from carom.plots.regimes import draw_borders
-from carom.plots.style import (
-    BLACK,
-    BLUE,
-    DASHES,
-    DOUBLE,
-    GREEN,
-    PURPLE,
-    VERMILION,
-    check_grid,
-    draws,
-    label,
-    new_figure,
-    single_axis,
-    span,
-    symbol,
-    zero_line,
-)
 from carom.quantities.units import refusal
 
 SKY = "#56B4E9"
-COLORS = (BLUE, VERMILION, GREEN, PURPLE, SKY)
-STYLES: Any = [{"color": c, "ls": d} for c, d in zip(COLORS, (*DASHES[1:], "-"), strict=True)]
-EXACT: Any = {"color": BLACK, "lw": 1.6, "zorder": 2}
+COLORS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, SKY)
+STYLES: Any = [{"color": c, "ls": d} for c, d in zip(COLORS, (*style.DASHES[1:], "-"), strict=True)]
+EXACT: Any = {"color": style.BLACK, "lw": 1.6, "zorder": 2}
 POINT: Any = {"marker": "o", "ms": 1.4}
 SAME = 1e-6  # in psi_2; laws closer than this share a line
 SAMPLE = (-0.085, -0.015)  # where a bar shows its line, in widths of its axes
@@ -52,7 +36,7 @@ PLAIN = {  # parameters of elastic laws, not worth a mention
 }
 
 
-@draws(
+@style.draws(
     "a ranking, what carom.verify.rank(...).to_dataset() returns",
     *("max_error", "rms_error", "psi_out", "psi_out_exact", "chi"),
     along="law",
@@ -91,14 +75,14 @@ def plot_laws(dataset: xr.Dataset) -> Figure:
     members = [np.flatnonzero(np.isin(kinds, group)) for group in groups]
     most = max(len(rows) for rows in members)
     height = len(groups) * max(PITCH * most, 30.0) + EDGE
-    size: Any = {"width": DOUBLE, "height": height, "width_ratios": (1.0, 0.85)}
-    figure, axes = new_figure(len(groups), 2, sharex="col", **size)
+    size: Any = {"width": style.DOUBLE, "height": height, "width_ratios": (1.0, 0.85)}
+    figure, axes = style.new_figure(len(groups), 2, sharex="col", **size)
     for (left, right), rows in zip(axes, members, strict=True):
         styles = [STYLES[kind] for kind in kinds[rows] - kinds[rows].min()]
         _draw_rebounds(left, dataset, rows, styles)
         _draw_bars(right, dataset, rows, styles, most)
     axes[0, 1].set_xlim(0.0, 1.14 * axes[0, 1].get_xlim()[1])  # room for the numbers
-    axes[-1, 0].set_xlabel(label("psi_in", room=44))
+    axes[-1, 0].set_xlabel(style.label("psi_in", room=44))
     axes[-1, 1].set_xlabel(r"|error in $\psi_2$|")
     figure.legend(handles=list(_key(dataset)), loc="outside upper center", ncols=4)
     return figure
@@ -117,26 +101,26 @@ def _kinds(curves: Any) -> Any:
 def _draw_rebounds(axis: Axes, dataset: xr.Dataset, rows: Any, styles: list[Any]) -> None:
     order = np.argsort(dataset["psi_in"].values)
     psi = dataset["psi_in"].values[order]
-    zero_line(axis)
+    style.zero_line(axis)
     axis.plot(psi, dataset["psi_out_exact"].values[order], **EXACT, **POINT)
-    for row, style in zip(rows, styles, strict=True):
+    for row, stroke in zip(rows, styles, strict=True):
         out = dataset["psi_out"].values[row][order]
-        axis.plot(psi, out, lw=0.9, zorder=3, **style, **POINT)
-    axis.set_ylabel(symbol("psi_out"))
+        axis.plot(psi, out, lw=0.9, zorder=3, **stroke, **POINT)
+    axis.set_ylabel(style.symbol("psi_out"))
 
 
 def _draw_bars(axis: Axes, dataset: xr.Dataset, rows: Any, styles: list[Any], most: int) -> None:
     largest, rms = (dataset[name].values[rows] for name in ("max_error", "rms_error"))
     places = np.arange(len(rows))
-    colors = [style["color"] for style in styles]
+    colors = [stroke["color"] for stroke in styles]
     axis.barh(places, largest, height=0.62, color=colors, alpha=0.4, lw=0)
     axis.barh(places, rms, height=0.62, color=colors, lw=0)
-    for place, value, style in zip(places, largest, styles, strict=True):
+    for place, value, stroke in zip(places, largest, styles, strict=True):
         text = f"{value:.3f}" if np.isfinite(value) else "no limit"
         at = value if np.isfinite(value) else 0.0
         beside: Any = {"xytext": (2, 0), "textcoords": "offset points", "va": "center"}
         axis.annotate(text, (at, place), fontsize=6.5, **beside)
-        sample = Line2D(SAMPLE, (place, place), lw=1.2, clip_on=False, **style)
+        sample = Line2D(SAMPLE, (place, place), lw=1.2, clip_on=False, **stroke)
         sample.set_transform(axis.get_yaxis_transform())
         sample.set_in_layout(False)
         axis.add_line(sample)
@@ -150,12 +134,12 @@ def _draw_bars(axis: Axes, dataset: xr.Dataset, rows: Any, styles: list[Any], mo
 
 def _key(dataset: xr.Dataset) -> Iterator[Any]:
     yield Line2D([], [], label=rf"exact, $\chi$ = {float(dataset['chi']):.5g}", **EXACT)
-    yield Line2D([], [], color="0.4", ls=DASHES[1], lw=0.9, label="law, as beside its bar")
+    yield Line2D([], [], color="0.4", ls=style.DASHES[1], lw=0.9, label="law, as beside its bar")
     yield Patch(fc="0.75", label=r"max |error in $\psi_2$|")
     yield Patch(fc="0.4", label="root mean square")
 
 
-@draws("an error map, what carom.verify.error_map returns", "error", "psi_in", "chi")
+@style.draws("an error map, what carom.verify.error_map returns", "error", "psi_in", "chi")
 def plot_error_map(dataset: xr.Dataset, limit: float | None = None) -> Figure:
     """Draw the error of a contact law in psi_2 over psi_1 and chi, white where there is none.
 
@@ -187,13 +171,13 @@ def plot_error_map(dataset: xr.Dataset, limit: float | None = None) -> Figure:
     >>> carom.plots.plot_error_map(found).axes[1].get_ylabel()
     'error in $\\\\psi_2$'
     """
-    check_grid(dataset, "error", "chi", "psi_in")
+    style.check_grid(dataset, "error", "chi", "psi_in")
     psi, chi, error = (dataset[name].values for name in ("psi_in", "chi", "error"))
     finite = np.abs(error[np.isfinite(error)])
     if limit is not None and not 0.0 < limit < np.inf:
         raise refusal("limit", limit, "must be positive")
     most = max(LEAST, float(finite.max(initial=0.0))) if limit is None else limit
-    figure, axis = single_axis(height=66.0)
+    figure, axis = style.single_axis(height=66.0)
     axis.set_facecolor("0.8")
     colors: Any = {"cmap": DIVERGING, "vmin": -most, "vmax": most}
     colors["shading"] = "gouraud" if finite.size == error.size else "nearest"
@@ -201,8 +185,8 @@ def plot_error_map(dataset: xr.Dataset, limit: float | None = None) -> Figure:
     if finite.size and finite.max() > NOTED:
         lines: Any = {"colors": "0.25", "linewidths": 0.6, "linestyles": ["--", "-"]}
         axis.contour(psi, chi, error, levels=[-NOTED, NOTED], **lines)
-    span(axis, psi, chi)
-    axis.set(xlabel=label("psi_in", room=44), ylabel=label("chi", room=44))
+    style.span(axis, psi, chi)
+    axis.set(xlabel=style.label("psi_in", room=44), ylabel=style.label("chi", room=44))
     draw_borders(axis)
     over = limit is not None and bool(finite.size) and finite.max() > most
     bar = figure.colorbar(drawn, ax=axis, extend="both" if over else "neither", aspect=30)

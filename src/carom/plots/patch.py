@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Circle
 from matplotlib.patheffects import withStroke
 
+from carom.plots import style
 from carom.plots.bands import moment, slip_band
-from carom.plots.style import MAP, check_grid, draws, label, prefixed, scaled, single_axis, symbol
 from carom.quantities.arrays import Array
 from carom.quantities.units import refusal
 
@@ -29,7 +29,7 @@ MAPPED = ("traction_x", "pressure")
 SIGNED = ("traction_x",)
 
 
-@draws(
+@style.draws(
     "the fields of a contact on a grid of x and y, what Impact.fields or LoadPath.fields returns",
     *("pressure", "traction_x", "zone", "x", "y", *(f"{name}_radius" for name in ZONES)),
 )
@@ -66,13 +66,15 @@ def plot_patch(dataset: xr.Dataset, variable: str = "traction_x") -> Figure:
     """
     if variable not in MAPPED:
         raise refusal("variable", variable, f"must be {' or '.join(MAPPED)}")
-    check_grid(dataset, "pressure", "y", "x")
+    style.check_grid(dataset, "pressure", "y", "x")
     title = patch_title(dataset)
-    figure, axis = single_axis(height=64.0 + 4.0 * len(title.splitlines()))  # the map is square
-    scale, unit = prefixed(dataset[variable].values, "Pa")
+    figure, axis = style.single_axis(
+        height=64.0 + 4.0 * len(title.splitlines())
+    )  # the map is square
+    scale, unit = style.prefixed(dataset[variable].values, "Pa")
     limits = _limits(dataset[variable].values * scale) if variable in SIGNED else {}
     shading = patch_panel(axis, dataset, variable, scale, **limits)
-    bar = figure.colorbar(shading, ax=axis, label=label(variable, unit), pad=0.02, aspect=28)
+    bar = figure.colorbar(shading, ax=axis, label=style.label(variable, unit), pad=0.02, aspect=28)
     bar.outline.set_linewidth(0.6)
     axis.set_title(title)
     return figure
@@ -99,24 +101,24 @@ def patch_panel(
     variable times `scale` between `limits`.
     """
     reach = reach or _reach(dataset)
-    x, unit, length = scaled(dataset, "x", like=reach)
+    x, unit, length = style.scaled(dataset, "x", like=reach)
     y = dataset["y"].values * length
     contact, stick = (float(dataset[name]) * length for name in ("contact_radius", "stick_radius"))
-    how: Any = {"cmap": MAP, "shading": "gouraud", "rasterized": True, **limits}
+    how: Any = {"cmap": style.MAP, "shading": "gouraud", "rasterized": True, **limits}
     shading = axis.pcolormesh(x, y, dataset[variable] * scale, **how)
     shading.set_clip_path(Circle((0.0, 0.0), contact, transform=axis.transData))
     _draw_zones(axis, contact, stick, slip_band(dataset).hatch)
     _draw_arrows(axis, arrows(dataset, reach), length)
     axis.set_aspect("equal")
     ends = (-reach * length, reach * length)
-    axis.set(xlim=ends, ylim=ends, xlabel=symbol("x", unit), ylabel=symbol("y", unit))
+    axis.set(xlim=ends, ylim=ends, xlabel=style.symbol("x", unit), ylabel=style.symbol("y", unit))
     return shading
 
 
 def patch_title(dataset: xr.Dataset, reach: float | None = None, like: Any = None) -> str:
     """Return phase and time, in a unit that suits `like`, and the speed of the longest arrow."""
     fastest = arrows(dataset, reach).fastest
-    scale, unit = prefixed(fastest, dataset[f"{_slip(dataset)}_x"].units)
+    scale, unit = style.prefixed(fastest, dataset[f"{_slip(dataset)}_x"].units)
     key = f"longest arrow: {fastest * scale:.3g}\u00a0{unit}" if fastest else ""
     return "\n".join([moment(dataset, like), key]).strip()
 

@@ -6,22 +6,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from carom.plots import style
 from carom.plots.bands import STICK, Band, moment, shade, slip_band
-from carom.plots.style import (
-    BLACK,
-    BLUE,
-    DASHES,
-    VERMILION,
-    draws,
-    label,
-    legend_above,
-    limit_lines,
-    new_figure,
-    prefixed,
-    scaled,
-    span,
-    zero_line,
-)
 from carom.quantities.arrays import Array
 from carom.quantities.units import InputError
 
@@ -29,7 +15,7 @@ MARGIN = 1.2  # of a line through the contact, in contact radii
 NEAR = 1e-9  # relative: a y that is 0 but for rounding
 
 
-@draws(
+@style.draws(
     "fields on the line y = 0 or along the radius, what Impact.fields or Impact.radial returns",
     *("pressure", "traction_x", "contact_radius", "stick_radius", "friction"),
 )
@@ -63,20 +49,22 @@ def plot_profiles(dataset: xr.Dataset) -> Figure:
     3
     """
     radial = "memory_g" in dataset
-    figure, axes = new_figure(3 if radial else 1, height=118.0 if radial else 62.0, sharex=True)
+    figure, axes = style.new_figure(
+        3 if radial else 1, height=118.0 if radial else 62.0, sharex=True
+    )
     line = dataset if radial else _middle(dataset)
     name = "distance" if radial else "x"
-    place, unit, scale = scaled(line, name)
+    place, unit, scale = style.scaled(line, name)
     reach = (1.0 if radial else MARGIN) * float(line["contact_radius"]) * scale
     for axis in axes.flat:
         _shade_zones(axis, line, scale, place)
-        zero_line(axis)
-        span(axis, (max(place[0], -reach), min(place[-1], reach)))
+        style.zero_line(axis)
+        style.span(axis, (max(place[0], -reach), min(place[-1], reach)))
     _tractions(axes[0, 0], line, place)
     if radial:
         _memory(axes[1, 0], line, place)
         _deflection(axes[2, 0], line, place)
-    axes[-1, 0].set_xlabel(label(name, unit))
+    axes[-1, 0].set_xlabel(style.label(name, unit))
     figure.suptitle(moment(dataset))
     figure.align_ylabels()
     return figure
@@ -108,12 +96,12 @@ def _shade_zones(axis: Axes, line: xr.Dataset, scale: float, place: Array) -> No
 
 def _tractions(axis: Axes, line: xr.Dataset, place: Array) -> None:
     limit = float(line["friction"]) * line["pressure"].values
-    traction, unit, scale = scaled(line, "traction_x", like=limit)
-    axis.plot(place, traction, color=BLUE, label="$f$")
-    limit_lines(axis, place, limit * scale, r"$\pm\mu p$")
-    axis.set_ylabel(label("traction_x", unit, room=24 if "memory_g" in line else 100))
+    traction, unit, scale = style.scaled(line, "traction_x", like=limit)
+    axis.plot(place, traction, color=style.BLUE, label="$f$")
+    style.limit_lines(axis, place, limit * scale, r"$\pm\mu p$")
+    axis.set_ylabel(style.label("traction_x", unit, room=24 if "memory_g" in line else 100))
     lines, _ = axis.get_legend_handles_labels()
-    legend_above(axis, 4, handles=[*lines, *zone_handles(line)])
+    style.legend_above(axis, 4, handles=[*lines, *zone_handles(line)])
 
 
 def zone_handles(dataset: xr.Dataset) -> list[Patch]:
@@ -125,16 +113,16 @@ def zone_handles(dataset: xr.Dataset) -> list[Patch]:
 
 
 def _memory(axis: Axes, line: xr.Dataset, place: Array) -> None:
-    axis.plot(place, line["memory_g"], color=VERMILION)
+    axis.plot(place, line["memory_g"], color=style.VERMILION)
     for limit in (-1.0, 1.0):
-        axis.axhline(limit, color=BLACK, ls=DASHES[1], lw=0.8)
+        axis.axhline(limit, color=style.BLACK, ls=style.DASHES[1], lw=0.8)
     axis.set_ylim(-1.15, 1.15)
-    axis.set_ylabel(label("memory_g"))
+    axis.set_ylabel(style.label("memory_g"))
 
 
 def _deflection(axis: Axes, line: xr.Dataset, place: Array) -> None:
     limit = line["memory_limit"].values
-    scale, unit = prefixed(limit, "m")
-    axis.plot(place, line["memory_q"].values * scale, color=BLUE)
-    limit_lines(axis, place, limit * scale)
-    axis.set_ylabel(label("memory_q", unit, room=24))
+    scale, unit = style.prefixed(limit, "m")
+    axis.plot(place, line["memory_q"].values * scale, color=style.BLUE)
+    style.limit_lines(axis, place, limit * scale)
+    axis.set_ylabel(style.label("memory_q", unit, room=24))

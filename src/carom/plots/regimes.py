@@ -14,19 +14,8 @@ from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_cdt
 
+from carom.plots import style
 from carom.plots.bands import BANDS, MINUS, STICK, Band, mirrored, shade
-from carom.plots.style import (
-    BLACK,
-    DASHES,
-    DOUBLE,
-    LINES,
-    draws,
-    label,
-    legend_above,
-    single_axis,
-    span,
-    zero_line,
-)
 from carom.quantities.arrays import Array
 
 MARKERS = "os^Dv"
@@ -42,7 +31,7 @@ REGIMES = {
 }
 
 
-@draws(
+@style.draws(
     "rebound curves, what carom.curve returns", "psi_out", "psi_in", "chi", "contact_restitution"
 )
 def plot_curve(dataset: xr.Dataset) -> Figure:
@@ -73,35 +62,39 @@ def plot_curve(dataset: xr.Dataset) -> Figure:
     >>> [text.get_text() for text in axis.get_legend().get_texts()[1:]]
     ['stick', 'gross slip, stick']
     """
-    figure, axis = single_axis(height=66.0)
+    figure, axis = style.single_axis(height=66.0)
     psi = dataset["psi_in"].values
-    zero_line(axis)
+    style.zero_line(axis)
     single, regimes = dataset.sizes["chi"] == 1, "border" in dataset
     for row in range(dataset.sizes["chi"]):
         _draw_line(axis, dataset.isel(chi=row), row, dots=regimes and not single)
     if regimes and not single:
-        axis.plot([], [], MARKERS[0], color=BLACK, label="regime borders")
+        axis.plot([], [], MARKERS[0], color=style.BLACK, label="regime borders")
     lines, _ = axis.get_legend_handles_labels()
     ends = dataset["border"].values[0] if regimes and single else None
     bands = shade_regimes(axis, ends, psi.min(), psi.max())
-    span(axis, psi)
-    axis.set_xlabel(label("psi_in", room=44))
-    axis.set_ylabel(label("psi_out", room=36))
+    style.span(axis, psi)
+    axis.set_xlabel(style.label("psi_in", room=44))
+    axis.set_ylabel(style.label("psi_out", room=36))
     entries = [*lines, *bands]
-    legend_above(axis, 2 if single or len(entries) < 5 else 3, handles=entries)
+    style.legend_above(axis, 2 if single or len(entries) < 5 else 3, handles=entries)
     return figure
 
 
 def _draw_line(axis: Axes, one: xr.Dataset, row: int, dots: bool) -> None:
     psi, out = one["psi_in"].values, one["psi_out"].values
-    color, marker = LINES[row % len(LINES)], MARKERS[row % len(MARKERS)]
+    color, marker = style.LINES[row % len(style.LINES)], MARKERS[row % len(MARKERS)]
     ends = np.array([])
     if dots:
         ends = np.concatenate([-one["border"].values[::-1], one["border"].values])
         ends = ends[(ends > psi[0]) & (ends < psi[-1])]
         axis.plot(ends, np.interp(ends, psi, out), marker, color=color)
-    axis.plot(psi, out, color=color, ls=DASHES[row % len(DASHES)])
-    handle = {"color": color, "ls": DASHES[row % len(DASHES)], "marker": marker if dots else ""}
+    axis.plot(psi, out, color=color, ls=style.DASHES[row % len(style.DASHES)])
+    handle = {
+        "color": color,
+        "ls": style.DASHES[row % len(style.DASHES)],
+        "marker": marker if dots else "",
+    }
     axis.plot([], [], **handle, label=rf"$\chi$ = {float(one['chi']):g}")
 
 
@@ -122,7 +115,7 @@ def _short(name: str) -> str:
     return name.replace(",", "").replace(" +", "+").replace(" -", MINUS)
 
 
-@draws(
+@style.draws(
     "a map of regimes, what carom.regime_map returns",
     *("sequence", "sequence_name", "psi_in", "chi"),
 )
@@ -153,7 +146,7 @@ def plot_regime_map(dataset: xr.Dataset) -> Figure:
     >>> len(figure.legends[0].get_texts())
     4
     """
-    figure, axis = single_axis(width=DOUBLE, height=88.0)
+    figure, axis = style.single_axis(width=style.DOUBLE, height=88.0)
     codes, names = dataset["sequence"].values, [str(n) for n in dataset["sequence_name"].values]
     counts = np.array([name.count(",") + 1 for name in names])
     shades = ListedColormap([SHADES(place) for place in np.linspace(1.0, 0.15, counts.max())])
@@ -162,8 +155,8 @@ def plot_regime_map(dataset: xr.Dataset) -> Figure:
     norm = BoundaryNorm(np.arange(0.5, counts.max() + 1.0), shades.N)
     axis.pcolormesh(psi, chi, shown, cmap=shades, norm=norm, shading="nearest", rasterized=True)
     axis.add_collection(_outlines(psi, chi, codes), autolim=False)
-    span(axis, psi, chi)
-    axis.set(xlabel=label("psi_in"), ylabel=label("chi", room=44))
+    style.span(axis, psi, chi)
+    axis.set(xlabel=style.label("psi_in"), ylabel=style.label("chi", room=44))
     _letter_regions(axis, dataset)
     draw_borders(axis)
     patches = [
@@ -206,7 +199,7 @@ def draw_borders(axis: Axes) -> None:
     (left, right), (bottom, top) = axis.get_xlim(), axis.get_ylim()
     chi = np.linspace(max(bottom, 0.5), top, 201)
     lines = {r"$1$": 0.0 * chi + 1.0, r"$2\chi$": 2.0 * chi, r"$4\chi-1$": 4.0 * chi - 1.0}
-    for dash, (name, psi) in zip(DASHES, lines.items(), strict=False):
+    for dash, (name, psi) in zip(style.DASHES, lines.items(), strict=False):
         axis.plot(psi, chi, color="black", ls=dash, lw=1.0)
         inside = psi <= right
         if not inside.any() or not left <= psi[inside][-1]:

@@ -8,33 +8,19 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from carom.plots import style
 from carom.plots.impact import phase_handles, time_axis
 from carom.plots.regimes import shade_regimes
-from carom.plots.style import (
-    BLACK,
-    BLUE,
-    DASHES,
-    DOUBLE,
-    LINES,
-    VERMILION,
-    draws,
-    label,
-    legend_above,
-    limit_lines,
-    new_figure,
-    scaled,
-    zero_line,
-)
 from carom.quantities.arrays import Array
 
-ALLOWED: Any = {"color": "0.35", "ls": DASHES[2], "lw": 0.8, "zorder": 1}
-GIVEN: Any = {"mfc": "white", "mec": BLACK, "mew": 0.8, "ls": ""}
+ALLOWED: Any = {"color": "0.35", "ls": style.DASHES[2], "lw": 0.8, "zorder": 1}
+GIVEN: Any = {"mfc": "white", "mec": style.BLACK, "mew": 0.8, "ls": ""}
 SPARSE = 100  # times; more of them make a line
 FAR = 2.0  # times the psi_1 from which all slides: beyond it a figure has little to show
 MARGIN, ROOM = 0.03, 0.12  # beyond what is shown, along psi_1 and the error
 
 
-@draws("a score, what carom.verify.score returns", "error", "psi_in", "psi_out", "tolerance")
+@style.draws("a score, what carom.verify.score returns", "error", "psi_in", "psi_out", "tolerance")
 def plot_score(dataset: xr.Dataset) -> Figure:
     """Draw results beside the exact answer, and their errors with the tolerance below.
 
@@ -68,7 +54,7 @@ def plot_score(dataset: xr.Dataset) -> Figure:
 
 
 def _points(dataset: xr.Dataset) -> Figure:
-    figure, axes = new_figure(2, 1, height=98.0, sharex=True, height_ratios=(1.6, 1.0))
+    figure, axes = style.new_figure(2, 1, height=98.0, sharex=True, height_ratios=(1.6, 1.0))
     upper, lower = axes[:, 0]
     whole, dataset = dataset, _near(dataset)
     psi = dataset["psi_in"].values
@@ -83,11 +69,11 @@ def _points(dataset: xr.Dataset) -> Figure:
     upper.set_xlim(low - room * (low < 0.0), high + room)
     bands = _bands(upper, dataset)
     _bands(lower, dataset)
-    upper.set_ylabel(label("psi_out", room=36))
+    upper.set_ylabel(style.label("psi_out", room=36))
     lower.set_ylabel(r"error in $\psi_2$")
-    lower.set_xlabel(label("psi_in", room=44))
-    legend_above(upper, 2, handles=[*upper.get_legend_handles_labels()[0], *bands])
-    legend_above(lower, 2)
+    lower.set_xlabel(style.label("psi_in", room=44))
+    style.legend_above(upper, 2, handles=[*upper.get_legend_handles_labels()[0], *bands])
+    style.legend_above(lower, 2)
     return figure
 
 
@@ -100,17 +86,20 @@ def _near(dataset: xr.Dataset) -> xr.Dataset:
 
 def _results(axis: Axes, dataset: xr.Dataset) -> None:
     """Draw psi_2 as it was given, over the exact curves, or over exact points."""
-    zero_line(axis)
+    style.zero_line(axis)
     psi = dataset["psi_in"].values
     if "curve_psi_out" in dataset:
         chis = dataset["curve_chi"].values
         for row, chi in enumerate(np.unique(chis)):
             line = [dataset[f"curve_psi_{side}"].values[chis == chi] for side in ("in", "out")]
-            style = {"color": LINES[row % len(LINES)], "ls": DASHES[row % len(DASHES)]}
-            axis.plot(*line, label=rf"exact, $\chi$ = {chi:.5g}", **style)
+            stroke = {
+                "color": style.LINES[row % len(style.LINES)],
+                "ls": style.DASHES[row % len(style.DASHES)],
+            }
+            axis.plot(*line, label=rf"exact, $\chi$ = {chi:.5g}", **stroke)
     else:
         exact = dataset["psi_out_exact"].values
-        axis.plot(psi, exact, "x", ms=4.5, color=BLUE, zorder=3, label="exact")
+        axis.plot(psi, exact, "x", ms=4.5, color=style.BLUE, zorder=3, label="exact")
     given = dataset["psi_out"].values
     axis.plot(psi, given, "o", **GIVEN, label="results")
 
@@ -125,7 +114,7 @@ def _bands(axis: Axes, dataset: xr.Dataset) -> list[Patch]:
 
 def _tolerance(axis: Axes, error: Array, tolerance: float) -> None:
     """Draw zero and the tolerance, and let the axis take in both and all errors."""
-    zero_line(axis)
+    style.zero_line(axis)
     axis.axhline(tolerance, label=f"tolerance, ±{tolerance:g}", **ALLOWED)
     axis.axhline(-tolerance, **ALLOWED)
     low, high = min(error.min(), -tolerance), max(error.max(), tolerance)
@@ -134,8 +123,8 @@ def _tolerance(axis: Axes, error: Array, tolerance: float) -> None:
 
 
 def _forces(dataset: xr.Dataset) -> Figure:
-    size: Any = {"width": DOUBLE, "height": 104.0, "height_ratios": (1.6, 1.0)}
-    figure, axes = new_figure(2, 2, sharex=True, **size)
+    size: Any = {"width": style.DOUBLE, "height": 104.0, "height_ratios": (1.6, 1.0)}
+    figure, axes = style.new_figure(2, 2, sharex=True, **size)
     friction, peak = float(dataset["friction"]), float(dataset["max_force"])
     drawn = (
         ("tangential_force", friction * peak, r"$F_x$, in $\mu P_{max}$"),
@@ -145,10 +134,10 @@ def _forces(dataset: xr.Dataset) -> Figure:
         time = _force(upper, dataset, name)
         difference = (dataset[name].values - dataset[f"{name}_exact"].values) / unit
         time_axis(lower, dataset)
-        lower.plot(time, difference, color=VERMILION)
+        lower.plot(time, difference, color=style.VERMILION)
         _tolerance(lower, difference, float(dataset["tolerance"]))
         lower.set_ylabel(f"error in {words}")
-        legend_above(lower, 2)
+        style.legend_above(lower, 2)
     figure.legend(handles=phase_handles(dataset), loc="outside upper center", ncols=5)
     return figure
 
@@ -157,15 +146,15 @@ def _force(axis: Axes, dataset: xr.Dataset, name: str) -> Array:
     """Draw a force as it was given over the exact one, and return the times in their unit."""
     time = time_axis(axis, dataset)
     axis.set_xlabel("")
-    zero_line(axis)
+    style.zero_line(axis)
     exact = dataset[f"{name}_exact"].values
-    given, unit, scale = scaled(dataset, name, like=exact)
-    axis.plot(time, exact * scale, color=BLUE, label="exact")
-    how = {"marker": "o", "ms": 2.0, "ls": ""} if time.size <= SPARSE else {"ls": DASHES[1]}
-    axis.plot(time, given, color=VERMILION, label="results", **how)
+    given, unit, scale = style.scaled(dataset, name, like=exact)
+    axis.plot(time, exact * scale, color=style.BLUE, label="exact")
+    how = {"marker": "o", "ms": 2.0, "ls": ""} if time.size <= SPARSE else {"ls": style.DASHES[1]}
+    axis.plot(time, given, color=style.VERMILION, label="results", **how)
     if name == "tangential_force":
         limit = float(dataset["friction"]) * dataset["normal_force_exact"].values * scale
-        limit_lines(axis, time, limit, r"$\pm\mu F_z$, exact")
-    axis.set_ylabel(label(name, unit))
-    legend_above(axis, 3)
+        style.limit_lines(axis, time, limit, r"$\pm\mu F_z$, exact")
+    axis.set_ylabel(style.label(name, unit))
+    style.legend_above(axis, 3)
     return time

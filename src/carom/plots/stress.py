@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
+from carom.plots import style
 from carom.plots.bands import moment
-from carom.plots.style import MAP, check_grid, draws, label, scaled, single_axis, symbol
 from carom.quantities.arrays import Array
 from carom.quantities.units import InputError, refusal
 
@@ -17,7 +17,7 @@ CONTOURS = 9
 NEAR = 1e-6  # relative: a largest stress that lies in the plane drawn
 
 
-@draws("stresses on a grid of z and x, what Impact.stress returns", "z", "x")
+@style.draws("stresses on a grid of z and x, what Impact.stress returns", "z", "x")
 def plot_stress(dataset: xr.Dataset, variable: str = "von_mises") -> Figure:
     """Draw a stress in the plane y = 0 below the surface, with contours; a cross at the largest.
 
@@ -51,19 +51,19 @@ def plot_stress(dataset: xr.Dataset, variable: str = "von_mises") -> Figure:
     'depth below the surface, $z$\\xa0(µm)'
     """
     if dataset["von_mises"].ndim == 2:
-        check_grid(dataset, "von_mises", "z", "x")
+        style.check_grid(dataset, "von_mises", "z", "x")
     known = [str(name) for name, item in dataset.items() if item.dims == ("z", "x")]
     if not known:
         raise InputError("stress: a map needs it on a grid of z and x, not at points")
     if variable not in known:
         raise refusal("variable", variable, f"must be one of {', '.join(known)}")
-    figure, axis = single_axis(height=66.0)
-    x, unit, length = scaled(dataset, "x")
+    figure, axis = style.single_axis(height=66.0)
+    x, unit, length = style.scaled(dataset, "x")
     z = dataset["z"].values * length
-    values, stress_unit, scale = scaled(dataset, variable)
-    shading = axis.pcolormesh(x, z, values, cmap=MAP, shading="gouraud", rasterized=True)
+    values, stress_unit, scale = style.scaled(dataset, variable)
+    shading = axis.pcolormesh(x, z, values, cmap=style.MAP, shading="gouraud", rasterized=True)
     bar = figure.colorbar(shading, ax=axis, location="bottom", aspect=32, pad=0.03)
-    bar.set_label(label(variable, stress_unit))
+    bar.set_label(style.label(variable, stress_unit))
     bar.outline.set_linewidth(0.6)
     if np.ptp(values) > 0.0:
         contours = _contours(axis, x, z, values)
@@ -76,7 +76,7 @@ def plot_stress(dataset: xr.Dataset, variable: str = "von_mises") -> Figure:
     mark.set_path_effects([withStroke(linewidth=2.8, foreground="white")])
     axis.set_aspect("equal")
     axis.set(xlim=(x[0], x[-1]), ylim=(z.max(), z.min()))
-    axis.set(xlabel=symbol("x", unit), ylabel=label("z", unit))
+    axis.set(xlabel=style.symbol("x", unit), ylabel=style.label("z", unit))
     said = [moment(dataset), f"+: {largest * scale:.3g}\u00a0{stress_unit}"]
     axis.set_title("; ".join(text for text in said if text), pad=5.0)
     return figure
