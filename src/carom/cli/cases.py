@@ -3,7 +3,6 @@
 import sys
 from collections.abc import Mapping
 from itertools import combinations
-from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
@@ -85,11 +84,6 @@ def store(result: "Fit | Result", output: str | None, plot: str | None) -> None:
 def stored(path: str | Path) -> None:
     """Tell that a file was written."""
     typer.echo(f"stored {path}", err=True)
-
-
-def or_null(value: float) -> float | None:
-    """Return a number as JSON can hold it: null where it is none."""
-    return float(value) if isfinite(value) else None
 
 
 def interpret() -> None:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import carom
-from carom.cli.cases import Json, Plot, check_outputs, or_null, stored
-from carom.quantities.units import InputError, finite, positive, refusal
+from carom.cli.cases import Json, Plot, check_outputs, stored
+from carom.quantities.units import InputError, finite, or_none, positive, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -109,7 +109,7 @@ def _record(dataset: "xr.Dataset") -> list[dict[str, Any]]:
     for index, chi in enumerate(dataset["chi"].values):
         part = dataset.isel(chi=index)
         regimes = {str(name): float(psi) for name, psi in _borders(part)}
-        columns = {name: list(map(or_null, part[name].values)) for name in COLUMNS}
+        columns = {name: list(map(or_none, part[name].values)) for name in COLUMNS}
         rows.append({"chi": float(chi)} | ({"borders": regimes} if regimes else {}) | columns)
     return rows
 

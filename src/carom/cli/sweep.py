@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import carom
-from carom.cli.cases import Json, check_outputs, or_null, outputs, stored
+from carom.cli.cases import Json, check_outputs, outputs, stored
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.units import refusal
+from carom.quantities.units import or_none, refusal
 
 if TYPE_CHECKING:
     from carom.bodies.cases import Case
@@ -91,7 +91,7 @@ def _stopping() -> Iterator[None]:
 def _record(result: "Summary", store: str | None, output: str | None) -> dict[str, Any]:
     """Return the summary as what JSON can hold; what is not a number becomes null."""
     ranges = {
-        name: {"min": or_null(low), "max": or_null(high), "units": GLOSSARY[name].unit}
+        name: {"min": or_none(low), "max": or_none(high), "units": GLOSSARY[name].unit}
         for name, (low, high) in result.ranges.items()
     }
     return {

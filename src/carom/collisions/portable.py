@@ -9,17 +9,7 @@ from typing import Any, NamedTuple
 import array_api_compat
 import numpy as np
 
-from carom.collisions.records import (
-    ALLOWED,
-    NAMES,
-    SKEW,
-    Collisions,
-    CollisionStatus,
-    Inertia,
-    common_shape,
-    is_foreign,
-    vectors,
-)
+from carom.collisions import records
 from carom.laws.portable import constants, floating, part_lost
 from carom.laws.rules import Rule
 from carom.quantities.units import InputError, refusal
@@ -35,20 +25,22 @@ class Approach(NamedTuple):
     square: Any  # |V_t|^2
 
 
-def collide_arrays(given: tuple[Any, ...], inertia: Inertia, rule: Rule) -> Collisions:
+def collide_arrays(
+    given: tuple[Any, ...], inertia: records.Inertia, rule: Rule
+) -> records.Collisions:
     """Return velocities and spins after collisions, as `compiled.collide_all` does.
 
     Arrays must be of one library; lists and NumPy arrays among them take its type and device.
     """
     arrays, xp = _alike(given)
-    shape = common_shape(arrays)
+    shape = records.common_shape(arrays)
     kind = next(each for each in arrays if each is not None)
     whole = [
         constants(np.zeros(shape), kind, xp) if each is None else xp.broadcast_to(each, shape)
         for each in arrays
     ]
     status = _status(_approach(whole, inertia, xp), xp)
-    hit = xp.expand_dims(status == CollisionStatus.COLLIDED.value, axis=-1)
+    hit = xp.expand_dims(status == records.CollisionStatus.COLLIDED.value, axis=-1)
     # rows that are left alone must have finite gradients, too: those of a head-on collision
     along = constants([0.0, 0.0, 1.0], kind, xp)
     harmless = (along, 0.0 * along, 0.0 * along, 0.0 * along, along)
@@ -60,12 +52,12 @@ def collide_arrays(given: tuple[Any, ...], inertia: Inertia, rule: Rule) -> Coll
             whole, inertia.factors, 2 * (impulse, twist), strict=False
         )
     )
-    return Collisions(velocity1, spin1, velocity2, spin2, status)
+    return records.Collisions(velocity1, spin1, velocity2, spin2, status)
 
 
 def _alike(given: tuple[Any, ...]) -> tuple[list[Any], Any]:
     """Return what is given as arrays of one library and type, and that library."""
-    foreign = [each for each in given if is_foreign(each)]
+    foreign = [each for each in given if records.is_foreign(each)]
     try:
         xp = array_api_compat.array_namespace(*foreign)
     except TypeError:
@@ -74,29 +66,31 @@ def _alike(given: tuple[Any, ...]) -> tuple[list[Any], Any]:
             f"arrays: of {' and '.join(names)} together cannot be used; give all of one library"
         ) from None
     real = {
-        name: _real(name, each) for name, each in zip(NAMES, given, strict=True) if is_foreign(each)
+        name: _real(name, each)
+        for name, each in zip(records.NAMES, given, strict=True)
+        if records.is_foreign(each)
     }
     kind = reduce(xp.result_type, (each.dtype for each in real.values()))
     real = {name: xp.astype(each, kind, copy=False) for name, each in real.items()}
     sample = next(iter(real.values()))
     return [
         real[name] if name in real else _converted(name, each, sample, xp)
-        for name, each in zip(NAMES, given, strict=True)
+        for name, each in zip(records.NAMES, given, strict=True)
     ], xp
 
 
 def _real(name: str, array: Any) -> Any:
     if tuple(array.shape[-1:]) != (3,):
-        raise refusal(name, array, ALLOWED)
+        raise refusal(name, array, records.ALLOWED)
     return floating(name, array)[0]
 
 
 def _converted(name: str, values: Any, sample: Any, xp: Any) -> Any:
-    plain = vectors(name, values)
+    plain = records.vectors(name, values)
     return None if plain is None else constants(plain, sample, xp)
 
 
-def _approach(motions: list[Any], inertia: Inertia, xp: Any) -> Approach:
+def _approach(motions: list[Any], inertia: records.Inertia, xp: Any) -> Approach:
     velocity1, spin1, velocity2, spin2, normal = motions
     linear = velocity1 - velocity2
     angular = inertia.radius1 * spin1 + inertia.radius2 * spin2
@@ -111,18 +105,20 @@ def _status(approach: Approach, xp: Any) -> Any:
     """Return what becomes of each pair."""
     skew, closing = xp.abs(approach.skew), approach.closing
 
-    def code(status: CollisionStatus) -> Any:
+    def code(status: records.CollisionStatus) -> Any:
         return xp.full_like(closing, status.value, dtype=xp.int8)
 
     status = xp.where(
-        closing > 0.0, code(CollisionStatus.COLLIDED), code(CollisionStatus.SEPARATING)
+        closing > 0.0,
+        code(records.CollisionStatus.COLLIDED),
+        code(records.CollisionStatus.SEPARATING),
     )
-    status = xp.where(skew <= SKEW, status, code(CollisionStatus.NORMAL_NOT_UNIT))
+    status = xp.where(skew <= records.SKEW, status, code(records.CollisionStatus.NORMAL_NOT_UNIT))
     finite = xp.isfinite(xp.abs(closing) + approach.square + skew)
-    return xp.where(finite, status, code(CollisionStatus.NOT_FINITE))[..., 0]
+    return xp.where(finite, status, code(records.CollisionStatus.NOT_FINITE))[..., 0]
 
 
-def _impulses(approach: Approach, inertia: Inertia, rule: Rule, xp: Any) -> tuple[Any, Any]:
+def _impulses(approach: Approach, inertia: records.Inertia, rule: Rule, xp: Any) -> tuple[Any, Any]:
     """Return the impulse J on the second body and n x J, where all pairs collide."""
     axis, closing, square = approach.axis, approach.closing, approach.square
     moves = square > 0.0

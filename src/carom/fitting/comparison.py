@@ -11,6 +11,7 @@ from carom.fitting.estimation import Best
 from carom.fitting.intervals import settle
 from carom.fitting.laws import EXACT, OFFSET, RIVALS, FittedLaw
 from carom.fitting.model import Model
+from carom.quantities.units import or_none
 
 START = {"tangential_restitution": 0.4}  # of a solid sphere that sticks, about
 APART = 2.0  # difference of the criterion from which laws are told apart (Burnham & Anderson 2002)
@@ -69,9 +70,9 @@ class Comparison:
         """Return the comparison as plain numbers, by law; what cannot be computed is None."""
         return {
             each.law: {
-                "aicc": finite_or_none(each.criterion),
-                "excess": finite_or_none(each.excess),
-                "weight": finite_or_none(each.weight),
+                "aicc": or_none(each.criterion),
+                "excess": or_none(each.excess),
+                "weight": or_none(each.weight),
                 "free": each.free,
                 "parameters": each.values,
             }
@@ -114,11 +115,6 @@ def criterion(best: Best) -> float:
     if values - free - 1 <= 0:
         return nan
     return likelihood + 2.0 * free * values / (values - free - 1)
-
-
-def finite_or_none(value: float) -> float | None:
-    """Return a number for JSON, None for what it cannot hold."""
-    return value if isfinite(value) else None
 
 
 def _free(best: Best) -> int:

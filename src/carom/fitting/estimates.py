@@ -6,8 +6,9 @@ from functools import cached_property
 from math import floor, inf, isfinite, isnan, log10, nan
 from typing import Any
 
-from carom.fitting.comparison import Comparison, compare, finite_or_none
+from carom.fitting.comparison import Comparison, compare
 from carom.fitting.estimation import Best
+from carom.quantities.units import or_none
 
 LIMITS = {  # what a parameter can be at all
     "friction": (0.0, inf),
@@ -54,7 +55,7 @@ class Estimate:
 
     def to_dict(self) -> dict[str, Any]:
         """Return value, ends and reason as plain numbers and texts; what is open is None."""
-        numbers = {name: finite_or_none(getattr(self, name)) for name in ("value", "low", "high")}
+        numbers = {name: or_none(getattr(self, name)) for name in ("value", "low", "high")}
         return {**numbers, "determined": self.determined, "reason": self.reason}
 
     def __str__(self) -> str:

@@ -21,7 +21,7 @@ from carom.io.labels import Validity, labelled
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.units import Value, counted, number, refusal
+from carom.quantities.units import Value, counted, number, or_none, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -171,17 +171,17 @@ class Course(Outcome, Result):
         """
         return {
             "inputs": self.inputs(),
-            "result": {name: _finite(value) for name, value in self.scalars().items()},
+            "result": {name: or_none(value) for name, value in self.scalars().items()},
             "phases": [
                 {
                     **phase._asdict(),
-                    "slip_angle_max": _finite(angle.largest),
-                    "slip_angle_mean": _finite(angle.mean),
+                    "slip_angle_max": or_none(angle.largest),
+                    "slip_angle_mean": or_none(angle.mean),
                 }
                 for phase, angle in zip(self.phases, self.slip_angles, strict=True)
             ],
             "validity": [
-                {**finding._asdict(), "value": _finite(finding.value)}
+                {**finding._asdict(), "value": or_none(finding.value)}
                 for finding in self.validity.findings
             ],
         }
@@ -231,7 +231,3 @@ class Course(Outcome, Result):
     @abstractmethod
     def _picture(self, time: float) -> xr.Dataset:
         """Return the fields on a grid over the whole contact at a time."""
-
-
-def _finite(value: float) -> float | None:
-    return value if isfinite(value) else None

@@ -102,6 +102,11 @@ def counted(name: str, value: Any, least: int) -> int:
     return int(value)
 
 
+def or_none(value: float) -> float | None:
+    """Return a number as JSON can hold it: None where it is none."""
+    return float(value) if math.isfinite(value) else None
+
+
 def refusal(name: str, value: Any, allowed: str) -> InputError:
     """Return the error that refuses a value."""
     shape = getattr(value, "shape", ())

@@ -3,19 +3,7 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from carom.laws.dem import (
-    EdemHertzMindlin,
-    HardSphere,
-    HertzLinearHistory,
-    LammpsMindlin,
-    Law,
-    LiggghtsHertz,
-    LinearSpring,
-    StrongeLaw,
-    ThorntonLaw,
-    WaltonBraunLaw,
-    YadeMindlin,
-)
+from carom.laws import dem
 from carom.quantities.units import nearest, refusal
 from carom.verify.errors import as_law
 
@@ -41,32 +29,36 @@ class Entry(NamedTuple):
     """
 
     label: str
-    law: Law
+    law: dem.Law
     used_by: str
 
 
 CATALOGUE = (
-    Entry("linear spring, k_t/k_n = kappa", LinearSpring(), "any code, set so"),
-    Entry("linear spring, k_t/k_n = 2/7", LinearSpring(2.0 / 7.0), "LAMMPS gran/hooke by default"),
-    Entry("linear spring, k_t/k_n = 1", LinearSpring(1.0), "LIGGGHTS hooke"),
-    Entry("Hertz, linear history", HertzLinearHistory(), "LAMMPS hertz, linear_history"),
-    Entry("mindlin", LammpsMindlin("mindlin"), "LAMMPS; MFiX Hertz"),
-    Entry("mindlin/force", LammpsMindlin("mindlin/force"), "LAMMPS"),
-    Entry("mindlin_rescale", LammpsMindlin("mindlin_rescale"), "LAMMPS"),
-    Entry("mindlin_rescale/force", LammpsMindlin("mindlin_rescale/force"), "LAMMPS; Kratos Hertz"),
-    Entry("mindlin, 2/3 of the stiffness", LammpsMindlin(stiffness=2.0 / 3.0), "MercuryDPM"),
-    Entry("LIGGGHTS hertz, history", LiggghtsHertz(), "LIGGGHTS"),
-    Entry("EDEM Hertz-Mindlin (no slip)", EdemHertzMindlin(), "EDEM"),
-    Entry("YADE Mindlin", YadeMindlin(), "YADE"),
-    Entry("Thornton, incremental", ThorntonLaw(), "Mindlin & Deresiewicz in increments"),
-    Entry("Walton & Braun", WaltonBraunLaw(), "softening spring, K_0/K_1 = kappa"),
-    Entry("Stronge, bilinear", StrongeLaw(), "bilinear compliance, k_t/k_n = kappa"),
-    Entry("Walton's hard spheres, 0.4", HardSphere(0.4), "event-driven codes, beta_0 = 0.4"),
-    Entry("rigid Coulomb", HardSphere(), "impulse-based codes"),
+    Entry("linear spring, k_t/k_n = kappa", dem.LinearSpring(), "any code, set so"),
+    Entry(
+        "linear spring, k_t/k_n = 2/7", dem.LinearSpring(2.0 / 7.0), "LAMMPS gran/hooke by default"
+    ),
+    Entry("linear spring, k_t/k_n = 1", dem.LinearSpring(1.0), "LIGGGHTS hooke"),
+    Entry("Hertz, linear history", dem.HertzLinearHistory(), "LAMMPS hertz, linear_history"),
+    Entry("mindlin", dem.LammpsMindlin("mindlin"), "LAMMPS; MFiX Hertz"),
+    Entry("mindlin/force", dem.LammpsMindlin("mindlin/force"), "LAMMPS"),
+    Entry("mindlin_rescale", dem.LammpsMindlin("mindlin_rescale"), "LAMMPS"),
+    Entry(
+        "mindlin_rescale/force", dem.LammpsMindlin("mindlin_rescale/force"), "LAMMPS; Kratos Hertz"
+    ),
+    Entry("mindlin, 2/3 of the stiffness", dem.LammpsMindlin(stiffness=2.0 / 3.0), "MercuryDPM"),
+    Entry("LIGGGHTS hertz, history", dem.LiggghtsHertz(), "LIGGGHTS"),
+    Entry("EDEM Hertz-Mindlin (no slip)", dem.EdemHertzMindlin(), "EDEM"),
+    Entry("YADE Mindlin", dem.YadeMindlin(), "YADE"),
+    Entry("Thornton, incremental", dem.ThorntonLaw(), "Mindlin & Deresiewicz in increments"),
+    Entry("Walton & Braun", dem.WaltonBraunLaw(), "softening spring, K_0/K_1 = kappa"),
+    Entry("Stronge, bilinear", dem.StrongeLaw(), "bilinear compliance, k_t/k_n = kappa"),
+    Entry("Walton's hard spheres, 0.4", dem.HardSphere(0.4), "event-driven codes, beta_0 = 0.4"),
+    Entry("rigid Coulomb", dem.HardSphere(), "impulse-based codes"),
 )
 
 
-def called(law: Law) -> str:
+def called(law: dem.Law) -> str:
     """Return what a law is called, its variant included."""
     return str(getattr(law, "variant", law.name))
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from carom.bodies.pairs import Pair
 from carom.dimensionless.numerics.hertz import DURATION
-from carom.laws.dem import LammpsMindlin, LinearSpring
+from carom.laws import dem
 from carom.laws.dem.damping import (
     SMALLEST,
     damped_restitution,
@@ -19,7 +19,7 @@ from carom.laws.dem.damping import (
 )
 from carom.quantities.units import not_negative, positive, refusal
 
-SPRING, MINDLIN = LinearSpring(), LammpsMindlin("mindlin_rescale/force")
+SPRING, MINDLIN = dem.LinearSpring(), dem.LammpsMindlin("mindlin_rescale/force")
 
 
 class Stiffnesses(NamedTuple):
@@ -215,8 +215,8 @@ def recipes(
     normal_speed: float,
     wanted: float = 1.0,
     *,
-    spring: LinearSpring = SPRING,
-    mindlin: LammpsMindlin = MINDLIN,
+    spring: dem.LinearSpring = SPRING,
+    mindlin: dem.LammpsMindlin = MINDLIN,
 ) -> dict[str, str]:
     """Return what to write into the inputs of codes for this contact, by code; SI units.
 

@@ -13,7 +13,7 @@ from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.laws.dem import ContactLaw, Law
 from carom.plots.result import Result, card
-from carom.quantities.units import positive, refusal
+from carom.quantities.units import or_none, positive, refusal
 from carom.verify.catalogue import CATALOGUE, Entry, as_entry
 from carom.verify.errors import (
     INCIDENCES,
@@ -233,7 +233,7 @@ def _record(standing: Standing) -> dict[str, Any]:
         "law": entry.label,
         "used_by": entry.used_by,
         "source": entry.law.source,
-        **{name: value if np.isfinite(value) else None for name, value in numbers.items()},
+        **{name: or_none(value) for name, value in numbers.items()},
         **told_steps(standing.step),
         "fine_steps": standing.fine_step.steps if standing.fine_step else None,
     }

@@ -8,16 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.io.progress import Progress, advancing
-from carom.laws.dem import (
-    ContactLaw,
-    HardSphere,
-    HertzLinearHistory,
-    LammpsMindlin,
-    Law,
-    LinearSpring,
-    StrongeLaw,
-    WaltonBraunLaw,
-)
+from carom.laws import dem
 from carom.plots.result import card
 from carom.quantities.arrays import Array
 from carom.quantities.units import positive, refusal
@@ -33,17 +24,17 @@ from carom.verify.errors import (
 )
 from carom.verify.steps import TimeSteps, advised_steps, told_steps
 
-AnyLaw = TypeVar("AnyLaw", bound=Law)
+AnyLaw = TypeVar("AnyLaw", bound=dem.Law)
 
 FREE = {  # the parameter that can be chosen, and its range; of a stiffness_ratio in units of kappa
-    LinearSpring: ("stiffness_ratio", 0.05, 2.5),
-    StrongeLaw: ("stiffness_ratio", 0.05, 2.5),
-    HertzLinearHistory: ("stiffness", 0.05, 2.5),
-    LammpsMindlin: ("stiffness", 0.05, 2.5),
-    WaltonBraunLaw: ("stiffness_ratio", 0.05, 2.5),
-    HardSphere: ("tangential_restitution", -1.0, 1.0),
+    dem.LinearSpring: ("stiffness_ratio", 0.05, 2.5),
+    dem.StrongeLaw: ("stiffness_ratio", 0.05, 2.5),
+    dem.HertzLinearHistory: ("stiffness", 0.05, 2.5),
+    dem.LammpsMindlin: ("stiffness", 0.05, 2.5),
+    dem.WaltonBraunLaw: ("stiffness_ratio", 0.05, 2.5),
+    dem.HardSphere: ("tangential_restitution", -1.0, 1.0),
 }
-TUNED: tuple[Law, ...] = tuple(  # of each kind the first in the catalogue
+TUNED: tuple[dem.Law, ...] = tuple(  # of each kind the first in the catalogue
     entry.law
     for place, entry in enumerate(CATALOGUE)
     if called(entry.law) not in [called(other.law) for other in CATALOGUE[:place]]
@@ -59,7 +50,7 @@ class TunedLaw(NamedTuple):
     that cost less than a tenth of what remains.
     """
 
-    law: Law
+    law: dem.Law
     parameter: str | None
     value: float | None
     max_error: float
@@ -154,7 +145,7 @@ class Tuning:
 
 
 def tune(
-    laws: Law | Sequence[Law] = TUNED,
+    laws: dem.Law | Sequence[dem.Law] = TUNED,
     *,
     chi: float,
     kappa: float | None = None,
@@ -210,7 +201,7 @@ def tune(
         raise refusal("measure", measure, f"must be {' or '.join(MEASURES)}")
     exact = exact_rebound(psis, ratio)
     advice = []
-    laws = [laws] if isinstance(laws, Law) else laws
+    laws = [laws] if isinstance(laws, dem.Law) else laws
     with advancing("tuning", len(laws), progress, unit="laws") as advance:
         for law in laws:
             advice.append(_advice(as_law(law), psis, exact, ratio, own, measure))
@@ -220,11 +211,13 @@ def tune(
     return Tuning(ratio, own, (float(psis.min()), float(psis.max())), tuple(ordered))
 
 
-def _advice(law: Law, psi: Array, exact: Array, chi: float, kappa: float, measure: str) -> TunedLaw:
-    def error(candidate: Law) -> Array:
+def _advice(
+    law: dem.Law, psi: Array, exact: Array, chi: float, kappa: float, measure: str
+) -> TunedLaw:
+    def error(candidate: dem.Law) -> Array:
         return np.asarray(candidate.rebound(psi, chi, kappa=kappa)) - exact
 
-    def cost(candidate: Law) -> float:
+    def cost(candidate: dem.Law) -> float:
         value = MEASURES[measure](error(candidate))
         return value if np.isfinite(value) else np.inf
 
@@ -236,18 +229,20 @@ def _advice(law: Law, psi: Array, exact: Array, chi: float, kappa: float, measur
         best = _closest(law, name, low, high, cost)
     left, step = error(best), None
     most = largest(left)
-    if isinstance(best, ContactLaw) and most > 0.0:
+    if isinstance(best, dem.ContactLaw) and most > 0.0:
         step = advised_steps(best, 0.1 * most, psi, chi, kappa=kappa)
     value = None if name is None else float(getattr(best, name) or kappa)
     before = largest(error(law))
     return TunedLaw(best, name, value, most, root_mean_square(left), before, step)
 
 
-def _closest(law: Law, name: str, low: float, high: float, cost: Callable[[Law], float]) -> Law:
+def _closest(
+    law: dem.Law, name: str, low: float, high: float, cost: Callable[[dem.Law], float]
+) -> dem.Law:
     """Return the law with the parameter of least cost: the minima of a scan, refined."""
     from scipy.optimize import minimize_scalar
 
-    def changed(value: float) -> Law:
+    def changed(value: float) -> dem.Law:
         return replace(law, **{name: float(value)})
 
     scan = np.geomspace(low, high, TRIALS) if low > 0.0 else np.linspace(low, high, TRIALS)

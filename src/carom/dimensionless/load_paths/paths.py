@@ -11,27 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.dimensionless.load_paths import memory
 from carom.dimensionless.load_paths.dissipation import Step, work_leaving, work_on_new, work_within
-from carom.dimensionless.load_paths.memory import (
-    COLUMNS,
-    FORCE,
-    RADIUS,
-    SHIFT,
-    SLOPE,
-    SQUARE,
-    add,
-    annulus_at,
-    carried,
-    cubes,
-    cut,
-    edge_at,
-    front_at_force,
-    front_at_limit,
-    new_stack,
-    shift_at,
-    slip_outside,
-    stick_radius,
-)
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.jit import kernel
 
@@ -59,14 +40,14 @@ def find_front(
     i, s = 0, 0.0
     if not by_force:
         rounding = ROUNDING * (d + abs(target))
-        i, s = front_at_limit(stack, j, sign, d - sign * target, rounding)
+        i, s = memory.front_at_limit(stack, j, sign, d - sign * target, rounding)
         return i, min(s, d), target
     b = np.sqrt(d)
-    rounding = ROUNDING * cubes(0.0, b)
-    if abs(target) < cubes(0.0, b) - rounding:
-        i, s = front_at_force(stack, j, sign, b, target, rounding)
+    rounding = ROUNDING * memory.cubes(0.0, b)
+    if abs(target) < memory.cubes(0.0, b) - rounding:
+        i, s = memory.front_at_force(stack, j, sign, b, target, rounding)
     s = min(s, d)
-    return i, s, sign * (d - s) - shift_at(stack, i, s)
+    return i, s, sign * (d - s) - memory.shift_at(stack, i, s)
 
 
 @kernel
@@ -76,20 +57,20 @@ def load(
     """Take a step that deepens the contact; return the new top, U and the work of slip."""
     rise, b = d1 - d0, np.sqrt(d1)
     if by_force:
-        g = (target - stack[top, FORCE]) / cubes(stack[top, RADIUS], b)
-        if abs(target) >= cubes(0.0, b) * (1.0 - ROUNDING):
+        g = (target - stack[top, memory.FORCE]) / memory.cubes(stack[top, memory.RADIUS], b)
+        if abs(target) >= memory.cubes(0.0, b) * (1.0 - ROUNDING):
             g = 2.0 * np.sign(target)
     else:
         g = (target - u0) / rise
     if abs(g) <= 1.0:
         u1 = u0 + g * rise if by_force else target
-        below = top - 1 if top > 0 and stack[top, SLOPE] == g else top
-        return add(stack, below, d1, g, -u1), u1, 0.0
+        below = top - 1 if top > 0 and stack[top, memory.SLOPE] == g else top
+        return memory.add(stack, below, d1, g, -u1), u1, 0.0
     sign = 1 if g > 0.0 else -1
     i, s, u1 = find_front(stack, top, sign, d1, target, by_force)
     step = Step(d0, u0, d1, u1)
     work = work_within(stack, i, s, top, sign, step) + work_on_new(step)
-    return slip_outside(stack, i, s, sign, d1, u1), u1, work
+    return memory.slip_outside(stack, i, s, sign, d1, u1), u1, work
 
 
 @kernel
@@ -97,10 +78,10 @@ def unload(
     stack: Array, top: int, d0: float, u0: float, d1: float, target: float, by_force: bool
 ) -> tuple[int, float, float]:
     """Take a step that does not deepen the contact; return as `load`."""
-    j = annulus_at(stack, top, d1)
-    c, force = edge_at(stack, j, d1)
+    j = memory.annulus_at(stack, top, d1)
+    c, force = memory.edge_at(stack, j, d1)
     if by_force:
-        sign = sign_of(target - force, ROUNDING * cubes(0.0, np.sqrt(d1)))
+        sign = sign_of(target - force, ROUNDING * memory.cubes(0.0, np.sqrt(d1)))
     else:
         sign = sign_of(target + c, ROUNDING * (d1 + abs(target)))
     i, s, u1 = j, d1, -c if by_force else target
@@ -109,8 +90,8 @@ def unload(
     step = Step(d0, u0, d1, u1)
     work = work_within(stack, i, s, j, sign, step) + work_leaving(stack, j, top, step)
     if sign == 0:
-        return cut(stack, j, d1), u1, work
-    return slip_outside(stack, i, s, sign, d1, u1), u1, work
+        return memory.cut(stack, j, d1), u1, work
+    return memory.slip_outside(stack, i, s, sign, d1, u1), u1, work
 
 
 @kernel
@@ -118,9 +99,9 @@ def part(
     stack: Array, top: int, d0: float, u0: float, d1: float, target: float, by_force: bool
 ) -> tuple[int, float, float]:
     """Take a step that ends in separation; return as `load`. A force has then let go of U."""
-    u1 = -stack[0, SHIFT] if by_force else target
+    u1 = -stack[0, memory.SHIFT] if by_force else target
     work = work_leaving(stack, 0, top, Step(d0, u0, d1, u1))
-    stack[0, SHIFT] = -u1
+    stack[0, memory.SHIFT] = -u1
     return 0, u1, work
 
 
@@ -128,10 +109,10 @@ def part(
 def touch(stack: Array, d0: float, u0: float, d1: float, target: float, by_force: bool) -> float:
     """Start the memory at the first touch within a step; return U there."""
     if by_force:
-        g = min(max(target / cubes(0.0, np.sqrt(d1)), -1.0), 1.0)
+        g = min(max(target / memory.cubes(0.0, np.sqrt(d1)), -1.0), 1.0)
     else:
         g = (target - u0) / (d1 - d0)
-    stack[0, SHIFT] = g * d0 - u0
+    stack[0, memory.SHIFT] = g * d0 - u0
     return u0 - g * d0
 
 
@@ -144,7 +125,7 @@ def advance(
         return part(stack, top, d0, u0, d1, target, by_force)
     if d0 < 0.0:
         d0, u0 = 0.0, touch(stack, d0, u0, d1, target, by_force)
-    if np.sqrt(d1) > stack[top, RADIUS]:
+    if np.sqrt(d1) > stack[top, memory.RADIUS]:
         return load(stack, top, d0, u0, d1, target, by_force)
     return unload(stack, top, d0, u0, d1, target, by_force)
 
@@ -159,16 +140,16 @@ def follow(
     """
     top, d, u, total = 0, 0.0, 0.0, 0.0
     for n in range(depths.size):
-        cone = cubes(0.0, np.sqrt(max(depths[n], 0.0)))
+        cone = memory.cubes(0.0, np.sqrt(max(depths[n], 0.0)))
         if by_force[n] and abs(targets[n]) > cone * (1.0 + ROUNDING):
             return top, n
         top, u, work = advance(stack, top, d, u, depths[n], targets[n], by_force[n])
         d = depths[n]
         total += work
         results[n, DISPLACEMENT] = u
-        results[n, TRACTION] = stack[top, FORCE]
-        results[n, STICK] = stick_radius(stack, top)
-        results[n, STORED] = 0.5 * stack[top, SQUARE]
+        results[n, TRACTION] = stack[top, memory.FORCE]
+        results[n, STICK] = memory.stick_radius(stack, top)
+        results[n, STORED] = 0.5 * stack[top, memory.SQUARE]
         results[n, WORK] = total
     return top, INSIDE
 
@@ -179,18 +160,18 @@ def motion_of_surfaces(depths: Array, displacements: Array, radii: Array, out: A
 
     A row for each step, and in the last rows the end of the path for each radius again.
     """
-    stack = np.zeros((depths.size + 2, COLUMNS))
+    stack = np.zeros((depths.size + 2, memory.COLUMNS))
     top, d, u = 0, 0.0, 0.0
     for n in range(depths.size):
         top, u, _ = advance(stack, top, d, u, depths[n], displacements[n], False)
         d = depths[n]
         if radii[n] >= 0.0:
-            mean, lateral = carried(stack, top, radii[n])
+            mean, lateral = memory.carried(stack, top, radii[n])
             out[n, 0], out[n, 1] = u - mean, lateral
     row = depths.size
     for n in range(depths.size):
         if radii[n] >= 0.0:
-            mean, lateral = carried(stack, top, radii[n])
+            mean, lateral = memory.carried(stack, top, radii[n])
             out[row, 0], out[row, 1] = u - mean, lateral
             row += 1
 
@@ -233,6 +214,6 @@ def follow_path(depths: Array, targets: Array, by_force: NDArray[np.bool_]) -> P
     the centre has not slipped.
     """
     results = np.full((depths.size, RESULTS), np.nan)
-    stack = new_stack(depths.size)
+    stack = memory.new_stack(depths.size)
     top, refused = follow(stack, depths, targets, by_force, results)
     return Path(results, stack[: top + 1].copy(), refused)
