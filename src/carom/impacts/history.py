@@ -7,34 +7,16 @@ from carom.bodies.kinematics import Tangential
 from carom.bodies.pairs import Pair
 
 RESULTS = (
-    "psi_in",
-    "psi_out",
-    "duration",
-    "max_penetration",
-    "max_force",
-    "max_radius",
-    "max_pressure",
-    "rebound_speed",
-    "rebound_angle",
-    "tangential_speed_out",
-    "spin_out",
-    "spin2_out",
-    "normal_restitution",
-    "tangential_restitution",
-    "contact_restitution",
-    "dissipated_energy",
-    "lost_energy",
+    *("psi_in", "psi_out"),
+    *("duration", "max_penetration", "max_force", "max_radius", "max_pressure"),
+    *("rebound_speed", "rebound_angle", "tangential_speed_out", "spin_out", "spin2_out"),
+    *("normal_restitution", "tangential_restitution", "contact_restitution"),
+    *("dissipated_energy", "lost_energy"),
 )
 PAIR = (
-    "friction",
-    "chi",
-    "kappa",
-    "dundurs_beta",
-    "effective_modulus",
-    "effective_shear_modulus",
-    "effective_radius",
-    "normal_mass",
-    "tangential_mass",
+    *("friction", "chi", "kappa", "dundurs_beta"),
+    *("effective_modulus", "effective_shear_modulus", "effective_radius"),
+    *("normal_mass", "tangential_mass"),
 )
 
 
