@@ -60,6 +60,15 @@ def test_paths_in_the_architecture_are_there():
     assert [path for path in paths if not (ROOT / path).exists()] == []
 
 
+def test_short_paths_in_the_architecture_are_there():
+    """Those below src/carom; two are announced, not yet there."""
+    paths = set(re.findall(r"`([a-z_]+/[\w./]*)`", ARCHITECTURE))
+    here = {
+        path for path in paths if (ROOT / "src/carom" / path).exists() or (ROOT / path).exists()
+    }
+    assert paths - here == {"laws/memory/", "include/"}
+
+
 def test_ten_files_to_read_are_there():
     section = re.search(
         r"^#+ Ten files to read$(.*?)(?=^#|\Z)", ARCHITECTURE, re.MULTILINE | re.DOTALL

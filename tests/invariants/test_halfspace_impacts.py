@@ -152,7 +152,7 @@ def test_bodies_swapped_leave_alike():
 def test_a_bar_is_shown_when_asked_for(capsys, monkeypatch):
     monkeypatch.setattr("carom.io.progress.PATIENCE", 0.0)
     carom.impact(against_wall(), speed=1.0, angle="20 deg", method=TINY, progress=True)
-    assert "30.0/30.0" in capsys.readouterr().err
+    assert "30/30" in capsys.readouterr().err
     carom.impact(against_wall(), speed=1.0, angle="20 deg", method=TINY)
     assert capsys.readouterr().err == ""
 

@@ -155,7 +155,8 @@ def material(name: str) -> Material:
         if wanted in (key, *entry.get("aliases", ())):
             values: dict[str, Any] = {k: entry.get(k) for k in VALUES}
             return Material(**values, name=key)
-    known = [alias for key, entry in _catalogue().items() for alias in (key, *entry["aliases"])]
+    entries = _catalogue().items()
+    known = [alias for key, entry in entries for alias in (key, *entry.get("aliases", ()))]
     hint = nearest(wanted, [*known, "rigid"]) or "carom materials lists what there is"
     raise refusal("material", name, f"no material of that name; {hint}")
 

@@ -69,5 +69,5 @@ def _refuse(message: str) -> int:
 
 def run() -> None:
     """Run a command from the shell, in a process of its own."""
-    cases.allowed = True
+    cases.may_interpret = True
     sys.exit(main())

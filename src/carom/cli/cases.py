@@ -1,4 +1,4 @@
-"""What commands share: flags that override a case file, and the files that are asked for."""
+"""What commands share: flags over a case file, files that are asked for, interpreted kernels."""
 
 import sys
 from collections.abc import Mapping
@@ -13,13 +13,12 @@ from carom.quantities.units import refusal
 
 if TYPE_CHECKING:
     from carom.bodies.cases import Case
-    from carom.fitting import Fit
     from carom.plots.result import Result
 
 Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
 Plot = Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")]
 
-allowed = False  # in a process that runs one command
+may_interpret = False  # in a process that runs one command
 
 
 class Output(NamedTuple):
@@ -72,7 +71,7 @@ def check_outputs(*files: tuple[str | None, tuple[str, ...]]) -> None:
             checked_output(path, endings)
 
 
-def store(result: "Fit | Result", output: str | None, plot: str | None) -> None:
+def store(result: "Result", output: str | None, plot: str | None) -> None:
     """Store a result and its figure, where they are asked for."""
     if output is not None:
         stored(carom.save(result, output))
@@ -88,7 +87,7 @@ def stored(path: str | Path) -> None:
 
 def interpret() -> None:
     """Let kernels run as they are written for the rest of this process, where that is allowed."""
-    if allowed and "carom.dimensionless.numerics.jit" not in sys.modules:
+    if may_interpret and "carom.dimensionless.numerics.jit" not in sys.modules:
         import numba
         import numpy as np
 

@@ -14,7 +14,7 @@ from carom.quantities.units import refusal
 
 if TYPE_CHECKING:
     from carom.impacts.boundary_elements import BoundaryElements
-    from carom.impacts.result import Course
+    from carom.impacts.result import ImpactResult
 
 
 def _flag(name: str, example: str, of: str = "") -> Any:
@@ -144,7 +144,7 @@ def _check_outputs(files: Output, *, elastic: bool) -> None:
         carom.plots.checked_animation(files.animation)
 
 
-def _store(hit: "Course", files: Output) -> Iterator[Path]:
+def _store(hit: "ImpactResult", files: Output) -> Iterator[Path]:
     if files.data is not None:
         yield carom.save(hit, files.data)
     if files.plot is not None:

@@ -14,7 +14,7 @@ from carom.dimensionless.states import SlipAngle
 from carom.halfspace.compliance import Materials
 from carom.halfspace.ledger import LedgerEntry, slipping
 from carom.halfspace.solution import HalfspaceSolution, Resolution, solve
-from carom.impacts.result import Course
+from carom.impacts.result import ImpactResult
 from carom.impacts.validity import judge_contact, judge_errors
 from carom.io.citations import ELEMENTS, bibtex
 from carom.io.labels import Validity, labelled_dataset
@@ -73,7 +73,7 @@ class BoundaryElements:
 
 
 @dataclass(frozen=True, eq=False)
-class HalfspaceImpact(Course):
+class HalfspaceImpact(ImpactResult):
     """The result of `impact` by boundary elements: what that of the theory is, and how sure it is.
 
     Love (1929), Kalker (1990), section 4.2, as `BoundaryElements` tells. SI units, signs as in

@@ -18,7 +18,7 @@ from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution, solve, solve_with
 from carom.dimensionless.states import SlipAngle
-from carom.impacts.result import Course
+from carom.impacts.result import ImpactResult
 from carom.impacts.validity import judge
 from carom.io.citations import IMPACT, bibtex
 from carom.io.labels import Validity
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Impact(Course, InContact):
+class Impact(ImpactResult, InContact):
     """The result of `impact`: the rebound, every phase, and what happens inside the contact.
 
     SI units. Tangential speeds are those of the first body relative to the second, positive spin

@@ -58,7 +58,7 @@ class Film:
 
 
 @dataclass(frozen=True, eq=False)
-class Course(Outcome, Result):
+class ImpactResult(Outcome, Result):
     """How two bodies leave an impact, and the way there: phases, history, validity."""
 
     solution: InTime = field(repr=False)
