@@ -113,7 +113,7 @@ def test_interpolated_curves_are_those_of_the_solver(chi, e, error):
 @pytest.mark.parametrize("chi", [0.3, 1.4412])
 def test_curves_hardly_change_across_a_kink(chi):
     """psi_2 is continuous at the borders of the regimes, and odd."""
-    borders = curves.borders(chi, 1.0)[1:]
+    borders = curves.panel_starts(chi, 1.0)[1:]
     psi = np.sort(np.concatenate([borders - 1e-9, borders + 1e-9]))[np.newaxis]
     chis, ones = np.array([chi]), np.array([1.0])
     found = curves.psi_out(psi, chis, ones)[0]

@@ -33,7 +33,7 @@ def test_page_shows_pictures_and_links_that_are_there(page):
 
 def test_accuracy_names_tests_that_are_there_and_times_of_the_table():
     text = ACCURACY.read_text(encoding="utf-8")
-    named = re.findall(r"`((?:tests|studies|benchmarks)/[\w/]+\.py)`", text)
+    named = re.findall(r"`((?:tests|studies|benchmarks|docs)/[\w/]+\.py)`", text)
     assert len(named) > 20
     assert [name for name in named if not (ROOT / name).exists()] == []
     assert fill(text, read()) == text

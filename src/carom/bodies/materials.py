@@ -13,7 +13,7 @@ VALUES = ("young", "poisson", "density", "yield_strength")
 T = TypeVar("T")
 
 
-def fill(record: object, **values: object) -> None:
+def set_fields(record: object, **values: object) -> None:
     """Fill a frozen record."""
     for name, value in values.items():
         object.__setattr__(record, name, value)
@@ -22,7 +22,7 @@ def fill(record: object, **values: object) -> None:
 def unchecked(kind: type[T], **values: object) -> T:
     """Return a frozen record with fields as they are: arrays, checked point by point elsewhere."""
     record = object.__new__(kind)
-    fill(record, **values)
+    set_fields(record, **values)
     return record
 
 
@@ -76,7 +76,7 @@ class Material:
         ratio = number("poisson", poisson)
         if not -1.0 < ratio <= 0.5:
             raise refusal("poisson", poisson, "must be above -1 and at most 0.5, e.g. 0.3")
-        fill(
+        set_fields(
             self,
             young=math.inf if young == math.inf else positive("young", young),
             poisson=ratio,

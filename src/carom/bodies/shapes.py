@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast
 
-from carom.bodies.materials import VALUES, Material, as_material, fill
+from carom.bodies.materials import VALUES, Material, as_material, set_fields
 from carom.quantities.units import InputError, Value, not_negative, positive, refusal
 
 
@@ -53,7 +53,7 @@ class Sphere:
     ) -> None:
         if gyration_radius is not None and inner_radius is not None:
             raise InputError("sphere: give gyration_radius or inner_radius, not both")
-        fill(
+        set_fields(
             self,
             radius=positive("radius", radius),
             material=as_material(material),
@@ -113,7 +113,7 @@ class HalfSpace:
     material: Material
 
     def __init__(self, *, material: Material | str) -> None:
-        fill(self, material=as_material(material))
+        set_fields(self, material=as_material(material))
 
     @property
     def curvature(self) -> float:
@@ -150,7 +150,7 @@ class Cup:
     material: Material
 
     def __init__(self, *, radius: Value, material: Material | str) -> None:
-        fill(self, radius=positive("radius", radius), material=as_material(material))
+        set_fields(self, radius=positive("radius", radius), material=as_material(material))
 
     @property
     def curvature(self) -> float:

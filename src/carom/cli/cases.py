@@ -63,7 +63,7 @@ def refuse_same(files: Mapping[str, str | Path | None]) -> None:
 
 
 def check_outputs(*files: tuple[str | None, tuple[str, ...]]) -> None:
-    """Raise InputError if one of the files that are asked for cannot be, or ends otherwise."""
+    """Raise InputError if a file cannot be written or has another ending."""
     from carom.io.files import checked_output
 
     for path, endings in files:
@@ -86,7 +86,7 @@ def stored(path: str | Path) -> None:
 
 
 def interpret() -> None:
-    """Let kernels run as they are written for the rest of this process, where that is allowed."""
+    """Let kernels run as Python in this process: one impact is done sooner than they are loaded."""
     if may_interpret and "carom.dimensionless.numerics.jit" not in sys.modules:
         import numba
         import numpy as np

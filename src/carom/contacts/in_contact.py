@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from numpy.typing import ArrayLike
 
@@ -15,13 +15,24 @@ from carom.quantities.units import counted
 if TYPE_CHECKING:
     import xarray as xr
 
+PARAMETER, MEANING = "instant : float, str or int", "Time since the first touch in s, or a step."
+
 
 class InContact(ABC):
     """A result whose contact can be looked into, at a time in s or after a step of a load path.
 
-    What tells the instant is called `time` of an `Impact`, from 0 to `duration`, and `step` of a
-    `LoadPath`, negative from the end.
+    What tells the instant is `time` of an `Impact` and `step` of a `LoadPath`. They repeat the
+    methods under that name, and the docstrings are taken from here.
     """
+
+    _told_by: ClassVar[tuple[str, str]]  # the parameter with its type, and what it is
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        parameter, meaning = cls._told_by
+        for name in ("contact", "fields", "stress", "radial"):
+            words = str(getattr(InContact, name).__doc__).replace(PARAMETER, parameter)
+            getattr(cls, name).__doc__ = words.replace(MEANING, meaning)
 
     @abstractmethod
     def contact(self, instant: Any, /) -> Contact:
@@ -30,7 +41,7 @@ class InContact(ABC):
         Parameters
         ----------
         instant : float, str or int
-            Time since the first touch in s, or the number of a step.
+            Time since the first touch in s, or a step.
 
         Returns
         -------
@@ -78,7 +89,7 @@ class InContact(ABC):
         Parameters
         ----------
         instant : float, str or int
-            Time since the first touch in s, or the number of a step.
+            Time since the first touch in s, or a step.
         x, y : array_like, shapes (nx,) and (ny,)
             Positions in m of a grid around the centre of the contact, x along V_x; by default 101
             by 101 points over 1.5 radii of the contact.
@@ -132,7 +143,7 @@ class InContact(ABC):
         Parameters
         ----------
         instant : float, str or int
-            Time since the first touch in s, or the number of a step.
+            Time since the first touch in s, or a step.
         x, z : array_like, shapes (nx,) and (nz,)
             Positions in m of a grid in the plane y = 0, x along V_x and z the depth; by default 101
             by 61 points over 2 radii of the contact.
@@ -173,7 +184,7 @@ class InContact(ABC):
         Parameters
         ----------
         instant : float, str or int
-            Time since the first touch in s, or the number of a step.
+            Time since the first touch in s, or a step.
         n : int
             How many distances from the centre.
 

@@ -61,6 +61,8 @@ class LoadPath(InContact, Result):
     array([0.    , 1.6381])
     """
 
+    _told_by = "step : int", "Number of the step, by default the last; from the end if negative."
+
     pair: Pair
     penetration: Array
     displacement: Array

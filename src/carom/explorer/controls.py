@@ -13,8 +13,8 @@ from carom.explorer.views import BODIES, OF_NUMBERS, View
 from carom.quantities.units import InputError
 
 CARRIED = 6  # digits of what is carried over
-FIELDS = ("numbers", "motion", "bodies", "second_radius-field")  # of use by what is given
-FILES = ("patch-png-item", "history-png-item")  # likewise
+FIELDS = ("numbers", "motion", "bodies", "second_radius-field")  # hidden unless of use
+FILES = ("patch-png-item", "history-png-item")  # hidden unless there are bodies
 
 
 def connect_controls(app: Dash) -> None:

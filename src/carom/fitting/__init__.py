@@ -6,7 +6,7 @@ from typing import Any
 
 from carom.bodies.pairs import Pair
 from carom.fitting.assembly import assembled
-from carom.fitting.errors import Loss
+from carom.fitting.errors import RobustLoss
 from carom.fitting.estimates import Estimate
 from carom.fitting.intervals import settle
 from carom.fitting.laws import EXACT
@@ -87,6 +87,6 @@ def fit(
     level = checked_confidence(confidence)
     check_count(problem, options.free)
     model = Model(EXACT, problem, (), options.start).freeing(options.free)
-    loss = Loss(2.0 if robust else inf)
+    loss = RobustLoss(2.0 if robust else inf)
     settled = settle(model, loss, options.start)
     return assembled(settled, level)

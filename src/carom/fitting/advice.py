@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.fitting.errors import Loss
+from carom.fitting.errors import RobustLoss
 from carom.fitting.estimates import FitRecord
 from carom.fitting.estimation import Best, information
 from carom.fitting.problem import FitProblem
@@ -132,7 +132,7 @@ def _candidates(best: Best) -> tuple[Array, list[str]]:
     sigma = np.array([np.median(s[p]) for s, p in zip(best.sigma.T, seen.present.T, strict=True)])
     everywhere = np.broadcast_to(sigma, model.problem.measured.shape)
     weights = model.weights(best.at, everywhere, best.scale)
-    slopes = information(model, best.at, weights, Loss(inf)).slopes
+    slopes = information(model, best.at, weights, RobustLoss(inf)).slopes
     gains = np.einsum("rjp,rjq->rpq", slopes, slopes) / best.spread
     return gains, [REGIMES[index] for index in model.regimes(best.at)]
 

@@ -13,7 +13,7 @@ RESOLVED = 1e-4  # of the largest measured value: errors below are those of the 
 
 
 @dataclass(frozen=True)
-class Loss:
+class RobustLoss:
     """Loss 2 c^2 (sqrt(1 + (r/c)^2) - 1) of a residual r in standard deviations.
 
     r^2 for small r, 2 c |r| for outliers (Charbonnier et al. 1997; scipy's soft_l1). With c = 2 it
@@ -62,11 +62,11 @@ def first_errors(problem: FitProblem) -> Array:
 
 
 def least_error(problem: FitProblem) -> Array:
-    """Return the error of each response that the curves have themselves."""
+    """Return the error of the interpolated curves, by response."""
     return np.asarray(RESOLVED * np.nanmax(np.abs(problem.measured), axis=0) + 1e-12)
 
 
-def scatter(residuals: Array, present: Mask, used: Array, loss: Loss) -> Array:
+def scatter(residuals: Array, present: Mask, used: Array, loss: RobustLoss) -> Array:
     """Return by how much the scatter of each response exceeds its errors (Huber's proposal 2)."""
     wanted = gaussian_mean(loss.influence(NORMAL) ** 2)
     factors = np.ones(len(used))
@@ -77,7 +77,7 @@ def scatter(residuals: Array, present: Mask, used: Array, loss: Loss) -> Array:
     return factors
 
 
-def _factor(residuals: Array, loss: Loss, wanted: float) -> float:
+def _factor(residuals: Array, loss: RobustLoss, wanted: float) -> float:
     """Return what residuals are to be divided by for their mean square influence to be this."""
     factor = 1.0
     for _ in range(50):

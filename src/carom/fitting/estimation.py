@@ -7,17 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.fitting.errors import (
-    NORMAL,
-    Loss,
-    Weights,
-    first_errors,
-    gaussian_mean,
-    least_error,
-    scatter,
-    too_small,
-    typical_deviation,
-)
+from carom.fitting import errors
 from carom.fitting.least_squares import Minimum, descend, jacobian
 from carom.fitting.model import Model
 from carom.fitting.problem import FitProblem, Mask
@@ -60,7 +50,9 @@ class Information:
         return np.asarray(np.square(gains).sum(axis=1))
 
 
-def information(model: Model, at: Array, weights: Weights, loss: Loss) -> Information:
+def information(
+    model: Model, at: Array, weights: errors.Weights, loss: errors.RobustLoss
+) -> Information:
     """Return what the values tell at coordinates of shape (parameters,)."""
     residuals = model.residuals(weights, loss)
     start = at[np.newaxis]
@@ -79,8 +71,8 @@ class Best:
     model: Model
     at: Array
     sum: float
-    weights: Weights
-    loss: Loss
+    weights: errors.Weights
+    loss: errors.RobustLoss
     sigma: Array
     scale: Array
     estimated: Mask
@@ -141,13 +133,13 @@ class Best:
 
         E[influence^2]/E[slope] (Huber 1981, section 7.6): 1 for squares.
         """
-        influence = gaussian_mean(self.loss.influence(NORMAL) ** 2)
-        expected = gaussian_mean(self.loss.slope(NORMAL))
+        influence = errors.gaussian_mean(self.loss.influence(errors.NORMAL) ** 2)
+        expected = errors.gaussian_mean(self.loss.slope(errors.NORMAL))
         found = self.loss.slope(self.residuals[self.model.problem.present])
         return influence / min(expected, float(found.mean()))
 
 
-def estimate(model: Model, loss: Loss, start: Array | None = None) -> Best:
+def estimate(model: Model, loss: errors.RobustLoss, start: Array | None = None) -> Best:
     """Return the best fit of a model, from starting points or, without them, those of a scan.
 
     Descents from there, and between them errors estimated from the scatter of the responses that
@@ -156,7 +148,7 @@ def estimate(model: Model, loss: Loss, start: Array | None = None) -> Best:
     problem = model.problem
     unknown = problem.present & ~np.isfinite(problem.errors)
     estimated = np.asarray(unknown.any(axis=0))
-    sigma = np.where(unknown, first_errors(problem), problem.errors)
+    sigma = np.where(unknown, errors.first_errors(problem), problem.errors)
     scale = np.ones(len(problem.responses))
     at = scan(model, loss, sigma) if start is None else start
     rivals = Minimum(at, np.zeros(len(at)))
@@ -170,11 +162,11 @@ def estimate(model: Model, loss: Loss, start: Array | None = None) -> Best:
             at = at[:2]
         residuals = weights.whitened(problem, model.expected(at[:1]))[0]
         used = information(model, at[0], weights, loss).used
-        factors = scatter(residuals, problem.present, used, loss)
-        sigma = np.where(unknown, np.maximum(sigma * factors, least_error(problem)), sigma)
+        factors = errors.scatter(residuals, problem.present, used, loss)
+        sigma = np.where(unknown, np.maximum(sigma * factors, errors.least_error(problem)), sigma)
         given = np.where(estimated, 1.0, np.maximum(scale * factors, 1.0))
-        common = scale * typical_deviation(residuals, problem.present)
-        scale = np.where(too_small(problem.present, given, common), given, 1.0)
+        common = scale * errors.typical_deviation(residuals, problem.present)
+        scale = np.where(errors.too_small(problem.present, given, common), given, 1.0)
         if np.all(np.abs(factors[estimated] - 1.0) < 1e-3) and turn:
             break
     weights = model.weights(at[0], sigma, scale)
@@ -183,11 +175,11 @@ def estimate(model: Model, loss: Loss, start: Array | None = None) -> Best:
     return Best(model, best, total, weights, loss, sigma, scale, estimated, rivals, result)
 
 
-def scan(model: Model, loss: Loss, sigma: Array) -> Array:
+def scan(model: Model, loss: errors.RobustLoss, sigma: Array) -> Array:
     """Return a few starting points: the best of a grid over the ranges, unlike each other."""
     grid = np.array(list(product(*(_levels(model, name) for name in model.free))))
     inverse = 1.0 / np.where(model.problem.present, sigma, 1.0)
-    weights = Weights(inverse[:, :, np.newaxis] * np.eye(sigma.shape[1]))
+    weights = errors.Weights(inverse[:, :, np.newaxis] * np.eye(sigma.shape[1]))
     sums = np.square(model.residuals(weights, loss)(grid)).sum(axis=1)
     chosen: list[int] = []
     apart = np.array([max(np.ptp(column), 1e-9) for column in grid.T]) / 8.0
@@ -199,7 +191,9 @@ def scan(model: Model, loss: Loss, sigma: Array) -> Array:
     return grid[chosen]
 
 
-def polished(model: Model, weights: Weights, loss: Loss, at: Array) -> tuple[Array, Any]:
+def polished(
+    model: Model, weights: errors.Weights, loss: errors.RobustLoss, at: Array
+) -> tuple[Array, Any]:
     """Return the minimum that lmfit finds from here, and its result."""
     lmfit = extra("lmfit", "fit", "fit")
     parameters = lmfit.Parameters()

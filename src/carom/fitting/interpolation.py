@@ -22,7 +22,7 @@ SMALLEST, FARTHEST = 1e-4, 50.0  # psi_1 that stands for 0, and for infinity in 
 THROUGHOUT = PANELS - 1  # the regime of gross slip throughout
 
 
-def borders(chi: Any, restitution: Any) -> Array:
+def panel_starts(chi: Any, restitution: Any) -> Array:
     """Return |psi_1| where panels begin, along a new last axis: 0 and the borders of regimes."""
     edges = regime_borders(chi, restitution)
     return np.concatenate((np.zeros_like(edges[..., :1]), edges), axis=-1)
@@ -39,7 +39,7 @@ def psi_out(psi: Array, chi: Array, restitution: Array) -> Array:
     curves = _blended(chi, restitution)
     result = np.empty(psi.shape)
     slide = 2.0 * chi * (1.0 + restitution)
-    interpolate(curves, borders(chi, restitution), slide, np.ascontiguousarray(psi), result)
+    interpolate(curves, panel_starts(chi, restitution), slide, np.ascontiguousarray(psi), result)
     return result
 
 
@@ -95,7 +95,7 @@ def grid() -> tuple[Array, Array]:
 def nodes(chi: Array, restitution: float) -> Array:
     """Return psi_1 at the nodes of curves of one e, of shape (curves, panels, nodes)."""
     part = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, NODES))
-    starts = borders(chi, restitution)[:, :, np.newaxis]
+    starts = panel_starts(chi, restitution)[:, :, np.newaxis]
     inside = starts[:, :-1] + (starts[:, 1:] - starts[:, :-1]) * part
     beyond = starts[:, -1:] / np.maximum(part, 1.0 / FARTHEST)
     return np.maximum(np.concatenate((inside, beyond), axis=1), SMALLEST)

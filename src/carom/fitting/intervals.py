@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.special import ndtri, stdtrit
 
-from carom.fitting.errors import Loss
+from carom.fitting.errors import RobustLoss
 from carom.fitting.estimation import WEAK, Best, Information, estimate
 from carom.fitting.interpolation import THROUGHOUT
 from carom.fitting.laws import OFFSET
@@ -144,7 +144,7 @@ class Settled:
     whole: Best
 
 
-def settle(model: Model, loss: Loss, start: Mapping[str, float]) -> Settled:
+def settle(model: Model, loss: RobustLoss, start: Mapping[str, float]) -> Settled:
     """Fit, and hold one parameter after the other until the data tell all that are free."""
     whole = best = estimate(model, loss)
     groups: list[tuple[str, ...]] = []
@@ -168,7 +168,7 @@ def weak_group(told: Information, names: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(sorted(members, key=HELD_FIRST.index))
 
 
-def _held(best: Best, name: str, start: float, loss: Loss) -> Best:
+def _held(best: Best, name: str, start: float, loss: RobustLoss) -> Best:
     """Return the fit with a parameter held where it starts, or where it was if that is worse."""
     at_start = estimate(best.model.holding(name, start), loss)
     if abs(at_start.sum - best.sum) < WORSE * best.spread or at_start.estimated.any():

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.fitting.errors import Loss, Weights
+from carom.fitting.errors import RobustLoss, Weights
 from carom.fitting.interpolation import regimes
 from carom.fitting.laws import (
     OFFSET,
@@ -86,7 +86,7 @@ class Model:
             covariance += reach[:, :, np.newaxis] * reach[:, np.newaxis, :]
         return Weights(np.linalg.inv(np.linalg.cholesky(covariance)) / scale)
 
-    def residuals(self, weights: Weights, loss: Loss) -> Residuals:
+    def residuals(self, weights: Weights, loss: RobustLoss) -> Residuals:
         """Return the function whose sum of squares is to be least."""
 
         def of(at: Array) -> Array:
@@ -95,7 +95,7 @@ class Model:
         return of
 
     def regimes(self, point: Array) -> NDArray[np.int8]:
-        """Return the place of each row's regime in `curves.REGIMES`, by the exact law."""
+        """Return the place in `carom.impacts.curves.REGIMES` of each row, by the exact law."""
         problem, values = self.problem, self.values_at(point)
         velocity = problem.contact_velocity + problem.pair.first.radius * values[OFFSET]
         psi = values["kappa"] * velocity / (values["friction"] * problem.motion.normal_speed)

@@ -48,6 +48,8 @@ class Impact(ImpactResult, InContact):
 
     solution: Solution | LossySolution = field(repr=False)
 
+    _told_by = "time : float or str", "Time since the first touch in s, 0 to `duration`."
+
     @property
     def validity(self) -> Validity:
         """How far the assumptions of the theory hold, as numbers with a verdict."""

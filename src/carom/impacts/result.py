@@ -162,7 +162,7 @@ class ImpactResult(Outcome, Result):
         return plots.plot_impact(dataset)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the result as plain numbers, texts and lists, for JSON; no number becomes None.
+        """Return the result as plain numbers, texts and lists, for JSON; NaN becomes None.
 
         Returns
         -------

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from carom.impacts.boundary_elements import BoundaryElements, HalfspaceImpact
 
 
-class Approach(TypedDict, total=False):
+class MotionInputs(TypedDict, total=False):
     """How two bodies meet, by the names of `impact`."""
 
     speed: Value | None
@@ -34,7 +34,7 @@ def impact(
     normal: NormalLaw | None = None,
     method: Literal["exact"] = "exact",
     progress: Progress = None,
-    **motion: Unpack[Approach],
+    **motion: Unpack[MotionInputs],
 ) -> Impact: ...
 @overload
 def impact(
@@ -43,7 +43,7 @@ def impact(
     normal: None = None,
     method: Literal["halfspace"] | BoundaryElements,
     progress: Progress = None,
-    **motion: Unpack[Approach],
+    **motion: Unpack[MotionInputs],
 ) -> HalfspaceImpact: ...
 @overload
 def impact(
@@ -52,7 +52,7 @@ def impact(
     normal: NormalLaw | None = None,
     method: str | BoundaryElements,
     progress: Progress = None,
-    **motion: Unpack[Approach],
+    **motion: Unpack[MotionInputs],
 ) -> Impact | HalfspaceImpact: ...
 def impact(
     pair: Pair,

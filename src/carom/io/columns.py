@@ -146,7 +146,7 @@ def others(table: Cells, known: Iterable[str]) -> tuple[str, ...]:
 
 
 def entry(name: str) -> str:
-    """Return what a column, or one of errors, holds: its name in the glossary.
+    """Return the name in the glossary of what a column holds, be it values or their errors.
 
     Examples
     --------

@@ -22,7 +22,7 @@ class Band(NamedTuple):
     hatch: str
 
     def key(self, label: str) -> Patch:
-        """Return what a legend shows of it."""
+        """Return the entry of a legend."""
         return Patch(facecolor=self.face, edgecolor=self.edge, hatch=self.hatch, label=label)
 
 

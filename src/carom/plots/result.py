@@ -39,6 +39,10 @@ class Result(ABC):
     def plot(self, path: str | Path | None = None) -> "Figure":
         """Draw the result from its dataset.
 
+        An impact: forces, velocities, radii and energies against time. A load path: the forces
+        inside the cone of friction. A fit: data, curves and residuals. A score or a ranking: psi_2
+        beside the exact answer, and the errors.
+
         Parameters
         ----------
         path : str or Path, optional

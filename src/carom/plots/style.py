@@ -293,7 +293,7 @@ def scaled(dataset: Any, name: str, like: ArrayLike | None = None) -> Scaled:
 
 
 def zero_line(axis: Axes) -> None:
-    """Draw where zero is."""
+    """Draw a line at zero."""
     axis.axhline(0.0, color="0.5", lw=0.5, zorder=1)
 
 

@@ -103,7 +103,7 @@ def counted(name: str, value: Any, least: int) -> int:
 
 
 def or_none(value: float) -> float | None:
-    """Return a number as JSON can hold it: None where it is none."""
+    """Return a number as JSON can hold it: None if it is not finite."""
     return float(value) if math.isfinite(value) else None
 
 

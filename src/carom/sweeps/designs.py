@@ -27,11 +27,11 @@ MOST = 10**12  # samples, which leaves room for their places in a float
 
 @dataclass(frozen=True, eq=False, init=False)
 class Design(ABC):
-    """What a sweep needs to know of its points: `_given` has the values or the range of an input.
+    """What a sweep needs to know of its points: the names of their inputs, and how these vary.
 
     `choices` are what the codes of an input that has names stand for. Points are `sampled` if their
-    inputs are variables along `point`, rather than coordinates. A box is a slice of every
-    dimension.
+    inputs are variables along `point`, rather than coordinates. `_given` has the values or the
+    range of each input. A box is a slice of every dimension.
     """
 
     names: tuple[str, ...]

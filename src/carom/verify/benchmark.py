@@ -75,7 +75,7 @@ class Bench:
             "laws": [_record(one) for one in self.measured],
         }
 
-    as_record = to_dict
+    as_record = to_dict  # its name before
 
     def __str__(self) -> str:
         head = f"{'max':>7s} {'at':>5s} {'rms':>7s} {'law':>8s} {'seconds':>8s}"

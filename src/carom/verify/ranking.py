@@ -96,7 +96,7 @@ class Ranking(Result):
         laws = [_record(standing) for standing in self.standings]
         return {"chi": self.chi, "kappa": self.kappa, "psi_in": list(self.psi), "laws": laws}
 
-    as_record = to_dict
+    as_record = to_dict  # its name before
 
     def cite(self) -> str:
         """Return what to cite for the exact answer, as BibTeX."""

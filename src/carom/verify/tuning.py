@@ -121,7 +121,7 @@ class Tuning:
             "laws": [_record(one) for one in self.advice],
         }
 
-    as_record = to_dict
+    as_record = to_dict  # its name before
 
     def __str__(self) -> str:
         head = f"{'parameter':>24s} {'value':>8s} {'max':>7s} {'rms':>7s} {'as given':>9s} "

@@ -44,7 +44,7 @@ def engine_command(
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """Run the program of which the command has the name, and print how it has done."""
+    """Run the program that the command is named after, and print how it has done."""
     from carom.bodies.cases import pair_of, read_case
     from carom.io.files import checked_output, replace_whole
     from carom.verify.catalogue import named

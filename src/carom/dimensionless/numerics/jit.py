@@ -1,4 +1,4 @@
-"""The one way in which kernels are compiled."""
+"""The one way in which kernels are compiled, and the word to users who wait for it."""
 
 import sys
 from collections.abc import Callable

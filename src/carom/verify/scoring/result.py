@@ -64,7 +64,7 @@ class Score(ScoreRecord, Result):
             "notes": list(self.notes),
         }
 
-    as_record = to_dict
+    as_record = to_dict  # its name before
 
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""

@@ -38,65 +38,6 @@ BEFORE = ("normal_speed", "tangential_speed", "speed", "angle", "spin", "spin2")
 AFTER = ("normal_speed_out", "tangential_speed_out", "spin_out", "spin2_out")
 
 
-def momentum_audit(
-    results: Results,
-    pair: Pair,
-    before: Tangential,
-    after: Tangential,
-    normal_speed: Any,
-    limit: float,
-) -> Finding:
-    """Return whether spins and speeds changed by the same impulse, in units of psi.
-
-    Raises InputError if all differ by a factor that is one of units.
-    """
-    linear = pair.normal_mass * (before.tangential_speed - after.tangential_speed)
-    spins = zip(pair.moving, before[1:], after[1:], strict=False)
-    angular = [(was - now) * inertia(body) / body.radius for body, was, now in spins]
-    unit = pair.tangential_mass * pair.scales(normal_speed).tangential_speed
-    off = np.max([np.abs(linear - other) for other in angular], axis=0) / unit
-    ratio = _constant_ratio(angular[0], linear, limit * unit)
-    _refuse_units(ratio)
-    name, value, worst = "angular momentum", float(off.max()), int(np.argmax(off))
-    if value <= limit:
-        return Finding(name, value, limit, True, "speeds and spins changed by one impulse")
-    where = results.named(off > limit)
-    verdict = f"speeds and spins changed by different impulses in {where}"
-    verdict += f", most in {results.one(worst)}{_cause(ratio)}"
-    return Finding(name, value, limit, False, verdict)
-
-
-def _constant_ratio(angular: Any, linear: Any, small: Any) -> float:
-    """Return the ratio of two impulses if it is the same in all rows, else 1."""
-    size = float(linear @ linear)
-    if size == 0.0:
-        return 1.0
-    ratio = float(angular @ linear) / size
-    if ratio == 0.0:
-        return 1.0
-    spread = np.abs(angular - ratio * linear)
-    allowed = np.maximum(CLOSE * np.abs(ratio * linear), np.maximum(abs(ratio), 1.0) * small)
-    return ratio if np.all(spread <= allowed) else 1.0
-
-
-def _refuse_units(ratio: float) -> None:
-    for factor, words in UNITS.items():
-        if abs(abs(ratio) / factor - 1.0) < CLOSE:
-            wrong = "spins" if "spin" in words else "speeds"
-            raise InputError(
-                f"{wrong}: the spins change {abs(ratio):.4g} times as much as the speeds tell in "
-                f"every row; the {wrong} seem to be {words}"
-            )
-
-
-def _cause(ratio: float) -> str:
-    """Return what may be wrong if the impulses differ by the same factor in all rows."""
-    if abs(ratio - 1.0) < CLOSE:
-        return ""
-    known = (words for factor, words in CAUSES.items() if abs(ratio / factor - 1.0) < CLOSE)
-    return f", by the same factor {ratio:.4g}; {next(known, 'check units and sizes')}"
-
-
 class Velocities(NamedTuple):
     """Velocities before or after many impacts, arrays along rows; the normal speed is positive."""
 
@@ -194,3 +135,62 @@ def _refuse_second_spin(results: Results, pair: Pair) -> None:
         if name in results.columns:
             only = "only a second sphere can spin; leave the column out"
             results.refuse(name, results[name] != 0.0, only)
+
+
+def momentum_audit(
+    results: Results,
+    pair: Pair,
+    before: Tangential,
+    after: Tangential,
+    normal_speed: Any,
+    limit: float,
+) -> Finding:
+    """Return whether spins and speeds changed by the same impulse, in units of psi.
+
+    Raises InputError if all differ by a factor that is one of units.
+    """
+    linear = pair.normal_mass * (before.tangential_speed - after.tangential_speed)
+    spins = zip(pair.moving, before[1:], after[1:], strict=False)
+    angular = [(was - now) * inertia(body) / body.radius for body, was, now in spins]
+    unit = pair.tangential_mass * pair.scales(normal_speed).tangential_speed
+    off = np.max([np.abs(linear - other) for other in angular], axis=0) / unit
+    ratio = _constant_ratio(angular[0], linear, limit * unit)
+    _refuse_units(ratio)
+    name, value, worst = "angular momentum", float(off.max()), int(np.argmax(off))
+    if value <= limit:
+        return Finding(name, value, limit, True, "speeds and spins changed by one impulse")
+    where = results.named(off > limit)
+    verdict = f"speeds and spins changed by different impulses in {where}"
+    verdict += f", most in {results.one(worst)}{_cause(ratio)}"
+    return Finding(name, value, limit, False, verdict)
+
+
+def _constant_ratio(angular: Any, linear: Any, small: Any) -> float:
+    """Return the ratio of two impulses if it is the same in all rows, else 1."""
+    size = float(linear @ linear)
+    if size == 0.0:
+        return 1.0
+    ratio = float(angular @ linear) / size
+    if ratio == 0.0:
+        return 1.0
+    spread = np.abs(angular - ratio * linear)
+    allowed = np.maximum(CLOSE * np.abs(ratio * linear), np.maximum(abs(ratio), 1.0) * small)
+    return ratio if np.all(spread <= allowed) else 1.0
+
+
+def _refuse_units(ratio: float) -> None:
+    for factor, words in UNITS.items():
+        if abs(abs(ratio) / factor - 1.0) < CLOSE:
+            wrong = "spins" if "spin" in words else "speeds"
+            raise InputError(
+                f"{wrong}: the spins change {abs(ratio):.4g} times as much as the speeds tell in "
+                f"every row; the {wrong} seem to be {words}"
+            )
+
+
+def _cause(ratio: float) -> str:
+    """Return what may be wrong if the impulses differ by the same factor in all rows."""
+    if abs(ratio - 1.0) < CLOSE:
+        return ""
+    known = (words for factor, words in CAUSES.items() if abs(ratio / factor - 1.0) < CLOSE)
+    return f", by the same factor {ratio:.4g}; {next(known, 'check units and sizes')}"
