@@ -103,7 +103,14 @@ def counted(name: str, value: Any, least: int) -> int:
 
 
 def or_none(value: float) -> float | None:
-    """Return a number as JSON can hold it: None if it is not finite."""
+    """Return a number as JSON can hold it: None if it is not finite.
+
+    Examples
+    --------
+    >>> from carom.quantities.units import or_none
+    >>> or_none(2), or_none(float("inf")), or_none(float("nan"))
+    (2.0, None, None)
+    """
     return float(value) if math.isfinite(value) else None
 
 

@@ -1,0 +1,52 @@
+"""What users import: each public name once, in the stub of its package, and nothing else shown."""
+
+import re
+import subprocess
+import sys
+from importlib import import_module
+
+import pytest
+
+import carom
+
+BESIDE = {"carom": ["__version__"], "carom.plots": ["style"]}  # known to dir() alone
+PACKAGES = ("carom", "carom.plots", "carom.verify", "carom.datasets", "carom.classical")
+STUBBED = PACKAGES[:3]
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_dir_shows_the_public_names_and_nothing_else(package):
+    module = import_module(package)
+    assert sorted(dir(module)) == sorted([*module.__all__, *BESIDE.get(package, [])])
+    assert all(getattr(module, name) is not None for name in dir(module))
+
+
+@pytest.mark.parametrize("package", STUBBED)
+def test_editors_see_each_name_as_it_is_called(package):
+    stub = import_module(package).__file__ + "i"
+    with open(stub, encoding="utf-8") as file:
+        pairs = re.findall(r"(\w+) as (\w+)", file.read())
+    names = [name for name, _ in pairs]
+    assert all(name == shown for name, shown in pairs)
+    assert sorted(names) == sorted(dir(import_module(package)))
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "from carom.datasets import load; load('kharaz2001')",
+        "import carom.classical; carom.classical.Obliquity(0.1, 0.2)",
+        "from carom.verify import bench; assert callable(bench)",
+        "import carom.verify.benchmark; assert callable(carom.verify.bench)",
+        "from carom import plots; assert callable(plots.plot_curve)",
+        "import carom; carom.plots.style.style()",
+    ],
+)
+def test_names_are_where_users_import_them(line):
+    """Each in a process of its own: what was imported before must not matter."""
+    subprocess.run([sys.executable, "-c", line], check=True)
+
+
+def test_a_name_that_is_none_is_refused():
+    with pytest.raises(AttributeError, match="nothing"):
+        carom.nothing  # noqa: B018
