@@ -8,8 +8,21 @@ import tempfile
 from importlib.util import find_spec
 from pathlib import Path
 
+import pytest
+
 SOURCES = sorted(Path(find_spec("carom").submodule_search_locations[0]).rglob("*.py"))
 KERNELS = [text for text in (path.read_bytes() for path in SOURCES) if b"@kernel" in text]
 KEY = hashlib.sha256(b"".join(KERNELS)).hexdigest()[:16]
 
 os.environ["NUMBA_CACHE_DIR"] = str(Path(tempfile.gettempdir()) / f"carom-kernels-{KEY}")
+
+
+def pytest_addoption(parser):
+    words = "calls of the cheapest fuzz test; the others take a share of it (default: %(default)s)"
+    parser.addoption("--fuzz", type=int, default=2000, metavar="N", help=words)
+
+
+@pytest.fixture
+def calls(request):
+    """How many calls the cheapest fuzz test makes."""
+    return request.config.getoption("--fuzz")
