@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from carom.quantities.units import positive, refusal, without_units
+from carom.quantities.glossary import GLOSSARY
+from carom.quantities.units import InputError, in_si, number, refusal
 
 Array = NDArray[np.float64]
 
@@ -19,16 +20,38 @@ class Places(NamedTuple):
     at: Array
 
 
-def numbers(name: str, given: ArrayLike, allowed: str) -> Array:
-    """Return real numbers as an array, texts with units in SI units, or raise InputError."""
-    plain = without_units(name, given)
+def numbers(name: str, given: Any, allowed: str, unit: str | None = None) -> Array:
+    """Return real numbers in SI units as an array, or raise InputError.
+
+    Texts, pint's quantities and xarray's arrays may have units of their own; `unit` is that of the
+    glossary, unless it is told, and that of bare numbers.
+    """
+    unit = unit or (GLOSSARY[name].unit if name in GLOSSARY else "1")
     try:
-        values = np.asarray(plain)
-    except ValueError:
+        values = np.asarray(_bare(name, given, unit))
+    except (ValueError, TypeError, RecursionError) as error:
+        if isinstance(error, InputError):
+            raise
         raise refusal(name, given, allowed) from None
-    if values.dtype.kind not in "iuf" or isinstance(plain, np.ma.MaskedArray):
+    if values.dtype.kind not in "iuf" or isinstance(given, np.ma.MaskedArray):
         raise refusal(name, given, allowed)
     return values.astype(np.float64)
+
+
+def _bare(name: str, given: Any, unit: str) -> Any:
+    """Return one value or nested lists of them in SI units."""
+    if type(given) in (float, int):
+        return given
+    if isinstance(given, str):
+        return number(name, given, unit)
+    if isinstance(given, np.ndarray) and given.dtype.kind in "OU":
+        given = given.tolist()
+        return _bare(name, given, unit)
+    if isinstance(given, list | tuple):
+        return [_bare(name, each, unit) for each in given]
+    if isinstance(given, bool | np.bool_):
+        raise refusal(name, given, "a truth value is no number")
+    return in_si(name, given, unit)
 
 
 def scattered(name: str, given: ArrayLike, columns: int) -> Array:
@@ -36,7 +59,7 @@ def scattered(name: str, given: ArrayLike, columns: int) -> Array:
     allowed = f"must be finite numbers in m, of shape (n, {columns})"
     if isinstance(given, str):
         raise refusal(name, given, allowed)
-    points = numbers(name, given, allowed)
+    points = numbers(name, given, allowed, "m")
     if points.ndim != 2 or points.shape[1] != columns or points.shape[0] == 0:
         raise refusal(name, points, allowed)
     if not np.all(np.isfinite(points)):
@@ -56,21 +79,21 @@ def line(name: str, given: ArrayLike) -> Array:
 
 def finite_line(name: str, given: ArrayLike) -> Array:
     """Return a list of finite numbers as an array of shape (n,), or raise InputError."""
-    try:
-        values = np.atleast_1d(np.asarray(given, dtype=np.float64))
-    except (TypeError, ValueError):
-        raise refusal(name, given, "must be a list of finite numbers") from None
+    allowed = "must be a list of finite numbers"
+    values = np.atleast_1d(numbers(name, given, allowed))
     if values.size == 0 or values.ndim > 1 or not np.all(np.isfinite(values)):
-        raise refusal(name, given, "must be a list of finite numbers")
+        raise refusal(name, given, allowed)
     return values
 
 
 def positive_line(name: str, given: ArrayLike) -> Array:
     """Return one positive number or more as an array of shape (n,), or raise InputError."""
-    values = [positive(name, value) for value in np.atleast_1d(np.asarray(given, dtype=object))]
-    if not values:
-        raise refusal(name, given, "must be one positive number or more")
-    return np.array(values)
+    allowed = "must be one positive finite number or more"
+    values = np.atleast_1d(numbers(name, given, allowed))
+    bad = ~((values > 0.0) & (values < np.inf))
+    if values.size == 0 or values.ndim > 1 or bad.any():
+        raise refusal(name, values[bad][0].item() if bad.any() else given, allowed)
+    return values
 
 
 def places(

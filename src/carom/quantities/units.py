@@ -1,13 +1,14 @@
 """Reading and checking what users give: numbers, text with a unit, and clear refusals."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from decimal import Decimal
 from difflib import get_close_matches
-from functools import lru_cache
-from numbers import Integral
+from numbers import Integral, Real
 from typing import Any
 
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.texts import Factor, Unreadable, factor, read_text
 
 Value = float | str  # a number in SI units, or text with a unit
 
@@ -26,7 +27,7 @@ HINTS = {
     "kg/m^3": "7850 kg/m^3",
     "m/s": "2 m/s",
     "rad": "30 deg",
-    "rad/s": "100 rad/s",
+    "rad/s": "600 rpm",
     "s": "5 us",
     "N": "10 N",
     "1": "0.3",
@@ -48,27 +49,45 @@ def number(name: str, value: Any, unit: str | None = None) -> float:
     True
     """
     unit = unit or GLOSSARY[name].unit
-    if isinstance(value, str):
-        result = _parsed(name, value, unit)
-    elif isinstance(value, bool) or value is None:
+    plain = in_si(name, value, unit)
+    if isinstance(plain, str):
+        return _of_text(name, plain, unit)
+    known = isinstance(plain, Real | Decimal) or getattr(plain, "shape", None) == ()
+    if not known or isinstance(plain, bool) or getattr(plain, "dtype", float) == bool:
         raise refusal(name, value, _expected(unit))
-    else:
-        try:
-            result = float(value)
-        except (TypeError, ValueError):
-            raise refusal(name, value, _expected(unit)) from None
+    try:
+        result = float(plain)
+    except (TypeError, ValueError):
+        raise refusal(name, value, _expected(unit)) from None
+    except OverflowError:
+        raise refusal(name, value, "floating point cannot hold it") from None
     if math.isnan(result):
         raise refusal(name, value, _expected(unit))
     return result
 
 
-def without_units(name: str, given: Any) -> Any:
-    """Return what is given, one value or a list, with text such as "5 mm" made SI numbers."""
-    if isinstance(given, str):
-        return number(name, given)
-    if isinstance(given, list | tuple) and name in GLOSSARY:
-        return [number(name, each) if isinstance(each, str) else each for each in given]
+def in_si(name: str, given: Any, unit: str) -> Any:
+    """Return what is given as it is, or without its unit: pint's quantities, xarray's arrays.
+
+    Raises InputError for a unit of another kind, and for quantities of other libraries.
+    """
+    if hasattr(given, "to_root_units"):
+        return _of_pint(name, given, unit)
+    attributes = getattr(given, "attrs", None)
+    if isinstance(attributes, Mapping):
+        own = attributes.get("units", unit)
+        return given if own == unit else factor_of(name, str(own), unit).apply(given)
+    if hasattr(given, "unit") or hasattr(given, "units"):
+        raise refusal(name, given, f"give plain numbers in {unit}, or a quantity of pint's")
     return given
+
+
+def factor_of(name: str, expression: str, unit: str) -> Factor:
+    """Return how numbers with one unit become those of another, or raise InputError."""
+    try:
+        return factor(expression, unit)
+    except Unreadable as error:
+        raise refusal(name, expression, f"{error}; {_expected(unit)}") from None
 
 
 def positive(name: str, value: Any) -> float:
@@ -141,49 +160,25 @@ def _example(name: str) -> str:
 
 def _expected(unit: str) -> str:
     if unit == "1":
-        return "give a number without a unit, e.g. 0.3"
-    return f"give a number in {unit}, or text with a unit such as '{HINTS[unit]}'"
+        return "give a number, e.g. 0.3 or '30 %'"
+    return f"give a number in {unit}, or text with a unit such as {HINTS.get(unit, f'3 {unit}')!r}"
 
 
-def _parsed(name: str, text: str, unit: str) -> float:
+def _of_text(name: str, text: str, unit: str) -> float:
     try:
-        return float(text)
-    except ValueError:
+        return read_text(text, unit)
+    except Unreadable as error:
+        reason = f"{error}; " if str(error) else ""
+        raise refusal(name, text, f"{reason}{_expected(unit)}") from None
+
+
+def _of_pint(name: str, quantity: Any, unit: str) -> Any:
+    """Return the magnitude of a quantity of pint's in a unit, or raise InputError."""
+    wanted = type(quantity)(1.0, "" if unit == "1" else unit)
+    kinds = (dict(each.to_root_units().unit_items()) for each in (quantity, wanted))
+    try:
+        if next(kinds) == next(kinds):
+            return quantity.to(wanted.units).magnitude
+    except Exception:  # pint raises what it likes at units with an offset
         pass
-    if "," in text:  # pint would drop it
-        raise refusal(name, text, "numbers need a decimal point, not a comma")
-    if "%" in text:
-        raise refusal(name, text, "write a percentage as a number, 0.2 for 20 percent")
-    import pint
-
-    try:
-        quantity = _registry().Quantity(text)
-        if quantity.unitless:
-            return float(quantity.magnitude)
-        if quantity.dimensionless and unit == "1":
-            raise refusal(name, text, f"it has a unit; {_expected(unit)}")
-        if unit == "rad/s" and str(quantity.units) == "hertz":
-            raise refusal(name, text, "a spin is not in Hz; write 'rpm' or 'rad/s'")
-        return float(quantity.to("" if unit == "1" else unit).magnitude)
-    except pint.UndefinedUnitError as error:
-        unknown = error.unit_names if isinstance(error.unit_names, str) else error.unit_names[0]
-        raise refusal(name, text, f"unit {unknown!r} is not known; {_expected(unit)}") from None
-    except pint.DimensionalityError as error:
-        kind = (
-            f"that is in {error.units1}, not a value in {unit}" if unit != "1" else "it has a unit"
-        )
-        raise refusal(name, text, f"{kind}; {_expected(unit)}") from None
-    except InputError:
-        raise
-    except Exception:  # pint lets errors of the tokenizer through
-        raise refusal(name, text, _expected(unit)) from None
-
-
-@lru_cache(maxsize=1)
-def _registry() -> Any:
-    import pint
-
-    try:  # parsing the definitions anew takes longer than an impact
-        return pint.UnitRegistry(cache_folder=":auto:")
-    except Exception:  # a cache that cannot be used is no reason to fail
-        return pint.UnitRegistry()
+    raise refusal(name, quantity, f"that is no value in {unit}; {_expected(unit)}") from None

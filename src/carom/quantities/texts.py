@@ -1,0 +1,170 @@
+"""The grammar of a quantity in a text: a number, then at most one unit expression.
+
+    number = [sign] digits [. digits] [e [sign] digits]
+    unit   = term {product term} [/ term],  term = name [power]
+
+Digits are ASCII, a sign is +, - or the minus U+2212, a product is a space, * or a raised dot, a
+power is ^2, **2 or raised digits. Whatever else stands in a text makes it unreadable, so that pint,
+which multiplies and drops what it does not understand, is asked for the names of units alone.
+"""
+
+import re
+from functools import lru_cache
+from math import inf, log10
+from typing import Any, NamedTuple
+
+LONGEST = 200  # characters of a text
+TERMS = 4  # of a unit expression
+
+BLANKS = " \t\u00a0\u2009\u202f"  # no-break and thin spaces, too
+SIGN = r"[+\-\u2212]?"
+NUMBER = re.compile(rf"{SIGN}(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE]{SIGN}[0-9]+)?")
+LOWERED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹\u2212", "+-0123456789-")
+RAISED_DIGITS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
+NAME = rf"[^\W\d{RAISED_DIGITS}]+|[%‰°]"
+POWER = rf"(?:\^|\*\*)({SIGN}[0-9])|([⁺⁻]?[{RAISED_DIGITS}])"
+TERM = re.compile(rf"({NAME})(?:{POWER})?(?![0-9{RAISED_DIGITS}^])")
+PRODUCT = re.compile(rf"[{BLANKS}]*[*·⋅][{BLANKS}]*|[{BLANKS}]+")
+SLASH = re.compile(rf"[{BLANKS}]*/[{BLANKS}]*")
+SPELT = {"°": "degree", "rev": "turn", "revs": "turn"}
+UNITS = frozenset(  # of pint's, by their whole names; constants of nature are none
+    """meter inch foot yard mile thou micron angstrom nautical_mile gram pound ounce metric_ton slug
+    second minute hour day newton dyne force_kilogram force_gram force_pound kip pascal bar
+    pound_force_per_square_inch kip_per_square_inch standard_atmosphere torr joule radian degree
+    arcminute arcsecond turn grade revolutions_per_minute revolutions_per_second hertz becquerel
+    knot mile_per_hour kilometer_per_hour meter_per_second foot_per_second percent permille ppm
+    liter cubic_centimeter""".split()
+)
+
+
+class Unreadable(ValueError):
+    """A text is no quantity, or not one of the kind that is asked for; the message says why."""
+
+
+class Factor(NamedTuple):
+    """What numbers are multiplied and divided by to be in another unit; one of both is 1.
+
+    Powers of ten divide where they can, so that 5 um is the float nearest to 5e-6.
+    """
+
+    times: float
+    over: float
+
+    def apply(self, number: Any) -> Any:
+        """Return a number, or an array of them, in the other unit."""
+        return number * self.times / self.over
+
+
+def read_text(text: str, unit: str) -> float:
+    """Return the quantity in a text, in a unit of which a bare number is.
+
+    Raises Unreadable.
+
+    Examples
+    --------
+    >>> from carom.quantities.texts import read_text
+    >>> read_text("\N{MINUS SIGN}3e3 mm/s", "m/s"), read_text("20 %", "1"), read_text("7", "Pa")
+    (-3.0, 0.2, 7.0)
+    """
+    value, expression = split(text)
+    return float(factor(expression, unit).apply(value)) if expression else value
+
+
+def split(text: str) -> tuple[float, str]:
+    """Return the number in a text and the unit expression after it, which may be empty.
+
+    Raises Unreadable, also for numbers that floating point cannot hold.
+    """
+    if len(text) > LONGEST:
+        raise Unreadable(f"it has {len(text)} characters, of which {LONGEST} are read at most")
+    plain = text.strip(BLANKS)
+    found = NUMBER.match(plain)
+    if found is None:
+        raise Unreadable("" if plain else "it is empty")
+    digits = found[0].replace("\u2212", "-")
+    value = float(digits)
+    if abs(value) == inf or (value == 0.0 and re.search("[1-9]", digits.lower().split("e")[0])):
+        raise Unreadable("floating point cannot hold it")
+    rest = plain[found.end() :]
+    if rest.startswith(","):
+        raise Unreadable("numbers need a decimal point, not a comma, and no other separators")
+    return value, rest.strip(BLANKS)
+
+
+def factor(expression: str, unit: str) -> Factor:
+    """Return how numbers with one unit become those of another of the same kind.
+
+    Raises Unreadable if the expression is none, or of another kind; angles are a kind of their own.
+    """
+    found = _factor(expression, unit)
+    if isinstance(found, Unreadable):
+        raise Unreadable(str(found))
+    return found
+
+
+@lru_cache(maxsize=4096)
+def _factor(expression: str, unit: str) -> Factor | Unreadable:
+    try:
+        given, wanted = _root(_terms(expression)), _root(() if unit == "1" else _terms(unit))
+    except Unreadable as error:
+        return error
+    if given[1] != wanted[1]:
+        kind = "a pure number" if unit == "1" else f"a value in {unit}"
+        return Unreadable(f"{expression!r} is not the unit of {kind}")
+    ratio = given[0] / wanted[0]
+    decades = round(log10(ratio))
+    if abs(ratio - 10.0**decades) > 1e-12 * ratio:
+        return Factor(ratio, 1.0)
+    return Factor(10.0 ** max(decades, 0), 10.0 ** max(-decades, 0))
+
+
+def _terms(expression: str) -> tuple[tuple[str, int], ...]:
+    """Return names of units and their powers, or raise Unreadable."""
+    terms: list[tuple[str, int]] = []
+    place, sign = 0, 1
+    while True:
+        found = TERM.match(expression, place)
+        if found is None or len(terms) == TERMS:
+            raise Unreadable(f"{expression!r} is no unit")
+        power = (found[2] or found[3] or "1").translate(LOWERED)
+        terms.append((found[1], sign * int(power)))
+        place = found.end()
+        if place == len(expression):
+            return tuple(terms)
+        slash = SLASH.match(expression, place)
+        step = slash or PRODUCT.match(expression, place)
+        if step is None:
+            raise Unreadable(f"{expression!r} is no unit")
+        if sign < 0:  # what a second slash, or a product after one, divides is not sure
+            raise Unreadable(f"{expression!r} is no unit: after '/' stands one unit, as in kg/m^3")
+        place, sign = step.end(), -1 if slash else 1
+
+
+def _root(terms: tuple[tuple[str, int], ...]) -> tuple[float, Any]:
+    """Return the factor and the basic units of a product of powers."""
+    registry = _registry()
+    powers: dict[str, int] = {}
+    for name, power in terms:
+        whole = _whole_name(name)
+        powers[whole] = powers.get(whole, 0) + power
+    found = registry.get_root_units(registry.Unit(registry.UnitsContainer(powers)))
+    return float(found[0]), found[1]
+
+
+@lru_cache(maxsize=1024)
+def _whole_name(name: str) -> str:
+    """Return pint's name of a unit, with its prefix, or raise Unreadable if there is none."""
+    known = _registry().parse_unit_name(SPELT.get(name, name))
+    if not known or known[0][1] not in UNITS:
+        raise Unreadable(f"unit {name!r} is not known")
+    return str(known[0][0] + known[0][1])
+
+
+@lru_cache(maxsize=1)
+def _registry() -> Any:
+    import pint
+
+    try:  # parsing the definitions anew takes longer than an impact
+        return pint.UnitRegistry(cache_folder=":auto:")
+    except Exception:  # a cache that cannot be used is no reason to fail
+        return pint.UnitRegistry()
