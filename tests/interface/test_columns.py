@@ -61,6 +61,11 @@ def test_a_column_without_a_unit_is_si():
     np.testing.assert_allclose(given["speed"], [3.9, 3.91], rtol=1e-14)
 
 
+def test_a_percentage_is_a_ratio():
+    given = read({"angle": [0.1, 0.2], "tangential_restitution [%]": [70, "700 permille"]})
+    np.testing.assert_allclose(given["tangential_restitution"], [0.7, 0.7], rtol=1e-15)
+
+
 def test_errors_have_the_unit_of_their_head():
     given = read({"angle [deg]": [10.0], "angle_error [deg]": [1.0], "spin_out": [-1.0]})
     np.testing.assert_allclose(given["angle_error"], math.pi / 180, rtol=1e-14)
@@ -129,11 +134,11 @@ BAD = {
     "angle [rad],spin_out\n30,1\n": "angle: 30 in line 2 .* headed rad: if .* 'angle [deg]'",
     "angle [deg],spin_out\n90,1\n": "angle: 1.5708 in line 2 .* below pi/2, 90 deg",
     "angle [deg],rebound_angle\n9,-7\n": "rebound_angle: -7 in line 2 .* 'rebound_angle [deg]'",
-    "angle [m],spin_out" + ROWS: "angle: '1 m' cannot be used",
+    "angle [m],spin_out" + ROWS: "angle: 'm' cannot be used; that is not a value in rad",
     "angle [dog],spin_out" + ROWS: "unit 'dog' is not known",
     "angle,spin_out [Hz]" + ROWS: "a spin is not in Hz",
-    "angle,tangential_restitution [kg]" + ROWS: "tangential_restitution: '1 kg' cannot be used",
-    "angle,tangential_restitution [%]" + ROWS: "write a percentage as a number",
+    "angle,tangential_restitution [kg]"
+    + ROWS: "tangential_restitution: 'kg' cannot be used; .* pure number",
     "angle [deg],angle_error" + ROWS: "angle_error: no unit, but angle is in deg; write 'angle_e",
     "angle,spin_out\n1,1\n1,\n1,nan\n1,1\n": "spin_out: not a number in lines 3 and 4; write '-'",
     "angle,spin_out\n,1\n1,1\n": "angle: not a number in line 2; correct or delete",

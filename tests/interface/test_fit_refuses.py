@@ -29,7 +29,7 @@ NAN = float("nan")
         ({"angle [deg]": [10.0, 20.0, 30.0, 40.0, 95.0]}, "in row 5 cannot be used"),
         ({"contact_beta": [0.1, NAN, 0.0, NAN, 0.1]}, "rows 2 and 4; write '-'"),
         ({"contact_beta": [0.1, "x", 0.0, 0.1, 0.1]}, "row 2"),
-        ({"speed [kg]": [2.0] * 5}, "kilogram"),
+        ({"speed [kg]": [2.0] * 5}, "not a value in m/s"),
         ({"spin_out": [-10.0] * 5}, "speed: column missing; spin_out needs"),
         ({**SPEEDS, "spin_out": [10.0] * 5}, "change the signs"),
         ({"tangential_speed": [1.0] * 5}, "tangential_speed and angle say the same twice"),

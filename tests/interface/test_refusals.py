@@ -51,7 +51,7 @@ def test_times(hit, ask, time, message):
         ({"x": [None, 0.0]}, "x: .* list of finite numbers"),
         ({"x": np.array(["2020-01-01"], "M8[D]")}, "x: .* list of finite numbers"),
         ({"x": np.ma.masked_array([0.0, 1.0], [0, 1])}, "x: .* list of finite numbers"),
-        ({"points": np.array([["here", 1.0]] * 40, dtype=object)}, r"shape \(40, 2\)"),
+        ({"points": np.array([["here", 1.0]] * 40, dtype=object)}, "points: 'here' cannot"),
     ],
 )
 def test_places_on_the_surface(hit, given, message):

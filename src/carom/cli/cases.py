@@ -16,9 +16,26 @@ if TYPE_CHECKING:
     from carom.plots.result import Result
 
 Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
+Column = Annotated[
+    list[str] | None,
+    typer.Option(help="What a head of the table stands for, e.g. omega=spin_out; repeat."),
+]
 Plot = Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")]
 
 may_interpret = False  # in a process that runs one command
+
+
+def named_values(option: str, given: list[str] | None, example: str) -> dict[str, str]:
+    """Return the values by name of texts like "restitution=0.98", or raise InputError."""
+    found: dict[str, str] = {}
+    for text in given or []:
+        name, equals, value = (part.strip() for part in text.partition("="))
+        if not (name and equals and value):
+            raise refusal(option, text, f"write a name and a value, e.g. {example}")
+        if name in found:
+            raise refusal(option, text, f"{name} is given twice; leave one of them out")
+        found[name] = value
+    return found
 
 
 class Output(NamedTuple):

@@ -3,12 +3,21 @@
 import json
 from math import ceil
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 import carom
-from carom.cli.cases import Json, Plot, check_outputs, refuse_same, store, stored
+from carom.cli.cases import (
+    Column,
+    Json,
+    Plot,
+    check_outputs,
+    named_values,
+    refuse_same,
+    store,
+    stored,
+)
 from carom.quantities.units import InputError, number, refusal
 
 if TYPE_CHECKING:
@@ -37,6 +46,7 @@ def fit_command(
         list[str] | None, typer.Option(help="A parameter that is known, e.g. restitution=0.98.")
     ] = None,
     confidence: Annotated[str, typer.Option(help="Confidence of the intervals.")] = "0.95",
+    column: Column = None,
     squares: Annotated[
         bool, typer.Option("--squares", help="Least squares: outliers count like all others.")
     ] = False,
@@ -82,9 +92,10 @@ def fit_command(
         source,
         pair=_pair(case),
         vary=None if vary is None else [name.strip() for name in vary.split(",")],
-        fixed=_fixed(fix or []),
+        fixed=named_values("fix", fix, "restitution=0.98"),
         robust=not squares,
         confidence=number("confidence", confidence, "1"),
+        columns=named_values("column", column, "omega=spin_out"),
     )
     store(found, output, plot)
     if posterior is not None:
@@ -111,15 +122,6 @@ def _pair(case: Path | None) -> "Pair | None":
     from carom.fitting.problem import START
 
     return None if case is None else pair_of({"friction": START, **read_case(case)})
-
-
-def _fixed(given: list[str]) -> dict[str, Any]:
-    """Return the values of texts like "restitution=0.98", or raise InputError."""
-    for text in given:
-        if "=" not in text:
-            raise refusal("fix", text, "write a name and a value, e.g. restitution=0.98")
-    pairs = (text.partition("=") for text in given)
-    return {name.strip(): value.strip() for name, _, value in pairs}
 
 
 def _sampled(found: "Fit", target: str, steps: int, seed: int) -> Path:

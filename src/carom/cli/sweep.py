@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import carom
-from carom.cli.cases import Json, check_outputs, outputs, stored
+from carom.cli.cases import Column, Json, check_outputs, named_values, outputs, stored
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import or_none, refusal
 
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 def sweep_command(
     case: Annotated[Path, typer.Argument(help="Case file with a table [sweep].")],
+    column: Column = None,
     store: Annotated[
         str | None, typer.Option(help="Store block by block in a Zarr folder, e.g. sweep.zarr.")
     ] = None,
@@ -52,7 +53,7 @@ def sweep_command(
     content = read_case(case, losses=True)
     file = output or _file(content)
     check_outputs((file, TABLES))
-    design, chosen = plan(content, case)
+    design, chosen = plan(content, case, named_values("column", column, "omega=spin"))
     with _stopping():
         how: dict[str, Any] = {"scheduler": scheduler, "workers": workers, "progress": progress}
         dataset = carom.sweep(content, design, outputs=chosen, store=store, resume=resume, **how)

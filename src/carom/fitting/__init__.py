@@ -26,6 +26,7 @@ def fit(
     fixed: Mapping[str, Any] | None = None,
     robust: bool = True,
     confidence: float = 0.95,
+    columns: Mapping[str, str] | None = None,
 ) -> Fit:
     """Return friction, stiffness ratio and restitution from measured rebounds, with intervals.
 
@@ -55,6 +56,8 @@ def fit(
         Whether outliers count less: loss 2 c^2 (sqrt(1 + (r/c)^2) - 1), c = 2, instead of r^2.
     confidence : float
         Of the intervals.
+    columns : mapping, optional
+        What heads of the data stand for, {"omega": "spin_out"}, or {"w": "spin_out [rpm]"}.
 
     Returns
     -------
@@ -67,8 +70,8 @@ def fit(
     Raises
     ------
     InputError
-        If columns are missing, misnamed or contradict each other, there are too few values, or a
-        parameter is unknown or out of range.
+        If columns are missing, misnamed or contradict each other (all faults of the data in one
+        message), there are too few values, or a parameter is unknown or out of range.
 
     Examples
     --------
@@ -82,7 +85,7 @@ def fit(
     >>> round(found.friction.value, 3), round(found.chi.value, 2)
     (0.2, 1.44)
     """
-    problem = read_problem(data, pair)
+    problem = read_problem(data, pair, columns)
     options = read_options(problem, vary, fixed)
     level = checked_confidence(confidence)
     check_count(problem, options.free)

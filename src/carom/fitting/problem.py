@@ -12,8 +12,8 @@ from carom.bodies.cases import pair_of
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import BEFORE, OBSERVABLES, SCALED, convert
 from carom.fitting.laws import IncomingMotion
-from carom.io.columns import ERROR, Results, in_units, others, with_errors
-from carom.io.tables import read_table
+from carom.io.columns import ERROR, Faults, Results, in_units, others, with_errors
+from carom.io.tables import Cells, read_table
 from carom.quantities.arrays import Array
 from carom.quantities.units import InputError, refusal
 
@@ -107,14 +107,26 @@ class FitProblem:
         )
 
 
-def read_problem(data: Any, pair: Pair | None) -> FitProblem:
-    """Return what was measured, or raise InputError for what cannot be used."""
-    table = read_table(data)
+def read_problem(
+    data: Any, pair: Pair | None, columns: Mapping[str, str] | None = None
+) -> FitProblem:
+    """Return what was measured, or raise InputError for all that cannot be used.
+
+    `columns` tells what heads of the data stand for.
+    """
+    table = read_table(data, columns)
+    with Faults() as faults:
+        return _problem(table, pair, faults)
+
+
+def _problem(table: Cells, pair: Pair | None, faults: Faults) -> FitProblem:
     known = with_errors((*BEFORE, *OBSERVABLES))
-    ignored = others(table, known)
-    rows = in_units(table, [name for name in known if name in table.names], gaps=OBSERVABLES)
+    ignored = others(table, known, faults)
+    present = [name for name in known if name in table.names]
+    rows = in_units(table, present, gaps=OBSERVABLES, faults=faults)
     responses = tuple(name for name in OBSERVABLES if name in rows.columns)
     if not responses:
+        faults.settle()
         raise InputError(
             f"data: no measured response among the columns {', '.join(table.names)}; there must be "
             f"one or more of {', '.join(OBSERVABLES)}"
@@ -158,7 +170,7 @@ def _errors(rows: Results, name: str) -> Array:
     if name + ERROR not in rows.columns:
         return np.full(len(rows), np.nan)
     errors, measured = rows[name + ERROR], np.isfinite(rows[name])
-    rows.refuse(name + ERROR, measured & ~(errors > 0.0), "a standard deviation is positive")
+    rows.refuse(name + ERROR, measured & (errors <= 0.0), "a standard deviation is positive")
     return np.where(measured, errors, np.nan)
 
 
@@ -181,8 +193,9 @@ def _check_before(rows: Results, before: Mapping[str, Array], responses: Collect
         )
     for name in before:
         if name + ERROR in rows.columns:
-            negative = ~(rows[name + ERROR] >= 0.0)
-            rows.refuse(name + ERROR, negative, "a standard deviation is zero or positive")
+            rows.refuse(
+                name + ERROR, rows[name + ERROR] < 0.0, "a standard deviation is zero or positive"
+            )
 
 
 def _check_responses(rows: Results, motion: IncomingMotion, velocity: Array) -> None:

@@ -1,11 +1,11 @@
 """Reading a user's results in SI units: from a CSV file, a mapping of columns or a data frame."""
 
 from collections.abc import Collection, Iterable, Mapping
-from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from difflib import get_close_matches
 from math import nan, pi
-from typing import Any
+from numbers import Real
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,27 +13,65 @@ from numpy.typing import NDArray
 from carom.io.tables import GAP, Cells, Rows, name_and_unit, spelled
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.units import InputError, nearest, number
+from carom.quantities.symbols import meant
+from carom.quantities.texts import Factor, split
+from carom.quantities.units import InputError, factor_of, nearest, number
 
 Mask = NDArray[np.bool_]
 
 ERROR = "_error"  # ends the name of a column of standard deviations
 DELETE = "correct or delete what is there"
+TOLD = 12  # faults in one message
 NEAR = 0.8  # similarity of names from which a column is taken for a misspelt one
-SYMBOLS = {  # what people call a column that has a name of its own here
-    "theta": "angle",
-    "incident_angle": "angle",
-    "impact_angle": "angle",
-    "omega": "spin_out",
-    "e": "normal_restitution",
-    "e_n": "normal_restitution",
-    "e_t": "tangential_restitution",
-    "beta": "contact_beta",
-    "e_c": "contact_restitution",
-    "psi1": "psi_in",
-    "psi2": "psi_out",
-}
 UNITS = {"_deg": "deg", "_rad_s": "rad/s", "_rad": "rad", "_rpm": "rpm", "_m_s": "m/s"}  # in names
+
+
+class Faults:
+    """What is wrong with a table: collected inside its context, and told in one message after it.
+
+    Examples
+    --------
+    >>> from carom.io.columns import Faults
+    >>> with Faults() as faults:
+    ...     faults.add("angle: column missing")
+    ...     faults.add("spin: not a number in line 3")
+    Traceback (most recent call last):
+    carom.InputError: 2 faults: (1) angle: column missing; (2) spin: not a number in line 3
+    """
+
+    def __init__(self) -> None:
+        self._found: list[str] = []
+        self._collecting = False
+
+    def __enter__(self) -> Self:
+        self._collecting = True
+        return self
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        self._collecting = False
+        if isinstance(error, InputError) and str(error) != self._message():
+            self._found.append(str(error))
+        if self._found and (error is None or isinstance(error, Exception)):
+            raise InputError(self._message()) from None
+
+    def add(self, message: str) -> None:
+        """Collect a fault; outside of the context raise InputError."""
+        if not self._collecting:
+            raise InputError(message)
+        self._found.append(message)
+
+    def settle(self) -> None:
+        """Raise InputError if there are faults so far, before costly work."""
+        if self._found:
+            raise InputError(self._message())
+
+    def _message(self) -> str:
+        found = list(dict.fromkeys(self._found))
+        if len(found) == 1:
+            return found[0]
+        listed = "; ".join(f"({i}) {text}" for i, text in enumerate(found[:TOLD], 1))
+        more = f"; and {len(found) - TOLD} more" if len(found) > TOLD else ""
+        return f"{len(found)} faults: {listed}{more}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +81,7 @@ class Results(Rows):
     columns: Mapping[str, Array]
     rows: NDArray[np.int64]
     word: str
+    faults: Faults = field(default_factory=Faults)
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -69,21 +108,24 @@ class Results(Rows):
             raise InputError(f"results: too few points: {len(self)}, at least {fewest} are needed")
 
     def refuse(self, name: str, bad: Mask, allowed: str) -> None:
-        """Raise InputError for a column that is bad in some rows, naming them."""
+        """Add to the faults that a column is bad in some rows, naming them."""
         if bad.any():
             value = f"{float(self[name][bad][0]):g}"
             where = self.named(bad)
-            raise InputError(f"{spelled(name)}: {value} in {where} cannot be used; {allowed}")
+            self.faults.add(f"{spelled(name)}: {value} in {where} cannot be used; {allowed}")
 
 
-def in_units(table: Cells, known: Iterable[str], gaps: Collection[str] = ()) -> Results:
+def in_units(
+    table: Cells, known: Iterable[str], gaps: Collection[str] = (), faults: Faults | None = None
+) -> Results:
     """Return the columns whose names are known, in SI units; the others are there, but NaN.
 
     Columns without a unit are SI. In columns of `gaps`, and of their errors, a cell "-" stands for
     what was not measured: NaN.
 
-    Raises InputError for a cell of them that is not a number, a unit that does not fit, an error
-    that has no unit where its column has one, or angles that cannot be in rad.
+    Adds to the faults, which are raised as InputError if they are not given, a cell of them that is
+    not a number, a unit that does not fit, an error that has no unit where its column has one, and
+    angles that cannot be in rad.
 
     Examples
     --------
@@ -94,16 +136,17 @@ def in_units(table: Cells, known: Iterable[str], gaps: Collection[str] = ()) -> 
     >>> given["angle"].round(4), given["spin_out"].round(2)
     (array([0.    , 1.0472]), array([   nan, -62.83]))
     """
-    columns: dict[str, Array] = {}
     units = dict(name_and_unit(head) for head in table.cells)
+    columns = {name: np.full(len(table.rows), nan) for name in units}
+    results = Results(columns, table.rows, table.word, faults or Faults())
     known = set(known)
     for name, cells in zip(units, table.cells.values(), strict=True):
-        if name not in known:
-            columns[name] = np.full(len(table.rows), nan)
-            continue
-        _check_error_unit(name, units)
-        columns[name] = _column(name, units[name], cells, table, entry(name) in gaps)
-    results = Results(columns, table.rows, table.word)
+        if name in known:
+            try:
+                _check_error_unit(name, units)
+                columns[name] = _column(name, units[name], cells, table, entry(name) in gaps)
+            except InputError as error:
+                results.faults.add(str(error))
     for name, unit in units.items():
         if name in known and name in GLOSSARY and GLOSSARY[name].unit == "rad":
             _check_angle(results, name, unit)
@@ -122,10 +165,11 @@ def with_errors(names: Iterable[str]) -> tuple[str, ...]:
     return tuple(each for name in names for each in (name, name + ERROR))
 
 
-def others(table: Cells, known: Iterable[str]) -> tuple[str, ...]:
+def others(table: Cells, known: Iterable[str], faults: Faults | None = None) -> tuple[str, ...]:
     """Return the columns that are not known and mean nothing here, for a user to be told.
 
-    Raises InputError for one that is likely to be a known one misspelt, with the nearest.
+    Adds to the faults, which are raised as InputError if they are not given, one that is likely to
+    be a known one misspelt, with the nearest, and an error without its column.
 
     Examples
     --------
@@ -134,14 +178,14 @@ def others(table: Cells, known: Iterable[str]) -> tuple[str, ...]:
     >>> others(read_table({"angle": [0.1], "run": [1]}), ["angle", "spin_out"])
     ('run',)
     """
-    known = list(known)
+    known, faults = list(known), faults or Faults()
     unknown = tuple(name for name in table.names if name not in known)
     for name in unknown:
         if hint := _likely(name, known):
-            raise InputError(f"{name}: unknown column; did you mean {hint!r}?")
+            faults.add(f"{name}: unknown column; did you mean {hint!r}?")
     for name in table.names:
-        if entry(name) not in table.names:
-            raise InputError(f"{name}: the column {entry(name)!r} it goes with is missing")
+        if entry(name) not in table.names and name not in unknown:
+            faults.add(f"{name}: the column {entry(name)!r} it goes with is missing")
     return unknown
 
 
@@ -164,7 +208,8 @@ def _likely(name: str, known: list[str]) -> str:
     plain = plain.removesuffix(unit)
     end = ERROR if plain.endswith(ERROR) else ""
     plain = plain.removesuffix(ERROR)
-    found = get_close_matches(SYMBOLS.get(plain, plain) + end, known, n=1, cutoff=NEAR)
+    stands = meant(plain, known) or plain
+    found = get_close_matches(stands + end, known, n=1, cutoff=NEAR)
     return spelled(found[0]) + (f" [{UNITS[unit]}]" if unit else "") if found else ""
 
 
@@ -187,11 +232,13 @@ def _check_angle(results: Results, name: str, unit: str) -> None:
     results.refuse(name, np.abs(results[name]) >= 0.5 * pi, allowed)
 
 
-def _column(name: str, unit: str, cells: list[Any], table: Cells, open_ended: bool) -> Array:
+def _column(name: str, unit: str, cells: Any, table: Cells, open_ended: bool) -> Array:
     """Return a column in SI units, or raise InputError for what is not a number in it."""
-    gap = np.array([open_ended and isinstance(c, str) and c.strip() == GAP for c in cells])
-    filled = [nan if g else cell for cell, g in zip(cells, gap, strict=True)]
-    values, reason = _numbers(name, unit, filled)
+    gap = np.zeros(len(cells), dtype=bool)
+    if open_ended and isinstance(cells, list):
+        gap[:] = [isinstance(cell, str) and cell.strip() == GAP for cell in cells]
+        cells = [nan if empty else cell for cell, empty in zip(cells, gap, strict=True)]
+    values, reason = column_in_si(spelled(name), GLOSSARY[entry(name)].unit, unit, cells)
     missing = ~np.isfinite(values) & ~gap
     if missing.any():
         todo = f"write '{GAP}' where nothing was measured" if open_ended else DELETE
@@ -200,24 +247,35 @@ def _column(name: str, unit: str, cells: list[Any], table: Cells, open_ended: bo
     return values
 
 
-def _numbers(name: str, unit: str, cells: list[Any]) -> tuple[Array, str]:
-    """Return a column in SI units, NaN where there is no number, and what is wrong there first."""
-    scale = number(spelled(name), f"1 {unit}", GLOSSARY[entry(name)].unit) if unit else 1.0
-    with suppress(TypeError, ValueError):
-        return np.array(cells, dtype=np.float64) * scale, ""
+def column_in_si(name: str, si: str, unit: str, cells: Any) -> tuple[Array, str]:
+    """Return a column in SI units, NaN where there is no number, and what is wrong there first.
+
+    A bare number is in the unit of the head, SI if that is empty; a text may have its own.
+
+    Raises InputError if the unit of the head does not fit.
+
+    Examples
+    --------
+    >>> from carom.io.columns import column_in_si
+    >>> column_in_si("radius", "m", "mm", [5, "6", "0.7 cm", ""])[0]
+    array([0.005, 0.006, 0.007,   nan])
+    """
+    own = factor_of(name, unit, si) if unit else Factor(1.0, 1.0)
+    if isinstance(cells, np.ndarray):
+        return np.asarray(own.apply(cells)), ""
     values, reason = np.full(len(cells), nan), ""
     for i, cell in enumerate(cells):
         try:
-            values[i] = _cell(name, cell, scale)
+            values[i] = _cell(name, si, own, cell)
         except InputError as error:
             reason = reason or str(error)
     return values, reason
 
 
-def _cell(name: str, cell: Any, scale: float) -> float:
-    """Return one number, NaN for an empty cell; a text with a unit of its own has that unit."""
-    if cell is None or (isinstance(cell, str) and not cell.strip()):
+def _cell(name: str, si: str, own: Factor, cell: Any) -> float:
+    """Return one number in SI units, NaN for an empty cell."""
+    if cell is None or str(cell).strip().lower() in ("", "nan"):
         return nan
-    with suppress(TypeError, ValueError):
-        return float(cell) * scale
-    return number(spelled(name), cell, GLOSSARY[entry(name)].unit)
+    value = number(name, cell, si)
+    bare = isinstance(cell, Real) or (isinstance(cell, str) and not split(cell)[1])
+    return float(own.apply(value)) if bare else value

@@ -1,28 +1,26 @@
 """The cells of a user's table: a CSV file, a mapping of columns, a data frame, a dataset."""
 
-import csv
 import json
 import re
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.io.files import read_text
-from carom.quantities.units import InputError, refusal
+from carom.io.csv_cells import MOST_COLUMNS, read_csv
+from carom.quantities.texts import LONGEST
+from carom.quantities.units import InputError, nearest, refusal
 
 ALIASES = {"psi_1": "psi_in", "psi_2": "psi_out", "angle_deg": "angle [deg]"}
 SPELLINGS = {name: alias for alias, name in ALIASES.items()}
 CASE = "# case:"  # begins a comment that holds the bodies as JSON
 KEPT = ("case", "doi")  # attributes of a dataset that are comments of a file
-COMMENT = re.compile(r"#\s*([A-Za-z]\w*)\s*:\s*(.*)")
 HEAD = re.compile(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*")
 PLAIN = ("", "-", "1")  # units of what has none
-SEPARATORS = ",;\t"
 GAP = "-"  # a cell of what was not measured
 SHOWN = 5  # rows that a message names
 
@@ -63,44 +61,64 @@ class Cells(Rows):
             return None
         try:
             return dict(json.loads(self.comments["case"]))
-        except (ValueError, TypeError):
+        except (ValueError, TypeError, RecursionError):
             raise InputError(f"results: after '{CASE}' there is no JSON of the bodies") from None
 
 
-def read_table(source: Any) -> Cells:
+def read_table(
+    source: Any, columns: Mapping[str, str] | None = None, *, what: str = "results", fewest: int = 2
+) -> Cells:
     """Return the cells of a CSV file, a mapping of columns, a data frame or an xarray dataset.
 
-    A file has a header, columns separated by commas, semicolons or tabs, and comments after #.
+    A file has a header, at least so many columns separated by commas, semicolons or tabs, and
+    comments after #. `columns` tells what heads stand for, {"omega [rpm]": "spin_out"}.
 
-    Raises InputError if it cannot be read, has no rows, columns of one name or unequal length.
+    Raises InputError, in which the table is called `what`, if it cannot be read, has no rows, too
+    many columns, or columns of one name or unequal length.
 
     Examples
     --------
     >>> from carom.io.tables import read_table
-    >>> table = read_table({"angle [deg]": [10.0, 20.0], "spin_out": [-200.0, -500.0]})
+    >>> table = read_table({"angle [deg]": [10.0, 20.0], "omega": [-2.0, -5.0]}, {"omega": "spin"})
     >>> table.names, table.word, len(table.rows)
-    (('angle', 'spin_out'), 'row', 2)
+    (('angle', 'spin'), 'row', 2)
     """
     if isinstance(source, str | Path):
-        table = _read_csv(Path(source))
-    elif hasattr(source, "data_vars"):
-        comments = {name: source.attrs[name] for name in KEPT if name in source.attrs}
-        table = _counted(_of_dataset(source), comments)
-    elif hasattr(source, "items"):  # a data frame, too
-        table = _counted(source, {})
+        found = read_csv(what, Path(source), fewest)
+        heads, cells = found.heads, found.columns
+        table = Cells({}, found.lines, "line", found.comments)
     else:
-        raise refusal("results", source, "must be the name of a CSV file, or columns by name")
+        table = _counted(what, *_columns_of(what, source))
+        heads, cells = list(table.cells), list(table.cells.values())
+    heads = _renamed(heads, _checked_columns(columns), what)
+    _check_names(what, [name_and_unit(head)[0] for head in heads])
     if not len(table.rows):
-        raise InputError("results: no rows; there must be names of columns, and numbers below them")
-    _check_once(table.names)
-    return table
+        raise InputError(f"{what}: no rows; there must be names of columns, and numbers below them")
+    return replace(table, cells=dict(zip(heads, cells, strict=True)))
+
+
+def _columns_of(what: str, source: Any) -> tuple[Any, dict[str, str]]:
+    """Return the columns of what is no file, and its comments."""
+    if hasattr(source, "data_vars"):
+        return _of_dataset(source), {n: source.attrs[n] for n in KEPT if n in source.attrs}
+    if not hasattr(source, "items"):  # which a data frame has, too
+        raise refusal(what, source, "must be the name of a CSV file, or columns by name")
+    if len(source.keys()) > MOST_COLUMNS:
+        raise refusal(what, f"{len(source.keys())} columns", f"{MOST_COLUMNS} are read at most")
+    return source, {}
+
+
+def _checked_columns(columns: Any) -> Mapping[str, str]:
+    names = {} if columns is None else columns
+    if not isinstance(names, Mapping) or not all(isinstance(n, str) for n in names.values()):
+        example = "{'omega': 'spin_out'}"
+        raise refusal("columns", columns, f"must tell what names stand for, e.g. {example}")
+    return names
 
 
 def name_and_unit(head: str) -> tuple[str, str]:
     """Return name and unit of a column from its head, "spin [rpm]" or "spin (rpm)"."""
-    head = ALIASES.get(head.strip(), head)
-    match = HEAD.fullmatch(head)
-    name, unit = (match[1], match[2] or match[3] or "") if match else (head, "")
+    name, unit = _parts(ALIASES.get(head.strip(), head))
     return ALIASES.get(name, name), "" if unit in PLAIN else unit
 
 
@@ -128,85 +146,60 @@ def named(word: str, rows: Iterable[int], total: int = 0) -> str:
     return f"{word}s {', '.join(texts[:-1])} and {texts[-1]}"
 
 
-def _read_csv(path: Path) -> Cells:
-    text = _text(path)
-    lines = [
-        (place, line)
-        for place, line in enumerate(text.splitlines(), 1)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
-    if not lines:
-        raise refusal("results", str(path), "it is empty; there must be a header and numbers")
-    head, body = _split(path, [line for _, line in lines])
-    for (place, _), row in zip(lines[1:], body, strict=True):
-        if len(row) != len(head):
-            message = f"line {place} has {len(row)} values, the header has {len(head)} names"
-            raise refusal("results", str(path), f"it is not CSV; {message}")
-    cells = {name: [row[i] for row in body] for i, name in enumerate(head)}
-    places = np.array([place for place, _ in lines[1:]], dtype=np.int64)
-    return Cells(cells, places, "line", _comments(text))
-
-
-def _split(path: Path, lines: list[str]) -> tuple[list[str], list[list[str]]]:
-    """Return the header and the rows of CSV, separated as the header is."""
-    separator = max(SEPARATORS, key=lines[0].count)
-    try:
-        cells = list(csv.reader(lines, delimiter=separator, skipinitialspace=True, strict=True))
-    except csv.Error as error:
-        raise refusal("results", str(path), f"it is not CSV; {error}") from None
-    head, body = [text.strip() for text in cells[0]], cells[1:]
-    if len(cells) != len(lines) or len(head) < 2:
-        allowed = "it is not CSV; give columns separated by commas, semicolons or tabs"
-        raise refusal("results", str(path), allowed)
-    _check_head(head)
-    return head, body
-
-
-def _comments(text: str) -> dict[str, str]:
-    """Return the comments "# key: value" by key; the first of a key counts."""
-    found = [COMMENT.fullmatch(line.strip()) for line in text.splitlines()]
-    return {match[1].lower(): match[2].strip() for match in reversed(found) if match}
-
-
-def _text(path: Path) -> str:
-    try:
-        text = read_text("results", path)
-    except UnicodeDecodeError:
-        raise refusal("results", str(path), "it is not text in UTF-8; give a CSV file") from None
-    if "\0" in text:
-        raise refusal("results", str(path), "it is not text; give a CSV file")
-    return text
-
-
-def _check_head(head: list[str]) -> None:
-    """Raise InputError if a header is none: numbers, or a name twice."""
-    if all(_is_number(text) for text in head):
-        raise InputError(
-            "results: the first line holds numbers; before it a line, without #, must name the "
-            "columns, e.g. psi_1,psi_2,chi"
-        )
-    _check_once(head)
-
-
-def _check_once(names: Sequence[str]) -> None:
-    twice = [name for i, name in enumerate(names) if name in names[:i]]
+def _check_names(what: str, names: Sequence[str]) -> None:
+    """Raise InputError for more columns than are read, and for names given twice."""
+    if len(names) > MOST_COLUMNS:
+        raise refusal(what, f"{len(names)} columns", f"{MOST_COLUMNS} are read at most")
+    twice = [spelled(name) for name, count in Counter(names).items() if count > 1]
     if twice:
-        raise InputError(f"{spelled(twice[0])!r}: two columns of this name; leave one of them out")
+        listed = " and ".join(map(repr, twice))
+        raise InputError(f"{listed}: two columns of this name; leave one of them out")
 
 
-def _is_number(text: str) -> bool:
-    with suppress(ValueError):
-        float(text)
-        return True
-    return False
+def _renamed(heads: Iterable[str], columns: Mapping[str, str], what: str) -> list[str]:
+    """Return heads in which users' names are replaced by Carom's; a unit stays unless it is told.
+
+    Raises InputError for a name that no column has.
+    """
+    heads, left, new = list(heads), dict(columns), []
+    for head in heads:
+        name, unit = _parts(head)
+        wanted = left.pop(head, None) or left.pop(name, None)
+        own = unit and wanted and not _parts(wanted)[1]
+        new.append(head if wanted is None else f"{wanted} [{unit}]" if own else wanted)
+    for name in left:
+        hint = nearest(name, heads) or f"found are {', '.join(heads)}"
+        raise refusal("columns", name, f"{what} has no column of that name; {hint}")
+    return new
 
 
-def _counted(source: Any, comments: Mapping[str, str]) -> Cells:
+def _parts(head: str) -> tuple[str, str]:
+    """Return what stands before and in the brackets of a head."""
+    match = HEAD.fullmatch(head) if len(head) <= LONGEST else None
+    return (match[1], match[2] or match[3] or "") if match else (head, "")
+
+
+def _counted(what: str, source: Any, comments: Mapping[str, str]) -> Cells:
     """Return columns as cells whose rows are counted from 1."""
-    cells = {str(name): _line(str(name), values) for name, values in source.items()}
-    require_equal_lengths("results", cells)
+    cells = dict(_with_unit(str(name), values) for name, values in source.items())
+    require_equal_lengths(what, cells)
     rows = np.arange(1, 1 + len(next(iter(cells.values()), [])))
     return Cells(cells, rows, "row", comments)
+
+
+def _with_unit(name: str, values: Any) -> tuple[str, Any]:
+    """Return head and cells of a column; pint's quantities and xarray's arrays tell their unit."""
+    unit = ""
+    if hasattr(values, "to_root_units"):
+        values, unit = values.magnitude, str(values.units)
+    elif isinstance(getattr(values, "attrs", None), Mapping):
+        unit = str(values.attrs.get("units", ""))
+    if unit in (*PLAIN, "dimensionless"):
+        return name, _line(name, values)
+    if _parts(name)[1]:
+        allowed = f"it has two units, {_parts(name)[1]} in its head and {unit}; leave one out"
+        raise refusal(name, values, allowed)
+    return f"{name} [{unit}]", _line(name, values)
 
 
 def require_equal_lengths(what: str, columns: Mapping[str, Any]) -> None:
@@ -218,11 +211,13 @@ def require_equal_lengths(what: str, columns: Mapping[str, Any]) -> None:
 
 
 def _line(name: str, values: Any) -> Any:
+    """Return a column: an array of numbers, or a list of whatever else it holds."""
     if isinstance(values, np.ma.MaskedArray):
         values = np.ma.filled(values.astype(np.float64), np.nan)
-    if np.ndim(values) != 1:
+    if isinstance(values, str | bytes) or np.ndim(values) != 1:
         raise refusal(name, values, "a column must be a list of numbers")
-    return list(values)
+    kind = getattr(getattr(values, "dtype", None), "kind", "O")
+    return np.asarray(values, dtype=np.float64) if kind in "iuf" else list(values)
 
 
 def _of_dataset(dataset: Any) -> dict[str, list[Any]]:

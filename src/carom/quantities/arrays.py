@@ -1,15 +1,21 @@
 """Reading arrays that users give: numbers, points, the lines of a grid."""
 
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.texts import Unreadable, split
 from carom.quantities.units import InputError, in_si, number, refusal
 
 Array = NDArray[np.float64]
+
+ASCII = re.compile(
+    r"[0-9.+\-eE \t]*"
+)  # texts of which NumPy reads the numbers of the grammar alone
 
 
 class Places(NamedTuple):
@@ -50,8 +56,28 @@ def _bare(name: str, given: Any, unit: str) -> Any:
     if isinstance(given, list | tuple):
         return [_bare(name, each, unit) for each in given]
     if isinstance(given, bool | np.bool_):
-        raise refusal(name, given, "a truth value is no number")
+        raise TypeError("a truth value is no number")
     return in_si(name, given, unit)
+
+
+def plain_numbers(texts: Sequence[str]) -> Array | None:
+    """Return texts that are all numbers without a unit as an array, quickly; else None.
+
+    Examples
+    --------
+    >>> from carom.quantities.arrays import plain_numbers
+    >>> plain_numbers(["1.5", " -2e3"]), plain_numbers(["1.5", "1_000"])
+    (array([ 1.5e+00, -2.0e+03]), None)
+    """
+    if not texts or ASCII.fullmatch("".join(texts)) is None:
+        return None
+    try:
+        values = np.array(texts, dtype=np.float64)
+        for place in np.flatnonzero((values == 0.0) | np.isinf(values)):
+            split(texts[place])  # what rounds to zero or infinity is no number
+    except (ValueError, Unreadable):
+        return None
+    return values
 
 
 def scattered(name: str, given: ArrayLike, columns: int) -> Array:

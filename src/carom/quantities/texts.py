@@ -17,9 +17,10 @@ LONGEST = 200  # characters of a text
 TERMS = 4  # of a unit expression
 
 BLANKS = " \t\u00a0\u2009\u202f"  # no-break and thin spaces, too
-SIGN = r"[+\-\u2212]?"
+MINUS = "\u2212"
+SIGN = rf"[+\-{MINUS}]?"
 NUMBER = re.compile(rf"{SIGN}(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE]{SIGN}[0-9]+)?")
-LOWERED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹\u2212", "+-0123456789-")
+LOWERED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹" + MINUS, "+-0123456789-")
 RAISED_DIGITS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 NAME = rf"[^\W\d{RAISED_DIGITS}]+|[%‰°]"
 POWER = rf"(?:\^|\*\*)({SIGN}[0-9])|([⁺⁻]?[{RAISED_DIGITS}])"
@@ -27,18 +28,32 @@ TERM = re.compile(rf"({NAME})(?:{POWER})?(?![0-9{RAISED_DIGITS}^])")
 PRODUCT = re.compile(rf"[{BLANKS}]*[*·⋅][{BLANKS}]*|[{BLANKS}]+")
 SLASH = re.compile(rf"[{BLANKS}]*/[{BLANKS}]*")
 SPELT = {"°": "degree", "rev": "turn", "revs": "turn"}
-UNITS = frozenset(  # of pint's, by their whole names; constants of nature are none
-    """meter inch foot yard mile thou micron angstrom nautical_mile gram pound ounce metric_ton slug
-    second minute hour day newton dyne force_kilogram force_gram force_pound kip pascal bar
-    pound_force_per_square_inch kip_per_square_inch standard_atmosphere torr joule radian degree
-    arcminute arcsecond turn grade revolutions_per_minute revolutions_per_second hertz becquerel
-    knot mile_per_hour kilometer_per_hour meter_per_second foot_per_second percent permille ppm
-    liter cubic_centimeter""".split()
-)
+OTHER_KIND = {
+    "1": "it has a unit and is no pure number",
+    "rad/s": "a spin is not in {0}; write rad/s or rpm",
+}
+LENGTHS = "meter inch foot yard mile thou micron angstrom nautical_mile"
+MASSES = "gram pound ounce metric_ton slug liter cubic_centimeter"
+TIMES = "second minute hour day hertz becquerel"
+FORCES = "newton dyne force_kilogram force_gram force_pound kip joule"
+PRESSURES = "pascal bar pound_force_per_square_inch kip_per_square_inch standard_atmosphere torr"
+ANGLES = "radian degree arcminute arcsecond turn grade"
+SPINS = "revolutions_per_minute revolutions_per_second"
+SPEEDS = "knot mile_per_hour kilometer_per_hour meter_per_second foot_per_second"
+RATIOS = "percent permille ppm"
+KINDS = (LENGTHS, MASSES, TIMES, FORCES, PRESSURES, ANGLES, SPINS, SPEEDS, RATIOS)
+UNITS = frozenset(" ".join(KINDS).split())  # pint's whole names; constants of nature are none
 
 
 class Unreadable(ValueError):
-    """A text is no quantity, or not one of the kind that is asked for; the message says why."""
+    """A text is no quantity, or not one of the kind that is asked for; the message says why.
+
+    `enough` tells whether it says what to do, too.
+    """
+
+    def __init__(self, reason: str = "", *, enough: bool = False) -> None:
+        super().__init__(reason)
+        self.enough = enough
 
 
 class Factor(NamedTuple):
@@ -76,18 +91,20 @@ def split(text: str) -> tuple[float, str]:
     Raises Unreadable, also for numbers that floating point cannot hold.
     """
     if len(text) > LONGEST:
-        raise Unreadable(f"it has {len(text)} characters, of which {LONGEST} are read at most")
+        raise Unreadable(
+            f"it has {len(text)} characters, of which {LONGEST} are read at most", enough=True
+        )
     plain = text.strip(BLANKS)
     found = NUMBER.match(plain)
     if found is None:
-        raise Unreadable("" if plain else "it is empty")
-    digits = found[0].replace("\u2212", "-")
+        raise Unreadable() if plain else Unreadable("it is empty")
+    digits = found[0].replace(MINUS, "-")
     value = float(digits)
     if abs(value) == inf or (value == 0.0 and re.search("[1-9]", digits.lower().split("e")[0])):
-        raise Unreadable("floating point cannot hold it")
+        raise Unreadable("floating point cannot hold it", enough=True)
     rest = plain[found.end() :]
     if rest.startswith(","):
-        raise Unreadable("numbers need a decimal point, not a comma, and no other separators")
+        raise Unreadable("numbers need a decimal point, not a comma", enough=True)
     return value, rest.strip(BLANKS)
 
 
@@ -109,8 +126,9 @@ def _factor(expression: str, unit: str) -> Factor | Unreadable:
     except Unreadable as error:
         return error
     if given[1] != wanted[1]:
-        kind = "a pure number" if unit == "1" else f"a value in {unit}"
-        return Unreadable(f"{expression!r} is not the unit of {kind}")
+        return Unreadable(
+            OTHER_KIND.get(unit, "that is not a value in {1}").format(expression, unit)
+        )
     ratio = given[0] / wanted[0]
     decades = round(log10(ratio))
     if abs(ratio - 10.0**decades) > 1e-12 * ratio:

@@ -168,8 +168,8 @@ def _of_text(name: str, text: str, unit: str) -> float:
     try:
         return read_text(text, unit)
     except Unreadable as error:
-        reason = f"{error}; " if str(error) else ""
-        raise refusal(name, text, f"{reason}{_expected(unit)}") from None
+        expected = () if error.enough else (_expected(unit),)
+        raise refusal(name, text, "; ".join(filter(None, (str(error), *expected)))) from None
 
 
 def _of_pint(name: str, quantity: Any, unit: str) -> Any:
@@ -181,4 +181,4 @@ def _of_pint(name: str, quantity: Any, unit: str) -> Any:
             return quantity.to(wanted.units).magnitude
     except Exception:  # pint raises what it likes at units with an offset
         pass
-    raise refusal(name, quantity, f"that is no value in {unit}; {_expected(unit)}") from None
+    raise refusal(name, quantity, f"that is not a value in {unit}; {_expected(unit)}") from None

@@ -4,6 +4,7 @@
 samples = 1000                # a Latin hypercube in the ranges of the axes
 seed = 1
 table = "cases.csv"           # or the cases themselves, one a row
+columns = {omega = "spin"}    # what heads of the table stand for, if they are your own
 outputs = ["rebound_angle"]   # all by default
 
 [sweep.axes]
@@ -20,12 +21,16 @@ from carom.quantities.units import InputError, hint, refusal
 from carom.sweeps.designs import Design, Grid, LatinHypercube
 from carom.sweeps.tables import Table
 
-KEYS = ("samples", "seed", "table", "outputs", "axes")
+KEYS = ("samples", "seed", "table", "columns", "outputs", "axes")
 EXAMPLE = 'angle = {from = "0 deg", to = "85 deg", points = 86}'
 
 
-def plan(case: Case, path: Path) -> tuple[Design, list[str] | None]:
+def plan(
+    case: Case, path: Path, columns: Mapping[str, str] | None = None
+) -> tuple[Design, list[str] | None]:
     """Return the design and the outputs that a case file asks for.
+
+    `columns` tells what heads of its table stand for, beside what the file tells.
 
     Raises InputError if there is no [sweep], for what is unknown, and for what does not fit
     together.
@@ -37,15 +42,21 @@ def plan(case: Case, path: Path) -> tuple[Design, list[str] | None]:
     outputs = given.get("outputs")
     if "outputs" in given and not isinstance(outputs, list):
         raise refusal("outputs", outputs, 'must be a list of names, e.g. ["rebound_angle"]')
-    return _design(given, path), outputs
+    return _design(given, path, columns or {}), outputs
 
 
-def _design(given: Mapping[str, Any], path: Path) -> Design:
+def _design(given: Mapping[str, Any], path: Path, columns: Mapping[str, str]) -> Design:
     if "table" in given:
         _refuse(given, ("samples", "seed", "axes"), "a table of cases")
         if not isinstance(given["table"], str):
             raise refusal("table", given["table"], "must be the name of a CSV file")
-        return Table(path.parent / given["table"])
+        own = given.get("columns", {})
+        if not isinstance(own, Mapping):
+            raise refusal("columns", own, 'must be a table, e.g. {omega = "spin"}')
+        return Table(path.parent / given["table"], {**own, **columns})
+    if columns or "columns" in given:
+        shown = columns or given["columns"]
+        raise refusal("columns", shown, "they are those of a table of cases; leave them out")
     axes = given.get("axes")
     if not isinstance(axes, Mapping):
         raise refusal("axes", axes, f"must be a table, [sweep.axes], with {EXAMPLE}")

@@ -1,8 +1,6 @@
 """Tables of cases: columns of numbers with units, or of names, from a CSV file or a mapping."""
 
 import hashlib
-import re
-import warnings
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
@@ -13,9 +11,10 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from carom.io.tables import require_equal_lengths
-from carom.quantities.arrays import Array
-from carom.quantities.units import InputError, number, refusal
+from carom.io.columns import Faults, column_in_si
+from carom.io.tables import name_and_unit, read_table
+from carom.quantities.glossary import GLOSSARY
+from carom.quantities.units import InputError
 from carom.sweeps.blocks import Box
 from carom.sweeps.designs import Design
 from carom.sweeps.inputs import (
@@ -28,10 +27,8 @@ from carom.sweeps.inputs import (
     checked_names,
     leaf,
     read_choice,
+    refuse_contradictions,
 )
-
-HEAD = re.compile(r"\s*([^\[]*?)\s*(?:\[(.*)\])?\s*")
-CELL = r"^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf)\s*(.*?)\s*$"
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -44,6 +41,8 @@ class Table(Design):
         A CSV file, or a mapping of columns. Columns are called as inputs are, with a unit if they
         have one, "speed [km/h]"; a cell may have its own, "5 mm". A row with a cell that cannot be
         read gets a status that says so.
+    columns : mapping, optional
+        What heads of the table stand for, {"omega [rpm]": "spin"}.
 
     Raises
     ------
@@ -58,8 +57,10 @@ class Table(Design):
     ('angle', 'friction')
     """
 
-    def __init__(self, source: str | Path | Mapping[str, Any]) -> None:
-        super().__init__(*_read(source))
+    def __init__(
+        self, source: str | Path | Mapping[str, Any], columns: Mapping[str, str] | None = None
+    ) -> None:
+        super().__init__(*_read(source, columns))
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -80,87 +81,32 @@ class Table(Design):
         return {"kind": "table", **whole, "sha256": digest.hexdigest()}
 
 
-def _read(source: str | Path | Mapping[str, Any]) -> tuple[Choices, dict[str, NDArray[Any]]]:
+def _read(
+    source: Any, columns: Mapping[str, str] | None
+) -> tuple[Choices, dict[str, NDArray[Any]]]:
     """Return what the codes of names stand for, and the inputs by name."""
-    if isinstance(source, str | Path):
-        given = _read_csv(source)
-    elif hasattr(source, "items"):  # a data frame, too
-        given = _series(source)
-    else:
-        raise refusal("table", source, "must be the name of a CSV file, or a mapping of columns")
-    heads = [_head(text) for text in given]
-    names = checked_names(name for name, _ in heads)
-    columns: dict[str, NDArray[Any]] = {}
+    table = read_table(source, columns, what="table", fewest=1)
+    inputs: dict[str, NDArray[Any]] = {}
     choices: dict[str, tuple[Choice, ...]] = {}
-    for (name, unit), column in zip(heads, given.values(), strict=True):
-        if name in columns:
-            raise InputError(f"{name}: two columns of this name; a table needs one")
-        if name in CHOSEN:
-            columns[name], choices[name] = _chosen(name, column)
-        else:
-            columns[name] = _numbers(leaf(name), unit, column)
-    if not columns[names[0]].size:
-        raise InputError("table: it has no rows; give at least one case")
-    return choices, columns
+    with Faults() as faults:
+        for head, cells in table.cells.items():
+            name, unit = name_and_unit(head)
+            try:
+                checked_names([name])
+                if name in CHOSEN:
+                    inputs[name], choices[name] = _chosen(name, cells)
+                else:
+                    key = leaf(name)
+                    inputs[name] = column_in_si(key, GLOSSARY[key].unit, unit, cells)[0]
+            except InputError as error:
+                faults.add(str(error))
+        refuse_contradictions(table.names)
+    return choices, inputs
 
 
-def _head(text: str) -> tuple[str, str | None]:
-    """Return name and unit of a column from its head, "speed [m/s]"."""
-    match = HEAD.fullmatch(text)
-    return (match[1], match[2]) if match else (text, None)
-
-
-def _read_csv(path: str | Path) -> "dict[str, pd.Series[Any]]":
-    how: dict[str, Any] = {"comment": "#", "skipinitialspace": True, "low_memory": False}
-    if tuple(map(int, pd.__version__.split(".")[:2])) < (3, 1):
-        how["float_precision"] = "round_trip"  # from then on numbers are always read exactly
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error", pd.errors.ParserWarning)  # rows longer than the header
-            frame = pd.read_csv(Path(path), index_col=False, **how)
-    except OSError as error:
-        reason = error.strerror or error
-        raise InputError(f"table: {str(path)!r} cannot be read; {reason}") from None
-    except (ValueError, pd.errors.ParserWarning) as error:  # ValueError: of pandas' parser, too
-        raise InputError(f"table: {str(path)!r} is not CSV; {str(error).strip()}") from None
-    return {str(head): frame[head] for head in frame}
-
-
-def _series(columns: Mapping[str, Any]) -> "dict[str, pd.Series[Any]]":
-    try:
-        series = {
-            str(name): pd.Series(values if np.ma.isMaskedArray(values) else np.asarray(values))
-            for name, values in columns.items()
-        }
-    except ValueError:
-        raise InputError("table: every column must be a list of numbers or of texts") from None
-    require_equal_lengths("table", series)
-    return series
-
-
-def _numbers(key: str, unit: str | None, column: "pd.Series[Any]") -> Array:
-    scale = number(key, f"1 {unit}") if unit else 1.0
-    if column.dtype.kind in "iuf":
-        return np.asarray(column, dtype=np.float64) * scale
-    cells = column.astype(str).str.extract(CELL)
-    read = cells[0].notna().to_numpy()
-    values = np.full(len(column), np.nan)
-    values[read] = cells.loc[read, 0].to_numpy(dtype=object).astype(np.float64)
-    codes, units = cells[1].factorize()
-    scales = np.array([_scale(key, text, scale) for text in units] + [np.nan])
-    return np.asarray(values * scales[codes])
-
-
-def _scale(key: str, unit: str, scale: float) -> float:
-    """Return what numbers with this unit are multiplied by; NaN for a unit that does not fit."""
-    try:
-        return number(key, f"1 {unit}") if unit else scale
-    except InputError:
-        return np.nan
-
-
-def _chosen(name: str, column: "pd.Series[Any]") -> tuple[NDArray[Any], tuple[Choice, ...]]:
-    codes, values = column.factorize()
+def _chosen(name: str, cells: Any) -> tuple[NDArray[Any], tuple[Choice, ...]]:
+    """Return the codes of a column of names, and what they stand for."""
+    codes, values = pd.factorize(np.array([*cells, None], dtype=object)[:-1])
     read: dict[int, Choice] = {}
     for i, value in enumerate(values):
         with suppress(InputError):

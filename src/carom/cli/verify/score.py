@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 import carom
-from carom.cli.cases import Json, Plot, check_outputs, refuse_same, store
+from carom.cli.cases import Column, Json, Plot, check_outputs, named_values, refuse_same, store
 
 
 def score_command(
@@ -25,6 +25,7 @@ def score_command(
             help="Largest |error in psi_2| that passes, and of the audit; the best laws reach 0.05."
         ),
     ] = "0.01",
+    column: Column = None,
     plot: Plot = None,
     output: Annotated[str | None, typer.Option(help="Store the score: .csv or .nc.")] = None,
     as_json: Json = False,
@@ -47,7 +48,13 @@ def score_command(
 
     refuse_same({"results": results, "case": case, "plot": plot, "output": output})
     check_outputs((plot, FIGURES), (output, TABLES))
-    score = carom.verify.score(results, case=case, chi=chi, tolerance=tolerance)
+    score = carom.verify.score(
+        results,
+        case=case,
+        chi=chi,
+        tolerance=tolerance,
+        columns=named_values("column", column, "omega=spin_out"),
+    )
     store(score, output, plot)
     typer.echo(json.dumps(score.to_dict(), indent=2) if as_json else str(score))
     if not score.passed:

@@ -13,7 +13,7 @@ from carom.bodies.pairs import Pair
 from carom.bodies.shapes import describe
 from carom.impacts.exact import Impact
 from carom.impacts.solve import impact
-from carom.io.columns import Results, in_units
+from carom.io.columns import Faults, Results, in_units
 from carom.io.tables import read_table
 from carom.quantities.arrays import Array
 from carom.quantities.units import InputError, nearest, number, positive, refusal
@@ -36,6 +36,7 @@ def score(
     case: str | Path | Mapping[str, Any] | Pair | Impact | None = None,
     chi: float | str | None = None,
     tolerance: float | str = TOLERANCE,
+    columns: Mapping[str, str] | None = None,
 ) -> Score:
     """Score a user's own results of oblique impacts against the exact answer.
 
@@ -65,6 +66,8 @@ def score(
     tolerance : float
         Largest |error in psi_2| that passes. It is also the limit of what the audit finds, in units
         of psi; of the errors of forces, in units of mu P_max and P_max; of the duration, relative.
+    columns : mapping, optional
+        What heads of the results stand for, {"omega": "spin_out"}, or {"w": "spin_out [rpm]"}.
 
     Returns
     -------
@@ -92,13 +95,15 @@ def score(
     limit = number("tolerance", tolerance, "1")
     if not 0.0 < limit < float("inf"):
         raise refusal("tolerance", tolerance, f"must be positive and finite, e.g. {TOLERANCE}")
-    table = read_table(results)
-    kind, columns = _kind(table.names)
-    given = in_units(table, columns)
+    table = read_table(results, columns)
+    kind, known = _kind(table.names)
     if kind != "psi" and chi is not None:
         raise refusal("chi", chi, "it follows from the case; leave it out")
     scored = {"psi": _score_psi, "velocities": _score_velocities, "history": _score_history}
-    return scored[kind](given, _case(case, chi, table.case), chi, limit)
+    with Faults() as faults:
+        given = in_units(table, known, faults=faults)
+        faults.settle()
+        return scored[kind](given, _case(case, chi, table.case), chi, limit)
 
 
 def _case(case: Any, chi: Any, own: Any) -> Any:
