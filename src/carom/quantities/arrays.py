@@ -13,9 +13,7 @@ from carom.quantities.units import InputError, in_si, number, refusal
 
 Array = NDArray[np.float64]
 
-ASCII = re.compile(
-    r"[0-9.+\-eE \t]*"
-)  # texts of which NumPy reads the numbers of the grammar alone
+ASCII = re.compile(r"[0-9.+\-eE \t]*")  # of which NumPy reads the numbers of the grammar alone
 
 
 class Places(NamedTuple):
@@ -74,7 +72,7 @@ def plain_numbers(texts: Sequence[str]) -> Array | None:
     try:
         values = np.array(texts, dtype=np.float64)
         for place in np.flatnonzero((values == 0.0) | np.isinf(values)):
-            split(texts[place])  # what rounds to zero or infinity is no number
+            split(texts[int(place)])  # what rounds to zero or infinity is no number
     except (ValueError, Unreadable):
         return None
     return values

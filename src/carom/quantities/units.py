@@ -53,7 +53,7 @@ def number(name: str, value: Any, unit: str | None = None) -> float:
     if isinstance(plain, str):
         return _of_text(name, plain, unit)
     known = isinstance(plain, Real | Decimal) or getattr(plain, "shape", None) == ()
-    if not known or isinstance(plain, bool) or getattr(plain, "dtype", float) == bool:
+    if not known or isinstance(plain, bool) or str(getattr(plain, "dtype", "")) == "bool":
         raise refusal(name, value, _expected(unit))
     try:
         result = float(plain)
