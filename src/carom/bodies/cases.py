@@ -4,6 +4,7 @@ import re
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +13,7 @@ from carom.bodies.materials import VALUES, Material, as_material
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.io.files import read_text
+from carom.quantities.faults import TOLD, Faults
 from carom.quantities.units import InputError, finite, hint, not_negative, number, positive, refusal
 
 if TYPE_CHECKING:
@@ -29,6 +31,7 @@ MOTION: dict[str, Callable[[str, Any], float]] = {
 }
 LOSSES = ("restitution", "loss_time", "yield_velocity")  # of the normal motion, one at most
 ONE_LOSS = "both tell what the normal motion loses"
+TWICE = "it is given twice in the material; leave one of them out"
 FROM_STRENGTH = "material"  # the yield velocity that the yield strengths give
 SIZES: dict[str, Callable[[str, Any], float]] = {
     "radius": positive,
@@ -41,6 +44,7 @@ OUTPUT = ("plot", "animation", "data")
 TABLES = {"first": BODY, "second": ("kind", *BODY), "output": OUTPUT}
 KINDS = ("half-space", "sphere", "cup")
 SHAPES = (HalfSpace, Sphere, Cup)
+DEEP = re.compile(r"(?<![\w\"'-])(?:[\w\"'-]++\s*+\.\s*+){20}")  # a dotted key of that many tables
 SWEEP = "sweep"  # the table of a sweep, which `carom.sweeps` reads
 
 
@@ -48,11 +52,17 @@ def read_case(path: Path, *, losses: bool = False) -> Case:
     """Return the content of a case file, its keys checked; `losses` as in `check_case`."""
     try:
         text = read_text("case file", path)
+        if DEEP.search(text):  # which takes memory with the square of the depth
+            raise RecursionError
         case = tomllib.loads(text)
     except UnicodeDecodeError:
         raise InputError(f"case file: {str(path)!r} is not text; give a TOML file") from None
-    except tomllib.TOMLDecodeError as error:
+    except InputError:
+        raise
+    except ValueError as error:  # of tomllib; for integers of many digits Python's own
         raise InputError(f"case file: {str(path)!r} is not TOML; {error}") from None
+    except RecursionError:
+        raise refusal("case file", str(path), "its tables lie too deep in one another") from None
     where = partial(_place, path, text)
     check_case(case, where, losses=losses)
     return case
@@ -64,31 +74,30 @@ def check_case(
     *,
     losses: bool = False,
 ) -> None:
-    """Raise InputError for a key that is not known; `place` tells where a key of a table is.
+    """Raise InputError for all keys that are not known; `place` tells where a key of a table is.
 
     Losses of the normal motion are refused, too, unless the caller can do with them.
     """
 
     def check(table: Mapping[str, Any], allowed: Iterable[str], name: str) -> None:
-        for key in table:
-            if key not in allowed:
-                where = place(key, name)
-                raise InputError(f"{key}: unknown key{where}; {hint(key, allowed)}")
+        for key in islice((key for key in table if key not in allowed), TOLD):
+            faults.add(f"{key}: unknown key{place(key, name)}; {hint(key, allowed)}")
 
     if not isinstance(case, Mapping):
         raise refusal("case", case, "must be a mapping with friction, speeds, first and second")
-    for key in () if losses else LOSSES:
-        if key in case:
-            where = place(key, "")
-            raise InputError(f"{key}: of no use{where}; this is for elastic impacts, leave it out")
-    check(case, ("friction", *MOTION, *LOSSES, *TABLES, SWEEP), "")
-    for name, allowed in TABLES.items():
-        table = case.get(name, {})
-        if not isinstance(table, Mapping):
-            raise refusal(name, table, f"must be a table, [{name}], with {', '.join(allowed)}")
-        check(table, allowed, name)
-        if isinstance(table.get("material"), Mapping):
-            check(table["material"], MATERIAL, name)
+    with Faults() as faults:
+        for key in () if losses else LOSSES:
+            if key in case:
+                where = place(key, "")
+                faults.add(f"{key}: of no use{where}; this is for elastic impacts, leave it out")
+        check(case, ("friction", *MOTION, *LOSSES, *TABLES, SWEEP), "")
+        for name, allowed in TABLES.items():
+            table = case.get(name, {})
+            if not isinstance(table, Mapping):
+                raise refusal(name, table, f"must be a table, [{name}], with {', '.join(allowed)}")
+            check(table, allowed, name)
+            if isinstance(table.get("material"), Mapping):
+                check(table["material"], MATERIAL, name)
 
 
 def _place(path: Path, text: str, key: str, table: str) -> str:
@@ -231,7 +240,12 @@ def material_values(value: Any) -> dict[str, float]:
 def _as_table(value: Any) -> Any:
     """Return text like "young=210 GPa, poisson=0.3" as a table, anything else as it is."""
     if isinstance(value, str) and "=" in value:
-        value = dict(map(_entry, value.split(",")))
+        entries = [_entry(part) for part in value.split(",")]
+        value = dict(entries)
+        for key in value:
+            given = [text for name, text in entries if name == key]
+            if len(given) > 1:
+                raise refusal(key, " and ".join(given), TWICE)
     if isinstance(value, Mapping):
         for key in value:
             if key not in MATERIAL:

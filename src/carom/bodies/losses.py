@@ -13,6 +13,7 @@ from carom.dimensionless.lossy.normal import Loss
 from carom.dimensionless.lossy.stages import viscous_loss
 from carom.io.citations import VISCOUS
 from carom.quantities.elementwise import sqrt
+from carom.quantities.keywords import known_keywords
 from carom.quantities.units import InputError, Value, not_negative, number, positive, refusal
 
 SMALLEST_RESTITUTION = 1e-3
@@ -78,6 +79,7 @@ class KelvinVoigt:
     restitution: Any = None
     loss_time: Any = None
 
+    @known_keywords
     def __init__(self, restitution: Any = None, loss_time: Value | None = None) -> None:
         if (restitution is None) == (loss_time is None):
             raise InputError("restitution: give it or loss_time, one of the two")
@@ -147,6 +149,7 @@ class ElasticPlastic:
 
     yield_velocity: Any = None
 
+    @known_keywords
     def __init__(self, yield_velocity: Value | None = None) -> None:
         if yield_velocity is not None:
             checked = _checked("yield_velocity", yield_velocity)

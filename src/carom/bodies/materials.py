@@ -7,6 +7,7 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import Any, TypeVar
 
+from carom.quantities.keywords import known_keywords
 from carom.quantities.units import Value, nearest, number, positive, refusal
 
 VALUES = ("young", "poisson", "density", "yield_strength")
@@ -64,6 +65,7 @@ class Material:
     yield_strength: float | None
     name: str | None
 
+    @known_keywords
     def __init__(
         self,
         *,

@@ -8,6 +8,7 @@ from operator import and_
 from carom.bodies.materials import Material
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.quantities.elementwise import isfinite, quotient, sqrt, where
+from carom.quantities.keywords import known_keywords
 from carom.quantities.units import InputError, Value, not_negative, refusal
 
 Counterbody = Sphere | HalfSpace | Cup
@@ -77,6 +78,7 @@ class Pair:
     second: Counterbody
     friction: float
 
+    @known_keywords
     def __init__(self, first: Sphere, second: Counterbody, friction: Value) -> None:
         if not isinstance(first, Sphere):
             raise refusal("first body", first, "must be a Sphere; the other one comes second")

@@ -6,6 +6,7 @@ from functools import cached_property
 from typing import Any, cast
 
 from carom.bodies.materials import VALUES, Material, as_material, set_fields
+from carom.quantities.keywords import known_keywords
 from carom.quantities.units import InputError, Value, not_negative, positive, refusal
 
 
@@ -43,6 +44,7 @@ class Sphere:
     gyration_radius: float | None
     inner_radius: float
 
+    @known_keywords
     def __init__(
         self,
         *,
@@ -112,6 +114,7 @@ class HalfSpace:
 
     material: Material
 
+    @known_keywords
     def __init__(self, *, material: Material | str) -> None:
         set_fields(self, material=as_material(material))
 
@@ -149,6 +152,7 @@ class Cup:
     radius: float
     material: Material
 
+    @known_keywords
     def __init__(self, *, radius: Value, material: Material | str) -> None:
         set_fields(self, radius=positive("radius", radius), material=as_material(material))
 

@@ -24,6 +24,7 @@ from carom.collisions.records import (
 )
 from carom.laws.exact import law_of
 from carom.laws.rules import Rule
+from carom.quantities.keywords import known_keywords
 from carom.quantities.units import counted, refusal
 
 __all__ = ["CollisionLaw", "CollisionStatus", "Collisions", "collide"]
@@ -36,6 +37,7 @@ class CollisionLaw(Protocol):
         """Return what a collision of this pair needs."""
 
 
+@known_keywords
 def collide(
     pair: Pair,
     *,

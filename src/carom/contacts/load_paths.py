@@ -23,6 +23,7 @@ from carom.io.labels import labelled_dataset
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.keywords import known_keywords
 from carom.quantities.units import refusal
 
 if TYPE_CHECKING:
@@ -235,6 +236,7 @@ def _state(stack: Array) -> dict[str, Any]:
     return {"phase_kind": "gross slip" if len(stack) == 2 else "slip", "phase_sign": int(g)}
 
 
+@known_keywords
 def load_path(
     pair: Pair,
     *,

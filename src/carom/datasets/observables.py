@@ -12,6 +12,7 @@ from carom.bodies.kinematics import Rebound, Tangential, components, inertia
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.quantities.arrays import Array, numbers
+from carom.quantities.keywords import known_keywords
 from carom.quantities.units import InputError, hint, refusal
 
 Given = Mapping[str, Any]  # arrays by name
@@ -48,6 +49,7 @@ RELATIVE = {  # these say nothing where there was nothing before
 }
 
 
+@known_keywords
 def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     """Return one quantity of a rebound from others that determine it.
 

@@ -14,10 +14,12 @@ from carom.fitting.model import Model
 from carom.fitting.options import check_count, checked_confidence, read_options
 from carom.fitting.problem import read_problem
 from carom.fitting.result import Fit
+from carom.quantities.keywords import known_keywords
 
 __all__ = ["Estimate", "Fit", "fit"]
 
 
+@known_keywords
 def fit(
     data: Any,
     *,

@@ -12,9 +12,10 @@ from carom.bodies.cases import pair_of
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import BEFORE, OBSERVABLES, SCALED, convert
 from carom.fitting.laws import IncomingMotion
-from carom.io.columns import ERROR, Faults, Results, in_units, others, with_errors
+from carom.io.columns import ERROR, Results, in_units, others, with_errors
 from carom.io.tables import Cells, read_table
 from carom.quantities.arrays import Array
+from carom.quantities.faults import Faults
 from carom.quantities.units import InputError, refusal
 
 Mask = NDArray[np.bool_]

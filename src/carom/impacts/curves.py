@@ -17,6 +17,7 @@ from carom.dimensionless.solution import solve
 from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.quantities.arrays import finite_line, positive_line
+from carom.quantities.keywords import known_keywords
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -59,6 +60,7 @@ def borders(chi: float) -> tuple[float, float, float]:
     return first, second, third
 
 
+@known_keywords
 def curve(
     chi: float | Sequence[float], psi: ArrayLike, *, normal: NormalLoss | None = None
 ) -> xr.Dataset:
@@ -128,6 +130,7 @@ def _border(chis: Iterable[float]) -> dict[str, Any]:
     return {"border": (("chi", "regime_border"), [borders(chi) for chi in chis], meaning)}
 
 
+@known_keywords
 def regime_map(psi: ArrayLike, chi: ArrayLike, *, progress: Progress = None) -> xr.Dataset:
     """Return which phases follow which for every psi_1 and chi, as a labelled dataset.
 

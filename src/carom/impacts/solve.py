@@ -10,6 +10,7 @@ from carom.bodies.pairs import Pair, representable
 from carom.bodies.shapes import Sphere
 from carom.impacts.exact import Impact, solve_exactly
 from carom.io.progress import Progress
+from carom.quantities.keywords import known_keywords
 from carom.quantities.units import InputError, Value, finite, refusal
 
 if TYPE_CHECKING:
@@ -54,6 +55,7 @@ def impact(
     progress: Progress = None,
     **motion: Unpack[MotionInputs],
 ) -> Impact | HalfspaceImpact: ...
+@known_keywords
 def impact(
     pair: Pair,
     *,

@@ -5,13 +5,14 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from math import nan, pi
 from numbers import Real
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carom.io.tables import GAP, Cells, Rows, name_and_unit, spelled
 from carom.quantities.arrays import Array
+from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.symbols import meant
 from carom.quantities.texts import Factor, split
@@ -21,57 +22,8 @@ Mask = NDArray[np.bool_]
 
 ERROR = "_error"  # ends the name of a column of standard deviations
 DELETE = "correct or delete what is there"
-TOLD = 12  # faults in one message
 NEAR = 0.8  # similarity of names from which a column is taken for a misspelt one
 UNITS = {"_deg": "deg", "_rad_s": "rad/s", "_rad": "rad", "_rpm": "rpm", "_m_s": "m/s"}  # in names
-
-
-class Faults:
-    """What is wrong with a table: collected inside its context, and told in one message after it.
-
-    Examples
-    --------
-    >>> from carom.io.columns import Faults
-    >>> with Faults() as faults:
-    ...     faults.add("angle: column missing")
-    ...     faults.add("spin: not a number in line 3")
-    Traceback (most recent call last):
-    carom.InputError: 2 faults: (1) angle: column missing; (2) spin: not a number in line 3
-    """
-
-    def __init__(self) -> None:
-        self._found: list[str] = []
-        self._collecting = False
-
-    def __enter__(self) -> Self:
-        self._collecting = True
-        return self
-
-    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
-        self._collecting = False
-        if isinstance(error, InputError) and str(error) != self._message():
-            self._found.append(str(error))
-        if self._found and (error is None or isinstance(error, Exception)):
-            raise InputError(self._message()) from None
-
-    def add(self, message: str) -> None:
-        """Collect a fault; outside of the context raise InputError."""
-        if not self._collecting:
-            raise InputError(message)
-        self._found.append(message)
-
-    def settle(self) -> None:
-        """Raise InputError if there are faults so far, before costly work."""
-        if self._found:
-            raise InputError(self._message())
-
-    def _message(self) -> str:
-        found = list(dict.fromkeys(self._found))
-        if len(found) == 1:
-            return found[0]
-        listed = "; ".join(f"({i}) {text}" for i, text in enumerate(found[:TOLD], 1))
-        more = f"; and {len(found) - TOLD} more" if len(found) > TOLD else ""
-        return f"{len(found)} faults: {listed}{more}"
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 TABLES = (".nc", ".csv")
 STORE, STATUS = ".zarr", "status"  # of a sweep
+LONGEST_TEXT = 1_000_000  # characters
 OVERHEAD = 200_000  # bytes of a NetCDF file besides its values
 FIGURES = (".png", ".pdf", ".svg")
 ANIMATIONS = (".gif", ".mp4")
@@ -197,13 +198,18 @@ def _from_netcdf(path: Path) -> "xr.Dataset":
 def read_text(what: str, path: Path) -> str:
     """Return the text of a file that a user names, with line ends of Unix.
 
-    Raises InputError if it cannot be read, and UnicodeDecodeError if it is not in UTF-8.
+    Raises InputError if it cannot be read or is too long, and UnicodeDecodeError if it is not in
+    UTF-8.
     """
     try:
-        return path.read_text(encoding="utf-8-sig")
+        with path.open(encoding="utf-8-sig") as file:
+            text = file.read(LONGEST_TEXT + 1)
     except OSError as error:
         reason = error.strerror or error
         raise InputError(f"{what}: {str(path)!r} cannot be read; {reason}") from None
+    if len(text) > LONGEST_TEXT:
+        raise refusal(what, str(path), f"{LONGEST_TEXT} characters are read at most")
+    return text
 
 
 def checked_output(path: str | Path, endings: tuple[str, ...]) -> Path:

@@ -59,6 +59,12 @@ REMARKS = {
 }
 
 
+def remark(word: str, name: str) -> str:
+    """Return what to write for a word that stands for a known name."""
+    words = REMARKS.get(word, name)
+    return words if words.startswith(name) else name
+
+
 def meant(word: str, known: Iterable[str]) -> str:
     """Return the known name that a word stands for, empty if there is none.
 

@@ -8,6 +8,7 @@ from numbers import Integral, Real
 from typing import Any
 
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.symbols import meant, remark
 from carom.quantities.texts import Factor, Unreadable, factor, read_text
 
 Value = float | str  # a number in SI units, or text with a unit
@@ -149,8 +150,10 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
 
 def hint(word: object, known: Iterable[str]) -> str:
-    """Return a hint at the known words that are nearest to one, or at all of them."""
+    """Return a hint at the known word that one stands for, at the nearest, or at all of them."""
     known = tuple(known)
+    if name := meant(str(word), known):
+        return f"write {remark(str(word), name)}"
     return nearest(str(word), known) or f"known are {', '.join(known)}"
 
 

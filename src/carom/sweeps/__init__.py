@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from carom.io.progress import Progress, advancing
+from carom.quantities.keywords import known_keywords
 from carom.quantities.units import InputError
 from carom.sweeps.blocks import Box, Values, points_in
 from carom.sweeps.designs import Design
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 BlockRecord = MemoryRecord | StoreRecord  # where the blocks of a sweep are kept
 
 
+@known_keywords
 def sweep(
     case: Mapping[str, Any],
     design: Design,

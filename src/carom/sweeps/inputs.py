@@ -9,6 +9,7 @@ import numpy as np
 
 from carom.bodies import cases
 from carom.io.labels import attributes
+from carom.quantities.symbols import meant, remark
 from carom.quantities.units import InputError, hint, refusal
 
 CODE = np.int8
@@ -83,9 +84,19 @@ def checked_names(given: Iterable[Any]) -> tuple[str, ...]:
         raise InputError("design: no inputs; give at least one, e.g. 'angle'")
     for name in names:
         if name not in INPUTS:
-            raise InputError(f"{name}: not an input of an impact; {hint(name, INPUTS)}")
+            raise InputError(f"{name}: not an input of an impact; {_hint(name)}")
     refuse_contradictions(names)
     return names
+
+
+def _hint(name: Any) -> str:
+    """Return a hint at the inputs that a name stands for, at the nearest, or at all."""
+    last = leaf(str(name))
+    if stands := meant(last, map(leaf, INPUTS)):
+        places = [known for known in INPUTS if leaf(known) == stands]
+        half = ", half of it" if "half" in remark(last, stands) else ""
+        return f"write {' or '.join(places)}{half}"
+    return hint(name, INPUTS)
 
 
 def refuse_contradictions(names: Iterable[str]) -> None:

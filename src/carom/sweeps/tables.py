@@ -11,8 +11,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from carom.io.columns import Faults, column_in_si
+from carom.io.columns import column_in_si
 from carom.io.tables import name_and_unit, read_table
+from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import InputError
 from carom.sweeps.blocks import Box

@@ -13,9 +13,11 @@ from carom.bodies.pairs import Pair
 from carom.bodies.shapes import describe
 from carom.impacts.exact import Impact
 from carom.impacts.solve import impact
-from carom.io.columns import Faults, Results, in_units
+from carom.io.columns import Results, in_units
 from carom.io.tables import read_table
 from carom.quantities.arrays import Array
+from carom.quantities.faults import Faults
+from carom.quantities.keywords import known_keywords
 from carom.quantities.units import InputError, nearest, number, positive, refusal
 from carom.verify.scoring.histories import NAMES as HISTORY, score_history
 from carom.verify.scoring.points import compared, energy_audit, friction_audit, notes_on
@@ -30,6 +32,7 @@ BODIES, SAME = ("friction", "chi", "kappa", "effective_radius", "normal_mass"), 
 DIMENSIONLESS = ("psi_in", "psi_out", "chi")
 
 
+@known_keywords
 def score(
     results: Any,
     *,
