@@ -62,6 +62,17 @@ def merged(case: "Case", flags: Mapping[str, Any]) -> "Case":
     return result
 
 
+def told_case(path: Path, *, losses: bool = False) -> "Case":
+    """Return the content of a case file; what is hardly meant in it is told on stderr."""
+    from carom.bodies.cases import read_case
+    from carom.bodies.plausibility import doubts_of_case
+
+    case = read_case(path, losses=losses)
+    for doubt in doubts_of_case(case):
+        typer.echo(f"carom: {doubt}", err=True)
+    return case
+
+
 def outputs(case: "Case") -> Output:
     """Return the files that a case asks for."""
     table = case.get("output", {})

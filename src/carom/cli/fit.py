@@ -17,6 +17,7 @@ from carom.cli.cases import (
     refuse_same,
     store,
     stored,
+    told_case,
 )
 from carom.quantities.units import InputError, number, refusal
 
@@ -118,10 +119,10 @@ def _source(data: Path | None, dataset: str | None) -> Path:
 
 def _pair(case: Path | None) -> "Pair | None":
     """Return the bodies of a case file, whose friction may be left out."""
-    from carom.bodies.cases import pair_of, read_case
+    from carom.bodies.cases import pair_of
     from carom.fitting.problem import START
 
-    return None if case is None else pair_of({"friction": START, **read_case(case)})
+    return None if case is None else pair_of({"friction": START, **told_case(case)})
 
 
 def _sampled(found: "Fit", target: str, steps: int, seed: int) -> Path:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import carom
-from carom.cli.cases import Column, Json, check_outputs, named_values, outputs, stored
+from carom.cli.cases import Column, Json, check_outputs, named_values, outputs, stored, told_case
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import or_none, refusal
 
@@ -45,12 +45,11 @@ def sweep_command(
 
     One that may be killed: carom sweep examples/sweep.toml --store sweep.zarr --resume
     """
-    from carom.bodies.cases import read_case
     from carom.io.files import TABLES
     from carom.sweeps.plans import plan
     from carom.sweeps.summaries import summary
 
-    content = read_case(case, losses=True)
+    content = told_case(case, losses=True)
     file = output or _file(content)
     check_outputs((file, TABLES))
     design, chosen = plan(content, case, named_values("column", column, "omega=spin"))

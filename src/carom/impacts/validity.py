@@ -4,6 +4,7 @@ from math import inf, isfinite, isinf, sqrt
 
 from carom.bodies.materials import Material
 from carom.bodies.pairs import Pair
+from carom.bodies.plausibility import doubts
 from carom.io.labels import Finding, Validity
 
 SMALL_CONTACT = 0.1  # a_max/R*: Hertz's parabolic gap against the sphere (Johnson 1985, 4.2)
@@ -34,7 +35,10 @@ def judge(pair: Pair, normal_speed: float, duration: float, psi: float) -> Valid
 
 
 def judge_contact(pair: Pair, normal_speed: float, duration: float) -> tuple[Finding, ...]:
-    """Return the findings on what does not depend on friction: small contact, no yield, slow."""
+    """Return the findings on what does not depend on friction: small contact, no yield, slow.
+
+    Before them those on values that are hardly meant.
+    """
     scales, transits = pair.scales(normal_speed), duration / max(_transit(pair), 1e-300)
     slow = transits >= SLOW_CONTACT
     small = _judged(
@@ -50,7 +54,7 @@ def judge_contact(pair: Pair, normal_speed: float, duration: float) -> tuple[Fin
         else f"elastic waves matter: the contact should last {SLOW_CONTACT:g} transits at least"
     )
     waves = Finding("contact time/wave transit", transits, SLOW_CONTACT, slow, verdict)
-    return small, _yield(pair, scales.pressure), waves
+    return *doubts(pair), small, _yield(pair, scales.pressure), waves
 
 
 def _judged(name: str, value: float, limit: float, good: str, bad: str) -> Finding:

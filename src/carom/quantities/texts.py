@@ -91,9 +91,7 @@ def split(text: str) -> tuple[float, str]:
     Raises Unreadable, also for numbers that floating point cannot hold.
     """
     if len(text) > LONGEST:
-        raise Unreadable(
-            f"it has {len(text)} characters, of which {LONGEST} are read at most", enough=True
-        )
+        raise Unreadable(f"{LONGEST} characters are read at most", enough=True)
     plain = text.strip(BLANKS)
     found = NUMBER.match(plain)
     if found is None:

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 import carom
-from carom.cli.cases import Json, check_outputs, stored
+from carom.cli.cases import Json, check_outputs, stored, told_case
 from carom.quantities.units import InputError, positive
 
 PURPOSE = """\
@@ -45,7 +45,7 @@ def engine_command(
     as_json: Json = False,
 ) -> None:
     """Run the program that the command is named after, and print how it has done."""
-    from carom.bodies.cases import pair_of, read_case
+    from carom.bodies.cases import pair_of
     from carom.io.files import checked_output, replace_whole
     from carom.verify.catalogue import named
 
@@ -56,7 +56,7 @@ def engine_command(
     found = carom.verify.bench(
         engine(program),
         named(law),
-        pair=None if case is None else pair_of(read_case(case)),
+        pair=None if case is None else pair_of(told_case(case)),
         steps=steps,
         time_limit=positive("time_limit", time_limit),
     )

@@ -7,7 +7,16 @@ from typing import Annotated
 import typer
 
 import carom
-from carom.cli.cases import Column, Json, Plot, check_outputs, named_values, refuse_same, store
+from carom.cli.cases import (
+    Column,
+    Json,
+    Plot,
+    check_outputs,
+    named_values,
+    refuse_same,
+    store,
+    told_case,
+)
 
 
 def score_command(
@@ -50,7 +59,7 @@ def score_command(
     check_outputs((plot, FIGURES), (output, TABLES))
     score = carom.verify.score(
         results,
-        case=case,
+        case=None if case is None else told_case(case),
         chi=chi,
         tolerance=tolerance,
         columns=named_values("column", column, "omega=spin_out"),

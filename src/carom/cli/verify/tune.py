@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import carom
-from carom.cli.cases import Json
+from carom.cli.cases import Json, told_case
 
 if TYPE_CHECKING:
     from carom.verify.setting import Setting
@@ -46,6 +46,8 @@ def tune_command(
     """
     from carom.verify.setting import setting_of
 
+    if case is not None:
+        told_case(case)
     setting = setting_of(case, chi, kappa, start, stop, restitution)
     tuning = carom.verify.tune(
         chi=setting.chi, kappa=setting.kappa, psi=setting.psi, measure=measure

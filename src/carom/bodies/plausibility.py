@@ -1,0 +1,88 @@
+"""Values that no body has, but that a forgotten unit gives: a radius of 5 m for 5 mm."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from typing import Any, NamedTuple
+
+from carom.bodies.cases import material_values
+from carom.bodies.materials import VALUES
+from carom.bodies.pairs import Pair
+from carom.io.labels import Finding
+from carom.quantities.glossary import GLOSSARY
+from carom.quantities.units import InputError, number
+
+BODIES = ("first", "second")
+SIZES = ("radius", "inner_radius", "gyration_radius")
+
+
+class Likely(NamedTuple):
+    """Between which values a quantity usually lies, and the unit that is forgotten beyond them."""
+
+    least: float
+    most: float
+    forgotten: str
+
+
+LIKELY = {
+    **dict.fromkeys(SIZES, Likely(0.0, 1.0, "mm")),
+    "young": Likely(1e3, 5e12, "GPa"),
+    "density": Likely(10.0, 3e4, "g/cm^3"),
+    "yield_strength": Likely(1e3, 1e12, "MPa"),
+    "friction": Likely(0.0, 5.0, "%"),
+}
+
+
+def doubts(pair: Pair) -> tuple[Finding, ...]:
+    """Return findings on what is hardly meant in a pair of bodies; mostly none.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from carom.bodies.plausibility import doubts
+    >>> ball = carom.Sphere(radius=5, material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> [finding.verdict for finding in doubts(pair)]
+    ["a radius of 5 m; write '5 mm'?"]
+    """
+    given: list[tuple[str, float | None]] = [("friction", pair.friction)]
+    for body in (pair.first, pair.second):
+        given += [(name, getattr(body, name, None)) for name in SIZES]
+        given += [(name, getattr(body.material, name)) for name in VALUES]
+    return tuple(dict.fromkeys(found for name, value in given if (found := _doubt(name, value))))
+
+
+def doubts_of_case(case: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return what is hardly meant in a case, in words; values that cannot be read are left out.
+
+    Examples
+    --------
+    >>> from carom.bodies.plausibility import doubts_of_case
+    >>> doubts_of_case({"first": {"radius": "5 mm", "material": {"young": 210}}})
+    ("a Young's modulus of 210 Pa; write '210 GPa'?",)
+    """
+    found = [_doubt(name, value) for name, value in _values(case)]
+    return tuple(dict.fromkeys(each.verdict for each in found if each))
+
+
+def _values(case: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
+    for name, value in case.items():
+        if name in BODIES and isinstance(value, Mapping):
+            yield from _values(value)
+        with suppress(InputError):
+            if name == "material":
+                yield from material_values(value).items()
+            elif name in LIKELY:
+                yield name, number(name, value)
+
+
+def _doubt(name: str, value: float | None) -> Finding | None:
+    likely = LIKELY.get(name)
+    if likely is None or value is None or value in (0.0, float("inf")):
+        return None
+    if likely.least <= value <= likely.most:
+        return None
+    meaning, unit = GLOSSARY[name].meaning, GLOSSARY[name].unit
+    shown = f"{value:g}" if unit == "1" else f"{value:g} {unit}"
+    words = f"a {meaning} of {shown}; write '{value:g} {likely.forgotten}'?"
+    limit = likely.most if value > likely.most else likely.least
+    return Finding(meaning, value, limit, False, words)

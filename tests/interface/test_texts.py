@@ -1,0 +1,253 @@
+"""One grammar for a quantity: what is read, and as what; all else is refused, wherever it stands.
+
+Texts that were once read as something else are marked by what they were read as.
+"""
+
+import json
+import math
+import time
+import tomllib
+
+import numpy as np
+import pytest
+from hypothesis import given, settings, strategies as st
+
+from carom.io.columns import column_in_si
+from carom.quantities.arrays import numbers, plain_numbers
+from carom.quantities.glossary import GLOSSARY
+from carom.quantities.texts import LONGEST, Unreadable, read_text
+from carom.quantities.units import InputError, number
+
+DEGREE = math.pi / 180
+READ = [  # text, quantity, value in SI units
+    ("5 mm", "radius", 0.005),
+    ("5mm", "radius", 0.005),
+    ("5e3mm", "radius", 5.0),
+    ("5.E-3", "radius", 0.005),
+    (".5 cm", "radius", 0.005),
+    ("+5 mm", "radius", 0.005),
+    ("  5\tmm ", "radius", 0.005),
+    ("5\u00a0mm", "radius", 0.005),
+    ("5\u202fmm", "radius", 0.005),
+    ("5 µm", "radius", 5e-6),  # micro sign
+    ("5 μm", "radius", 5e-6),  # Greek mu
+    ("5 um", "radius", 5e-6),
+    ("5 millimeters", "radius", 0.005),
+    ("2 in", "radius", 0.0508),
+    ("0.005", "radius", 0.005),
+    ("−100 rad/s", "spin", -100.0),  # +100
+    ("−700 rpm", "spin", -700 * 2 * math.pi / 60),
+    ("1e−2 rad/s", "spin", 0.01),
+    ("600 rpm", "spin", 20 * math.pi),
+    ("10 rev/s", "spin", 20 * math.pi),
+    ("360 deg/s", "spin", 2 * math.pi),
+    ("2 m/s", "speed", 2.0),
+    ("2 m s^-1", "speed", 2.0),
+    ("2 m·s⁻¹", "speed", 2.0),
+    ("2 m⋅s⁻¹", "speed", 2.0),
+    ("2 m*s**-1", "speed", 2.0),
+    ("2 m s^−1", "speed", 2.0),
+    ("2 m / s", "speed", 2.0),
+    ("7.2 km/h", "speed", 2.0),
+    ("7.2 kph", "speed", 2.0),
+    ("30 deg", "angle", 30 * DEGREE),
+    ("30°", "angle", 30 * DEGREE),
+    ("30 °", "angle", 30 * DEGREE),
+    ("-30 degrees", "angle", -30 * DEGREE),
+    ("60 arcmin", "angle", DEGREE),
+    ("500 mrad", "angle", 0.5),
+    ("210 GPa", "young", 210e9),
+    ("210e3 MPa", "young", 210e9),
+    ("210 kN/mm^2", "young", 210e9),
+    ("210 kN/mm²", "young", 210e9),
+    ("2100000 bar", "young", 210e9),
+    ("7850 kg/m^3", "density", 7850.0),
+    ("7.85 g/cm^3", "density", 7850.0),
+    ("7.85 g/cm³", "density", 7850.0),
+    ("7.85 kg/L", "density", 7850.0),
+    ("5 us", "loss_time", 5e-6),
+    ("10 kN", "normal_force", 1e4),
+    ("10 kg m s^-2", "normal_force", 10.0),
+    ("0.2", "friction", 0.2),
+    ("20 percent", "friction", 0.2),  # 20
+    ("20 %", "friction", 0.2),
+    ("20%", "friction", 0.2),
+    ("200 permille", "friction", 0.2),
+    ("20 ppm", "friction", 20e-6),  # 20
+    ("200 mm/m", "friction", 0.2),  # 200
+    ("20 µm/m", "friction", 20e-6),
+]
+REFUSED = [  # text, quantity, part of the message
+    ("2–3 m/s", "speed", "no unit"),  # 6
+    ("–2 m/s", "speed", "give a number"),  # en dash
+    ("—2 m/s", "speed", "give a number"),  # em dash
+    ("‐2 m/s", "speed", "give a number"),  # hyphen
+    ("1 500 mm/s", "speed", "no unit"),  # 0.5 m/s
+    ("1'500 mm/s", "speed", "no unit"),  # 0.5 m/s
+    ("1\u2009500 mm/s", "speed", "no unit"),
+    ("1,500 mm/s", "speed", "decimal point"),
+    ("1,5 m/s", "speed", "decimal point"),
+    ("1_500 mm/s", "speed", "no unit"),
+    ("5 mm; 3", "radius", "no unit"),  # 15 mm
+    ("5 mm 3", "radius", "no unit"),
+    ("5.5.5 mm", "radius", "no unit"),  # 2.75 mm
+    ("1·5 m/s", "speed", "no unit"),  # 5
+    ("1٫5 m/s", "speed", "no unit"),  # 5, Arabic decimal separator
+    ("5° 10'", "angle", "no unit"),  # 50 deg
+    ("5°10′", "angle", "no unit"),
+    ("5 deg 10 arcmin", "angle", "no unit"),  # 0.00025 rad
+    ("~2 m/s", "speed", "give a number"),  # 2
+    ("<2 m/s", "speed", "give a number"),  # 2
+    ("≈2 m/s", "speed", "give a number"),
+    ("2 m/s?", "speed", "no unit"),  # 2
+    ("2±0.1 m/s", "speed", "no unit"),
+    ("2(1) m/s", "speed", "no unit"),
+    ("2 m/s.", "speed", "no unit"),
+    ("5 'mm'", "radius", "no unit"),  # 5 m
+    ('5"', "radius", "no unit"),
+    ("5 mm!", "radius", "no unit"),
+    ("[5] mm", "radius", "give a number"),
+    ("(5) mm", "radius", "give a number"),
+    ("1:2 m", "radius", "no unit"),  # 2
+    ("2**3 mm", "radius", "no unit"),
+    ("2*3 mm", "radius", "no unit"),
+    ("1/2", "speed", "no unit"),  # 0.5
+    ("=0.5", "speed", "give a number"),  # 0.5
+    ("5-3 mm", "radius", "no unit"),
+    ("5+3 mm", "radius", "no unit"),
+    ("9**9**9 m", "radius", "no unit"),  # without end
+    ("pi/6", "angle", "give a number"),  # 0.1667
+    ("0.5 pi", "angle", "'pi' is not known"),
+    ("pi", "angle", "give a number"),
+    ("1_000", "speed", "no unit"),
+    ("١٢", "speed", "give a number"),  # Arabic digits
+    ("５ mm", "radius", "give a number"),  # full width
+    ("5² mm", "radius", "no unit"),
+    ("½ mm", "radius", "give a number"),
+    ("inf", "radius", "give a number"),
+    ("-inf m", "radius", "give a number"),
+    ("nan", "radius", "give a number"),
+    ("infinity", "young", "give a number"),
+    ("1e400 m", "radius", "floating point"),
+    ("1e-400 m", "radius", "floating point"),
+    ("0x10", "radius", "no unit"),
+    ("1e", "radius", "'e' is not known"),
+    ("1e5.5", "radius", "no unit"),
+    ("1 e3 m", "radius", "no unit"),
+    ("--5 m", "radius", "give a number"),
+    ("+-5 m", "radius", "give a number"),
+    ("- 5 m", "radius", "give a number"),
+    ("", "radius", "empty"),
+    (" ", "radius", "empty"),
+    ("mm", "radius", "give a number"),
+    ("mm 5", "radius", "give a number"),
+    ("five mm", "radius", "give a number"),
+    ("5\nmm", "radius", "no unit"),
+    ("5 mm\n6 mm", "radius", "no unit"),
+    ("5\u200bmm", "radius", "no unit"),
+    ("5 mm\u0000", "radius", "no unit"),
+    ("5 furlongs", "radius", "not known"),
+    ("5 c", "speed", "not known"),  # a number of speeds of light
+    ("5 au", "radius", "not known"),
+    ("5 dB", "friction", "not known"),
+    ("5 mm^1.5", "radius", "no unit"),
+    ("5 mm^12", "radius", "no unit"),
+    ("5 m2", "radius", "no unit"),
+    ("3 kg/m s^2", "young", "after '/' stands one unit"),
+    ("3 kg/m/s^2", "young", "after '/' stands one unit"),
+    ("3 m m m m m", "radius", "no unit"),
+    ("5 kg", "radius", "not a value in m"),
+    ("30 deg", "friction", "no pure number"),
+    ("0.3 rad", "friction", "no pure number"),
+    ("20 %", "angle", "not a value in rad"),
+    ("200 mm/m", "angle", "not a value in rad"),
+    ("1 kHz", "spin", "a spin is not in kHz; write rad/s or rpm"),  # 1000 rad/s
+    ("100 Bq", "spin", "a spin is not in Bq; write rad/s or rpm"),  # 100 rad/s
+    ("100 s^-1", "spin", "write rad/s or rpm"),
+    ("20 degC", "angle", "not known"),
+    ("5 mm" + " " * LONGEST + "?", "radius", f"{LONGEST} characters"),
+]
+
+
+def test_the_table_is_as_long_as_it_should_be():
+    texts = [row[:2] for row in READ + REFUSED]
+    assert len(set(texts)) == len(texts) >= 120
+
+
+@pytest.mark.parametrize(("text", "name", "value"), READ)
+def test_what_is_a_quantity_is_read(text, name, value):
+    """In Python, in lists of Python, in a cell, in a case file: the same float everywhere."""
+    si = GLOSSARY[name].unit
+    found = number(name, text)
+    assert found == pytest.approx(value, rel=1e-15)
+    assert numbers(name, [text, text], "")[1] == found
+    assert column_in_si(name, si, "", [text])[0][0] == found
+    assert number(name, tomllib.loads(f"x = {json.dumps(text)}")["x"]) == found
+
+
+@pytest.mark.parametrize(("text", "name", "words"), REFUSED)
+def test_all_else_is_refused_in_one_line(text, name, words):
+    for read in (number, lambda name, text: numbers(name, [text], "")):
+        with pytest.raises(InputError) as refused:
+            read(name, text)
+        message = str(refused.value)
+        assert message.startswith(f"{name}: ")
+        assert words in message
+        assert "\n" not in message
+        assert len(message) < 400
+    missing, _ = column_in_si(name, GLOSSARY[name].unit, "", [text])
+    assert np.isnan(missing[0])
+
+
+UNITS = {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "km": 1e3, "": 1.0}
+PLAIN = st.from_regex(
+    r"[+-]?([0-9]{1,8}(\.[0-9]{0,8})?|\.[0-9]{1,8})([eE][+-]?[0-9]{1,2})?", fullmatch=True
+)
+BLANK = st.sampled_from(["", " ", "\t", "\u00a0", "  "])
+
+
+@settings(max_examples=300, deadline=None, derandomize=True)
+@given(PLAIN, st.sampled_from(sorted(UNITS)), BLANK, BLANK)
+def test_a_number_and_a_unit_are_their_product(text, unit, between, around):
+    text = text.strip()
+    read = read_text(f"{around}{text}{between}{unit}{around}", "m")
+    assert read == pytest.approx(float(text) * UNITS[unit], rel=4e-16)
+
+
+@settings(max_examples=300, deadline=None, derandomize=True)
+@given(PLAIN, st.characters(), st.integers(0, 20))
+def test_a_stray_character_never_changes_a_number_without_a_word(text, stray, place):
+    """With one character more a text is refused, or it is the number that Python reads, too."""
+    text = text.strip()
+    changed = f"{text[:place]}{stray}{text[place:]}"
+    try:
+        read = read_text(changed, "m")
+    except Unreadable:
+        return
+    plain = changed.replace("\u2212", "-").strip(" \t\u00a0\u2009\u202f")
+    if plain and plain[-1] == "m":
+        plain = plain[:-1]
+    assert read == float(plain)
+
+
+@settings(max_examples=300, deadline=None, derandomize=True)
+@given(st.lists(st.text(st.sampled_from("0123456789.+-eE _,x\u2212\u0663"), max_size=8)))
+def test_a_column_is_read_quickly_only_as_it_is_cell_by_cell(texts):
+    fast = plain_numbers(texts)
+    if fast is not None:
+        assert fast.tolist() == [read_text(text, "1") for text in texts]
+
+
+@pytest.mark.parametrize(
+    "text", ["9**9**9 m", "5 " + "Gm*" * 60, "9" * 200 + "m", "5 " + "m" * 190]
+)
+def test_the_time_of_a_refusal_is_bounded(text):
+    """A thousand times the millisecond that the reader takes: what computes without end is worse.
+
+    Benchmarks measure; this only tells an end from none.
+    """
+    begun = time.perf_counter()
+    for _ in range(10):
+        with pytest.raises(InputError):
+            number("radius", text)
+    assert time.perf_counter() - begun < 10.0
