@@ -20,6 +20,7 @@ SECTIONS = {
     "how-to/index": [
         "how-to/*",
         "choosing",
+        "input",
         "collisions",
         "sweeps",
         "fitting",

@@ -30,7 +30,8 @@ sys.path.append(str(DOCS.parent / "studies"))
 
 from small_pictures import store_small  # noqa: E402
 
-PAGES = (DOCS / "tutorial.md", *sorted(DOCS.glob("how-to/*.md")), DOCS / "choosing.md")
+OTHERS = (DOCS / "choosing.md", DOCS / "input.md")
+PAGES = (DOCS / "tutorial.md", *sorted(DOCS.glob("how-to/*.md")), *OTHERS)
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 NAMED = re.compile(r"# ([\w-]+\.\w+)\n")
 

@@ -7,6 +7,7 @@ from .bodies.materials import (
     materials as materials,
 )
 from .bodies.pairs import Pair as Pair
+from .bodies.reading import read as read
 from .bodies.shapes import Cup as Cup, HalfSpace as HalfSpace, Sphere as Sphere
 from .collisions import (
     Collisions as Collisions,
@@ -26,7 +27,7 @@ from .impacts.boundary_elements import (
 from .impacts.curves import curve as curve, regime_map as regime_map
 from .impacts.exact import Impact as Impact
 from .impacts.solve import impact as impact
-from .io.files import read as read, save as save
+from .io.files import save as save
 from .io.version import __version__ as __version__
 from .laws.dem import (
     EdemHertzMindlin as EdemHertzMindlin,

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 import carom
+from carom import read, save
 from carom.classical import cattaneo_mindlin, critical_obliquity, loop_energy
 from carom.contacts.load_paths import load_path
-from carom.io.files import read, save
 from carom.quantities.units import InputError
 
 GLASS = carom.Material(young="70 GPa", poisson=0.23, density=2500)

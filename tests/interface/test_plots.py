@@ -273,7 +273,7 @@ def test_drawing_needs_no_solver(history, tmp_path):
     """A stored history is read and drawn in a process that never loads the solution."""
     stored, picture = save(history, tmp_path / "hit.nc"), tmp_path / "hit.png"
     code = (
-        "import sys, carom.plots as plots; from carom.io.files import read\n"
+        "import sys, carom.plots as plots; from carom import read\n"
         f"plots.save_figure(plots.plot_impact(read({str(stored)!r})), {str(picture)!r})\n"
         "assert 'carom.dimensionless.solution' not in sys.modules"
     )

@@ -10,9 +10,8 @@ import pytest
 import xarray as xr
 
 import carom
-from carom import HalfSpace, InputError, Pair, Sphere
+from carom import HalfSpace, InputError, Pair, Sphere, read, save
 from carom.cli import main
-from carom.io.files import read, save
 from carom.io.labels import flags, labelled_dataset
 
 AWKWARD = [0.1, -0.0, 5e-324, 1.7976931348623157e308, 1 / 3, 2.5e-7, np.nan, np.inf, -np.inf]

@@ -17,7 +17,8 @@ from carom.cli.impact import impact_command
 from carom.cli.materials import materials_command
 from carom.cli.sweep import sweep_command
 from carom.cli.verify import app as verify_app
-from carom.quantities.units import InputError
+from carom.quantities.symbols import meant, remark
+from carom.quantities.units import InputError, nearest
 
 app = typer.Typer(
     name="carom",
@@ -53,13 +54,28 @@ def main(arguments: list[str] | None = None) -> int:
         if type(error).__name__ == "NoArgsIsHelpError":  # no command: the message is the help
             typer.echo(error.format_message())
             return error.exit_code
-        return _refuse(f"{str(error).rstrip('.')}; see carom --help or carom COMMAND --help")
+        asked = _option_meant(error) or "see carom --help or carom COMMAND --help"
+        return _refuse(f"{str(error).rstrip('.')}; {asked}")
     except typer.Abort:
         typer.echo("carom: stopped", err=True)
         return 1
     except Exception as error:  # the last resort: a line instead of a traceback
         typer.echo(f"carom: failed, {type(error).__name__}: {error}", err=True)
         return 1
+
+
+def _option_meant(error: typer.TyperException) -> str:
+    """Return a hint at the option that one stands for which the command does not have."""
+    word = str(getattr(error, "option_name", "")).strip("-").replace("-", "_")
+    context = getattr(error, "ctx", None)
+    if not word or context is None:
+        return ""
+    options = [name for each in context.command.params for name in each.opts]
+    known = {name.strip("-").replace("-", "_"): name for name in options}
+    name = meant(word, known)
+    if name:
+        return f"write {known[name]}{remark(word, name).removeprefix(name)}"
+    return nearest(word.replace("_", "-"), [option.strip("-") for option in options])
 
 
 def _refuse(message: str) -> int:

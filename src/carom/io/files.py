@@ -33,7 +33,7 @@ class Storable(Protocol):
 
 
 def save(result: "xr.Dataset | Storable", path: str | Path) -> Path:
-    """Store a dataset or a result as .nc or .csv and return its path; `read` gives it back.
+    """Store a dataset or a result as .nc or .csv and return its path; `carom.read` gives it back.
 
     A file that is there is replaced whole or not at all. CSV is one table, with everything else in
     comments before it: `pandas.read_csv(path, comment="#")` reads it, too.
@@ -96,42 +96,15 @@ def _dataset(result: "xr.Dataset | Storable") -> "xr.Dataset":
     return result.to_dataset()
 
 
-def read(path: str | Path) -> "xr.Dataset":
-    """Return the dataset that Carom stored as .nc, .csv or .zarr, every value to the last bit.
-
-    Parameters
-    ----------
-    path : str or Path
-        A file that `save` or the option --output of a command has written, or the store of a sweep,
-        .zarr, whose values are read when they are used.
-
-    Returns
-    -------
-    xarray.Dataset
-        Variables and coordinates as they were stored, with their units and meanings as attributes.
-
-    Raises
-    ------
-    InputError
-        If the file is missing, damaged, or not one of Carom's.
-
-    Examples
-    --------
-    >>> from tempfile import TemporaryDirectory
-    >>> import carom
-    >>> with TemporaryDirectory() as folder:
-    ...     stored = carom.save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.csv")
-    ...     carom.read(stored).psi_out.values.round(4)
-    array([[ 0.0471, -0.839 ]])
-    """
-    source = _as_path("file", path)
+def read_dataset(source: Path) -> "xr.Dataset":
+    """Return the dataset of a file or store, or raise InputError if it is not one of Carom's."""
     if source.suffix.lower() == STORE and source.is_dir():
         return read_store(source)
     if source.suffix.lower() not in TABLES:
         allowed = f"must end in {' or '.join(TABLES)}, or be the store of a sweep, {STORE}"
-        raise refusal("file", str(path), allowed)
+        raise refusal("file", str(source), allowed)
     if not source.is_file():
-        raise refusal("file", str(path), "there is no such file")
+        raise refusal("file", str(source), "there is no such file")
     try:
         if source.suffix.lower() == ".nc":
             return _from_netcdf(source)
@@ -170,7 +143,8 @@ def _is_ours(dataset: "xr.Dataset") -> bool:
     return str(dataset.attrs.get("source")).startswith("carom ")
 
 
-def _as_path(name: str, path: str | Path) -> Path:
+def as_path(name: str, path: str | Path) -> Path:
+    """Return the path of a file that a user names, or raise InputError."""
     try:
         return Path(path)
     except TypeError:
@@ -214,7 +188,7 @@ def read_text(what: str, path: Path) -> str:
 
 def checked_output(path: str | Path, endings: tuple[str, ...]) -> Path:
     """Return the path of an output file, or raise InputError if it cannot become one."""
-    target = _as_path("output file", path)
+    target = as_path("output file", path)
     if target.suffix.lower() not in endings:
         raise refusal("output file", str(path), f"must end in {' or '.join(endings)}")
     if target.is_dir() or not target.parent.is_dir():

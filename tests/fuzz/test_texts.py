@@ -1,0 +1,68 @@
+"""The reader of quantities, against pint where it reads a text."""
+
+import pint
+import pytest
+
+from carom.quantities.glossary import GLOSSARY
+from carom.quantities.texts import Unreadable, read_text
+
+TEXTS = [
+    "5 mm",
+    "210 GPa",
+    "2 m/s",
+    "-100 rad/s",
+    "600 rpm",
+    "30 deg",
+    "0.2",
+    "20 %",
+    "1.5e-3 kg/m^3",
+]
+TEXTS += [
+    "2 m·s⁻¹",
+    "7.85 g/cm³",
+    "7.2 km/h",
+    "5e3mm",
+    "10 kN",
+    "5 µm",
+    "−3 N/mm²",
+    "1e-6 s",
+    "30°",
+]
+UNITS = sorted({entry.unit for entry in GLOSSARY.values()})
+BLANKS = "\u00a0\u2009\u202f"
+
+
+@pytest.fixture(scope="module")
+def registry():
+    return pint.UnitRegistry(cache_folder=":auto:")
+
+
+def twin(text, unit, registry):
+    """The longest number that Python reads, in the unit that pint reads in the rest."""
+    for blank in BLANKS:
+        text = text.replace(blank, " ")
+    text = text.strip(" \t").replace("\u2212", "-").replace("·", "*").replace("⋅", "*")
+    for end in range(len(text), 0, -1):
+        try:
+            value = float(text[:end])
+            break
+        except ValueError:
+            continue
+    assert all(letter in "0123456789.+-eE" for letter in text[:end].strip())
+    rest = text[end:].strip(" \t").replace("°", "degree").replace("rev", "turn")
+    if not rest:
+        return value
+    return registry.Quantity(value, rest).to("" if unit == "1" else unit).magnitude
+
+
+def test_what_is_read_is_what_python_and_pint_read(calls, rng, mutated, registry):
+    read = 0
+    for _ in range(10 * calls):
+        text, unit = mutated(rng.choice(TEXTS)), rng.choice(UNITS)
+        try:
+            value = read_text(text, unit)
+        except Unreadable:
+            continue
+        read += 1
+        assert value == pytest.approx(twin(text, unit, registry), rel=1e-12, abs=0.0), text
+    assert read > calls / 50
