@@ -12,10 +12,12 @@ from carom.dimensionless.elastic.phases import Status
 from carom.impacts.curves import regime_map
 from carom.io.columns import Results
 from carom.io.labels import Finding
+from carom.io.progress import advancing
 from carom.io.tables import SHOWN, named
 from carom.quantities.arrays import Array
 from carom.quantities.units import InputError
 
+CHUNK = 1 << 16  # impacts after which the bar moves
 LARGEST = 1e9  # of |psi|: there rounding is as large as errors that matter
 ROUNDING = 1e-12  # of psi; what is smaller is no gain of energy
 SAME = 1e-3  # of ratios that should be one
@@ -93,7 +95,7 @@ def compared(
     if large.any():
         where = results.named(large)
         raise InputError(f"results: |psi| is above {LARGEST:g} in {where}; check the units")
-    exact, status, codes = solved(np.array(psi_in), np.array(chi))
+    exact, status, codes = _solved(psi_in, chi)
     if (status != Status.SOLVED).any():
         bad = status != Status.SOLVED
         reason = Status(int(status[bad][0])).message
@@ -101,6 +103,18 @@ def compared(
     sequence, names = _sequences(psi_in, chi, codes)
     rows, word = results.rows, results.word
     return Points(psi_in, psi_out, chi, exact, sequence, names, energy_change, rows, word)
+
+
+def _solved(psi: Array, chi: Array) -> tuple[Array, NDArray[np.int8], NDArray[np.int64]]:
+    """Return the exact rebounds, their status and codes of phases, chunk by chunk."""
+    parts = []
+    with advancing("exact rebounds", psi.size, unit="impacts") as advance:
+        for start in range(0, psi.size, CHUNK):
+            part = slice(start, start + CHUNK)
+            parts.append(solved(np.array(psi[part]), np.array(chi[part])))
+            advance(parts[-1][0].size)
+    exact, status, codes = map(np.concatenate, zip(*parts, strict=True))
+    return exact, status, codes
 
 
 def _sequences(
