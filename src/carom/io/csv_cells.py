@@ -4,9 +4,11 @@ import csv
 import re
 from array import array
 from collections.abc import Iterator, Sequence
-from itertools import chain, islice
+from dataclasses import dataclass, field
+from io import StringIO
 from pathlib import Path
 from typing import Any, NamedTuple, TextIO
+from warnings import catch_warnings, simplefilter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +19,9 @@ from carom.quantities.units import InputError, refusal
 
 COMMENT = re.compile(r"#\s*([A-Za-z]\w*)\s*:\s*(.*)")
 SEPARATORS = ",;\t"
-CHUNK = 1 << 16  # rows that are texts at a time, before their numbers are
+BLOCK = 1 << 22  # characters that are texts at a time, before their numbers are
+PLAIN = {mark: re.compile(rf"[0-9.+\-eE \n{mark}]*") for mark in SEPARATORS}
+TINY = re.compile(r"[eE]-[0-9]{3}|[0-9.]{200}")
 MOST_COLUMNS = 1000
 MOST_ROWS = 10_000_000
 LONGEST_LINE = 1_000_000  # characters
@@ -35,32 +39,51 @@ class CsvCells(NamedTuple):
     comments: dict[str, str]
 
 
-class _Lines:
-    """Lines of a file that hold cells; their numbers and the comments are kept."""
+@dataclass
+class _File:
+    """A file that is read: what it is called, how far it is read, and what was found."""
 
-    def __init__(self, what: str, path: Path, file: TextIO) -> None:
-        self.what, self.path, self.file = what, path, file
-        self.places, self.comments = array("q"), dict[str, str]()
+    what: str
+    path: Path
+    text: TextIO
+    line: int = 0
+    lines: "array[int]" = field(default_factory=lambda: array("q"))
+    comments: dict[str, str] = field(default_factory=dict)
 
-    def __iter__(self) -> Iterator[str]:
-        place = 0
-        while line := self.file.readline(LONGEST_LINE + 1):
-            place += 1
-            if "\0" in line:
-                raise self.refusal("it is not text; give a CSV file")
-            if len(line) > LONGEST_LINE:
-                raise self.refusal(f"line {place} has more than {LONGEST_LINE} characters")
-            text = line.strip()
-            if text.startswith("#"):
-                self._note(text)
-            elif text:
-                self.places.append(place)
-                yield line
+    def head(self) -> str:
+        """Return the first line that is neither empty nor a comment."""
+        while line := self.text.readline(LONGEST_LINE + 1):
+            self.line += 1
+            self.check(line)
+            if self.has_cells(line):
+                return line
+        raise self.refusal("it is empty; there must be a header and numbers")
 
-    def _note(self, text: str) -> None:
-        """Keep a comment "# key: value"; the first of a key counts."""
+    def blocks(self) -> Iterator[str]:
+        """Return the rest in parts of whole lines."""
+        left = ""
+        while text := self.text.read(BLOCK):
+            whole, end, tail = text.rpartition("\n")
+            if end:
+                yield f"{left}{whole}\n"
+            left = tail if end else left + tail
+            self.check(left)
+        if left:
+            yield f"{left}\n"
+
+    def has_cells(self, line: str) -> bool:
+        """Return whether a line is neither empty nor a comment; of comments the first counts."""
+        text = line.strip()
         if match := COMMENT.fullmatch(text):
             self.comments.setdefault(match[1].lower(), match[2].strip())
+        return bool(text) and not text.startswith("#")
+
+    def check(self, line: str) -> None:
+        """Raise InputError for a line that is too long, or no text."""
+        if "\0" in line:
+            raise self.refusal("it is not text; give a CSV file")
+        if len(line) > LONGEST_LINE:
+            raise self.refusal(f"a line has more than {LONGEST_LINE} characters")
 
     def refusal(self, allowed: str) -> InputError:
         """Return the error that refuses the file."""
@@ -74,8 +97,8 @@ def read_csv(what: str, path: Path, fewest: int = 2) -> CsvCells:
     or has fewer columns than are allowed.
     """
     try:
-        with open(path, encoding="utf-8-sig") as file:
-            return _read(_Lines(what, path, file), fewest)
+        with open(path, encoding="utf-8-sig") as text:
+            return _read(_File(what, path, text), fewest)
     except OSError as error:
         reason = error.strerror or error
         raise InputError(f"{what}: {str(path)!r} cannot be read; {reason}") from None
@@ -84,61 +107,94 @@ def read_csv(what: str, path: Path, fewest: int = 2) -> CsvCells:
         raise refusal(what, str(path), allowed) from None
 
 
-def _read(lines: _Lines, fewest: int) -> CsvCells:
-    texts = iter(lines)
-    first = next(texts, None)
-    if first is None:
-        raise lines.refusal("it is empty; there must be a header and numbers")
+def _read(file: _File, fewest: int) -> CsvCells:
+    first = file.head()
     separator = max(SEPARATORS, key=first.count)
-    how: dict[str, Any] = {"delimiter": separator, "skipinitialspace": True, "strict": True}
-    rows = csv.reader(chain([first], texts), **how)
-    try:
-        heads = [text.strip() for text in next(rows)]
-        if len(heads) < fewest or len(lines.places) > 1:
-            raise lines.refusal("it is not CSV; " + _separated(fewest))
-        _check_heads(lines, heads)
-        columns = _columns(lines, rows, len(heads))
-    except csv.Error as error:
-        raise lines.refusal(f"it is not CSV; {error}") from None
-    return CsvCells(heads, columns, np.array(lines.places[1:], np.int64), lines.comments)
+    heads = [text.strip() for text in _cells(file, [first], separator)[0]]
+    if len(heads) < fewest:
+        fewer = "" if fewest == 1 else f", at least {fewest}"
+        allowed = f"give columns separated by commas, semicolons or tabs{fewer}"
+        raise file.refusal(f"it is not CSV; {allowed}")
+    _check_heads(file, heads)
+    parts: list[list[Any]] = [[] for _ in heads]
+    with advancing("reading", None, unit="rows") as advance:
+        for block in file.blocks():
+            before = len(file.lines)
+            columns = _quickly(file, block, separator, len(heads))
+            if columns is None:
+                columns = _cell_by_cell(file, block, separator, len(heads))
+            for part, column in zip(parts, columns, strict=True):
+                part.append(column)
+            if len(file.lines) > MOST_ROWS:
+                raise file.refusal(f"it has more than {MOST_ROWS} rows, which are read at most")
+            advance(len(file.lines) - before)
+    columns = [_joined(part) for part in parts]
+    return CsvCells(heads, columns, np.array(file.lines, np.int64), file.comments)
 
 
-def _separated(fewest: int) -> str:
-    fewer = "" if fewest == 1 else f", at least {fewest}"
-    return f"give columns separated by commas, semicolons or tabs{fewer}"
-
-
-def _check_heads(lines: _Lines, heads: Sequence[str]) -> None:
+def _check_heads(file: _File, heads: Sequence[str]) -> None:
     """Raise InputError if a header is none: too many names, or numbers."""
     if len(heads) > MOST_COLUMNS:
-        raise lines.refusal(f"it has {len(heads)} columns; {MOST_COLUMNS} are read at most")
+        raise file.refusal(f"it has {len(heads)} columns; {MOST_COLUMNS} are read at most")
     if plain_numbers(heads) is not None:
         raise InputError(
-            f"{lines.what}: the first line holds numbers; before it a line, without #, must name "
+            f"{file.what}: the first line holds numbers; before it a line, without #, must name "
             "the columns, e.g. psi_1,psi_2,chi"
         )
 
 
-def _columns(lines: _Lines, rows: Iterator[list[str]], width: int) -> list[Any]:
-    parts: list[list[Any]] = [[] for _ in range(width)]
-    done = 0
-    with advancing("reading", None, unit="rows") as advance:
-        while chunk := list(islice(rows, CHUNK)):
-            for place, row in enumerate(chunk, 1 + done):
-                if len(row) != width:
-                    message = f"has {len(row)} values, the header has {width} names"
-                    place = lines.places[min(place, len(lines.places) - 1)]
-                    raise lines.refusal(f"it is not CSV; line {place} {message}")
-            done += len(chunk)
-            if len(lines.places) != done + 1:
-                raise lines.refusal("it is not CSV; a text in quotes goes over several lines")
-            if done > MOST_ROWS:
-                raise lines.refusal(f"it has more than {MOST_ROWS} rows, which are read at most")
-            for part, cells in zip(parts, zip(*chunk, strict=True), strict=True):
-                numbers = plain_numbers(cells)
-                part.append(cells if numbers is None else numbers)
-            advance(len(chunk))
-    return [_joined(part) for part in parts]
+def _quickly(file: _File, block: str, separator: str, width: int) -> Sequence[Any] | None:
+    """Return the columns of lines that hold nothing but plain numbers, else None.
+
+    Of these letters NumPy reads the numbers of the grammar alone, but for those that round to zero.
+    """
+    rows = block.count("\n")
+    if PLAIN[separator].fullmatch(block) is None or TINY.search(block):
+        return None
+    if block.count(separator) != rows * (width - 1):
+        return None
+    try:
+        with catch_warnings():
+            simplefilter("error")  # of empty input
+            found = np.loadtxt(StringIO(block), delimiter=separator, comments=None, ndmin=2)
+    except (ValueError, UserWarning):
+        return None
+    if found.shape != (rows, width) or not np.all(np.isfinite(found)):
+        return None
+    file.lines.extend(range(file.line + 1, file.line + 1 + rows))
+    file.line += rows
+    return list(np.ascontiguousarray(found.T))
+
+
+def _cell_by_cell(file: _File, block: str, separator: str, width: int) -> Sequence[Any]:
+    """Return the columns of some lines: arrays of plain numbers, else texts."""
+    held = []
+    for line in block.split("\n")[:-1]:
+        file.line += 1
+        file.check(line)
+        if file.has_cells(line):
+            held.append(line)
+            file.lines.append(file.line)
+    rows = _cells(file, held, separator)
+    for place, row in zip(file.lines[len(file.lines) - len(held) :], rows, strict=True):
+        if len(row) != width:
+            message = f"has {len(row)} values, the header has {width} names"
+            raise file.refusal(f"it is not CSV; line {place} {message}")
+    columns = list(zip(*rows, strict=True)) if rows else [()] * width
+    numbers = [plain_numbers(cells) for cells in columns]
+    return [cells if n is None else n for cells, n in zip(columns, numbers, strict=True)]
+
+
+def _cells(file: _File, lines: list[str], separator: str) -> list[list[str]]:
+    """Return the cells of lines, each a row of its own."""
+    how: dict[str, Any] = {"delimiter": separator, "skipinitialspace": True, "strict": True}
+    try:
+        rows = list(csv.reader(lines, **how))
+    except csv.Error as error:
+        raise file.refusal(f"it is not CSV; {error}") from None
+    if len(rows) != len(lines):
+        raise file.refusal("it is not CSV; a text in quotes goes over several lines")
+    return rows
 
 
 def _joined(parts: list[Any]) -> Any:
