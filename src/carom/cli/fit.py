@@ -8,7 +8,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import carom
-from carom.cli.cases import Json, Plot, check_outputs, refuse_same, store, stored
+from carom.cli.cases import (
+    Json,
+    Plot,
+    check_outputs,
+    file_argument,
+    file_option,
+    refuse_same,
+    store,
+    stored,
+)
 from carom.quantities.units import InputError, number, refusal
 
 if TYPE_CHECKING:
@@ -18,17 +27,14 @@ if TYPE_CHECKING:
 
 def fit_command(
     data: Annotated[
-        Path | None,
-        typer.Argument(help="CSV file: a row an impact; units in the head, 'angle [deg]'."),
+        Path | None, file_argument("CSV file: a row an impact; units in the head, 'angle [deg]'.")
     ] = None,
     dataset: Annotated[
         str | None, typer.Option(help="Instead of a file, measured data that come with Carom.")
     ] = None,
     case: Annotated[
         Path | None,
-        typer.Option(
-            help="Case file as for `carom impact`: the bodies, unless the data tell them."
-        ),
+        file_option("Case file as for `carom impact`: the bodies, unless the data tell them."),
     ] = None,
     vary: Annotated[
         str | None, typer.Option(help="Of friction, kappa (or chi), restitution, spin_offset.")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import carom
-from carom.cli.cases import Json, check_outputs, outputs, stored
+from carom.cli.cases import Json, check_outputs, file_argument, outputs, stored
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import or_none, refusal
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def sweep_command(
-    case: Annotated[Path, typer.Argument(help="Case file with a table [sweep].")],
+    case: Annotated[Path, file_argument("Case file with a table [sweep].")],
     store: Annotated[
         str | None, typer.Option(help="Store block by block in a Zarr folder, e.g. sweep.zarr.")
     ] = None,
@@ -50,7 +50,7 @@ def sweep_command(
     from carom.sweeps.summaries import summary
 
     content = read_case(case, losses=True)
-    file = output or _file(content)
+    file = _file(content) if output is None else output
     check_outputs((file, TABLES))
     design, chosen = plan(content, case)
     with _stopping():

@@ -3,8 +3,6 @@
 import errno
 import os
 import shutil
-import tempfile
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
@@ -12,6 +10,7 @@ import numpy as np
 
 from carom.io.csv_format import as_csv, from_csv
 from carom.io.extras import extra
+from carom.io.paths import checked_output, checked_path, ending_of, replace_whole
 from carom.quantities.units import InputError, refusal
 
 if TYPE_CHECKING:
@@ -34,8 +33,9 @@ class Storable(Protocol):
 def save(result: "xr.Dataset | Storable", path: str | Path) -> Path:
     """Store a dataset or a result as .nc or .csv and return its path; `read` gives it back.
 
-    A file that is there is replaced whole or not at all. CSV is one table, with everything else in
-    comments before it: `pandas.read_csv(path, comment="#")` reads it, too.
+    A file that is there is replaced whole or not at all; of a link, the file to which it points. A
+    pipe or a device is written into, as CSV if its name has no ending. CSV is one table, with
+    everything else in comments before it: `pandas.read_csv(path, comment="#")` reads it, too.
 
     Parameters
     ----------
@@ -63,9 +63,10 @@ def save(result: "xr.Dataset | Storable", path: str | Path) -> Path:
     'curve.csv'
     """
     target, dataset = checked_output(path, TABLES), _dataset(result)
+    ending = ending_of(target, TABLES)
 
     def write(where: Path) -> None:
-        if target.suffix.lower() == ".nc":
+        if ending == ".nc":
             _require_room(where, dataset.nbytes)
             # what has no missing values declares none: CF forbids it of coordinates
             plain = {name: {"_FillValue": None} for name in dataset.variables}
@@ -73,7 +74,7 @@ def save(result: "xr.Dataset | Storable", path: str | Path) -> Path:
         else:
             where.write_text(as_csv(dataset), encoding="utf-8", newline="\n")
 
-    return replace_whole(target, write)
+    return replace_whole(target, write, ending)
 
 
 def _require_room(where: Path, size: int) -> None:
@@ -123,7 +124,7 @@ def read(path: str | Path) -> "xr.Dataset":
     ...     carom.read(stored).psi_out.values.round(4)
     array([[ 0.0471, -0.839 ]])
     """
-    source = _as_path("file", path)
+    source = checked_path("file", path)
     if source.suffix.lower() == STORE and source.is_dir():
         return read_store(source)
     if source.suffix.lower() not in TABLES:
@@ -169,13 +170,6 @@ def _is_ours(dataset: "xr.Dataset") -> bool:
     return str(dataset.attrs.get("source")).startswith("carom ")
 
 
-def _as_path(name: str, path: str | Path) -> Path:
-    try:
-        return Path(path)
-    except TypeError:
-        raise refusal(name, path, "must be the name of a file") from None
-
-
 def _from_netcdf(path: Path) -> "xr.Dataset":
     import xarray as xr
 
@@ -200,41 +194,7 @@ def read_text(what: str, path: Path) -> str:
     Raises InputError if it cannot be read, and UnicodeDecodeError if it is not in UTF-8.
     """
     try:
-        return path.read_text(encoding="utf-8-sig")
+        return checked_path(what, path).read_text(encoding="utf-8-sig")
     except OSError as error:
         reason = error.strerror or error
         raise InputError(f"{what}: {str(path)!r} cannot be read; {reason}") from None
-
-
-def checked_output(path: str | Path, endings: tuple[str, ...]) -> Path:
-    """Return the path of an output file, or raise InputError if it cannot become one."""
-    target = _as_path("output file", path)
-    if target.suffix.lower() not in endings:
-        raise refusal("output file", str(path), f"must end in {' or '.join(endings)}")
-    if target.is_dir() or not target.parent.is_dir():
-        raise refusal("output file", str(path), "its folder must exist; make it first")
-    return target
-
-
-def replace_whole(target: Path, write: Callable[[Path], object]) -> Path:
-    """Call `write` on a temporary file beside the target, then put it in the target's place."""
-    try:
-        handle, name = tempfile.mkstemp(target.suffix, f".{target.stem}-", target.parent)
-        os.close(handle)
-        temporary = Path(name)
-        try:
-            write(temporary)
-            temporary.chmod(0o666 & ~_umask())
-            temporary.replace(target)
-        finally:
-            temporary.unlink(missing_ok=True)
-    except OSError as error:
-        reason = error.strerror or error
-        raise InputError(f"output file: {str(target)!r} cannot be written; {reason}") from None
-    return target
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from carom.io.extras import extra
 from carom.io.files import STATUS, STORE, read_store
+from carom.io.paths import checked_path
 from carom.io.version import __version__
 from carom.quantities.units import refusal
 from carom.sweeps.blocks import Box, Values, boxes
@@ -146,10 +147,11 @@ def opened(folder: str | Path, problem: SweepProblem, resume: bool) -> Iterator[
 
 
 def _checked(folder: str | Path) -> Path:
-    if not isinstance(folder, str | Path) or Path(folder).suffix.lower() != STORE:
-        raise refusal("store", str(folder), f"must be the name of a folder that ends in {STORE}")
-    path = Path(folder)
-    if not path.parent.is_dir():
+    kind = f"folder that ends in {STORE}"
+    path = checked_path("store", folder, kind)
+    if path.suffix.lower() != STORE:
+        raise refusal("store", str(folder), f"must be the name of a {kind}")
+    if not os.path.isdir(os.path.dirname(os.path.realpath(path))):
         raise refusal("store", str(path), "the folder around it must exist; make it first")
     return path
 
@@ -172,12 +174,13 @@ def _locked(path: Path) -> Iterator[None]:
 
 def _create(path: Path, problem: SweepProblem) -> None:
     """Make a store without points, whole or not at all."""
-    new = path.parent / f".{path.stem}-{uuid.uuid4().hex}"
+    target = os.path.realpath(path)
+    new = Path(os.path.dirname(target), f".carom-{uuid.uuid4().hex}")
     try:
         with warnings.catch_warnings():  # of what the format 3 does not yet have on paper
             warnings.simplefilter("ignore")
             _fill(new, problem)
-        os.rename(new, path)
+        os.rename(new, target)
     except OSError as error:
         reason = f"cannot be made; {error.strerror}"
         if error.errno in (errno.EEXIST, errno.ENOTEMPTY):

@@ -7,14 +7,22 @@ from typing import Annotated
 import typer
 
 import carom
-from carom.cli.cases import Json, Plot, check_outputs, refuse_same, store
+from carom.cli.cases import (
+    Json,
+    Plot,
+    check_outputs,
+    file_argument,
+    file_option,
+    refuse_same,
+    store,
+)
 
 
 def score_command(
-    results: Annotated[Path, typer.Argument(help="CSV file with a header; comments after #.")],
+    results: Annotated[Path, file_argument("CSV file with a header; comments after #.")],
     case: Annotated[
         Path | None,
-        typer.Option(help="Case file as for `carom impact`: the bodies; for a history the motion."),
+        file_option("Case file as for `carom impact`: the bodies; for a history the motion."),
     ] = None,
     chi: Annotated[
         str | None, typer.Option(help="chi of psi_1, psi_2 if there is no such column, e.g. 1.44.")
