@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from carom.io.csv_format import as_csv, from_csv
-from carom.io.extras import extra
 from carom.io.paths import checked_output, checked_path, ending_of, replace_whole
+from carom.io.stores import is_ours, read_store
 from carom.quantities.units import InputError, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
 
 TABLES = (".nc", ".csv")
-STORE, STATUS = ".zarr", "status"  # of a sweep
+STORE = ".zarr"  # of a sweep
 OVERHEAD = 200_000  # bytes of a NetCDF file besides its values
 FIGURES = (".png", ".pdf", ".svg")
 ANIMATIONS = (".gif", ".mp4")
@@ -145,31 +145,6 @@ def read(path: str | Path) -> "xr.Dataset":
     raise refusal("file", str(source), reason)
 
 
-def read_store(path: Path) -> "xr.Dataset":
-    """Return the sweep in a store of Carom's, its values read when they are used.
-
-    Raises InputError if it is not one.
-    """
-    extra("zarr", "a store")
-    import xarray as xr
-
-    try:
-        dataset: xr.Dataset = xr.open_zarr(path, chunks=None, consolidated=True, decode_times=False)
-    except Exception:  # zarr and xarray raise what they like at a damaged store
-        raise refusal("store", str(path), "it is damaged, or not a Zarr store") from None
-    if not (_is_ours(dataset) and STATUS in dataset and "inputs" in dataset.attrs):
-        raise refusal("store", str(path), "it was not stored by Carom")
-    for variable in dataset.variables.values():  # what JSON has made a list
-        if "flag_values" in variable.attrs:
-            flags = np.asarray(variable.attrs["flag_values"], variable.dtype)
-            variable.attrs["flag_values"] = flags
-    return dataset
-
-
-def _is_ours(dataset: "xr.Dataset") -> bool:
-    return str(dataset.attrs.get("source")).startswith("carom ")
-
-
 def _from_netcdf(path: Path) -> "xr.Dataset":
     import xarray as xr
 
@@ -179,7 +154,7 @@ def _from_netcdf(path: Path) -> "xr.Dataset":
         raise
     except Exception:  # h5py and xarray raise what they like at a damaged file
         raise InputError("it is damaged, or not NetCDF-4") from None
-    if not _is_ours(dataset):
+    if not is_ours(dataset):
         raise InputError("it was not stored by Carom")
     dataset.attrs = {
         name: value.item() if isinstance(value, np.generic) else value
