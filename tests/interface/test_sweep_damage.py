@@ -1,11 +1,15 @@
 """Stores that lack something, or are of a sweep that only looks alike."""
 
+import pickle
 import shutil
+import subprocess
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import carom
+from carom.io.stores import FROZEN
 
 CASE = {"first": {"radius": "5 mm", "material": "steel"}, "speed": 1.0, "angle": 0.4}
 AXES = {
@@ -41,14 +45,42 @@ def test_a_store_is_read_like_any_other_file(whole):
         carom.read(whole[0].with_name("none.zarr"))
 
 
+def flipped(content, place):
+    """The bytes with one bit of one of them turned."""
+    content = bytearray(content)
+    content[int(place * (len(content) - 1))] ^= 8
+    return bytes(content)
+
+
+DAMAGE = {
+    "deleted": lambda content: None,
+    "empty": lambda content: b"",
+    "cut": lambda content: content[:20],
+    "one byte short": lambda content: content[:-1],
+    "zeros": lambda content: bytes(len(content)),
+    "twice": lambda content: 2 * content,
+    "first bit": lambda content: flipped(content, 0.0),
+    "bit within": lambda content: flipped(content, 0.6),
+    "last bit": lambda content: flipped(content, 1.0),
+}
+
+
+def damage(file, how):
+    content = DAMAGE[how](file.read_bytes())
+    if content is None:
+        file.unlink()
+    else:
+        file.write_bytes(content)
+
+
+@pytest.mark.parametrize("how", DAMAGE)
 @pytest.mark.parametrize("name", ["status", "psi_out"])
-def test_chunk_that_is_missing_is_computed_again(whole, copy, name):
+def test_damaged_chunk_is_found_and_computed_again(name, how, whole, copy):
     """Only that block is written anew, and the result is the same to the last bit."""
     files = chunks(copy, "chi")
     assert len(files) > 2
-    gone = chunks(copy, name)[1]
     before = [file.stat().st_mtime_ns for file in files]
-    gone.unlink()
+    damage(chunks(copy, name)[1], how)
     again = carom.sweep(CASE, GRID, store=copy, resume=True)
     assert again.load().identical(whole[1])
     after = [file.stat().st_mtime_ns for file in files]
@@ -57,25 +89,82 @@ def test_chunk_that_is_missing_is_computed_again(whole, copy, name):
     )
 
 
-def test_half_a_status_file_is_computed_again(whole, copy):
-    file = chunks(copy, "status")[0]
-    file.write_bytes(file.read_bytes()[:20])
-    assert carom.sweep(CASE, GRID, store=copy, resume=True).load().identical(whole[1])
-
-
-def test_half_a_file_of_results_is_named_when_it_is_read(copy):
+@pytest.mark.parametrize("how", DAMAGE)
+def test_damaged_chunk_is_never_read_as_numbers(how, whole, copy):
+    """The file is named when its values are used, and only then."""
     from carom.sweeps.summaries import summary
 
-    file = chunks(copy, "rebound_speed")[0]
-    file.write_bytes(file.read_bytes()[:20])
-    dataset = carom.sweep(CASE, GRID, store=copy, resume=True)
-    with pytest.raises(carom.InputError, match=r"rebound_speed: .*damaged; remove it"):
-        summary(dataset)
+    file = chunks(copy, "rebound_speed")[1]
+    damage(file, how)
+    dataset = carom.read(copy)
+    assert dataset.psi_out.identical(whole[1].psi_out)
+    key = str(file.relative_to(copy))
+    for use in (xr.Dataset.load, summary, lambda x: x.rebound_speed.values):
+        with pytest.raises(carom.InputError, match=f"{key} is damaged; --resume") as told:
+            use(carom.read(copy))
+        assert "\n" not in str(told.value)
+
+
+def test_block_without_status_counts_as_not_run(whole, copy):
+    """As in a store that is not finished: NOT_RUN there, and everything else as it was."""
+    chunks(copy, "status")[0].unlink()
+    dataset = carom.read(copy).load()
+    again = dataset.status != carom.PointStatus.NOT_RUN
+    assert 0 < int((~again).sum()) < again.size
+    assert dataset.where(again, drop=False).identical(whole[1].where(again, drop=False))
+
+
+@pytest.mark.parametrize("how", DAMAGE)
+@pytest.mark.parametrize("resume", [False, True], ids=["read", "resumed"])
+def test_everything_else_that_is_damaged_is_refused(how, resume, copy):
+    """Descriptions and coordinates: one line that names the file, and nothing is written."""
+    frozen = [f for f in copy.rglob("*") if f.is_file() and f.name != ".lock"]
+    frozen = [f for f in frozen if "c" not in f.relative_to(copy).parts[1:2] or is_axis(copy, f)]
+    assert len(frozen) > len(AXES) + 10
+    for file in frozen:
+        kept = file.read_bytes()
+        if file.name == ".sha256sums" and how in ("deleted", "one byte short", "twice"):
+            continue  # it says the same, or the store is older, see below
+        damage(file, how)
+        with pytest.raises(carom.InputError, match=r"^store: .* cannot be used; ") as told:
+            carom.sweep(CASE, GRID, store=copy, resume=True) if resume else carom.read(copy)
+        assert "\n" not in str(told.value)
+        file.write_bytes(kept)
+    carom.read(copy).load()
+
+
+def is_axis(store, file):
+    return file.relative_to(store).parts[0] in AXES
+
+
+def test_store_without_checksums_is_read_and_continued(whole, copy):
+    """As they were before there were any."""
+    (copy / FROZEN).unlink()
+    chunks(copy, "chi")[2].write_bytes(b"")
+    assert carom.sweep(CASE, GRID, store=copy, resume=True).load().identical(whole[1])
+    assert carom.read(copy).load().identical(whole[1])
+
+
+def test_checksums_are_those_that_the_shell_computes(copy):
+    """`sha256sum -c` in the folder of the store agrees."""
+    done = subprocess.run(["sha256sum", "-c", FROZEN], cwd=copy, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert "zarr.json: OK" in done.stdout
+
+
+def test_what_is_read_when_it_is_used_can_be_pickled(whole, copy):
+    """Before its values are read, and checked there, too."""
+    dataset = pickle.loads(pickle.dumps(carom.read(copy)))
+    assert dataset.load().identical(whole[1])
+    lazy = pickle.dumps(carom.read(copy).psi_out)
+    damage(chunks(copy, "psi_out")[0], "cut")
+    with pytest.raises(carom.InputError, match="psi_out/c/0/0 is damaged"):
+        pickle.loads(lazy).load()
 
 
 def test_array_that_is_missing_is_refused(copy):
     shutil.rmtree(copy / "psi_out")
-    with pytest.raises(carom.InputError, match="damaged: psi_out is missing"):
+    with pytest.raises(carom.InputError, match=r"damaged: psi_out/zarr.json is missing"):
         carom.sweep(CASE, GRID, store=copy, resume=True)
 
 

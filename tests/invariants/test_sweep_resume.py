@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.io.files import read_store
+from carom.io.stores import read_store
 from carom.sweeps import sweep
 from carom.sweeps.designs import Grid
 
@@ -34,7 +34,7 @@ import numpy as np
 import carom
 from carom.sweeps import sweep
 from carom.sweeps.designs import Grid
-from carom.io.files import read_store
+from carom.io.stores import read_store
 from carom.sweeps.problem import SweepProblem
 
 path, case, axes = sys.argv[1], *map(json.loads, sys.argv[2:4])

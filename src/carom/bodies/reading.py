@@ -4,7 +4,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from carom.bodies.cases import read_case
-from carom.io.files import as_path, read_dataset
+from carom.io.files import read_dataset
+from carom.io.paths import checked_path
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,7 +40,7 @@ def read(path: str | Path) -> "xr.Dataset | dict[str, Any]":
     ...     carom.read(stored).psi_out.values.round(4)
     array([[ 0.0471, -0.839 ]])
     """
-    source = as_path("file", path)
+    source = checked_path("file", path)
     if source.suffix.lower() == ".toml":
         return read_case(source, losses=True)
     return read_dataset(source)

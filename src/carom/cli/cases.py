@@ -1,5 +1,6 @@
 """What commands share: flags over a case file, files that are asked for, interpreted kernels."""
 
+import os
 import sys
 from collections.abc import Mapping
 from itertools import combinations
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 import typer
 
 import carom
-from carom.quantities.units import refusal
+from carom.quantities.units import InputError, refusal
 
 if TYPE_CHECKING:
     from carom.bodies.cases import Case
@@ -21,6 +22,27 @@ Column = Annotated[
     typer.Option(help="What a head of the table stands for, e.g. omega=spin_out; repeat."),
 ]
 Plot = Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")]
+
+
+def file_name(text: str) -> Path:
+    """Return the name of a file that is read; "" is none, though `Path` takes it for a folder."""
+    from carom.io.paths import checked_path
+
+    try:
+        return checked_path("file", text)
+    except InputError as error:
+        raise typer.BadParameter(str(error)) from None
+
+
+def file_option(words: str) -> Any:
+    """Return the option of a file that is read."""
+    return typer.Option(help=words, parser=file_name, metavar="FILE")
+
+
+def file_argument(words: str) -> Any:
+    """Return the argument of a file that is read."""
+    return typer.Argument(help=words, parser=file_name)
+
 
 may_interpret = False  # in a process that runs one command
 
@@ -84,7 +106,13 @@ def outputs(case: "Case") -> Output:
 
 def refuse_same(files: Mapping[str, str | Path | None]) -> None:
     """Raise InputError if two of the files, by what they are for, are one."""
-    given = {name: Path(file).resolve() for name, file in files.items() if file is not None}
+    from carom.io.paths import checked_path
+
+    given = {
+        name: os.path.realpath(checked_path(name, file))
+        for name, file in files.items()
+        if file is not None
+    }
     for (one, path), (other, same) in combinations(given.items(), 2):
         if path == same:
             raise refusal(other, str(files[other]), f"it is the file of {one}; give another name")
@@ -92,7 +120,7 @@ def refuse_same(files: Mapping[str, str | Path | None]) -> None:
 
 def check_outputs(*files: tuple[str | None, tuple[str, ...]]) -> None:
     """Raise InputError if a file cannot be written or has another ending."""
-    from carom.io.files import checked_output
+    from carom.io.paths import checked_output
 
     for path, endings in files:
         if path is not None:

@@ -86,7 +86,7 @@ def _export(
     others: dict[str, Any],
 ) -> None:
     """Print or store a header that holds the rebound at each chi."""
-    from carom.io.files import checked_output, replace_whole
+    from carom.io.paths import checked_output, replace_whole
     from carom.laws.header import c_header
 
     if language != "c":

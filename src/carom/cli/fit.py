@@ -13,6 +13,8 @@ from carom.cli.cases import (
     Json,
     Plot,
     check_outputs,
+    file_argument,
+    file_option,
     named_values,
     refuse_same,
     store,
@@ -28,17 +30,14 @@ if TYPE_CHECKING:
 
 def fit_command(
     data: Annotated[
-        Path | None,
-        typer.Argument(help="CSV file: a row an impact; units in the head, 'angle [deg]'."),
+        Path | None, file_argument("CSV file: a row an impact; units in the head, 'angle [deg]'.")
     ] = None,
     dataset: Annotated[
         str | None, typer.Option(help="Instead of a file, measured data that come with Carom.")
     ] = None,
     case: Annotated[
         Path | None,
-        typer.Option(
-            help="Case file as for `carom impact`: the bodies, unless the data tell them."
-        ),
+        file_option("Case file as for `carom impact`: the bodies, unless the data tell them."),
     ] = None,
     vary: Annotated[
         str | None, typer.Option(help="Of friction, kappa (or chi), restitution, spin_offset.")

@@ -8,7 +8,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import carom
-from carom.cli.cases import Json, Output, Plot, check_outputs, interpret, merged, outputs, stored
+from carom.cli.cases import (
+    Json,
+    Output,
+    Plot,
+    check_outputs,
+    file_argument,
+    interpret,
+    merged,
+    outputs,
+    stored,
+)
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import refusal
 
@@ -29,7 +39,7 @@ FRAMES = 60  # of an animation
 
 
 def impact_command(
-    case: Annotated[Path | None, typer.Argument(help="Case file; flags override it.")] = None,
+    case: Annotated[Path | None, file_argument("Case file; flags override it.")] = None,
     radius: Annotated[Text, _flag("radius", "'5 mm'")] = None,
     material: Annotated[
         Text, typer.Option(help="A name, or 'young=210 GPa, poisson=0.3, density=7850'.")

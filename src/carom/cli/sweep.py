@@ -10,7 +10,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import carom
-from carom.cli.cases import Column, Json, check_outputs, named_values, outputs, stored, told_case
+from carom.cli.cases import (
+    Column,
+    Json,
+    check_outputs,
+    file_argument,
+    named_values,
+    outputs,
+    stored,
+    told_case,
+)
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import or_none, refusal
 
@@ -20,7 +29,7 @@ if TYPE_CHECKING:
 
 
 def sweep_command(
-    case: Annotated[Path, typer.Argument(help="Case file with a table [sweep].")],
+    case: Annotated[Path, file_argument("Case file with a table [sweep].")],
     column: Column = None,
     store: Annotated[
         str | None, typer.Option(help="Store block by block in a Zarr folder, e.g. sweep.zarr.")
@@ -50,7 +59,7 @@ def sweep_command(
     from carom.sweeps.summaries import summary
 
     content = told_case(case, losses=True)
-    file = output or _file(content)
+    file = _file(content) if output is None else output
     check_outputs((file, TABLES))
     design, chosen = plan(content, case, named_values("column", column, "omega=spin"))
     with _stopping():

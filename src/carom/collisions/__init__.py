@@ -21,6 +21,7 @@ from carom.collisions.records import (
     inertia_of,
     is_foreign,
     vectors,
+    warn_of_unusable,
 )
 from carom.laws.exact import law_of
 from carom.laws.rules import Rule
@@ -81,9 +82,10 @@ def collide(
     Collisions
         velocity1, spin1, velocity2, spin2 in the shape and type of what was given, float32 or
         float64, and status, shape (...): `CollisionStatus`. Pairs that do not approach, or with
-        numbers that cannot be used, are left alone. Arrays of other libraries (JAX, torch, CuPy)
-        are answered in kind, and can be differentiated; lists and NumPy arrays beside them take
-        their type and device.
+        numbers that cannot be used, are left alone; a UserWarning tells how many have normals that
+        are not of length one, or numbers that are not finite. Arrays of other libraries (JAX,
+        torch, CuPy) are answered in kind, and can be differentiated; lists and NumPy arrays beside
+        them take their type and device.
 
     Raises
     ------
@@ -110,8 +112,11 @@ def collide(
     if any(is_foreign(each) for each in given):
         if inplace:
             raise refusal("inplace", inplace, "only NumPy arrays can be written into")
-        return collide_arrays(given, inertia_of(pair), rule)
-    return _collide_numpy(given, inertia_of(pair), rule, inplace, threads)
+        found = collide_arrays(given, inertia_of(pair), rule)
+    else:
+        found = _collide_numpy(given, inertia_of(pair), rule, inplace, threads)
+    warn_of_unusable(found.status)
+    return found
 
 
 def _rule(law: CollisionLaw | None, pair: Pair) -> Rule:
@@ -131,7 +136,7 @@ def _collide_numpy(
     moving = 4 if inertia.factors[2] > 0.0 else 2
     if inplace:
         _check_writable(given, [*before, axis], moving)
-        after = before
+        after = [*before[:moving], *map(_writable, before[moving:])]
     else:
         after = [np.empty_like(each) for each in before[:moving]]
         after += [each.copy() for each in before[moving:]]
@@ -154,6 +159,11 @@ def _read_only(array: NDArray[np.floating]) -> NDArray[np.floating]:
     flat = array.reshape(-1)
     flat.setflags(write=False)
     return flat
+
+
+def _writable(array: NDArray[np.floating]) -> NDArray[np.floating]:
+    """Return an array as the kernel takes that of a fixed body, though it writes nothing there."""
+    return array if array.flags.writeable else array.copy()
 
 
 def _whole(

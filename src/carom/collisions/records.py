@@ -1,7 +1,9 @@
 """What collisions give, velocities and spins with a status, and what they take, read from users."""
 
+import warnings
 from collections.abc import Sequence
 from enum import IntEnum
+from math import prod
 from typing import Any, NamedTuple
 
 import array_api_compat
@@ -13,6 +15,7 @@ from carom.bodies.shapes import Sphere
 from carom.plots.result import card
 from carom.quantities.units import InputError, refusal
 
+NO_VALUES = (TypeError, RuntimeError)  # what jax and torch raise while they trace or map
 SKEW = 1e-5  # of a normal's squared length from 1; so much is rounding, and made up for
 NAMES = ("velocity1", "spin1", "velocity2", "spin2", "normal")
 ALLOWED = "must be an array of real numbers of shape (..., 3)"
@@ -47,10 +50,18 @@ MESSAGES = {
 }
 
 
+ADVICE = {
+    CollisionStatus.NORMAL_NOT_UNIT: "whose normal is not of length one (divide it by its length)",
+    CollisionStatus.NOT_FINITE: "with a number that is not finite or too large (look for NaN)",
+}
+
+
 class Collisions(NamedTuple):
     """Velocities and spins after collisions, as arrays like those before; SI units.
 
     `status`, one for each pair, holds values of `CollisionStatus`: 0 where the bodies collided.
+    Printed, it is a summary. Two are equal if all their numbers are, NaN and NaN too, in arrays of
+    one library and shape.
 
     Examples
     --------
@@ -68,12 +79,81 @@ class Collisions(NamedTuple):
     spin2: Any
     status: Any
 
+    def __repr__(self) -> str:
+        """Return in a few lines how many pairs there are, and what became of them."""
+        counts = status_counts(self.status)
+        if counts is None:  # what jax traces, or no arrays at all
+            return tuple.__repr__(self)
+        lines = [_title(self), *(f"  {status.message}: {n:,}" for status, n in counts.items())]
+        return "\n".join(lines)
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether all numbers are the same."""
+        return isinstance(other, Collisions) and all(map(_same, self, other))
+
+    def __ne__(self, other: object) -> bool:
+        """Return whether any number differs."""
+        return not self == other
+
+    def __hash__(self) -> int:
+        """Raise TypeError: arrays can change."""
+        raise TypeError(f"unhashable type: {type(self).__name__!r}")
+
     def _repr_html_(self) -> str:
         """Return a table for a notebook."""
-        values, counts = np.unique(np.asarray(self.status), return_counts=True)
-        known = zip(values.tolist(), counts.tolist(), strict=True)
-        rows = {CollisionStatus(value).message: f"{count:,}" for value, count in known}
-        return card(f"{counts.sum():,} collisions", rows)
+        counts = status_counts(self.status) or {}
+        return card(_title(self), {status.message: f"{n:,}" for status, n in counts.items()})
+
+
+def status_counts(status: Any) -> dict[CollisionStatus, int] | None:
+    """Return how many pairs have each status that occurs; None of an array without values."""
+    try:
+        xp = array_api_compat.array_namespace(status)
+        where = {each: xp.astype(status == each.value, xp.int32) for each in CollisionStatus}
+        counts = {each: int(xp.sum(found)) for each, found in where.items()}
+    except NO_VALUES:
+        return None
+    return {each: count for each, count in counts.items() if count}
+
+
+def warn_of_unusable(status: Any) -> None:
+    """Warn once of pairs with numbers that cannot be used: how many, and what to do."""
+    try:  # one look at the largest: this is to cost nothing
+        xp = array_api_compat.array_namespace(status)
+        if not prod(status.shape) or int(xp.max(status)) < min(ADVICE):
+            return
+    except NO_VALUES:
+        return
+    counts = status_counts(status) or {}
+    found = [f"{counts[each]:,} {words}" for each, words in ADVICE.items() if each in counts]
+    warnings.warn(
+        f"of {_counted(prod(status.shape), 'pair')} some were left alone: {'; '.join(found)}; "
+        "`status` tells which",
+        UserWarning,
+        stacklevel=3,
+    )
+
+
+def _title(found: Collisions) -> str:
+    shape, kind = tuple(found.velocity1.shape), found.velocity1.dtype
+    number = _counted(prod(shape[:-1]), "collision")
+    return f"{number}; velocities and spins of shape {shape}, {kind}"
+
+
+def _counted(number: int, noun: str) -> str:
+    return f"{number:,} {noun}" if number == 1 else f"{number:,} {noun}s"
+
+
+def _same(one: Any, other: Any) -> bool:
+    """Return whether two arrays have the same numbers, or two other things are equal."""
+    try:
+        xp = array_api_compat.array_namespace(one, other)
+    except TypeError:  # of two libraries, or no arrays
+        alike = map(array_api_compat.is_array_api_obj, (one, other))
+        return not any(alike) and bool(one == other)
+    if tuple(one.shape) != tuple(other.shape):
+        return False
+    return bool(xp.all((one == other) | ((one != one) & (other != other))))
 
 
 class Inertia(NamedTuple):

@@ -3,22 +3,21 @@
 import errno
 import os
 import shutil
-import tempfile
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from carom.io.csv_format import as_csv, from_csv
-from carom.io.extras import extra
+from carom.io.paths import checked_output, checked_path, ending_of, replace_whole
+from carom.io.stores import is_ours, read_store
 from carom.quantities.units import InputError, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
 
 TABLES = (".nc", ".csv")
-STORE, STATUS = ".zarr", "status"  # of a sweep
+STORE = ".zarr"  # of a sweep
 LONGEST_TEXT = 1_000_000  # characters
 OVERHEAD = 200_000  # bytes of a NetCDF file besides its values
 FIGURES = (".png", ".pdf", ".svg")
@@ -35,8 +34,9 @@ class Storable(Protocol):
 def save(result: "xr.Dataset | Storable", path: str | Path) -> Path:
     """Store a dataset or a result as .nc or .csv and return its path; `carom.read` gives it back.
 
-    A file that is there is replaced whole or not at all. CSV is one table, with everything else in
-    comments before it: `pandas.read_csv(path, comment="#")` reads it, too.
+    A file that is there is replaced whole or not at all; of a link, the file to which it points. A
+    pipe or a device is written into, as CSV if its name has no ending. CSV is one table, with
+    everything else in comments before it: `pandas.read_csv(path, comment="#")` reads it, too.
 
     Parameters
     ----------
@@ -64,9 +64,10 @@ def save(result: "xr.Dataset | Storable", path: str | Path) -> Path:
     'curve.csv'
     """
     target, dataset = checked_output(path, TABLES), _dataset(result)
+    ending = ending_of(target, TABLES)
 
     def write(where: Path) -> None:
-        if target.suffix.lower() == ".nc":
+        if ending == ".nc":
             _require_room(where, dataset.nbytes)
             # what has no missing values declares none: CF forbids it of coordinates
             plain = {name: {"_FillValue": None} for name in dataset.variables}
@@ -74,7 +75,7 @@ def save(result: "xr.Dataset | Storable", path: str | Path) -> Path:
         else:
             where.write_text(as_csv(dataset), encoding="utf-8", newline="\n")
 
-    return replace_whole(target, write)
+    return replace_whole(target, write, ending)
 
 
 def _require_room(where: Path, size: int) -> None:
@@ -118,39 +119,6 @@ def read_dataset(source: Path) -> "xr.Dataset":
     raise refusal("file", str(source), reason)
 
 
-def read_store(path: Path) -> "xr.Dataset":
-    """Return the sweep in a store of Carom's, its values read when they are used.
-
-    Raises InputError if it is not one.
-    """
-    extra("zarr", "a store")
-    import xarray as xr
-
-    try:
-        dataset: xr.Dataset = xr.open_zarr(path, chunks=None, consolidated=True, decode_times=False)
-    except Exception:  # zarr and xarray raise what they like at a damaged store
-        raise refusal("store", str(path), "it is damaged, or not a Zarr store") from None
-    if not (_is_ours(dataset) and STATUS in dataset and "inputs" in dataset.attrs):
-        raise refusal("store", str(path), "it was not stored by Carom")
-    for variable in dataset.variables.values():  # what JSON has made a list
-        if "flag_values" in variable.attrs:
-            flags = np.asarray(variable.attrs["flag_values"], variable.dtype)
-            variable.attrs["flag_values"] = flags
-    return dataset
-
-
-def _is_ours(dataset: "xr.Dataset") -> bool:
-    return str(dataset.attrs.get("source")).startswith("carom ")
-
-
-def as_path(name: str, path: str | Path) -> Path:
-    """Return the path of a file that a user names, or raise InputError."""
-    try:
-        return Path(path)
-    except TypeError:
-        raise refusal(name, path, "must be the name of a file") from None
-
-
 def _from_netcdf(path: Path) -> "xr.Dataset":
     import xarray as xr
 
@@ -160,7 +128,7 @@ def _from_netcdf(path: Path) -> "xr.Dataset":
         raise
     except Exception:  # h5py and xarray raise what they like at a damaged file
         raise InputError("it is damaged, or not NetCDF-4") from None
-    if not _is_ours(dataset):
+    if not is_ours(dataset):
         raise InputError("it was not stored by Carom")
     dataset.attrs = {
         name: value.item() if isinstance(value, np.generic) else value
@@ -176,7 +144,7 @@ def read_text(what: str, path: Path) -> str:
     UTF-8.
     """
     try:
-        with path.open(encoding="utf-8-sig") as file:
+        with checked_path(what, path).open(encoding="utf-8-sig") as file:
             text = file.read(LONGEST_TEXT + 1)
     except OSError as error:
         reason = error.strerror or error
@@ -184,37 +152,3 @@ def read_text(what: str, path: Path) -> str:
     if len(text) > LONGEST_TEXT:
         raise refusal(what, str(path), f"{LONGEST_TEXT} characters are read at most")
     return text
-
-
-def checked_output(path: str | Path, endings: tuple[str, ...]) -> Path:
-    """Return the path of an output file, or raise InputError if it cannot become one."""
-    target = as_path("output file", path)
-    if target.suffix.lower() not in endings:
-        raise refusal("output file", str(path), f"must end in {' or '.join(endings)}")
-    if target.is_dir() or not target.parent.is_dir():
-        raise refusal("output file", str(path), "its folder must exist; make it first")
-    return target
-
-
-def replace_whole(target: Path, write: Callable[[Path], object]) -> Path:
-    """Call `write` on a temporary file beside the target, then put it in the target's place."""
-    try:
-        handle, name = tempfile.mkstemp(target.suffix, f".{target.stem}-", target.parent)
-        os.close(handle)
-        temporary = Path(name)
-        try:
-            write(temporary)
-            temporary.chmod(0o666 & ~_umask())
-            temporary.replace(target)
-        finally:
-            temporary.unlink(missing_ok=True)
-    except OSError as error:
-        reason = error.strerror or error
-        raise InputError(f"output file: {str(target)!r} cannot be written; {reason}") from None
-    return target
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

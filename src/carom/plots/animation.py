@@ -16,7 +16,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 from PIL import Image
 
-from carom.io.files import ANIMATIONS, checked_output, replace_whole
+from carom.io.files import ANIMATIONS
+from carom.io.paths import checked_output, ending_of, replace_whole
 from carom.io.progress import Advance, advancing
 from carom.plots import style
 from carom.plots.bands import BANDS
@@ -75,7 +76,7 @@ def animate(
     'hit.gif'
     """
     target = checked_animation(path)
-    ending = target.suffix.lower()
+    ending = ending_of(target, ANIMATIONS)
     total = len(frames) if isinstance(frames, Sized) else None
     told = (lambda *_: progress()) if callable(progress) else progress
     with advancing("animation", total, told, unit="frames") as advance:
@@ -84,7 +85,7 @@ def animate(
         if first is None:
             raise InputError("frames: an animation needs the fields of one instant or more")
         write = _write_gif if ending == ".gif" else _write_mp4
-        return replace_whole(target, lambda where: write(where, chain([first], pictures)))
+        return replace_whole(target, lambda where: write(where, chain([first], pictures)), ending)
 
 
 def checked_animation(path: str | Path) -> Path:
@@ -112,7 +113,7 @@ def checked_animation(path: str | Path) -> Path:
     'hit.gif'
     """
     target = checked_output(path, ANIMATIONS)
-    if target.suffix.lower() == ".mp4" and shutil.which("ffmpeg") is None:
+    if ending_of(target, ANIMATIONS) == ".mp4" and shutil.which("ffmpeg") is None:
         raise refusal("output file", str(path), "ffmpeg is not found; install it, or use .gif")
     return target
 

@@ -15,7 +15,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from carom.io.files import FIGURES, checked_output, replace_whole
+from carom.io.files import FIGURES
+from carom.io.paths import checked_output, ending_of, replace_whole
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import InputError
@@ -233,7 +234,9 @@ def save_figure(figure: Figure, path: str | Path) -> Path:
     target = checked_output(path, FIGURES)
     logging.getLogger("fontTools").setLevel(logging.ERROR)  # it doubts the dates of fonts
     with style():
-        return replace_whole(target, lambda where: figure.savefig(where, dpi=DPI))
+        return replace_whole(
+            target, lambda where: figure.savefig(where, dpi=DPI), ending_of(target, FIGURES)
+        )
 
 
 def prefixed(values: ArrayLike, unit: str) -> tuple[float, str]:

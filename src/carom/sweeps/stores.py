@@ -2,7 +2,7 @@
 
 Each file is written whole or not at all, the status of a block after everything else of it. So a
 block is finished exactly when no point of it has the status `NOT_RUN`, whatever happened to the
-process that wrote it.
+process that wrote it; unless a file of it has been damaged since, which its checksum tells.
 """
 
 import errno
@@ -12,6 +12,7 @@ import shutil
 import uuid
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
@@ -21,8 +22,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.dimensionless.numerics.threads import available_cores
 from carom.io.extras import extra
-from carom.io.files import STATUS, STORE, read_store
+from carom.io.files import STORE
+from carom.io.paths import checked_path
+from carom.io.stores import LEVEL, STATUS, chunk_size, freeze, read_chunk, read_store
 from carom.io.version import __version__
 from carom.quantities.units import refusal
 from carom.sweeps.blocks import Box, Values, boxes
@@ -33,7 +37,6 @@ from carom.sweeps.records import SweepStopped, blank_dataset, identity
 if TYPE_CHECKING:
     import xarray as xr
 
-LEVEL = 1  # of compression: floating-point numbers gain nothing from more
 LOCK = f"{STATUS}/.lock"  # a place that zarr does not list
 FULL = (errno.ENOSPC, errno.EDQUOT)
 SHOWN = 3  # differences in a refusal
@@ -87,27 +90,32 @@ class StoreRecord:
     def __init__(self, path: Path, names: Iterable[str]) -> None:
         self.path = path
         self._names = list(names)
-        self._status = extra("zarr", "a store").open_array(path / STATUS, mode="r")
-        blocks = list(boxes(self._status.shape, self._status.chunks))
-        self.todo = [box for box in blocks if not self._is_finished(box)]
-        self._number, self._finished = len(blocks), len(blocks) - len(self.todo)
+        there = read_store(path)
+        self._sizes = {name: chunk_size(there[name]) for name in self._names}
+        self._chunks = there[STATUS].encoding["chunks"]
+        blocks = list(boxes(there[STATUS].shape, self._chunks))
+        with ThreadPoolExecutor(available_cores()) as pool:
+            finished = list(pool.map(self._is_finished, blocks))
+        self.todo = [box for box, whole in zip(blocks, finished, strict=True) if not whole]
+        self._number, self._finished = len(blocks), sum(finished)
 
     def _is_finished(self, box: Box) -> bool:
-        """Tell whether a block is there as a whole; one whose status cannot be read is not."""
-        corner = self._corner(box)
-        if not all(chunk_file(self.path / name, corner).is_file() for name in self._names):
+        """Tell whether a block is there as a whole, and none of its files is damaged."""
+        status = self._read(STATUS, box)
+        if status is None or PointStatus.NOT_RUN in np.frombuffer(status, np.int8):
             return False
-        try:
-            return not np.any(self._status[box] == PointStatus.NOT_RUN)
-        except Exception:  # zarr raises what it likes at a damaged file
-            return False
+        return all(self._read(name, box) is not None for name in self._names)
+
+    def _read(self, name: str, box: Box) -> bytes | None:
+        file = chunk_file(self.path / name, self._corner(box))
+        return read_chunk(file, self._sizes[name])
 
     def _corner(self, box: Box) -> list[int]:
-        return [part.start // size for part, size in zip(box, self._status.chunks, strict=True)]
+        return [part.start // size for part, size in zip(box, self._chunks, strict=True)]
 
     def write(self, box: Box, values: Values) -> None:
         """Write a block, its status last; raises SweepStopped if that fails."""
-        corner, chunks = self._corner(box), self._status.chunks
+        corner, chunks = self._corner(box), self._chunks
         try:
             for name in sorted(values, key=STATUS.__eq__):
                 write_chunk(self.path / name, corner, chunks, values[name])
@@ -146,10 +154,11 @@ def opened(folder: str | Path, problem: SweepProblem, resume: bool) -> Iterator[
 
 
 def _checked(folder: str | Path) -> Path:
-    if not isinstance(folder, str | Path) or Path(folder).suffix.lower() != STORE:
-        raise refusal("store", str(folder), f"must be the name of a folder that ends in {STORE}")
-    path = Path(folder)
-    if not path.parent.is_dir():
+    kind = f"folder that ends in {STORE}"
+    path = checked_path("store", folder, kind)
+    if path.suffix.lower() != STORE:
+        raise refusal("store", str(folder), f"must be the name of a {kind}")
+    if not os.path.isdir(os.path.dirname(os.path.realpath(path))):
         raise refusal("store", str(path), "the folder around it must exist; make it first")
     return path
 
@@ -172,12 +181,14 @@ def _locked(path: Path) -> Iterator[None]:
 
 def _create(path: Path, problem: SweepProblem) -> None:
     """Make a store without points, whole or not at all."""
-    new = path.parent / f".{path.stem}-{uuid.uuid4().hex}"
+    target = os.path.realpath(path)
+    new = Path(os.path.dirname(target), f".carom-{uuid.uuid4().hex}")
     try:
         with warnings.catch_warnings():  # of what the format 3 does not yet have on paper
             warnings.simplefilter("ignore")
             _fill(new, problem)
-        os.rename(new, path)
+        freeze(new)
+        os.rename(new, target)
     except OSError as error:
         reason = f"cannot be made; {error.strerror}"
         if error.errno in (errno.EEXIST, errno.ENOTEMPTY):
@@ -224,9 +235,6 @@ def _check(path: Path, problem: SweepProblem) -> None:
     found = islice(_differences(json.loads(dataset.attrs["inputs"]), identity(problem), ""), SHOWN)
     if words := "; ".join(found):
         raise refusal("store", str(path), f"it is of another sweep: {words}")
-    for name in problem.variables():
-        if not (path / name / "zarr.json").is_file():
-            raise refusal("store", str(path), f"it is damaged: {name} is missing; begin anew")
 
 
 def _differences(there: Any, here: Any, name: str) -> Iterator[str]:

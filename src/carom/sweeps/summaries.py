@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.quantities.units import refusal
-from carom.sweeps.blocks import Box, boxes, chunk_shape
+from carom.sweeps.blocks import boxes, chunk_shape
 from carom.sweeps.points import PointStatus
 
 if TYPE_CHECKING:
@@ -45,22 +44,12 @@ def summary(dataset: "xr.Dataset", names: Sequence[str] | None = None) -> Summar
     counts: Counter[int] = Counter()
     ranges = dict.fromkeys(shown, (np.nan, np.nan))
     for box in boxes(status.shape, status.encoding.get("chunks") or chunk_shape(status.shape)):
-        values, numbers = np.unique(_read(status, box), return_counts=True)
+        values, numbers = np.unique(status[box].values, return_counts=True)
         counts.update(dict(zip(values.tolist(), numbers.tolist(), strict=True)))
         for name in shown:
-            ranges[name] = _extended(ranges[name], _read(dataset[name], box))
+            ranges[name] = _extended(ranges[name], dataset[name][box].values)
     statuses = {PointStatus(value).message: n for value, n in sorted(counts.items())}
     return Summary({str(n): size for n, size in dataset.sizes.items()}, statuses, ranges)
-
-
-def _read(variable: "xr.DataArray", box: Box) -> NDArray[Any]:
-    """Return the values in a box; raises InputError where a file of the store is damaged."""
-    try:
-        return np.asarray(variable[box].values)
-    except Exception:  # zarr raises what it likes at a damaged file
-        at = ", ".join(f"{part.start}:{part.stop}" for part in box)
-        allowed = "a file of the store is damaged; remove it, and --resume computes it again"
-        raise refusal(str(variable.name), f"[{at}]", allowed) from None
 
 
 def _extended(span: tuple[float, float], values: NDArray[Any]) -> tuple[float, float]:

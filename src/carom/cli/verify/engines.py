@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 import carom
-from carom.cli.cases import Json, check_outputs, stored, told_case
+from carom.cli.cases import Json, check_outputs, file_option, stored, told_case
 from carom.quantities.units import InputError, positive
 
 PURPOSE = """\
@@ -27,8 +27,7 @@ COMMANDS["lammps"] += VERDICT
 def engine_command(
     context: typer.Context,
     case: Annotated[
-        Path | None,
-        typer.Option(help="Case file as for `carom impact`: the bodies (steel, 1.4412)."),
+        Path | None, file_option("Case file as for `carom impact`: the bodies (steel, 1.4412).")
     ] = None,
     law: Annotated[
         str | None, typer.Option(help="Only this law, named as by `carom verify laws`.")
@@ -46,7 +45,7 @@ def engine_command(
 ) -> None:
     """Run the program that the command is named after, and print how it has done."""
     from carom.bodies.cases import pair_of
-    from carom.io.files import checked_output, replace_whole
+    from carom.io.paths import checked_output, replace_whole
     from carom.verify.catalogue import named
 
     check_outputs((output, (".csv",)))

@@ -12,6 +12,8 @@ from carom.cli.cases import (
     Json,
     Plot,
     check_outputs,
+    file_argument,
+    file_option,
     named_values,
     refuse_same,
     store,
@@ -20,10 +22,10 @@ from carom.cli.cases import (
 
 
 def score_command(
-    results: Annotated[Path, typer.Argument(help="CSV file with a header; comments after #.")],
+    results: Annotated[Path, file_argument("CSV file with a header; comments after #.")],
     case: Annotated[
         Path | None,
-        typer.Option(help="Case file as for `carom impact`: the bodies; for a history the motion."),
+        file_option("Case file as for `carom impact`: the bodies; for a history the motion."),
     ] = None,
     chi: Annotated[
         str | None, typer.Option(help="chi of psi_1, psi_2 if there is no such column, e.g. 1.44.")

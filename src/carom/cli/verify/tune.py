@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import carom
-from carom.cli.cases import Json, told_case
+from carom.cli.cases import Json, file_argument, told_case
 
 if TYPE_CHECKING:
     from carom.verify.setting import Setting
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 def tune_command(
     case: Annotated[
-        Path | None, typer.Argument(help="Case file as of `carom impact`: bodies, friction, speed.")
+        Path | None, file_argument("Case file as of `carom impact`: bodies, friction, speed.")
     ] = None,
     chi: Annotated[str | None, typer.Option(help="Instead of a case: chi, positive.")] = None,
     kappa: Annotated[

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 from carom.bodies.cases import read_case
-from carom.io.files import replace_whole
+from carom.io.paths import replace_whole
 from carom.quantities.units import InputError, refusal
 from carom.verify.pack.frozen import CASE, INPUTS
 from carom.verify.pack.programs import AFTER, PROGRAMS, experiment_of

@@ -7,6 +7,7 @@ import shutil
 import tempfile
 from pathlib import Path
 
+from carom.io.paths import checked_path
 from carom.quantities.units import InputError, refusal
 from carom.verify.pack.frozen import CASE, INPUTS, REFERENCE, VERSION, folders_with, frozen_files
 from carom.verify.pack.programs import program_files
@@ -48,7 +49,7 @@ def write_pack(folder: str | Path) -> tuple[str, ...]:
     """
     target, files = checked_folder(folder), pack_files()
     try:
-        temporary = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
+        temporary = Path(tempfile.mkdtemp(prefix=".carom-", dir=target.parent))
         try:
             inner = temporary / target.name
             for name, text in files.items():
@@ -68,10 +69,7 @@ def write_pack(folder: str | Path) -> tuple[str, ...]:
 
 def checked_folder(folder: str | Path) -> Path:
     """Return the folder to be written, or raise InputError if a pack cannot be made of it."""
-    try:
-        target = Path(os.path.abspath(folder))
-    except TypeError:
-        raise refusal("folder", folder, "must be the name of a folder") from None
+    target = Path(os.path.realpath(checked_path("folder", folder, "folder")))
     if target.exists() and not target.is_dir():
         raise refusal("folder", str(folder), "it is a file; give a new folder")
     if target.is_dir() and any(target.iterdir()):

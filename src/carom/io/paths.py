@@ -1,0 +1,141 @@
+"""Names of files that users give, and writing them: whole or not at all, or into a stream.
+
+A link is followed, so that the file it points to is written and the link stays. A stream is what
+cannot be replaced: a pipe, a device, and whatever /dev/stdout is at the moment.
+"""
+
+import os
+import shutil
+import sys
+import tempfile
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from pathlib import Path
+from stat import S_ISDIR, S_ISREG
+
+from carom.quantities.units import InputError, refusal
+
+DESCRIPTORS = ("/dev/fd", "/proc/self/fd")  # folders in which a name is an open file
+STREAMED = (".csv", ".png", ".gif", ".h")  # formats of what goes into a stream without an ending
+LINKS = 40  # that are followed, as the system does
+
+
+def checked_path(what: str, path: str | Path, kind: str = "file") -> Path:
+    """Return the path of a file, or a folder, or raise InputError if that cannot be its name.
+
+    Whether it exists is not asked, but Path("") is the folder in which the process runs, and a name
+    that no file can have would be found out late, by an error of another kind.
+    """
+    if not isinstance(path, str | os.PathLike) or isinstance(os.fspath(path), bytes):
+        raise refusal(what, path, f"must be the name of a {kind}")
+    if not str(path).strip():
+        raise refusal(what, str(path), f"it is empty; give the name of a {kind}")
+    try:
+        os.lstat(path)
+    except (FileNotFoundError, NotADirectoryError):
+        pass
+    except OSError as error:
+        raise refusal(what, str(path), f"{_reason(error)}; give another name") from None
+    except ValueError:  # NUL, or half of a character
+        raise refusal(what, str(path), "no file can have such a name; give another") from None
+    return Path(path)
+
+
+def checked_output(path: str | Path, endings: Sequence[str]) -> Path:
+    """Return the path of an output file, or raise InputError if it cannot become one."""
+    target = checked_path("output file", path)
+    if target.suffix.lower() not in endings and not (target.suffix == "" and is_stream(target)):
+        raise refusal("output file", str(path), f"must end in {' or '.join(endings)}")
+    real = os.path.realpath(target)
+    if os.path.isdir(real):
+        raise refusal("output file", str(path), "it is a folder; give the name of a file")
+    if not os.path.isdir(os.path.dirname(real)) and not is_stream(target):
+        raise refusal("output file", str(path), "its folder must exist; make it first")
+    return target
+
+
+def ending_of(target: Path, endings: Sequence[str]) -> str:
+    """Return the ending that tells the format: a stream may have none, e.g. /dev/stdout."""
+    return target.suffix.lower() or next(each for each in endings if each in STREAMED)
+
+
+def is_stream(target: Path) -> bool:
+    """Tell whether a file is one to write into, not to replace."""
+    if _descriptor(target) is not None:
+        return True
+    try:
+        mode = target.stat().st_mode
+    except OSError:  # to be made, or not to be reached
+        return False
+    return not S_ISREG(mode) and not S_ISDIR(mode)
+
+
+def replace_whole(target: Path, write: Callable[[Path], object], ending: str = "") -> Path:
+    """Call `write` on a temporary file, then put it in the place of the target, or into a stream.
+
+    The temporary file has the ending of the target, or this one.
+    """
+    ending = ending or target.suffix
+    try:
+        if is_stream(target):
+            with tempfile.TemporaryDirectory() as folder:
+                write(whole := Path(folder, f"output{ending}"))
+                _pour(whole, target)
+        else:
+            _replace(Path(os.path.realpath(target)), write, ending)
+    except OSError as error:
+        raise InputError(
+            f"output file: {str(target)!r} cannot be written; {_reason(error)}"
+        ) from None
+    return target
+
+
+def _replace(real: Path, write: Callable[[Path], object], ending: str) -> None:
+    if real.is_symlink():  # what realpath leaves of links in a circle
+        real.stat()
+    handle, name = tempfile.mkstemp(ending, ".carom-", real.parent)
+    os.close(handle)
+    temporary = Path(name)
+    try:
+        write(temporary)
+        temporary.chmod(real.stat().st_mode if real.exists() else 0o666 & ~_umask())
+        temporary.replace(real)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def _pour(source: Path, target: Path) -> None:
+    """Write the content of a file into a stream, behind what this process has printed."""
+    with suppress(AttributeError, ValueError):  # there is none, or it is closed
+        sys.stdout.flush()
+    with source.open("rb") as content, open(_opened(target), "wb") as stream:
+        shutil.copyfileobj(content, stream)
+
+
+def _opened(target: Path) -> int | Path:
+    """Return what `open` takes; an open file, opened by its name, is written from its start."""
+    descriptor = _descriptor(target)
+    return target if descriptor is None else os.dup(descriptor)
+
+
+def _descriptor(target: Path) -> int | None:
+    """Return the number of an open file that is meant by names like /dev/stdout, /dev/fd/63."""
+    folders = {os.path.realpath(folder) for folder in DESCRIPTORS}
+    for _ in range(LINKS):
+        if target.name.isdecimal() and os.path.realpath(target.parent) in folders:
+            return int(target.name)
+        try:
+            target = target.parent / os.readlink(target)
+        except OSError:
+            return None
+    return None
+
+
+def _reason(error: OSError) -> str:
+    return error.strerror or str(error)
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

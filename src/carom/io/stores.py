@@ -1,0 +1,151 @@
+"""Reading the Zarr store of a sweep: a chunk that is damaged is told, never read as numbers.
+
+Chunks have the checksum of zstd inside. All else is written once, when the store is made, and has
+its SHA-256 in a list; stores without that list are older, and are read as they are.
+"""
+
+import warnings
+from collections.abc import Mapping
+from functools import cache
+from hashlib import sha256
+from math import prod
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from carom.io.extras import extra
+from carom.quantities.units import refusal
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+STATUS = "status"  # of the points of a sweep
+FROZEN = f"{STATUS}/.sha256sums"  # a place that zarr does not list; `sha256sum -c` reads it
+LEVEL = 1  # of compression: floating-point numbers gain nothing from more
+METADATA = "zarr.json"
+
+
+def read_store(path: Path) -> "xr.Dataset":
+    """Return the sweep in a store of Carom's, its values read when they are used.
+
+    Raises InputError if it is not one, or is damaged; so does the dataset that is returned, when
+    values are used that are damaged.
+    """
+    import xarray as xr
+
+    if (path / METADATA).is_file():
+        _check_frozen(path)
+    store = _checked(path, {})
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            dataset: xr.Dataset = xr.open_zarr(
+                store, chunks=None, consolidated=True, decode_times=False
+            )
+    except Exception:  # zarr and xarray raise what they like at a damaged store
+        raise refusal("store", str(path), "it is damaged, or not a Zarr store") from None
+    if not (is_ours(dataset) and STATUS in dataset and "inputs" in dataset.attrs):
+        raise refusal("store", str(path), "it was not stored by Carom")
+    for variable in dataset.variables.values():  # what JSON has made a list
+        if "flag_values" in variable.attrs:
+            flags = np.asarray(variable.attrs["flag_values"], variable.dtype)
+            variable.attrs["flag_values"] = flags
+    store.sizes.update({name: chunk_size(item) for name, item in dataset.data_vars.items()})
+    return dataset
+
+
+def is_ours(dataset: "xr.Dataset") -> bool:
+    """Tell whether Carom has made a dataset."""
+    return str(dataset.attrs.get("source")).startswith("carom ")
+
+
+def chunk_size(variable: "xr.DataArray") -> int:
+    """Return the number of bytes of each chunk of a variable of a store."""
+    return int(prod(variable.encoding["chunks"]) * variable.dtype.itemsize)
+
+
+def read_chunk(file: Path, size: int) -> bytes | None:
+    """Return the bytes of a chunk of so many, or None if the file is missing or damaged."""
+    try:
+        return _decoded(file.read_bytes(), size)
+    except OSError:
+        return None
+
+
+def freeze(path: Path) -> None:
+    """List the checksums of all files of a store that has just been made."""
+    names = sorted(str(file.relative_to(path)) for file in path.rglob("*") if file.is_file())
+    lines = (f"{_digest(path / name)}  {name}\n" for name in names)
+    (path / FROZEN).write_text("".join(lines), encoding="utf-8", newline="\n")
+
+
+def _decoded(content: bytes, size: int) -> bytes | None:
+    try:
+        values = bytes(extra("numcodecs.zstd", "a store").Zstd(LEVEL).decode(content))
+    except (RuntimeError, ValueError):
+        return None
+    return values if len(values) == size else None
+
+
+def _digest(file: Path) -> str:
+    try:
+        return sha256(file.read_bytes()).hexdigest()
+    except OSError:
+        return "none"
+
+
+def _check_frozen(path: Path) -> None:
+    """Raise InputError if what was written once is not as it was written."""
+    try:
+        text = (path / FROZEN).read_text(encoding="utf-8", errors="replace")
+    except FileNotFoundError:
+        return
+    except OSError as error:
+        raise refusal("store", str(path), f"cannot be read; {error.strerror}") from None
+    known = {name: digest for digest, _, name in (x.partition("  ") for x in text.splitlines())}
+    changed = [name for name, digest in known.items() if _digest(path / name) != digest]
+    if changed or METADATA not in known:
+        name = changed[0] if METADATA in known else FROZEN
+        what = "has changed" if (path / name).is_file() else "is missing"
+        raise refusal("store", str(path), f"it is damaged: {name} {what}; begin anew")
+
+
+def _checked(path: Path, sizes: Mapping[str, int]) -> Any:
+    """Return a store of zarr that reads no chunk of these arrays that is missing or damaged."""
+    store = _checked_store()(path, read_only=True)
+    store.sizes = dict(sizes)
+    return store
+
+
+@cache
+def _checked_store() -> Any:
+    local: Any = extra("zarr.storage", "a store").LocalStore
+
+    class CheckedStore(local):  # type: ignore[misc]
+        """Files of a store, for reading; `sizes` are the bytes of the chunks of its arrays."""
+
+        async def get(self, key: str, *args: Any, **options: Any) -> Any:
+            return self._sound(key, await super().get(key, *args, **options))
+
+        def get_sync(self, key: str, *args: Any, **options: Any) -> Any:
+            return self._sound(key, super().get_sync(key, *args, **options))
+
+        def _sound(self, key: str, found: Any) -> Any:
+            name, _, corner = key.partition("/c/")
+            if name not in self.sizes or not corner:
+                return found
+            if found is None:  # of a block that is not finished, unless its status is there
+                damaged = name != STATUS and (self.root / STATUS / "c" / corner).is_file()
+            else:
+                damaged = _decoded(found.to_bytes(), self.sizes[name]) is None
+            if damaged:
+                allowed = f"{key} is damaged; --resume (resume=True) computes it again"
+                raise refusal("store", str(self.root), allowed)
+            return found
+
+        def __reduce__(self) -> tuple[Any, ...]:
+            return _checked, (self.root, self.sizes)
+
+    return CheckedStore
