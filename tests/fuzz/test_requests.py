@@ -24,7 +24,7 @@ from carom.explorer.limits import LARGEST_REQUEST, LONGEST_LINK
 from carom.explorer.serving import warm_up
 from carom.explorer.views import CHOICES, KNOBS, LAWS
 
-SOON = 10.0  # s, of the slowest answer; a machine at work elsewhere is no failure
+SOON = 5.0  # s of a core, for the slowest answer
 REFUSED = {400, 403, 404, 405, 411, 413, 414, 415, 503}
 FAST_LAWS = tuple(label for label in LAWS if label != "Walton & Braun")  # up to 5 s at chi = 10
 NUMBERS = [
@@ -148,10 +148,10 @@ def ask(server, caplog):
 
     def asked(path, method="GET", **sent):
         caplog.clear()
-        begin = time.perf_counter()
+        begin = time.process_time()
         with client.open(path, method=method, **sent) as answer:
             told = answer.get_data()
-        took = time.perf_counter() - begin
+        took = time.process_time() - begin
         request = f"{method} {path[:300]!r} {str(sent)[:600]}"
         assert answer.status_code in {200, 204, 206, 304, 416} | REFUSED, f"{request}: {told[:300]}"
         assert took < SOON, request
