@@ -35,11 +35,14 @@ KINDS = {
 class Page:
     """What the browser sends when a control moves, on one connection."""
 
-    def __init__(self, url: str) -> None:
-        self._line = http.client.HTTPConnection(urlsplit(url).netloc)
-        known = json.loads(self._ask("GET", "/_dash-dependencies"))
-        asked = [each for each in known if not each["clientside_function"]]
-        self._known = {each["inputs"][0]["id"]: each for each in asked}
+    def __init__(self, url: str, patience: float = 60.0, known: dict | None = None) -> None:
+        self._line = http.client.HTTPConnection(urlsplit(url).netloc, timeout=patience)
+        self.known = known or self._callbacks()
+
+    def _callbacks(self) -> dict[str, dict]:
+        """Return what the page asks its server for, by what it asks with."""
+        asked = json.loads(self.file("/_dash-dependencies"))
+        return {each["inputs"][0]["id"]: each for each in asked if not each["clientside_function"]}
 
     def answer(self, query: str) -> tuple[int, list[str]]:
         """Return the size of the answer to a view, and the laws that are to follow."""
@@ -50,15 +53,27 @@ class Page:
         """Ask for the laws that were not there yet."""
         self._called("late", late, query)
 
-    def _called(self, name: str, value: object, state: str) -> bytes:
-        known = self._known[name]
+    def upload(self, contents: str) -> None:
+        """Ask for the fit of a file."""
+        file = {"contents": contents, "name": "measured.csv"}
+        self._called("data", "", "", file)
+
+    def file(self, path: str) -> bytes:
+        """Return what is at an address."""
+        return self._ask("GET", path)
+
+    def _called(self, name: str, value: object, state: str, file: object = None) -> bytes:
+        known = self.known[name]
         names = known["output"].strip(".").split("...")
         asked = {
             "output": known["output"],
             "outputs": [
                 dict(zip(("id", "property"), name.rsplit(".", 1), strict=True)) for name in names
             ],
-            "inputs": [{**each, "value": value} for each in known["inputs"]],
+            "inputs": [
+                {**each, "value": file if each["id"] == "file" else value}
+                for each in known["inputs"]
+            ],
             "state": [{**each, "value": state} for each in known["state"]],
             "changedPropIds": [f"{name}.data"],
         }

@@ -70,6 +70,8 @@ def test_numbers_that_cannot_be_are_told_in_a_line(visit):
         ("angle", "95", "30"),
         ("friction", "-1", "0.2"),
         ("radius", "", "5"),
+        ("speed", "1,5", "0.6"),  # a comma is not dropped: 15
+        ("spin", "\N{MINUS SIGN}3", "0"),  # nor a sign that no keyboard has
     ):
         seen.page.fill(f"#{name}", typed)
         notice = seen.until(lambda: seen.notice())

@@ -90,6 +90,21 @@ def test_an_unknown_path_is_told_in_a_line(page):
             assert answer.read() == b"carom: 404: Not Found\n"
 
 
+@pytest.mark.parametrize("end", ["SIGINT", "SIGTERM", "SIGKILL"])
+def test_it_leaves_no_process_behind(end):
+    """The one that fits uploads goes, too, even if nobody is left to end it."""
+    psutil = pytest.importorskip("psutil")
+    arguments = [*COMMAND, "--port", "0", "--json"]
+    with subprocess.Popen(arguments, text=True, stdout=subprocess.PIPE) as server:
+        json.loads(server.stdout.readline())
+        (helper,) = psutil.Process(server.pid).children(recursive=True)
+        server.send_signal(getattr(signal, end))
+        server.wait(timeout=20)
+    assert server.returncode == (-signal.SIGKILL if end == "SIGKILL" else 0)
+    psutil.wait_procs([helper], timeout=60)  # it may have to load, or compile, first
+    assert not helper.is_running()
+
+
 def test_it_tells_its_address_and_an_interrupt_ends_it():
     arguments = [*COMMAND, "--port", "0", "--json"]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}

@@ -1,6 +1,7 @@
 """`carom explore`: the page."""
 
 import json
+import signal
 import webbrowser
 from contextlib import suppress
 from typing import Annotated
@@ -30,5 +31,6 @@ def explore_command(
     typer.echo(json.dumps({"url": page.url}) if as_json else f"{page.url}  (Ctrl-C ends it)")
     if open_browser:
         webbrowser.open(page.url)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends like Ctrl-C
     with suppress(KeyboardInterrupt):
         page.serve()

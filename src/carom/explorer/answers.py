@@ -7,7 +7,8 @@ from dash import ClientsideFunction, Dash, Input, Output, State, html, no_update
 from dash.exceptions import PreventUpdate
 
 from carom.explorer import charts
-from carom.explorer.overlays import LawCurve, exact_curve, law_curves
+from carom.explorer.limits import LAW_SECONDS
+from carom.explorer.overlays import LawCurve, exact_curve, followers, law_curves
 from carom.explorer.scenes import Scene, scene_of
 from carom.explorer.views import View
 from carom.io.labels import MARKS
@@ -49,7 +50,13 @@ def connect_answers(app: Dash) -> None:
             raise PreventUpdate
         view = View.of(query)
         scene = scene_of(view)
-        return _with_laws(scene, law_curves(scene, view.law))
+        laws = law_curves(scene, view.law, LAW_SECONDS, followers.joined())
+        figures, results = _with_laws(scene, laws)
+        slow = [label for label, law in zip(view.law, laws, strict=True) if law is None]
+        if slow:
+            told = f"{', '.join(slow)}: not solved within {LAW_SECONDS:g} s; choose fewer at a time"
+            results.append(html.P(told, className="carom-caution"))
+        return [figures, results]
 
     for name, shown in (("show", "scene"), ("link", "query"), ("attach", "view")):
         app.clientside_callback(

@@ -11,10 +11,11 @@ from carom.explorer.answers import connect_answers
 from carom.explorer.controls import connect_controls
 from carom.explorer.downloads import add_downloads
 from carom.explorer.layout import page
-from carom.explorer.measures import LARGEST_UPLOAD, connect_measures
+from carom.explorer.limits import LARGEST_REQUEST, Busy
+from carom.explorer.measures import connect_measures
+from carom.explorer.worker import Worker
 from carom.quantities.units import InputError
 
-LARGEST_REQUEST = 2 * LARGEST_UPLOAD  # a file travels in more characters than it has
 OWN_HOST_ONLY = (
     "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval'; "
     "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
@@ -32,10 +33,12 @@ UPDATES, PARTS, ANY_OTHER = (  # of dash
     "/<path:path>",
 )
 
+LOGGED = 300  # characters of what went wrong
+
 log = logging.getLogger(__name__)
 
 
-def new_app(hosts: list[str] | None = None) -> Dash:
+def new_app(worker: Worker, hosts: list[str] | None = None) -> Dash:
     """Return the application, which answers to these names of hosts only, None for all."""
     server: Any = Flask(__name__)
     server.config["MAX_CONTENT_LENGTH"] = LARGEST_REQUEST
@@ -53,7 +56,7 @@ def new_app(hosts: list[str] | None = None) -> Dash:
     app.layout = page
     connect_controls(app)
     connect_answers(app)
-    connect_measures(app)
+    connect_measures(app, worker)
     add_downloads(server)
     server.register_error_handler(Exception, _one_line)
     server.before_request(_refuse_unknown)
@@ -62,6 +65,9 @@ def new_app(hosts: list[str] | None = None) -> Dash:
 
 
 def _told_on_page(error: Exception) -> None:
+    if isinstance(error, InputError):
+        set_on_page("notice", {"children": str(error)})
+        return
     log.error("%s: %s", type(error).__name__, error)
     set_on_page("notice", {"children": f"failed, {type(error).__name__}"})
 
@@ -76,13 +82,15 @@ def _one_line(error: Exception) -> Response:
     """Return an error of a request as one line of text."""
     if isinstance(error, InputError):
         return _text(str(error), 400)
+    if isinstance(error, Busy):
+        return _text(str(error), 503)
     if isinstance(error, HTTPException):
         return _text(f"{error.code}: {error.name}", error.code or 500)
-    log.error("%s: %s", type(error).__name__, " ".join(str(error).split()))
-    if request.path == UPDATES:  # what callbacks raise is told on the page
-        return _text("400: this is no request of the page", 400)
     if request.path.startswith(PARTS):
         return _text("404: Not Found", 404)
+    log.error("%s: %s", type(error).__name__, " ".join(str(error).split())[:LOGGED])
+    if request.path == UPDATES:  # what callbacks raise is told on the page
+        return _text("400: this is no request of the page", 400)
     return _text(f"failed, {type(error).__name__}", 500)
 
 

@@ -4,7 +4,6 @@ from collections.abc import Callable
 from math import isfinite
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from threading import Lock
 from typing import Any
 from urllib.parse import parse_qs
 
@@ -13,7 +12,8 @@ from flask import Flask, Response, request
 from matplotlib.figure import Figure
 
 from carom.dimensionless.solution import solve
-from carom.explorer.overlays import LawCurve, exact_curve, law_curves
+from carom.explorer.limits import LAW_SECONDS, Busy, Turns
+from carom.explorer.overlays import LawCurve, exact_curve, followers, law_curves
 from carom.explorer.scenes import TIMES, Scene, impact_of, scene_of
 from carom.explorer.views import View
 from carom.impacts.curves import curve
@@ -95,7 +95,7 @@ MEANINGS = {  # of the columns of `Solution.history`
     "normal_lost": "what the normal motion lost, as above",
 }
 ENTRY = 1.8  # mm that a law adds to the legend of the rebound curve
-_drawing = Lock()  # matplotlib's settings are those of the whole process
+_turns = Turns()  # besides, matplotlib's settings are those of the whole process
 
 
 def script(view: View, time: float) -> str:
@@ -134,7 +134,7 @@ def add_downloads(server: Flask) -> None:
 def _answer(name: str) -> Callable[[], Response]:
     def answer() -> Response:
         query = request.query_string.decode("ascii", "replace")
-        with TemporaryDirectory() as folder:
+        with _turns, TemporaryDirectory() as folder:
             file = Path(folder) / name
             WRITERS[name](View.of(query), _time(query), file)
             content = file.read_bytes()
@@ -162,15 +162,16 @@ def _history(view: View, _: float, file: Path) -> None:
 
 def _picture(view: View, _: float, file: Path) -> None:
     history = _hit(view).history(TIMES)
-    with _drawing:
-        save_figure(plot_impact(history), file)
+    save_figure(plot_impact(history), file)
 
 
 def _curve(view: View, _: float, file: Path) -> None:
     scene = scene_of(view)
-    laws = [law for law in law_curves(scene, view.law) if law is not None]
-    with _drawing:
-        save_figure(curve_figure(scene, laws), file)
+    found = law_curves(scene, view.law, LAW_SECONDS, followers.joined())
+    laws = [law for law in found if law is not None]
+    if len(laws) < len(found):
+        raise Busy
+    save_figure(curve_figure(scene, laws), file)
 
 
 @styled
@@ -196,8 +197,7 @@ def curve_figure(scene: Scene, laws: list[LawCurve]) -> Figure:
 def _patch(view: View, time: float, file: Path) -> None:
     hit = _hit(view)
     fields_then = hit.fields(time * hit.duration)
-    with _drawing:
-        save_figure(plot_patch(fields_then), file)
+    save_figure(plot_patch(fields_then), file)
 
 
 def _hit(view: View) -> Impact:

@@ -136,7 +136,8 @@ def _control(name: str, opens: View) -> html.Div:
     unit = f" ({knob.unit})" if knob.unit else ""
     parts: list[Any] = [
         html.Label(LABELS[name] + unit, htmlFor=name),
-        dcc.Input(id=name, type="number", value=value, step="any"),
+        # of type "number" a browser drops what it does not know, and 1,5 becomes 15
+        dcc.Input(id=name, type="text", value=value, autoComplete="off"),
     ]
     if knob.slider is not None:
         low, high, step = knob.slider

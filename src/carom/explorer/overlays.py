@@ -1,15 +1,18 @@
 """Rebound curves of a view, the exact one and those of contact laws; remembered by bodies."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import count
+from time import monotonic
 
 import numpy as np
 
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.dimensionless.numerics.threads import available_cores
 from carom.dimensionless.rebounds import rebound
+from carom.explorer.limits import FOLLOWERS, LAW_SECONDS
 from carom.explorer.scenes import Scene
 from carom.laws.dem.base import ContactLaw, Law
 from carom.quantities.arrays import Array
@@ -20,10 +23,32 @@ BEYOND = 1.15  # of the present psi_1, that is shown
 STEPS = 400  # of a law's force in time
 EVERY = 2  # of these that is drawn
 KEPT = 256  # curves that are remembered
+GLANCE = 0.1  # s
 DIGITS = 12  # of what a curve is remembered by
 
 _solvers = ThreadPoolExecutor(available_cores(), "carom-law")
 _at_work: dict[tuple[Scene, str], Future["LawCurve"]] = {}
+
+
+class Followers:
+    """Requests that wait for contact laws: the latest count, as a slider that moves asks often."""
+
+    def __init__(self) -> None:
+        self._numbers = count()
+        self._latest = 0
+
+    def joined(self) -> Callable[[], bool]:
+        """Return what tells a request that joins when it is to give up."""
+        number = self._latest = next(self._numbers)
+        return lambda: number <= self._latest - FOLLOWERS
+
+    def dismiss(self) -> None:
+        """Let all give up."""
+        for _ in range(FOLLOWERS):
+            self.joined()
+
+
+followers = Followers()
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,18 +69,27 @@ def exact_curve(scene: Scene) -> tuple[Array, Array]:
 
 
 def law_curves(
-    scene: Scene, labels: Sequence[str], seconds: float | None = None
+    scene: Scene,
+    labels: Sequence[str],
+    seconds: float = LAW_SECONDS,
+    given_up: Callable[[], bool] = lambda: False,
 ) -> list[LawCurve | None]:
     """Return what the contact laws of these names give in the place of the exact one.
 
-    None in the place of those that take longer, which may be asked for again.
+    None in the place of those that take longer, which may be asked for again; fewer are waited for
+    once `given_up` is true.
     """
+    end = monotonic() + seconds
     begun = [_begun(scene, label) for label in labels]
-    done, late = wait(begun, seconds)
+    while True:
+        _, late = wait(begun, max(0.0, min(GLANCE, end - monotonic())))
+        if not late or monotonic() >= end or given_up():
+            break
+        rows = zip(labels, begun, strict=True)  # another request may have cancelled what it shares
+        begun = [_begun(scene, name) if law.cancelled() else law for name, law in rows]
     for future in late:  # the page may have moved on
         future.cancel()
-    solved = {future for future in done if not future.cancelled()}
-    return [future.result() if future in solved else None for future in begun]
+    return [law.result() if law.done() and not law.cancelled() else None for law in begun]
 
 
 def _begun(scene: Scene, label: str) -> Future[LawCurve]:

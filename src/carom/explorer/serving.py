@@ -3,16 +3,15 @@
 import socket
 from dataclasses import dataclass, field
 from errno import EADDRNOTAVAIL
-from typing import Any
-
-from werkzeug.serving import BaseWSGIServer, WSGIRequestHandler, make_server
 
 from carom import datasets
 from carom.explorer.app import new_app
-from carom.explorer.measures import fit_of
-from carom.explorer.overlays import exact_curve, law_curves
+from carom.explorer.connections import Server
+from carom.explorer.fits import fit_of
+from carom.explorer.overlays import exact_curve, followers, law_curves
 from carom.explorer.scenes import impact_of, scene_of
 from carom.explorer.views import LAWS, NUMBERS, View
+from carom.explorer.worker import Worker
 from carom.quantities.units import InputError, refusal
 
 LOOPBACK = "127.0.0.1"
@@ -27,7 +26,8 @@ class Explorer:
     """The page, ready to be served at `url`."""
 
     url: str
-    _server: BaseWSGIServer = field(repr=False)
+    _server: Server = field(repr=False)
+    _worker: Worker = field(repr=False)
 
     def serve(self) -> None:
         """Answer until `stop`, or an interrupt."""
@@ -43,6 +43,8 @@ class Explorer:
     def close(self) -> None:
         """Give the port back, of a page that is not served."""
         self._server.server_close()
+        self._worker.close()
+        followers.dismiss()
 
 
 def explorer(*, host: str = LOOPBACK, port: int = PORT) -> Explorer:
@@ -76,11 +78,12 @@ def explorer(*, host: str = LOOPBACK, port: int = PORT) -> Explorer:
         raise refusal("host", host, "must be an address, e.g. 127.0.0.1; 0.0.0.0 is every one")
     with _bound(host, port) as listening:
         warm_up()
-        app = new_app(OWN_NAMES if host in OWN_NAMES else None).server
-        how: Any = {"threaded": True, "request_handler": Quiet, "fd": listening.fileno()}
-        server = make_server(host, listening.getsockname()[1], app, **how)
+        worker = Worker()
+        app = new_app(worker, OWN_NAMES if host in OWN_NAMES else None).server
+        server = Server(host, listening.getsockname()[1], app, listening.fileno())
+        worker.start()
     shown = {"0.0.0.0": LOOPBACK, "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)
-    return Explorer(f"http://{shown}:{server.port}/", server)
+    return Explorer(f"http://{shown}:{server.port}/", server, worker)
 
 
 def _bound(host: str, port: int) -> socket.socket:
@@ -102,19 +105,6 @@ def _bound(host: str, port: int) -> socket.socket:
             "take another, or 0 for any that is free"
         ) from None
     return found
-
-
-class Quiet(WSGIRequestHandler):
-    """A handler that keeps connections open and tells of errors only."""
-
-    protocol_version = "HTTP/1.1"
-    timeout = 60  # seconds that an idle connection is kept
-
-    def log_request(self, code: Any = "-", size: Any = "-") -> None:
-        """Say nothing."""
-
-    def log(self, type: str, message: str, *args: Any) -> None:
-        """Say nothing of a browser that went away."""
 
 
 def warm_up() -> None:

@@ -11,6 +11,7 @@ from carom.bodies.materials import materials
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.datasets.shipped import names as dataset_names
+from carom.explorer.limits import LONGEST_LINK
 from carom.quantities.units import InputError, nearest, refusal
 from carom.verify.catalogue import CATALOGUE
 
@@ -20,7 +21,7 @@ OF_MOTION = ("speed", "angle", "spin")
 OF_NUMBERS = ("psi", "chi")
 AGAINST = ("half-space", "sphere", "cup")
 LAWS = tuple(entry.label for entry in CATALOGUE)
-LONGEST = 4000  # characters of a link
+LONGEST_NAME = 80  # characters of an unknown name that are shown
 PAGE_ONLY = ("time", "pace", "theme")  # what the page alone keeps of a link
 
 
@@ -97,8 +98,10 @@ class View:
     @classmethod
     def with_complaints(cls, query: str) -> tuple[Self, dict[str, InputError]]:
         """Return the view of a link, defaults in place of what cannot be used, and why by name."""
-        if len(query) > LONGEST:
-            long = f"link: {len(query)} characters, at most {LONGEST} are read"
+        if not isinstance(query, str):
+            return cls(), {"link": refusal("link", query, "must be text")}
+        if len(query) > LONGEST_LINK:
+            long = f"link: {len(query)} characters, at most {LONGEST_LINK} are read"
             return cls(), {"link": InputError(long)}
         found: dict[str, Any] = {}
         wrong: dict[str, InputError] = {}
@@ -152,7 +155,8 @@ def _read(name: str, texts: list[str]) -> Any:
     """Return what the words of a link say of one thing, or raise InputError."""
     known = tuple(field.name for field in fields(View))
     if name not in known:
-        raise InputError(f"{name}: unknown in a link; {nearest(name, known) or 'leave it out'}")
+        shown = " ".join(name.split())[:LONGEST_NAME]
+        raise InputError(f"{shown}: unknown in a link; {nearest(name, known) or 'leave it out'}")
     if name == "law":
         return tuple(dict.fromkeys(_one_of(name, text, LAWS) for text in texts if text))
     if name in KNOBS:

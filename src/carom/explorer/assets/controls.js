@@ -1,6 +1,8 @@
 // What the controls say, as the query of a link; and sliders that follow their numbers.
 window.dash_clientside = window.dash_clientside || {};
 window.dash_clientside.controls = {
+  PLAIN: /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i, // what a slider can follow
+
   query(names, values) {
     const found = new URLSearchParams();
     names.forEach((name, place) => {
@@ -16,7 +18,7 @@ window.dash_clientside.controls = {
     const same = window.dash_clientside.no_update;
     const moved = window.dash_clientside.callback_context.triggered_id ?? "";
     if (String(moved).endsWith("-slider")) return [Number(slider), same];
-    return [same, Number.isFinite(number) ? number : same];
+    return [same, this.PLAIN.test(number) ? Number(number) : same];
   },
 
   // What is not given, or not there, is not asked for.

@@ -1,0 +1,64 @@
+"""What the page shows of a fit: its words, and a chart of every response."""
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from carom import datasets
+from carom.explorer.charts import BLUE, GREY, VERMILION, Figure, axes_of, line
+from carom.explorer.stages import short
+from carom.fitting import Fit, fit
+from carom.plots.style import prefixed
+from carom.quantities.glossary import GLOSSARY
+
+LINES = {
+    "exact": (BLUE, "solid", 2.2),
+    "Walton": ("#009e73", "dot", 1.4),
+    "rigid Coulomb": (GREY, "dash", 1.4),
+}
+
+
+@cache
+def fit_of(name: str) -> dict[str, Any]:
+    """Return the fit of measured rebounds that come along."""
+    return shown_fit(fit(datasets.path(name)))
+
+
+def shown_fit(found: Fit) -> dict[str, Any]:
+    """Return the words and charts of a fit, as JSON can hold them."""
+    dataset = found.to_dataset()
+    figures = [_chart(dataset.sel(response=n), str(n)) for n in dataset["response"].values]
+    return {"words": str(found), "figures": figures}
+
+
+def _chart(one: xr.Dataset, name: str) -> Figure:
+    scale, unit = _scale(name, one["measured"].values)
+    along = np.degrees(one["curve_incidence"].values)
+    traces: list[Figure] = [
+        line(along, scale * one["curve_expected"].sel(law=law).values, str(law), *LINES[str(law)])
+        for law in one["law"].values
+    ]
+    traces.append(_points(one, scale))
+    text = name.replace("_", " ") + (f" ({unit})" if unit != "1" else "")
+    return axes_of(traces, "incidence of the contact point (deg)", text)
+
+
+def _points(one: xr.Dataset, scale: float) -> Figure:
+    error = {"type": "data", "array": short(scale * one["error"].values), "thickness": 1}
+    return {
+        "type": "scatter",
+        "mode": "markers",
+        "name": "measured",
+        "x": short(np.degrees(one["incidence"].values)),
+        "y": short(scale * one["measured"].values),
+        "error_y": error,
+        "marker": {"color": VERMILION, "size": 6},
+        "hovertemplate": "%{y:.4g}",
+    }
+
+
+def _scale(name: str, values: Any) -> tuple[float, str]:
+    unit = GLOSSARY[name].unit if name in GLOSSARY else "1"
+    return (float(np.degrees(1.0)), "deg") if unit == "rad" else prefixed(values, unit)

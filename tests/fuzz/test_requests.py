@@ -1,0 +1,329 @@
+"""Whatever is asked of the page of the explorer, it answers soon and in a line, never by failing.
+
+Requests are mutations of those that the page makes. Uploads are fitted in the process of the tests
+here; that a fit cannot hold up the page is what tests/interface/test_page_under_attack.py is about.
+"""
+
+import json
+import logging
+import random
+import time
+from base64 import b64encode
+from urllib.parse import quote, urlencode
+
+import pytest
+
+import carom
+
+pytest.importorskip("dash")
+
+from carom.explorer import uploads
+from carom.explorer.app import UPDATES, new_app
+from carom.explorer.downloads import WRITERS
+from carom.explorer.limits import LARGEST_REQUEST, LONGEST_LINK
+from carom.explorer.serving import warm_up
+from carom.explorer.views import CHOICES, KNOBS, LAWS
+
+SOON = 5.0  # s of a core, for the slowest answer
+REFUSED = {400, 403, 404, 405, 411, 413, 414, 415, 503}
+FAST_LAWS = tuple(label for label in LAWS if label != "Walton & Braun")  # up to 5 s at chi = 10
+NUMBERS = [
+    "0",
+    "-0",
+    "1e400",
+    "-1e400",
+    "nan",
+    "inf",
+    "1e-320",
+    "1_0",
+    "٣",
+    "\u2212 3",
+    "1,5",
+    "0x1",
+]
+WORDS = [
+    *(
+        "",
+        " ",
+        "\0",
+        "\n",
+        "%",
+        "%00",
+        "%ff",
+        "é",
+        "\U0001f3b1",
+        "\ud800",
+        "..",
+        "/",
+        "\\",
+        "'",
+        '"',
+    ),
+    *(
+        "null",
+        "true",
+        "[]",
+        "{}",
+        "<script>",
+        "../../etc/passwd",
+        "{0}",
+        "%s",
+        "a" * 5000,
+        ";",
+        "&",
+    ),
+]
+VALUES = [
+    *(
+        None,
+        True,
+        False,
+        0,
+        -1,
+        1.5,
+        10**30,
+        float("nan"),
+        float("inf"),
+        1e308,
+        [],
+        {},
+        [[]],
+        [None],
+    ),
+    *({"a": 1}, [{}], {"id": "x"}, ["x"] * 300, {"": ""}),
+]
+CELLS = [
+    "",
+    " ",
+    "-",
+    "1 m",
+    "1e400",
+    "nan",
+    "inf",
+    '"',
+    '""',
+    "(" * 300,
+    "1,5",
+    "5 parsec",
+    "=1+1",
+]
+TABLE = """angle [deg],speed [m/s],contact_restitution,spin_out [rad/s]
+10,0.6,-0.4,3.1
+30,0.6,0.2,12
+50,0.6,0.55,13.5
+70,0.6,0.8,8
+"""
+METHODS = ["GET", "POST", "PUT", "DELETE", "HEAD", "OPTIONS", "PATCH", "TRACE", "BREW", "get"]
+HEADERS = ["Content-Type", "Content-Length", "Host", "Cookie", "Accept", "Range", "If-None-Match"]
+HEADERS += ["If-Modified-Since", "Transfer-Encoding", "X-Forwarded-For", "Authorization", "Origin"]
+
+
+class InThisProcess:
+    """The worker's part, in this process."""
+
+    def fit(self, query, contents, name):
+        answer = uploads._answer({"query": query, "contents": contents, "name": name})
+        assert "failed" not in answer, answer
+        if "refused" in answer:
+            raise carom.InputError(answer["refused"])
+        return answer
+
+
+@pytest.fixture(scope="module")
+def server():
+    warm_up()  # compiles, if need be
+    return new_app(InThisProcess(), ["localhost"]).server
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture
+def ask(server, caplog):
+    """Ask the page something, and look at the answer: True if it is not refused."""
+    client = server.test_client()
+    caplog.set_level(logging.ERROR)
+
+    def asked(path, method="GET", **sent):
+        caplog.clear()
+        begin = time.process_time()
+        with client.open(path, method=method, **sent) as answer:
+            told = answer.get_data()
+        took = time.process_time() - begin
+        request = f"{method} {path[:300]!r} {str(sent)[:600]}"
+        assert answer.status_code in {200, 204, 206, 304, 416} | REFUSED, f"{request}: {told[:300]}"
+        assert took < SOON, request
+        for word in (b"Traceback", b"failed, ", b'File "'):
+            assert word not in told[:2000] + told[-2000:], f"{request}: {told[-500:]} {caplog.text}"
+        if answer.status_code in REFUSED and method != "HEAD":
+            assert told.startswith(b"carom: "), request
+            assert told.count(b"\n") == 1, request
+            assert len(told) < 1000, request
+        return answer.status_code not in REFUSED
+
+    return asked
+
+
+def garbled(rng, text):
+    """Return a text with a few characters changed, dropped or repeated."""
+    letters = list(text)
+    for _ in range(rng.randint(1, 4)):
+        place = rng.randrange(len(letters) + 1)
+        letters[place : place + rng.randint(0, 3)] = rng.choice(
+            [*WORDS, *NUMBERS, *"0123456789e.,"]
+        )
+    return "".join(letters)
+
+
+def word(rng, name):
+    """Return what a link may say of a thing: often right, or nearly."""
+    kind = rng.random()
+    if kind < 0.2:
+        return rng.choice(WORDS + NUMBERS)
+    if name in KNOBS:
+        knob = KNOBS[name]
+        value = rng.choice([knob.least, knob.most, rng.uniform(knob.least, knob.most)])
+        right = repr(value * rng.choice([1.0, 1.0, 1.0, -1.0, 1.1]))
+    else:
+        right = rng.choice(CHOICES.get(name, FAST_LAWS))
+    return right if kind < 0.9 else garbled(rng, right)
+
+
+def link(rng):
+    """Return the query of a link, seldom quite right."""
+    known = [*KNOBS, *CHOICES, "law", "law", "time", "theme", "other"]
+    pairs = [(name, word(rng, name)) for name in rng.choices(known, k=rng.randint(0, 7))]
+    found = urlencode(pairs, errors="replace")
+    return garbled(rng, found) if rng.random() < 0.2 else found
+
+
+def test_links_and_files(ask, calls):
+    """Addresses of files, with links that say mutated words."""
+    rng = random.Random(0)
+    right = 0
+    for _ in range(calls // 20):
+        name = rng.choice(["view.py"] * 20 + ["history.csv"] * 8 + [*WRITERS])
+        right += ask(f"/{name}?{quote(link(rng), safe='=&%+', errors='replace')}")
+    assert right > 0
+    assert not ask(f"/view.py?{'a' * (LONGEST_LINK + 1)}")
+
+
+def test_addresses_methods_and_headers(ask, calls):
+    rng = random.Random(1)
+    known = ["/", "/view.py", "/assets/stage.js", "/_dash-layout", "/_dash-dependencies", UPDATES]
+    known += ["/_dash-component-suites/dash/dcc/async-graph.js", "/_favicon.ico", "/_reload-hash"]
+    for _ in range(calls // 4):
+        path = rng.choice(known)
+        if rng.random() < 0.7:
+            path = "/" + quote(garbled(rng, path).lstrip("/"), safe="/%", errors="replace")
+        headers = [
+            (name, "".join(filter(str.isprintable, garbled(rng, "1"))).encode("latin-1", "replace"))
+            for name in rng.sample(HEADERS, rng.randint(0, 3))
+        ]
+        headers = [(name, value.decode("latin-1")) for name, value in headers]
+        method = rng.choice(METHODS)
+        ask(path, method, headers=headers, data=rng.randbytes(rng.choice([0, 0, 30])))
+
+
+def mutated(rng, value):
+    """Return what JSON holds with a part of it replaced, dropped or repeated."""
+    if isinstance(value, dict) and value and rng.random() < 0.9:
+        name = rng.choice(list(value))
+        if rng.random() < 0.15:
+            return {key: each for key, each in value.items() if key != name}
+        return value | {name: mutated(rng, value[name])}
+    if isinstance(value, list) and value and rng.random() < 0.9:
+        row = rng.randrange(len(value))
+        if rng.random() < 0.2:
+            return value[:row] + value[row + 1 :] * rng.randint(0, 2)
+        return [*value[:row], mutated(rng, value[row]), *value[row + 1 :]]
+    if isinstance(value, str) and rng.random() < 0.4:
+        return garbled(rng, value)
+    return rng.choice(VALUES + WORDS + NUMBERS)
+
+
+def as_sent(content):
+    return f"data:text/csv;base64,{b64encode(content).decode()}"
+
+
+@pytest.fixture(scope="module")
+def bodies(server):
+    """What the page sends to each callback of the server."""
+    found = {}
+    for known in server.test_client().get("/_dash-dependencies").get_json():
+        if known["clientside_function"]:
+            continue
+        outputs = [name.rsplit(".", 1) for name in known["output"].strip(".").split("...")]
+        found[known["inputs"][0]["id"]] = {
+            "output": known["output"],
+            "outputs": [{"id": name, "property": part} for name, part in outputs],
+            "inputs": [{**each, "value": ""} for each in known["inputs"]],
+            "state": [{**each, "value": ""} for each in known.get("state", [])],
+            "changedPropIds": [f"{each['id']}.{each['property']}" for each in known["inputs"]],
+        }
+    return found
+
+
+def test_callbacks(ask, bodies, calls):
+    """Bodies of JSON as the page sends them, with values and structure mutated."""
+    rng = random.Random(2)
+    assert set(bodies) >= {"url", "view", "late", "carried", "data"}
+    right = 0
+    for _ in range(calls // 8):
+        body = json.loads(json.dumps(bodies[rng.choice(list(bodies))]))
+        for part in (*body["inputs"], *body["state"]):
+            if part["id"] in ("view", "query", "carried") and rng.random() < 0.9:
+                part["value"] = rng.choice([link(rng), "radius=x", "chi=1"])
+            if part["id"] == "late":
+                part["value"] = rng.choice([["mindlin"], [], "x"])
+        for _ in range(rng.randint(0, 2)):
+            body = mutated(rng, body)
+        sent = json.dumps(body)
+        if rng.random() < 0.1:
+            sent = garbled(rng, sent)
+        right += ask(UPDATES, "POST", data=sent.encode("utf-8", "replace"), headers=JSON)
+    assert right > 0
+    nested = b"[" * 100_000
+    assert not ask(UPDATES, "POST", data=nested, headers=JSON)
+    assert not ask(UPDATES, "POST", data=b" " * (LARGEST_REQUEST + 1), headers=JSON)
+
+
+JSON = {"Content-Type": "application/json"}
+
+
+def table(rng):
+    """Return a table of measured rebounds with hostile cells, lines or bytes."""
+    rows = [line.split(",") for line in TABLE.splitlines()]
+    for _ in range(rng.randint(0, 3)):
+        row = rng.choice(rows)
+        if row:
+            row[rng.randrange(len(row))] = rng.choice([*CELLS, *NUMBERS, *WORDS[:20]])
+    if rng.random() < 0.3:
+        rows.insert(rng.randrange(len(rows)), [rng.choice(CELLS)] * rng.randint(0, 6))
+    separator = rng.choice([",", ",", ";", "\t"])
+    text = rng.choice(["\n", "\n", "\r\n"]).join(map(separator.join, rows))
+    found = text.encode("utf-8", "replace")
+    if rng.random() < 0.3:
+        place = rng.randrange(len(found))
+        found = found[:place] + rng.randbytes(rng.randint(1, 8)) + found[place + 2 :]
+    return found if rng.random() < 0.95 else rng.randbytes(300)
+
+
+def test_uploads(ask, bodies, calls):
+    """Files of random bytes, and tables with hostile cells."""
+    rng = random.Random(3)
+    right = 0
+    for _ in range(calls // 20):
+        contents = as_sent(table(rng))
+        if rng.random() < 0.1:
+            contents = garbled(rng, contents)
+        file = {"contents": contents, "name": rng.choice(["a.csv", *WORDS])}
+        body = json.loads(json.dumps(bodies["data"]))
+        for part in (*body["inputs"], *body["state"]):
+            part["value"] = {"file": file, "query": link(rng) if rng.random() < 0.3 else ""}.get(
+                part["id"], ""
+            )
+        right += ask(UPDATES, "POST", data=json.dumps(body).encode(), headers=JSON)
+    assert right > 0
