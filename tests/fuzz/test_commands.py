@@ -15,7 +15,7 @@ LINES = [
     f"impact {BODIES} --against cup --second-radius '20 mm' --speed 2 --restitution 0.9",
     "impact ball.toml --angle '−10 deg' --output hit.csv",
     "curve --chi 1.44 --from 0 --to 3 --points 11",
-    "curve --chi 1.44 --chi 2 --points 11 --output curve.csv --json",
+    "curve --chi 1.44 --chi 2 --points 11 --output made.csv --json",
     "materials --json",
     "sweep sweep.toml --no-progress",
     "verify score curve.csv --chi 1.44 --tolerance 0.01 --json",

@@ -22,6 +22,7 @@ from carom.io.files import save
 from carom.io.labels import labelled_dataset
 from carom.plots import plot_curve, plot_impact, plot_patch, save_figure
 from carom.plots.style import DASHES, LINES, MM, VERMILION, legend_above, styled
+from carom.quantities.texts import Unreadable, read_text
 from carom.quantities.units import InputError, refusal
 
 BODIES = """\
@@ -148,12 +149,9 @@ def _time(query: str) -> float:
     """Return the time in a link, within the contact, as a share of its duration."""
     text = parse_qs(query).get("time", ["0.5"])[-1]
     try:
-        share = float(text)
-    except ValueError:
-        share = float("nan")
-    if not isfinite(share):
-        raise refusal("time", text, "must be a share of the duration, e.g. 0.5")
-    return min(max(share, 0.0), 1.0)
+        return min(max(read_text(text, "1"), 0.0), 1.0)
+    except Unreadable:
+        raise refusal("time", text, "must be a share of the duration, e.g. 0.5") from None
 
 
 def _history(view: View, _: float, file: Path) -> None:

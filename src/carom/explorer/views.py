@@ -3,7 +3,6 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, fields
 from functools import cached_property
-from math import isfinite
 from typing import Any, NamedTuple, Self
 from urllib.parse import parse_qs, urlencode
 
@@ -12,6 +11,7 @@ from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.datasets.shipped import names as dataset_names
 from carom.explorer.limits import LONGEST_LINK
+from carom.quantities.texts import Unreadable, read_text
 from carom.quantities.units import InputError, nearest, refusal
 from carom.verify.catalogue import CATALOGUE
 
@@ -35,15 +35,16 @@ class Knob(NamedTuple):
 
     def read(self, name: str, text: Any) -> float:
         """Return the number in a text, or raise InputError."""
+        unit = f" {self.unit}" if self.unit else ""
+        allowed = f"must be a number from {self.least:g} to {self.most:g}{unit}"
+        if not text:
+            raise InputError(f"{name}: missing; {allowed}")
         try:
-            value = float(text)
-        except (TypeError, ValueError):
-            value = float("nan")
-        if not (isfinite(value) and self.least <= value <= self.most):
-            unit = f" {self.unit}" if self.unit else ""
-            allowed = f"must be a number from {self.least:g} to {self.most:g}{unit}"
-            if not text:
-                raise InputError(f"{name}: missing; {allowed}")
+            value = read_text(str(text), self.unit or "1")
+        except Unreadable as error:
+            reason = f"{error}; " if str(error) else ""
+            raise refusal(name, text, f"{reason}{allowed}") from None
+        if not self.least <= value <= self.most:
             raise refusal(name, text, allowed)
         return value
 
