@@ -19,12 +19,12 @@ from carom.collisions.records import (
     Inertia,
     common_shape,
     inertia_of,
-    is_foreign,
     vectors,
 )
 from carom.laws.exact import law_of
+from carom.laws.portable import is_foreign
 from carom.laws.rules import Rule
-from carom.quantities.units import counted, refusal
+from carom.quantities.units import refusal, threads_or_none
 
 __all__ = ["CollisionLaw", "CollisionStatus", "Collisions", "collide"]
 
@@ -62,8 +62,8 @@ def collide(
     pair : Pair
         The bodies; they are the same in every collision.
     velocity1, spin1, velocity2, spin2 : array_like, shape (..., 3)
-        In m/s and rad/s, broadcast; zero where left out. A half-space or cup keeps its velocity,
-        and does not spin.
+        In m/s and rad/s, or with a unit, broadcast; zero where left out. A half-space or cup keeps
+        its velocity, and does not spin.
     normal : array_like, shape (..., 3)
         Unit vectors from the first body to the second.
     law : ReboundLaw, SmoothLaw, RoughLaw or WaltonLaw, optional
@@ -86,7 +86,8 @@ def collide(
     Raises
     ------
     InputError
-        If shapes do not broadcast, the last axis is not 3, or types do not fit.
+        If shapes do not broadcast, the last axis is not 3, types or units do not fit, or there are
+        more than 200 million pairs.
 
     Examples
     --------
@@ -101,8 +102,7 @@ def collide(
         raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
     if spin2 is not None and not isinstance(pair.second, Sphere):
         raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
-    if threads is not None:
-        threads = counted("threads", threads, 1)
+    threads = threads_or_none(threads)
     rule = _rule(law, pair)
     given = (velocity1, spin1, velocity2, spin2, normal)
     if any(is_foreign(each) for each in given):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import isfinite
-from operator import index
+from numbers import Integral
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -215,9 +215,10 @@ class LoadPath(InContact, Result):
 
     def _step(self, step: int) -> int:
         n = len(self)
+        whole = isinstance(step, Integral) and not isinstance(step, bool)
         try:
-            return range(n)[index(step)]
-        except (TypeError, IndexError):
+            return range(n)[int(step) if whole else n]
+        except IndexError:
             allowed = f"must be a whole number from 0 to {n - 1}, or negative, from the end"
             raise refusal("step", step, allowed) from None
 

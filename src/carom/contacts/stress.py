@@ -16,7 +16,7 @@ from carom.dimensionless.fields.extremes import (
 from carom.dimensionless.fields.subsurface import COMPONENTS, stresses
 from carom.io.labels import labelled_dataset
 from carom.quantities.arrays import Array, places
-from carom.quantities.units import nearest, refusal
+from carom.quantities.units import one_of, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -78,8 +78,7 @@ def _entries(contact: Contact, name: str, found: Largest) -> dict[str, float]:
 
 def _of_body(contact: Contact, body: str) -> tuple[float, float]:
     """Return friction, positive where it pulls the body along +x, and Poisson's ratio."""
-    if body not in BODIES:
-        raise refusal("body", body, nearest(str(body), BODIES) or "must be 'first' or 'second'")
+    one_of("body", body, BODIES)
     material = getattr(contact.pair, body).material
     if material.is_rigid:
         other = BODIES[1 - BODIES.index(body)]

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from carom.bodies.kinematics import Rebound, Tangential, components, inertia
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
-from carom.quantities.arrays import Array, numbers
-from carom.quantities.units import InputError, hint, refusal
+from carom.quantities.arrays import Array, numbers, together
+from carom.quantities.units import InputError, clipped, hint, refusal
 
 Given = Mapping[str, Any]  # arrays by name
 
@@ -61,7 +61,8 @@ def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     pair : Pair
         The bodies. Their friction and stiffness matter for psi alone.
     known : mapping
-        By name, numbers or arrays that broadcast, SI or text with a unit; NaN stays NaN. The motion
+        By name, numbers or arrays that broadcast, SI or with a unit; NaN stays NaN, as does what is
+        masked. The motion
         before: speed and angle; or normal_speed and one of tangential_speed, angle, contact_angle,
         psi_in; spin and spin2, else zero. Between ratios and angles no speed is needed.
         After: normal_restitution or normal_speed_out; and one of tangential_speed_out, spin_out,
@@ -92,27 +93,28 @@ def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     >>> carom.convert(pair, known=known, wanted="spin_out").round(1)
     array([-533.6, -551.5])
     """
+    if not isinstance(pair, Pair):
+        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    if not isinstance(known, Mapping):
+        raise refusal("known", known, "must be values by name, e.g. {'speed': 2.0, 'angle': 0.5}")
     given = {name: _values(name, value) for name, value in known.items()}
     _check_name(wanted)
     _check_bodies(pair, {*given, wanted})
-    try:
-        shape = np.broadcast_shapes(*(values.shape for values in given.values()))
-    except ValueError:
-        raise InputError("known: arrays of shapes that do not fit each other") from None
+    shape = together(given)
     rebound = _rebound(pair, given, wanted)
     result = np.broadcast_to(np.asarray(getattr(rebound, wanted)), shape)
     return result.copy() if shape else result.item()
 
 
 def _check_name(name: str) -> None:
-    if name not in NAMES:
-        raise InputError(f"{name}: unknown quantity; {hint(name, NAMES)}")
+    if not isinstance(name, str) or name not in NAMES:
+        raise InputError(f"{clipped(str(name))}: unknown quantity; {hint(name, NAMES)}")
 
 
 def _values(name: str, value: Any) -> Array:
     """Return what is known of one quantity, or raise InputError."""
     _check_name(name)
-    values = numbers(name, value, "must be numbers, or text with a unit")
+    values = numbers(name, value, "must be numbers, or text with a unit", gaps=True)
     if "angle" in name:
         _refuse(name, values, abs(values) >= 0.5 * pi, "must be below pi/2, '90 deg'")
     elif name in ("speed", "normal_speed", *NORMAL):

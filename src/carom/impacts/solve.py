@@ -128,7 +128,7 @@ def impact(
         raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
     motion = Tangential(tangential, first_spin, second_spin)
     _refuse_overflow(pair, approaching, motion.contact_velocity(pair))
-    if method == "exact":
+    if isinstance(method, str) and method == "exact":
         return solve_exactly(pair, approaching, motion, normal)
     return _by_elements(pair, approaching, motion, method, normal, progress)
 
@@ -143,7 +143,8 @@ def _by_elements(
 ) -> HalfspaceImpact:
     from carom.impacts.boundary_elements import BoundaryElements, solve_by_elements
 
-    elements = BoundaryElements() if method == "halfspace" else method
+    named = isinstance(method, str) and method == "halfspace"
+    elements = BoundaryElements() if named else method
     if not isinstance(elements, BoundaryElements):
         allowed = "must be 'exact', 'halfspace' or carom.BoundaryElements(elements=, steps=)"
         raise refusal("method", method, allowed)

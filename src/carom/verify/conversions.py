@@ -17,7 +17,7 @@ from carom.laws.dem.damping import (
     thornton_damping,
     tsuji_damping,
 )
-from carom.quantities.units import not_negative, positive, refusal
+from carom.quantities.units import not_negative, one_of, positive, refusal
 
 SPRING, MINDLIN = dem.LinearSpring(), dem.LammpsMindlin("mindlin_rescale/force")
 
@@ -192,22 +192,19 @@ def restitution(value: float, convention: str = "critical") -> float:
     """
     from scipy.optimize import brentq
 
-    rule, wanted = _rule(convention), not_negative("tangential_damping", value)
+    rule, wanted = _rule(convention), not_negative("value", value, "1")
     if convention == "critical" and wanted < 1.0:
         return exp(-pi * wanted / sqrt(1.0 - wanted**2))
     least, most = rule(1.0), rule(SMALLEST)
     if wanted <= least:
         return 1.0
     if wanted > most:
-        raise refusal("damping", value, f"must be at most {most:.4g}: no restitution has more")
+        raise refusal("value", value, f"must be at most {most:.4g}: no restitution has more")
     return float(brentq(lambda e: rule(e) - wanted, SMALLEST, 1.0, xtol=1e-14))
 
 
 def _rule(convention: str) -> Callable[[float], float]:
-    if convention not in CONVENTIONS:
-        allowed = ", ".join(CONVENTIONS)
-        raise refusal("convention", convention, f"must be one of {allowed}")
-    return CONVENTIONS[convention][1]
+    return CONVENTIONS[one_of("convention", convention, CONVENTIONS)][1]
 
 
 def recipes(

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import fields
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,7 +15,7 @@ from carom.io.labels import labelled_dataset
 from carom.laws.dem import ContactLaw, Law
 from carom.laws.dem.base import SOLID
 from carom.quantities.arrays import Array, finite_line, positive_line
-from carom.quantities.units import positive, refusal
+from carom.quantities.units import finite, positive, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -38,6 +38,23 @@ def as_law(law: object) -> Law:
     if not isinstance(law, Law):
         raise refusal("law", law, "must be a contact law, e.g. carom.LinearSpring()")
     return law
+
+
+def laws_of(name: str, given: Any) -> Sequence[Any]:
+    """Return what is given as laws, one or a sequence, not yet checked; InputError for none."""
+    if isinstance(given, Law):
+        return [given]
+    if isinstance(given, list | tuple) and given:
+        return given
+    raise refusal(name, given, "give a list of laws, e.g. [carom.LinearSpring()]")
+
+
+def law_rebound(
+    law: Law, psi: Array, chi: float | Array, kappa: float | None, steps: int | None = None
+) -> Array:
+    """Return psi_2 by a law, NaN where it leaves an impact unsolved, without a word of it."""
+    found = law.rebound(psi, chi, kappa=kappa, steps=steps, return_status=True)[0]
+    return np.asarray(found)
 
 
 def incidences(psi: ArrayLike) -> Array:
@@ -119,7 +136,7 @@ def error_map(
     rows, wide = chis[:, np.newaxis], ("chi", "psi_in")
     exact = rebound(psis, rows)
     own = None if kappa is None else positive("kappa", kappa)
-    given = rule.rebound(psis, rows, kappa=own, steps=steps)
+    given = law_rebound(rule, psis, rows, own, steps)
     error = given - exact
     names = {"law": rule.name, "law_source": rule.source, "law_parameters": parameters(rule)}
     return labelled_dataset(
@@ -180,6 +197,7 @@ def force_error(law: Law, psi: float, chi: float, *, kappa: float | None = None)
     if not isinstance(as_law(law), ContactLaw):
         return ForceError(np.nan, np.nan)
     assert isinstance(law, ContactLaw)
+    psi, chi = finite("psi", psi, "1"), positive("chi", chi)
     history = law.history(psi, chi, kappa=kappa)
     parts = np.linspace(0.0, 1.0, INSTANTS)
     elapsed = history["time"] / history["time"][-1]

@@ -17,6 +17,7 @@ from carom.laws.dem import ContactLaw
 from carom.quantities.arrays import Array
 from carom.quantities.units import InputError, counted, finite, positive, refusal
 
+MOST_STEPS = 10_000_000
 SOLID = 0.4  # K^2/R^2
 BEFORE = ("normal_speed", "tangential_speed", "spin")
 COLUMNS = (*BEFORE, *(f"{name}_out" for name in BEFORE))
@@ -50,7 +51,7 @@ class Experiment:
     tangential_speed, spin : tuple of float, length n
         v_t in m/s of the first body relative to the second, and spin of the first body in rad/s.
     steps : int
-        Time steps per duration of Hertz's contact, whatever the law.
+        Time steps per duration of Hertz's contact, whatever the law, 10 to ten million.
 
     Raises
     ------
@@ -94,7 +95,7 @@ class Experiment:
         object.__setattr__(self, "normal_speed", positive("normal_speed", self.normal_speed))
         object.__setattr__(self, "tangential_speed", speeds)
         object.__setattr__(self, "spin", spins)
-        object.__setattr__(self, "steps", counted("steps", self.steps, 10))
+        object.__setattr__(self, "steps", counted("steps", self.steps, 10, MOST_STEPS))
 
     def __len__(self) -> int:
         return len(self.tangential_speed)
