@@ -160,7 +160,9 @@ def material(name: str) -> Material:
     >>> carom.material("steel").young
     210000000000.0
     """
-    wanted = str(name).strip().lower()
+    if not isinstance(name, str):
+        raise refusal("material", name, "give the name of one, or carom.Material(young=, poisson=)")
+    wanted = name.strip().lower()
     if wanted == "rigid":
         return Material(young=math.inf, poisson=0.0, name="rigid")
     for key, entry in _catalogue().items():

@@ -41,6 +41,21 @@ def representable(scales: Scales, contact_velocity: float) -> bool:
     return reduce(and_, [*finite, *(size > 0.0 for size in sizes)])
 
 
+def checked_scales(pair: "Pair", normal_speed: float, contact_velocity: float = 0.0) -> Scales:
+    """Return the scales of an impact, or raise InputError if floating point cannot hold them."""
+    try:
+        scales = pair.scales(normal_speed)
+        fits = representable(scales, contact_velocity)
+    except (OverflowError, ZeroDivisionError):
+        fits = False
+    if not fits:
+        raise InputError(
+            f"speed: {normal_speed:g} m/s at a radius of {pair.first.radius:g} m gives numbers "
+            "that floating point cannot hold; check the units"
+        )
+    return scales
+
+
 def _representable(pair: "Pair") -> bool:
     """Return whether masses and stiffnesses of two bodies together are positive numbers."""
     try:

@@ -24,7 +24,7 @@ from carom.collisions.records import (
 from carom.laws.exact import law_of
 from carom.laws.portable import is_foreign
 from carom.laws.rules import Rule
-from carom.quantities.units import refusal, threads_or_none
+from carom.quantities.units import flag, refusal, threads_or_none
 
 __all__ = ["CollisionLaw", "CollisionStatus", "Collisions", "collide"]
 
@@ -102,7 +102,7 @@ def collide(
         raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
     if spin2 is not None and not isinstance(pair.second, Sphere):
         raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
-    threads = threads_or_none(threads)
+    threads, inplace = threads_or_none(threads), flag("inplace", inplace)
     rule = _rule(law, pair)
     given = (velocity1, spin1, velocity2, spin2, normal)
     if any(is_foreign(each) for each in given):

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 ALONG, DOWN = 101, 61  # points along x and z where none are asked for
 REACH = 2.0  # of that grid, in contact radii
+FAR = 1e300  # dimensionless; nothing is left there
 BODIES = ("first", "second")
 
 
@@ -48,7 +49,9 @@ def stress_dataset(
     def stress_at(where: Array) -> Array:
         return stresses(where, contact.profile, friction=friction, poisson=poisson)
 
-    stress = contact.scales.pressure * stress_at(at.reshape(-1, 3) / contact.scales.radius)
+    with np.errstate(over="ignore"):
+        where = np.clip(at.reshape(-1, 3) / contact.scales.radius, -FAR, FAR)
+    stress = contact.scales.pressure * stress_at(where)
     columns = {name: (dims, v.reshape(at.shape[:-1])) for name, v in _columns(stress).items()}
     tension = largest(
         lambda where: principal_stresses(stress_at(where))[:, 0], contact.profile, SURFACE

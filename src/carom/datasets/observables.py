@@ -12,7 +12,7 @@ from carom.bodies.kinematics import Rebound, Tangential, components, inertia
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.quantities.arrays import Array, numbers, together
-from carom.quantities.units import InputError, clipped, hint, refusal
+from carom.quantities.units import InputError, hint, refusal
 
 Given = Mapping[str, Any]  # arrays by name
 
@@ -98,22 +98,27 @@ def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     if not isinstance(known, Mapping):
         raise refusal("known", known, "must be values by name, e.g. {'speed': 2.0, 'angle': 0.5}")
     given = {name: _values(name, value) for name, value in known.items()}
-    _check_name(wanted)
+    _check_name("wanted", wanted)
     _check_bodies(pair, {*given, wanted})
     shape = together(given)
-    rebound = _rebound(pair, given, wanted)
-    result = np.broadcast_to(np.asarray(getattr(rebound, wanted)), shape)
+    with np.errstate(all="ignore"):
+        found = np.asarray(getattr(_rebound(pair, given, wanted), wanted))
+    if np.isinf(found).any():
+        allowed = "floating point cannot hold what follows from these values; check the units"
+        raise InputError(f"known: {allowed}")
+    result = np.broadcast_to(found, shape)
     return result.copy() if shape else result.item()
 
 
-def _check_name(name: str) -> None:
+def _check_name(where: str, name: Any) -> None:
     if not isinstance(name, str) or name not in NAMES:
-        raise InputError(f"{clipped(str(name))}: unknown quantity; {hint(name, NAMES)}")
+        known = hint(name, NAMES) if isinstance(name, str) else hint("", NAMES)
+        raise refusal(where, name, f"unknown quantity; {known}")
 
 
 def _values(name: str, value: Any) -> Array:
     """Return what is known of one quantity, or raise InputError."""
-    _check_name(name)
+    _check_name("known", name)
     values = numbers(name, value, "must be numbers, or text with a unit", gaps=True)
     if "angle" in name:
         _refuse(name, values, abs(values) >= 0.5 * pi, "must be below pi/2, '90 deg'")

@@ -15,7 +15,7 @@ from carom.dimensionless.lossy.normal import NormalLoss, scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.arrays import Array
 from carom.quantities.arrays import pure_numbers, together
-from carom.quantities.units import threads_or_none
+from carom.quantities.units import flag, threads_or_none
 
 
 @overload
@@ -91,7 +91,7 @@ def rebound(
     >>> carom.rebound([0.5, 6.0], 1.44, normal=carom.KelvinVoigt(restitution=0.9)).round(6)
     array([-0.000683,  0.529468])
     """
-    threads = threads_or_none(threads)
+    threads, return_status = threads_or_none(threads), flag("return_status", return_status)
     given = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
     shape = together(given)
     flat_psi, flat_chi = (np.array(np.broadcast_to(x, shape)).ravel() for x in given.values())
@@ -116,7 +116,8 @@ def regime_borders(chi: ArrayLike, restitution: ArrayLike = 1.0) -> Array:
     ends with the contact.
     """
     e = np.asarray(restitution, dtype=np.float64)
-    last = np.maximum(2.0 * np.asarray(chi) * (1.0 + e) - e, 1.0)
+    with np.errstate(over="ignore"):
+        last = np.maximum(2.0 * np.asarray(chi) * (1.0 + e) - e, 1.0)
     return np.stack((np.ones_like(last), 0.5 + 0.5 * last, last), axis=-1)
 
 

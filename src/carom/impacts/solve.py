@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Literal, TypedDict, Unpack, overload
 
 from carom.bodies.kinematics import Tangential, approach
 from carom.bodies.losses import NormalLaw
-from carom.bodies.pairs import Pair, representable
+from carom.bodies.pairs import Pair, checked_scales
 from carom.bodies.shapes import Sphere
 from carom.impacts.exact import Impact, solve_exactly
 from carom.io.progress import Progress
-from carom.quantities.units import InputError, Value, finite, refusal
+from carom.quantities.units import Value, finite, refusal
 
 if TYPE_CHECKING:
     from carom.impacts.boundary_elements import BoundaryElements, HalfspaceImpact
@@ -127,7 +127,7 @@ def impact(
     if second_spin and not isinstance(pair.second, Sphere):
         raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
     motion = Tangential(tangential, first_spin, second_spin)
-    _refuse_overflow(pair, approaching, motion.contact_velocity(pair))
+    checked_scales(pair, approaching, motion.contact_velocity(pair))
     if isinstance(method, str) and method == "exact":
         return solve_exactly(pair, approaching, motion, normal)
     return _by_elements(pair, approaching, motion, method, normal, progress)
@@ -151,16 +151,3 @@ def _by_elements(
     if normal is not None:
         raise refusal("normal", normal, "boundary elements are elastic; leave it or method out")
     return solve_by_elements(pair, normal_speed, motion, elements, progress)
-
-
-def _refuse_overflow(pair: Pair, normal: float, velocity: float) -> None:
-    """Refuse sizes and speeds whose scales leave the range of floating-point numbers."""
-    try:
-        fits = representable(pair.scales(normal), velocity)
-    except (OverflowError, ZeroDivisionError):
-        fits = False
-    if not fits:
-        raise InputError(
-            f"speed: {normal:g} m/s at a radius of {pair.first.radius:g} m gives numbers that "
-            "floating point cannot hold; check the units"
-        )

@@ -138,7 +138,8 @@ class ReboundLaw:
         Returns
         -------
         array
-            Of the library and shape of psi, in units of (m_t/2)(mu V_1/kappa)^2.
+            Of the library and shape of psi, in units of (m_t/2)(mu V_1/kappa)^2; infinite where
+            floating point cannot hold it.
 
         Raises
         ------
@@ -250,7 +251,7 @@ class ReboundLaw:
             chi = positive("chi", table["chi"])
             e = _restitution_of(KelvinVoigt(restitution=table.get("restitution", 1.0)))
             whole = _is_whole(chi, e, edges, rows)
-        except (KeyError, TypeError, ValueError):
+        except (KeyError, IndexError, TypeError, ValueError):
             whole = False
         if not whole:
             raise InputError("table: not one of a ReboundLaw; give what to_dict returned")

@@ -13,7 +13,7 @@ from carom.dimensionless.numerics.jit import kernel
 from carom.dimensionless.rebounds import warn_of_unsolved
 from carom.io.progress import advancing
 from carom.quantities.arrays import Array, pure_numbers, together
-from carom.quantities.units import positive, refusal
+from carom.quantities.units import flag, positive, refusal
 
 SMALLEST = 1e-6  # psi_1: below, psi_2/psi_1 is constant
 LARGEST_CHI = 10.0  # beyond, tables are large and take minutes
@@ -87,6 +87,7 @@ class MixtureLaw:
 
         With `return_status` also a `Status` for each; without it a warning tells of what is NaN.
         """
+        return_status = flag("return_status", return_status)
         given = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
         shape = together(given)
         flat_psi, flat_chi = (np.broadcast_to(each, shape).flatten() for each in given.values())

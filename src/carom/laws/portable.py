@@ -33,9 +33,10 @@ def is_floats(values: Any) -> bool:
 
 def applied(function: Callable[[Any, Any], Any], name: str, values: Any) -> Any:
     """Return function(array, library) for values of any kind; a number gives a float."""
-    if is_foreign(values) or is_floats(values):
-        return function(*floating(name, values))
-    result = function(*floating(name, pure_numbers(name, values, ALLOWED)))
+    with np.errstate(over="ignore"):  # what is infinite is told by the docstrings
+        if is_foreign(values) or is_floats(values):
+            return function(*floating(name, values))
+        result = function(*floating(name, pure_numbers(name, values, ALLOWED)))
     return result if np.ndim(result) else float(result)
 
 

@@ -191,6 +191,13 @@ def one_of(name: str, value: Any, known: Iterable[str]) -> str:
     raise refusal(name, value, near or f"must be one of {', '.join(words)}")
 
 
+def flag(name: str, value: Any) -> bool:
+    """Return True or False as it is given, or raise InputError."""
+    if isinstance(value, bool) or type(value).__name__ in ("bool", "bool_"):  # NumPy's, too
+        return bool(value)
+    raise refusal(name, value, "must be True or False")
+
+
 def or_none(value: float) -> float | None:
     """Return a number as JSON can hold it: None if it is not finite.
 

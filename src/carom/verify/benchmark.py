@@ -153,6 +153,8 @@ def bench(
     carom.InputError: LAMMPS: '/nowhere/lmp' is not an executable; give another path
     """
     bodies, psis = steel_on_steel() if pair is None else pair, finite_line("psi", psi)
+    if not isinstance(engine, Engine):
+        raise refusal("engine", engine, "must be a DEM program, e.g. carom.verify.Lammps()")
     if engine.executable() is None:
         raise InputError(f"{engine.name}: {engine.remedy}")
     known = _supported(engine, [as_entry(given) for given in laws_of("entries", entries)])

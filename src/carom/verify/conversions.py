@@ -7,7 +7,7 @@ from collections.abc import Callable
 from math import exp, pi, sqrt
 from typing import NamedTuple
 
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, checked_scales
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.laws import dem
 from carom.laws.dem.damping import (
@@ -75,7 +75,7 @@ def stiffnesses(pair: Pair, normal_speed: float | str) -> Stiffnesses:
     """
     if not isinstance(pair, Pair):
         raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
-    scales = pair.scales(positive("normal_speed", normal_speed))
+    scales = checked_scales(pair, positive("normal_speed", normal_speed))
     normal = 0.8 * scales.force / scales.length
     return Stiffnesses(
         normal=normal,
@@ -246,6 +246,12 @@ def recipes(
     >>> print(carom.verify.recipes(pair, 1.0)["LAMMPS Hertz"])
     hertz 1.5385e+11 0 tangential mindlin_rescale/force 1.9005e+11 0 0.2 damping velocity
     """
+    for name, law, kind in (
+        ("spring", spring, dem.LinearSpring),
+        ("mindlin", mindlin, dem.LammpsMindlin),
+    ):
+        if not isinstance(law, kind):
+            raise refusal(name, law, f"must be a {kind.__name__}, e.g. carom.{kind.__name__}()")
     k, mu, zeta = stiffnesses(pair, normal_speed), pair.friction, damping(wanted)
     ratio = k.ratio if spring.stiffness_ratio is None else spring.stiffness_ratio
     k_n, k_t, dashpot = k.normal, ratio * k.normal, 2.0 * zeta * sqrt(k.normal * pair.normal_mass)

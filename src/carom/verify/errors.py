@@ -59,10 +59,18 @@ def law_rebound(
 
 def incidences(psi: ArrayLike) -> Array:
     """Return psi_1 as an array, or raise InputError if there is nothing to compare at them."""
+    values = psi_line(psi)
+    if not np.any(values):
+        raise refusal("psi", psi, "must not all be zero")
+    return values
+
+
+def psi_line(psi: ArrayLike) -> Array:
+    """Return psi_1 as an array, or raise InputError beyond what errors can be told of."""
     values = finite_line("psi", psi)
-    if not np.any(values) or np.max(np.abs(values)) > LARGEST:
-        allowed = f"must not all be zero, nor beyond {LARGEST:g}"
-        raise refusal("psi", values.tolist(), allowed)
+    if np.max(np.abs(values)) > LARGEST:
+        allowed = f"must not be beyond {LARGEST:g}, of which rounding leaves no error to be told"
+        raise refusal("psi", float(np.max(np.abs(values))), allowed)
     return values
 
 
@@ -132,7 +140,7 @@ def error_map(
     rule = as_law(law)
     chis = np.linspace(7.0 / 6.0, 7.0 / 4.0, 15) if chi is None else positive_line("chi", chi)
     top = 4.0 * float(chis.max())
-    psis = np.linspace(0.0, top, 121) if psi is None else finite_line("psi", psi)
+    psis = np.linspace(0.0, top, 121) if psi is None else psi_line(psi)
     rows, wide = chis[:, np.newaxis], ("chi", "psi_in")
     exact = rebound(psis, rows)
     own = None if kappa is None else positive("kappa", kappa)

@@ -16,7 +16,15 @@ from carom.laws.dem.damping import damped_restitution
 from carom.laws.dem.status import Codes, LawStatus, status_of
 from carom.laws.dem.stepping import HISTORY, PATIENCE, stepped, stepped_rebounds
 from carom.quantities.arrays import Array, pure_numbers, together
-from carom.quantities.units import counted, finite, not_negative, positive, refusal, threads_or_none
+from carom.quantities.units import (
+    counted,
+    finite,
+    flag,
+    not_negative,
+    positive,
+    refusal,
+    threads_or_none,
+)
 
 SOLID = 4.0 / 7.0  # kappa/chi of solid spheres, and of one on a half-space
 FEWEST_STEPS, MOST_STEPS = 4, 10_000_000
@@ -98,7 +106,7 @@ class Law(ABC):
         """
         if steps is not None:
             steps = counted("steps", steps, FEWEST_STEPS, MOST_STEPS)
-        threads = threads_or_none(threads)
+        threads, return_status = threads_or_none(threads), flag("return_status", return_status)
         given = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
         given["kappa"] = SOLID * given["chi"] if kappa is None else pure_numbers("kappa", kappa)
         shape = together(given)
