@@ -18,6 +18,12 @@ if TYPE_CHECKING:
 Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
 Plot = Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")]
 
+
+def whole_option(words: str) -> Any:
+    """Return an option whose text `carom.quantities.units.whole` reads."""
+    return typer.Option(help=words, metavar="INTEGER")
+
+
 may_interpret = False  # in a process that runs one command
 
 

@@ -25,8 +25,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-MOST = 1000  # elements across: memory grows with the square, time with the cube
-MOST_STEPS = 100_000
+RANGES = {"elements": (8, 1000), "steps": (20, 100_000)}  # memory grows with elements squared
 LARGEST_CHI, LARGEST_PSI = 1e3, 1e9  # steps would be too many; the rest would be lost in rounding
 
 
@@ -67,8 +66,8 @@ class BoundaryElements:
     steps: int = 300
 
     def __post_init__(self) -> None:
-        counted("elements", self.elements, 8, MOST)
-        counted("steps", self.steps, 20, MOST_STEPS)
+        for name, (least, most) in RANGES.items():
+            counted(name, getattr(self, name), least, most)
 
 
 @dataclass(frozen=True, eq=False)

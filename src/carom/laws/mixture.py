@@ -16,7 +16,7 @@ from carom.quantities.arrays import Array, pure_numbers, together
 from carom.quantities.units import flag, positive, refusal
 
 SMALLEST = 1e-6  # psi_1: below, psi_2/psi_1 is constant
-LARGEST_CHI = 10.0  # beyond, tables are large and take minutes
+LARGEST_CHI = 5.0  # up to which a table takes minutes
 TOLERANCE = 3e-8  # of the last terms of a series; errors found are a third of the promised 1e-7
 
 
@@ -53,12 +53,12 @@ class MixtureLaw:
     Parameters
     ----------
     low, high : float
-        The range of chi, 0.5 <= low < high <= 10.
+        The range of chi, 0.5 <= low < high <= 5.
 
     Raises
     ------
     InputError
-        If the range is empty, begins below 0.5 or ends above 10.
+        If the range is empty, begins below 0.5 or ends above 5.
 
     Examples
     --------

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 INCIDENCES = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0)
-LARGEST = 1e9  # psi_1
+LARGEST, LARGEST_CHI = 1e9, 1e4  # psi_1, chi
 INSTANTS = 400  # at which forces are compared
 
 
@@ -63,6 +63,14 @@ def incidences(psi: ArrayLike) -> Array:
     if not np.any(values):
         raise refusal("psi", psi, "must not all be zero")
     return values
+
+
+def checked_chi(chi: Any) -> float:
+    """Return chi, or raise InputError if it is none, or the exact impact has too many phases."""
+    value = positive("chi", chi)
+    if value > LARGEST_CHI:
+        raise refusal("chi", chi, f"must be at most {LARGEST_CHI:g}; spheres have 0.5 to 3")
+    return value
 
 
 def psi_line(psi: ArrayLike) -> Array:

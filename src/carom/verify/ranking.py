@@ -13,10 +13,11 @@ from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.laws.dem import ContactLaw, Law
 from carom.plots.result import Result, card
-from carom.quantities.units import or_none, positive
+from carom.quantities.units import or_none
 from carom.verify.catalogue import CATALOGUE, Entry, as_entry
 from carom.verify.errors import (
     INCIDENCES,
+    checked_chi,
     dashed,
     energy_gain,
     exact_rebound,
@@ -195,7 +196,7 @@ def rank(
     >>> best.entry.label, round(best.max_error, 3)
     ('linear spring, k_t/k_n = kappa', 0.176)
     """
-    ratio, psis = positive("chi", chi), incidences(psi)
+    ratio, psis = checked_chi(chi), incidences(psi)
     given = [as_entry(each) for each in laws_of("entries", entries)]
     own = kappa_or_solid(kappa, ratio)
     standings = []

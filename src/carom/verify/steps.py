@@ -7,7 +7,15 @@ from numpy.typing import ArrayLike
 
 from carom.laws.dem import Law
 from carom.quantities.units import counted, positive
-from carom.verify.errors import INCIDENCES, as_law, incidences, kappa_or_solid, largest, law_rebound
+from carom.verify.errors import (
+    INCIDENCES,
+    as_law,
+    checked_chi,
+    incidences,
+    kappa_or_solid,
+    largest,
+    law_rebound,
+)
 
 FEWEST, MOST = 10, 2_000_000
 GROWTH = 2.0**0.5
@@ -69,7 +77,7 @@ def step_error(
     True
     """
     counted("steps", steps, FEWEST, MOST)
-    psis, ratio = incidences(psi), positive("chi", chi)
+    psis, ratio = incidences(psi), checked_chi(chi)
     own = kappa_or_solid(kappa, ratio)
     converged = law_rebound(as_law(law), psis, ratio, own)
     return largest(law_rebound(law, psis, ratio, own, steps) - converged)
@@ -118,7 +126,7 @@ def advised_steps(
     28
     """
     bound = positive("allowed", allowed, "1")
-    psis, ratio = incidences(psi), positive("chi", chi)
+    psis, ratio = incidences(psi), checked_chi(chi)
     own = kappa_or_solid(kappa, ratio)
     converged = law_rebound(as_law(law), psis, ratio, own)
     if not np.all(np.isfinite(converged)):

@@ -11,10 +11,11 @@ from carom.io.progress import Progress, advancing
 from carom.laws import dem
 from carom.plots.result import card
 from carom.quantities.arrays import Array
-from carom.quantities.units import one_of, positive
+from carom.quantities.units import one_of
 from carom.verify.catalogue import CATALOGUE, called
 from carom.verify.errors import (
     as_law,
+    checked_chi,
     dashed,
     exact_rebound,
     incidences,
@@ -196,7 +197,7 @@ def tune(
     >>> found.parameter, round(found.value, 2), round(found.before, 2), round(found.max_error, 2)
     ('stiffness', 0.7, 0.61, 0.17)
     """
-    ratio = positive("chi", chi)
+    ratio = checked_chi(chi)
     own = kappa_or_solid(kappa, ratio)
     psis = np.linspace(0.0, 4.0 * ratio, 61)[1:] if psi is None else incidences(psi)
     one_of("measure", measure, MEASURES)
