@@ -126,7 +126,7 @@ def test_refuses_shapes_that_do_not_fit():
 
 @pytest.mark.parametrize("threads", [0, -3, 2.5])
 def test_refuses_a_number_of_threads_that_is_none(threads):
-    with pytest.raises(ValueError, match=r"^threads: .*from 1 on"):
+    with pytest.raises(ValueError, match=r"^threads: .*at least 1"):
         carom.rebound(0.5, 1.44, threads=threads)
 
 

@@ -12,6 +12,7 @@ from carom.bodies.pairs import Pair
 from carom.dimensionless.lossy.normal import Loss
 from carom.dimensionless.lossy.stages import viscous_loss
 from carom.io.citations import VISCOUS
+from carom.quantities.arrays import numbers
 from carom.quantities.elementwise import sqrt
 from carom.quantities.keywords import known_keywords
 from carom.quantities.units import InputError, Value, not_negative, number, positive, refusal
@@ -84,9 +85,11 @@ class KelvinVoigt:
         if (restitution is None) == (loss_time is None):
             raise InputError("restitution: give it or loss_time, one of the two")
         if restitution is not None:
-            object.__setattr__(self, "restitution", _restitution(restitution))
+            e = _one_or_many("restitution", restitution, _restitution)
+            object.__setattr__(self, "restitution", e)
         if loss_time is not None:
-            object.__setattr__(self, "loss_time", _loss_time(loss_time))
+            time = _one_or_many("loss_time", loss_time, not_negative)
+            object.__setattr__(self, "loss_time", time)
 
     def loss(self, pair: Pair, normal_speed: Any) -> tuple[int, Any]:
         """Return the loss and alpha = tau V_1/d_max."""
@@ -95,9 +98,11 @@ class KelvinVoigt:
         return Loss.VISCOUS.value, self.loss_time / pair.scales(normal_speed).time
 
     def scale_free(self) -> tuple[int, float]:
-        """Return the loss and alpha; InputError if a loss time was given."""
+        """Return the loss and alpha; InputError for a loss time, or many restitutions."""
         if self.restitution is None:
             raise refusal("normal", self, "give a restitution, which needs no bodies and speed")
+        if np.ndim(self.restitution):
+            raise refusal("normal", self, "give one restitution; call once for each, or use sweep")
         return Loss.VISCOUS.value, float(_alphas(self.restitution))
 
     @property
@@ -152,8 +157,8 @@ class ElasticPlastic:
     @known_keywords
     def __init__(self, yield_velocity: Value | None = None) -> None:
         if yield_velocity is not None:
-            checked = _checked("yield_velocity", yield_velocity)
-            object.__setattr__(self, "yield_velocity", checked)
+            velocity = _one_or_many("yield_velocity", yield_velocity, positive)
+            object.__setattr__(self, "yield_velocity", velocity)
 
     def loss(self, pair: Pair, normal_speed: Any) -> tuple[int, Any]:
         """Return the loss and the radius of the contact at yield, (V_y/V_1)^(2/5)."""
@@ -209,18 +214,14 @@ def _alphas(restitution: Any) -> Any:
     return np.array(found)[places].reshape(np.shape(restitution))
 
 
-def _restitution(value: Any) -> Any:
-    if np.ndim(value):
-        return value
-    found = number("restitution", value)
+def _restitution(name: str, value: Any) -> float:
+    found = number(name, value)
     if not SMALLEST_RESTITUTION <= found <= 1.0:
-        raise refusal("restitution", value, f"must be from {SMALLEST_RESTITUTION:g} to 1")
+        raise refusal(name, value, f"must be from {SMALLEST_RESTITUTION:g} to 1")
     return found
 
 
-def _loss_time(value: Any) -> Any:
-    return value if np.ndim(value) else not_negative("loss_time", value)
-
-
-def _checked(name: str, value: Any) -> Any:
-    return value if np.ndim(value) else positive(name, value)
+def _one_or_many(name: str, value: Any, one: Callable[[str, Any], float]) -> Any:
+    """Return one number that is checked, or an array, which is checked point by point elsewhere."""
+    values = numbers(name, value, "must be a number or text with a unit, or an array of them")
+    return values if values.ndim else one(name, value)

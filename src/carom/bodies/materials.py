@@ -80,13 +80,13 @@ class Material:
             raise refusal("poisson", poisson, "must be above -1 and at most 0.5, e.g. 0.3")
         set_fields(
             self,
-            young=math.inf if young == math.inf else positive("young", young),
+            young=_stiffness(young),
             poisson=ratio,
             density=None if density is None else positive("density", density),
             yield_strength=None
             if yield_strength is None
             else positive("yield_strength", yield_strength),
-            name=name,
+            name=_text_or_none(name),
         )
 
     @property
@@ -98,6 +98,18 @@ class Material:
     def is_rigid(self) -> bool:
         """Whether the material does not deform."""
         return math.isinf(self.young)
+
+
+def _stiffness(young: Any) -> float:
+    """Return a positive modulus, infinite for what does not deform, or raise InputError."""
+    found = number("young", young)
+    return found if found == math.inf else positive("young", young)
+
+
+def _text_or_none(name: Any) -> str | None:
+    if name is None or isinstance(name, str):
+        return name
+    raise refusal("name", name, "must be a text")
 
 
 @lru_cache(maxsize=1)
@@ -150,7 +162,9 @@ def material(name: str) -> Material:
     >>> carom.material("steel").young
     210000000000.0
     """
-    wanted = str(name).strip().lower()
+    if not isinstance(name, str):
+        raise refusal("material", name, "give the name of one, or carom.Material(young=, poisson=)")
+    wanted = name.strip().lower()
     if wanted == "rigid":
         return Material(young=math.inf, poisson=0.0, name="rigid")
     for key, entry in _catalogue().items():

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property, reduce
-from math import pi
+from math import inf, pi
 from operator import and_
 
 from carom.bodies.materials import Material
@@ -42,6 +42,33 @@ def representable(scales: Scales, contact_velocity: float) -> bool:
     return reduce(and_, [*finite, *(size > 0.0 for size in sizes)])
 
 
+def checked_scales(pair: "Pair", normal_speed: float, contact_velocity: float = 0.0) -> Scales:
+    """Return the scales of an impact, or raise InputError if floating point cannot hold them."""
+    try:
+        scales = pair.scales(normal_speed)
+        fits = representable(scales, contact_velocity)
+    except (OverflowError, ZeroDivisionError):
+        fits = False
+    if not fits:
+        raise InputError(
+            f"speed: {normal_speed:g} m/s at a radius of {pair.first.radius:g} m gives numbers "
+            "that floating point cannot hold; check the units"
+        )
+    return scales
+
+
+def _representable(pair: "Pair") -> bool:
+    """Return whether masses and stiffnesses of two bodies together are positive numbers."""
+    try:
+        values = (
+            *(pair.effective_modulus, pair.effective_shear_modulus, pair.effective_radius),
+            *(pair.normal_mass, pair.tangential_mass, pair.kappa, pair.chi),
+        )
+    except (OverflowError, ZeroDivisionError):
+        return False
+    return all(0.0 < value < inf for value in values)
+
+
 @dataclass(frozen=True, init=False)
 class Pair:
     """Two bodies that meet: a sphere, and a sphere, half-space or cup; with their friction.
@@ -62,7 +89,8 @@ class Pair:
     Raises
     ------
     InputError
-        If the friction is negative, a sphere does not fit its cup, or both materials are rigid.
+        If the friction is negative, a sphere does not fit its cup, both materials are rigid, or
+        numbers are beyond floating point.
 
     Examples
     --------
@@ -94,6 +122,11 @@ class Pair:
         object.__setattr__(self, "first", first)
         object.__setattr__(self, "second", second)
         object.__setattr__(self, "friction", not_negative("friction", friction))
+        if not _representable(self):
+            raise InputError(
+                "pair: sizes, densities and stiffnesses of the bodies give numbers that floating "
+                "point cannot hold; check the units"
+            )
 
     @cached_property
     def effective_modulus(self) -> float:

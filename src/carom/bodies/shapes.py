@@ -29,7 +29,7 @@ class Sphere:
     ------
     InputError
         If a size is not positive, the hole as large as the sphere, the inertia given in both ways,
-        or the material without density.
+        the material without density, or the mass beyond floating point.
 
     Examples
     --------
@@ -70,6 +70,9 @@ class Sphere:
             raise refusal("inner_radius", inner_radius, f"must be below the radius, {radius!r}")
         if self.material.density is None:
             raise refusal("density", None, "a sphere that moves needs a material with a density")
+        if not _representable(self):
+            allowed = "floating point cannot hold its mass or inertia; check the units"
+            raise refusal("radius", radius, allowed)
 
     @cached_property
     def mass(self) -> float:
@@ -160,6 +163,15 @@ class Cup:
     def curvature(self) -> float:
         """Curvature in 1/m, negative."""
         return -1.0 / self.radius
+
+
+def _representable(ball: Sphere) -> bool:
+    """Return whether mass and inertia of a sphere are positive numbers."""
+    try:
+        inertia = ball.mass * ball.gyration_ratio * ball.radius**2
+        return all(0.0 < value < math.inf for value in (ball.mass, ball.gyration_ratio, inertia))
+    except (OverflowError, ZeroDivisionError):
+        return False
 
 
 def describe(body: Sphere | HalfSpace | Cup) -> dict[str, Any]:

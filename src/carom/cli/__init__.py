@@ -5,6 +5,7 @@ the rest of the package, for third-party packages that are heavy or optional.
 """
 
 import sys
+import warnings
 
 import typer
 
@@ -86,4 +87,5 @@ def _refuse(message: str) -> int:
 def run() -> None:
     """Run a command from the shell, in a process of its own."""
     cases.may_interpret = True
+    warnings.formatwarning = lambda message, *_, **__: f"carom: {message}\n"
     sys.exit(main())

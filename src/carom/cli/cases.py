@@ -44,6 +44,11 @@ def file_argument(words: str) -> Any:
     return typer.Argument(help=words, parser=file_name)
 
 
+def whole_option(words: str) -> Any:
+    """Return an option whose text `carom.quantities.units.whole` reads."""
+    return typer.Option(help=words, metavar="INTEGER")
+
+
 may_interpret = False  # in a process that runs one command
 
 

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import carom
-from carom.cli.cases import Json, Plot, check_outputs, stored
-from carom.quantities.units import InputError, finite, or_none, positive, refusal
+from carom.cli.cases import Json, Plot, check_outputs, stored, whole_option
+from carom.quantities.units import InputError, finite, or_none, positive, refusal, whole
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from carom.bodies.losses import KelvinVoigt
 
 ROWS = 17  # of the printed table
+MOST = 100_000  # points
 HEADERS = (".h",)
 COLUMNS = ("psi_in", "psi_out", "contact_restitution", "tangential_restitution")
 
@@ -29,7 +30,7 @@ def curve_command(
     stop: Annotated[
         str | None, typer.Option("--to", help="Last psi_1, by default 4 chi + 1.")
     ] = None,
-    points: Annotated[str, typer.Option(help="Number of psi_1, at least 2.")] = "401",
+    points: Annotated[str, whole_option("Number of psi_1, 2 to 100,000.")] = "401",
     as_json: Json = False,
     plot: Plot = None,
     output: Annotated[
@@ -63,9 +64,7 @@ def curve_command(
     last = 4.0 * max(values) + 1.0 if stop is None else finite("to", stop, "1")
     if not first < last:
         raise refusal("to", last, f"must be above --from, {first:g}")
-    if not points.isdecimal() or int(points) < 2:
-        raise refusal("points", points, "must be a whole number of at least 2, e.g. 401")
-    psi = np.linspace(first, last, int(points))
+    psi = np.linspace(first, last, whole("points", points, 2, MOST))
     dataset = carom.curve(values, psi, normal=_normal(restitution))
     if output is not None:
         stored(carom.save(dataset, output))

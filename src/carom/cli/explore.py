@@ -8,12 +8,15 @@ from typing import Annotated
 
 import typer
 
+from carom.cli.cases import whole_option
+from carom.quantities.units import whole
+
 
 def explore_command(
     host: Annotated[
         str, typer.Option(help="Address to listen at; the default answers this machine only.")
     ] = "127.0.0.1",
-    port: Annotated[int, typer.Option(help="Port to listen at, 0 for any that is free.")] = 8050,
+    port: Annotated[str, whole_option("Port to listen at, 0 for any that is free.")] = "8050",
     open_browser: Annotated[
         bool, typer.Option("--open/--no-open", help="Whether to open a browser.")
     ] = True,
@@ -27,7 +30,7 @@ def explore_command(
     """
     from carom.explorer import explorer
 
-    page = explorer(host=host, port=port)
+    page = explorer(host=host, port=whole("port", port, 0, 65535))
     typer.echo(json.dumps({"url": page.url}) if as_json else f"{page.url}  (Ctrl-C ends it)")
     if open_browser:
         webbrowser.open(page.url)

@@ -20,8 +20,9 @@ from carom.cli.cases import (
     store,
     stored,
     told_case,
+    whole_option,
 )
-from carom.quantities.units import InputError, number, refusal
+from carom.quantities.units import InputError, number, refusal, whole
 
 if TYPE_CHECKING:
     from carom.bodies.pairs import Pair
@@ -51,7 +52,7 @@ def fit_command(
         bool, typer.Option("--squares", help="Least squares: outliers count like all others.")
     ] = False,
     advice: Annotated[
-        int | None, typer.Option(help="Tell that many incidences to measure next.")
+        str | None, whole_option("Tell that many incidences to measure next.")
     ] = None,
     about: Annotated[
         str | None, typer.Option("--for", help="Parameter of the advice; else the least certain.")
@@ -62,8 +63,8 @@ def fit_command(
             help="Sample by emcee; store samples (.nc, .csv) or a corner plot (.png ...)."
         ),
     ] = None,
-    steps: Annotated[int, typer.Option(help="Steps of the sampling.")] = 1000,
-    seed: Annotated[int, typer.Option(help="Seed of the sampling.")] = 0,
+    steps: Annotated[str, whole_option("Steps of the sampling.")] = "1000",
+    seed: Annotated[str, whole_option("Seed of the sampling.")] = "0",
     plot: Plot = None,
     output: Annotated[str | None, typer.Option(help="Store the fit: .csv or .nc.")] = None,
     as_json: Json = False,
@@ -85,6 +86,8 @@ def fit_command(
     source = _source(data, dataset)
     if about is not None and advice is None:
         raise refusal("for", about, "it is the parameter of --advice; give that, too")
+    count = None if advice is None else whole("advice", advice, 1)
+    sampling = whole("steps", steps, 100), whole("seed", seed, 0, 2**32 - 1)
     files = {"data": source, "case": case, "plot": plot, "output": output, "posterior": posterior}
     refuse_same(files)
     check_outputs((plot, FIGURES), (output, TABLES), (posterior, (*TABLES, *FIGURES)))
@@ -99,8 +102,8 @@ def fit_command(
     )
     store(found, output, plot)
     if posterior is not None:
-        stored(_sampled(found, posterior, steps, seed))
-    advised = None if advice is None else found.advice(advice, about)
+        stored(_sampled(found, posterior, *sampling))
+    advised = None if count is None else found.advice(count, about)
     if as_json:
         extra = {} if advised is None else {"advice": advised.to_dict()}
         typer.echo(json.dumps(found.to_dict() | extra, indent=2))

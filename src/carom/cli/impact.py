@@ -18,9 +18,10 @@ from carom.cli.cases import (
     merged,
     outputs,
     stored,
+    whole_option,
 )
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.units import refusal
+from carom.quantities.units import refusal, whole
 
 if TYPE_CHECKING:
     from carom.impacts.boundary_elements import BoundaryElements
@@ -81,10 +82,10 @@ def impact_command(
         ),
     ] = "exact",
     elements: Annotated[
-        int | None, typer.Option(help="Boundary elements across the contact (default: 64).")
+        Text, whole_option("Boundary elements across the contact (default: 64).")
     ] = None,
     steps: Annotated[
-        int | None, typer.Option(help="Time steps of the boundary elements (default: 300).")
+        Text, whole_option("Time steps of the boundary elements (default: 300).")
     ] = None,
     as_json: Json = False,
     plot: Plot = None,
@@ -132,7 +133,7 @@ def impact_command(
         stored(path)
 
 
-def _method(name: str, elements: int | None, steps: int | None) -> "str | BoundaryElements":
+def _method(name: str, elements: str | None, steps: str | None) -> "str | BoundaryElements":
     if name not in METHODS:
         raise refusal("method", name, f"must be {' or '.join(METHODS)}")
     asked = {"elements": elements, "steps": steps}
@@ -140,7 +141,12 @@ def _method(name: str, elements: int | None, steps: int | None) -> "str | Bounda
     if given and name != "halfspace":
         key, value = next(iter(given.items()))
         raise refusal(key, value, "only boundary elements have it; add --method halfspace")
-    return carom.BoundaryElements(**given) if given else name
+    if not given:
+        return name
+    from carom.impacts.boundary_elements import RANGES
+
+    counts = {key: whole(key, value, *RANGES[key]) for key, value in given.items()}
+    return carom.BoundaryElements(**counts)
 
 
 def _check_outputs(files: Output, *, elastic: bool) -> None:

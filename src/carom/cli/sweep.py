@@ -19,9 +19,10 @@ from carom.cli.cases import (
     outputs,
     stored,
     told_case,
+    whole_option,
 )
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.units import or_none, refusal
+from carom.quantities.units import or_none, refusal, whole
 
 if TYPE_CHECKING:
     from carom.bodies.cases import Case
@@ -41,7 +42,7 @@ def sweep_command(
     scheduler: Annotated[
         str | None, typer.Option(help="Use a dask cluster, e.g. tcp://host:8786.")
     ] = None,
-    workers: Annotated[int | None, typer.Option(help="Threads (default: all cores).")] = None,
+    workers: Annotated[str | None, whole_option("Threads (default: all cores).")] = None,
     as_json: Json = False,
     progress: Annotated[
         bool | None,
@@ -63,7 +64,8 @@ def sweep_command(
     check_outputs((file, TABLES))
     design, chosen = plan(content, case, named_values("column", column, "omega=spin"))
     with _stopping():
-        how: dict[str, Any] = {"scheduler": scheduler, "workers": workers, "progress": progress}
+        threads = None if workers is None else whole("workers", workers, 1)
+        how: dict[str, Any] = {"scheduler": scheduler, "workers": threads, "progress": progress}
         dataset = carom.sweep(content, design, outputs=chosen, store=store, resume=resume, **how)
     if file is not None:
         carom.save(dataset, file)

@@ -19,14 +19,14 @@ from carom.collisions.records import (
     Inertia,
     common_shape,
     inertia_of,
-    is_foreign,
     vectors,
     warn_of_unusable,
 )
 from carom.laws.exact import law_of
+from carom.laws.portable import is_foreign
 from carom.laws.rules import Rule
 from carom.quantities.keywords import known_keywords
-from carom.quantities.units import counted, refusal
+from carom.quantities.units import flag, refusal, threads_or_none
 
 __all__ = ["CollisionLaw", "CollisionStatus", "Collisions", "collide"]
 
@@ -65,8 +65,8 @@ def collide(
     pair : Pair
         The bodies; they are the same in every collision.
     velocity1, spin1, velocity2, spin2 : array_like, shape (..., 3)
-        In m/s and rad/s, broadcast; zero where left out. A half-space or cup keeps its velocity,
-        and does not spin.
+        In m/s and rad/s, or with a unit, broadcast; zero where left out. A half-space or cup keeps
+        its velocity, and does not spin.
     normal : array_like, shape (..., 3)
         Unit vectors from the first body to the second.
     law : ReboundLaw, SmoothLaw, RoughLaw or WaltonLaw, optional
@@ -90,7 +90,8 @@ def collide(
     Raises
     ------
     InputError
-        If shapes do not broadcast, the last axis is not 3, or types do not fit.
+        If shapes do not broadcast, the last axis is not 3, types or units do not fit, or there are
+        more than 200 million pairs.
 
     Examples
     --------
@@ -105,8 +106,7 @@ def collide(
         raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
     if spin2 is not None and not isinstance(pair.second, Sphere):
         raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
-    if threads is not None:
-        threads = counted("threads", threads, 1)
+    threads, inplace = threads_or_none(threads), flag("inplace", inplace)
     rule = _rule(law, pair)
     given = (velocity1, spin1, velocity2, spin2, normal)
     if any(is_foreign(each) for each in given):

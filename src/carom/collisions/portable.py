@@ -10,7 +10,7 @@ import array_api_compat
 import numpy as np
 
 from carom.collisions import records
-from carom.laws.portable import constants, floating, part_lost
+from carom.laws.portable import constants, floating, is_foreign, part_lost
 from carom.laws.rules import Rule
 from carom.quantities.units import InputError, refusal
 
@@ -57,7 +57,7 @@ def collide_arrays(
 
 def _alike(given: tuple[Any, ...]) -> tuple[list[Any], Any]:
     """Return what is given as arrays of one library and type, and that library."""
-    foreign = [each for each in given if records.is_foreign(each)]
+    foreign = [each for each in given if is_foreign(each)]
     try:
         xp = array_api_compat.array_namespace(*foreign)
     except TypeError:
@@ -68,7 +68,7 @@ def _alike(given: tuple[Any, ...]) -> tuple[list[Any], Any]:
     real = {
         name: _real(name, each)
         for name, each in zip(records.NAMES, given, strict=True)
-        if records.is_foreign(each)
+        if is_foreign(each)
     }
     kind = reduce(xp.result_type, (each.dtype for each in real.values()))
     real = {name: xp.astype(each, kind, copy=False) for name, each in real.items()}

@@ -12,12 +12,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Sphere
+from carom.laws.portable import is_floats
 from carom.plots.result import card
+from carom.quantities.arrays import numbers
 from carom.quantities.units import InputError, refusal
 
 NO_VALUES = (TypeError, RuntimeError)  # what jax and torch raise while they trace or map
 SKEW = 1e-5  # of a normal's squared length from 1; so much is rounding, and made up for
-NAMES = ("velocity1", "spin1", "velocity2", "spin2", "normal")
+UNITS = {"velocity1": "m/s", "spin1": "rad/s", "velocity2": "m/s", "spin2": "rad/s", "normal": "1"}
+NAMES = tuple(UNITS)
+MOST = 200_000_000  # pairs at once
 ALLOWED = "must be an array of real numbers of shape (..., 3)"
 
 
@@ -185,26 +189,15 @@ def _response(body: Counterbody) -> tuple[float, float, float]:
     return body.radius, 1.0 / body.mass, 1.0 / (body.mass * body.radius * body.gyration_ratio)
 
 
-def is_foreign(values: Any) -> bool:
-    """Return whether this is an array of another library than NumPy."""
-    return array_api_compat.is_array_api_obj(values) and not isinstance(
-        values, np.ndarray | np.generic
-    )
-
-
 def vectors(name: str, values: ArrayLike | None) -> NDArray[np.floating] | None:
     """Return what is given as vectors of floating-point numbers, or raise InputError."""
     if values is None:
         return None
-    if isinstance(values, np.ma.MaskedArray):
-        raise refusal(name, values, "a mask is not heeded; give plain arrays, NaN where none is")
-    try:
-        array = np.asarray(values)
-    except ValueError:
-        raise refusal(name, values, ALLOWED) from None
-    if array.dtype.kind not in "fiu" or array.shape[-1:] != (3,):
+    plain = is_floats(values)  # may be written in place: no copy
+    array = np.asarray(values) if plain else numbers(name, values, ALLOWED, UNITS[name])
+    if array.shape[-1:] != (3,):
         raise refusal(name, values, ALLOWED)
-    return array if array.dtype == np.float32 else np.asarray(array, dtype=np.float64)
+    return array
 
 
 def common_shape(arrays: Sequence[Any]) -> tuple[int, ...]:
@@ -218,7 +211,10 @@ def common_shape(arrays: Sequence[Any]) -> tuple[int, ...]:
         if name not in shapes:
             raise InputError(f"{name}: missing; give an array of shape (..., 3)")
     try:
-        return np.broadcast_shapes(*shapes.values())
+        shape = np.broadcast_shapes(*shapes.values())
     except ValueError:
         words = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
         raise InputError(f"shapes: {words} do not broadcast; give (N, 3) or (3,) each") from None
+    if prod(shape) > 3 * MOST:
+        raise InputError(f"shapes: {prod(shape) // 3:,} pairs are too many at once; give parts")
+    return shape

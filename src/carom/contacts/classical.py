@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.bodies.pairs import Pair
-from carom.quantities.arrays import Array, numbers
+from carom.quantities.arrays import Array, numbers, together
 from carom.quantities.units import refusal
 
 
@@ -154,11 +154,14 @@ def _share(pair: Pair, normal: ArrayLike, tangential: ArrayLike) -> tuple[Array,
         raise refusal("normal_force", normal, "must be positive and finite")
     if not np.all(np.isfinite(across)):
         raise refusal("tangential_force", tangential, allowed)
-    most = pair.friction * load
-    try:
-        share = np.asarray(across / most)
-    except ValueError:
-        raise refusal("tangential_force", across, f"{allowed}: P has {load.shape}") from None
+    shape = together({"normal_force": load, "tangential_force": across})
+    most = pair.friction * np.broadcast_to(load, shape)
+    with np.errstate(all="ignore"):
+        share, moved = np.asarray(across / most), _gross_displacement(pair, most)
+        fits = np.isfinite(most) & np.isfinite(share) & np.isfinite(most * moved)
+    if not np.all(fits):
+        allowed = "floating point cannot hold what follows from it; check the units"
+        raise refusal("normal_force", normal, allowed)
     if not np.all(np.abs(share) <= 1.0):
         raise refusal("tangential_force", tangential, "Coulomb's law allows at most mu P")
     return share, most

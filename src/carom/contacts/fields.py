@@ -73,8 +73,9 @@ def radial_fields(contact: Contact, n: int = 401) -> "xr.Dataset":
 
 def _distances(contact: Contact, px: Array, py: Array) -> Array:
     """Return dimensionless distances from the centre, those at the edge freed from rounding."""
-    r, edge = np.hypot(px, py) / contact.scales.radius, np.sqrt(contact.penetration)
-    r = np.minimum(r, FAR)
+    with np.errstate(over="ignore"):
+        r = np.minimum(np.hypot(px, py) / contact.scales.radius, FAR)
+    edge = np.sqrt(contact.penetration)
     return np.where(np.abs(r - edge) <= ROUNDING * edge, edge, r)
 
 

@@ -15,6 +15,7 @@ from carom.quantities.units import counted
 if TYPE_CHECKING:
     import xarray as xr
 
+MOST_RADII = 100_000
 PARAMETER, MEANING = "instant : float, str or int", "Time since the first touch in s, or a step."
 
 
@@ -186,7 +187,7 @@ class InContact(ABC):
         instant : float, str or int
             Time since the first touch in s, or a step.
         n : int
-            How many distances from the centre.
+            How many distances from the centre, from 2 to 100,000.
 
         Returns
         -------
@@ -197,7 +198,7 @@ class InContact(ABC):
         Raises
         ------
         InputError
-            If the bodies do not touch then, or n is below 2.
+            If the bodies do not touch then, or n is out of range.
 
         Examples
         --------
@@ -209,4 +210,4 @@ class InContact(ABC):
         >>> bool((abs(along.traction_x) <= 1.000001 * along.friction_limit).all())
         True
         """
-        return radial_fields(self.contact(instant), counted("n", n, 2))
+        return radial_fields(self.contact(instant), counted("n", n, 2, MOST_RADII))

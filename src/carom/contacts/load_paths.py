@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import isfinite
-from operator import index
+from numbers import Integral
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,7 +24,7 @@ from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.keywords import known_keywords
-from carom.quantities.units import refusal
+from carom.quantities.units import is_real, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -41,6 +41,9 @@ COLUMNS = (
     "frictional_work",
     "tangential_elastic_energy",
 )
+
+
+BEYOND = "floating point cannot hold the forces of it; check the units"
 
 
 @dataclass(frozen=True, eq=False)
@@ -216,9 +219,10 @@ class LoadPath(InContact, Result):
 
     def _step(self, step: int) -> int:
         n = len(self)
+        whole = isinstance(step, Integral) and is_real(step)
         try:
-            return range(n)[index(step)]
-        except (TypeError, IndexError):
+            return range(n)[int(step) if whole else n]
+        except IndexError:
             allowed = f"must be a whole number from 0 to {n - 1}, or negative, from the end"
             raise refusal("step", step, allowed) from None
 
@@ -292,13 +296,16 @@ def load_path(
 
 def _followed(pair: Pair, steps: Steps) -> LoadPath:
     scales = _scales(pair, float(steps.penetration.max()))
-    path = paths.follow_path(*steps.dimensionless(scales))
+    with np.errstate(all="ignore"):
+        path = paths.follow_path(*steps.dimensionless(scales))
     normal = np.maximum(steps.penetration / scales.length, 0.0) ** 1.5 * scales.force
     if path.refused != paths.INSIDE:
         n, most = path.refused, pair.friction * normal[path.refused]
         allowed = f"step {n}: Coulomb's law allows at most {most:g} N at F_z = {normal[n]:g} N"
         raise refusal("tangential_force", float(steps.target[n]), allowed)
     energy = scales.tangential_force * scales.tangential_length
+    if not np.all(np.isfinite(path.results)):
+        raise refusal("penetration", float(steps.penetration.max()), BEYOND)
     return LoadPath(
         pair,
         penetration=steps.penetration,
@@ -318,11 +325,11 @@ def _scales(pair: Pair, deepest: float) -> ContactScales:
     """Return the scales of the deepest penetration; of any, where the bodies never touch."""
     try:
         scales = pair.contact_scales(deepest if deepest > 0.0 else pair.effective_radius)
-        values = [scales.length, scales.force, scales.tangential_length, scales.tangential_force]
+        energy = scales.tangential_force * scales.tangential_length
+        values = [scales.length, scales.force, scales.tangential_length, energy]
         fits = all(isfinite(value) and value > 0.0 for value in values)
     except OverflowError:
         fits = False
     if not fits:
-        allowed = "floating point cannot hold the forces of it; check the units"
-        raise refusal("penetration", deepest, allowed)
+        raise refusal("penetration", deepest, BEYOND)
     return scales

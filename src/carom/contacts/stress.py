@@ -16,7 +16,7 @@ from carom.dimensionless.fields.extremes import (
 from carom.dimensionless.fields.subsurface import COMPONENTS, stresses
 from carom.io.labels import labelled_dataset
 from carom.quantities.arrays import Array, places
-from carom.quantities.units import nearest, refusal
+from carom.quantities.units import one_of, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 ALONG, DOWN = 101, 61  # points along x and z where none are asked for
 REACH = 2.0  # of that grid, in contact radii
+FAR = 1e300  # dimensionless; nothing is left there
 BODIES = ("first", "second")
 
 
@@ -48,7 +49,9 @@ def stress_dataset(
     def stress_at(where: Array) -> Array:
         return stresses(where, contact.profile, friction=friction, poisson=poisson)
 
-    stress = contact.scales.pressure * stress_at(at.reshape(-1, 3) / contact.scales.radius)
+    with np.errstate(over="ignore"):
+        where = np.clip(at.reshape(-1, 3) / contact.scales.radius, -FAR, FAR)
+    stress = contact.scales.pressure * stress_at(where)
     columns = {name: (dims, v.reshape(at.shape[:-1])) for name, v in _columns(stress).items()}
     tension = largest(
         lambda where: principal_stresses(stress_at(where))[:, 0], contact.profile, SURFACE
@@ -78,8 +81,7 @@ def _entries(contact: Contact, name: str, found: Largest) -> dict[str, float]:
 
 def _of_body(contact: Contact, body: str) -> tuple[float, float]:
     """Return friction, positive where it pulls the body along +x, and Poisson's ratio."""
-    if body not in BODIES:
-        raise refusal("body", body, nearest(str(body), BODIES) or "must be 'first' or 'second'")
+    one_of("body", body, BODIES)
     material = getattr(contact.pair, body).material
     if material.is_rigid:
         other = BODIES[1 - BODIES.index(body)]

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from carom.bodies.kinematics import Rebound, Tangential, components, inertia
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
-from carom.quantities.arrays import Array, numbers
+from carom.quantities.arrays import Array, numbers, together
 from carom.quantities.keywords import known_keywords
 from carom.quantities.units import InputError, hint, refusal
 
@@ -63,7 +63,8 @@ def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     pair : Pair
         The bodies. Their friction and stiffness matter for psi alone.
     known : mapping
-        By name, numbers or arrays that broadcast, SI or text with a unit; NaN stays NaN. The motion
+        By name, numbers or arrays that broadcast, SI or with a unit; NaN stays NaN, as does what is
+        masked. The motion
         before: speed and angle; or normal_speed and one of tangential_speed, angle, contact_angle,
         psi_in; spin and spin2, else zero. Between ratios and angles no speed is needed.
         After: normal_restitution or normal_speed_out; and one of tangential_speed_out, spin_out,
@@ -94,27 +95,33 @@ def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     >>> carom.convert(pair, known=known, wanted="spin_out").round(1)
     array([-533.6, -551.5])
     """
+    if not isinstance(pair, Pair):
+        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    if not isinstance(known, Mapping):
+        raise refusal("known", known, "must be values by name, e.g. {'speed': 2.0, 'angle': 0.5}")
     given = {name: _values(name, value) for name, value in known.items()}
-    _check_name(wanted)
+    _check_name("wanted", wanted)
     _check_bodies(pair, {*given, wanted})
-    try:
-        shape = np.broadcast_shapes(*(values.shape for values in given.values()))
-    except ValueError:
-        raise InputError("known: arrays of shapes that do not fit each other") from None
-    rebound = _rebound(pair, given, wanted)
-    result = np.broadcast_to(np.asarray(getattr(rebound, wanted)), shape)
+    shape = together(given)
+    with np.errstate(all="ignore"):
+        found = np.asarray(getattr(_rebound(pair, given, wanted), wanted))
+    if np.isinf(found).any():
+        allowed = "floating point cannot hold what follows from these values; check the units"
+        raise InputError(f"known: {allowed}")
+    result = np.broadcast_to(found, shape)
     return result.copy() if shape else result.item()
 
 
-def _check_name(name: str) -> None:
-    if name not in NAMES:
-        raise InputError(f"{name}: unknown quantity; {hint(name, NAMES)}")
+def _check_name(where: str, name: Any) -> None:
+    if not isinstance(name, str) or name not in NAMES:
+        known = hint(name, NAMES) if isinstance(name, str) else hint("", NAMES)
+        raise refusal(where, name, f"unknown quantity; {known}")
 
 
 def _values(name: str, value: Any) -> Array:
     """Return what is known of one quantity, or raise InputError."""
-    _check_name(name)
-    values = numbers(name, value, "must be numbers, or text with a unit")
+    _check_name("known", name)
+    values = numbers(name, value, "must be numbers, or text with a unit", gaps=True)
     if "angle" in name:
         _refuse(name, values, abs(values) >= 0.5 * pi, "must be below pi/2, '90 deg'")
     elif name in ("speed", "normal_speed", *NORMAL):

@@ -56,8 +56,9 @@ def path(name: str) -> Path:
     >>> carom.datasets.path("kharaz2001").name
     'kharaz2001.csv'
     """
-    if name not in names():
-        hint = nearest(str(name), names()) or f"there are {', '.join(names())}"
+    if not isinstance(name, str) or name not in names():
+        near = nearest(name, names()) if isinstance(name, str) else ""
+        hint = near or f"there are {', '.join(names())}"
         raise refusal("dataset", name, f"none of that name; {hint}")
     return _folder() / f"{name}.csv"
 
@@ -88,7 +89,7 @@ def table(name: str) -> Results:
     >>> measured["spin_out"][8:10].round(1), measured["rebound_angle"][8:10]
     (array([-136.2, -265.7]), array([nan, nan]))
     """
-    cells = _read(name)
+    cells = _read(path(name).stem)
     return in_units(cells, cells.names, gaps=OBSERVABLES)
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import reprlib
 import warnings
+from enum import IntEnum
 from typing import Any, Literal, overload
 
 import numpy as np
@@ -11,9 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.normal import NormalLoss
+from carom.dimensionless.lossy.normal import NormalLoss, scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.arrays import Array
+from carom.quantities.arrays import pure_numbers, together
+from carom.quantities.units import flag, threads_or_none
 
 
 @overload
@@ -69,13 +71,15 @@ def rebound(
     Returns
     -------
     float or ndarray
-        psi_2, in the shape of the broadcast arguments. NaN where an argument is out of range, with
+        psi_2, in the shape of the broadcast arguments. NaN where an argument is out of range or
+        masked, or chi too large to be solved (from some thousand on, with losses above 1000), with
         one RuntimeWarning that says where and why unless `return_status` is set.
 
     Raises
     ------
-    ValueError
-        If an argument is not a number at all, the shapes do not fit, or `threads` is below 1.
+    InputError
+        If an argument is not a pure number at all, the shapes do not fit, `normal` is no law of
+        loss or depends on the speed, or `threads` is below 1.
 
     Examples
     --------
@@ -87,15 +91,14 @@ def rebound(
     >>> carom.rebound([0.5, 6.0], 1.44, normal=carom.KelvinVoigt(restitution=0.9)).round(6)
     array([-0.000683,  0.529468])
     """
-    if threads is not None and (not isinstance(threads, int) or threads < 1):
-        raise ValueError(f"threads: {threads!r} cannot be used; must be a whole number from 1 on")
-    psi_in, chi_in = _real("psi", psi), _real("chi", chi)
-    shape = _shape(psi_in, chi_in)
-    flat_psi, flat_chi = (np.array(np.broadcast_to(x, shape)).ravel() for x in (psi_in, chi_in))
+    threads, return_status = threads_or_none(threads), flag("return_status", return_status)
+    given = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
+    shape = together(given)
+    flat_psi, flat_chi = (np.array(np.broadcast_to(x, shape)).ravel() for x in given.values())
     if normal is None:
         psi_out, status, _ = solved(flat_psi, flat_chi, threads)
     else:
-        loss, parameter = normal.scale_free()
+        loss, parameter = scale_free(normal)
         parameters = np.full(flat_psi.size, parameter)
         found = lossy_rebounds(flat_psi, flat_chi, loss, parameters, threads)
         psi_out, status = found.psi_out, found.status
@@ -113,42 +116,20 @@ def regime_borders(chi: ArrayLike, restitution: ArrayLike = 1.0) -> Array:
     ends with the contact.
     """
     e = np.asarray(restitution, dtype=np.float64)
-    last = np.maximum(2.0 * np.asarray(chi) * (1.0 + e) - e, 1.0)
+    with np.errstate(over="ignore"):
+        last = np.maximum(2.0 * np.asarray(chi) * (1.0 + e) - e, 1.0)
     return np.stack((np.ones_like(last), 0.5 + 0.5 * last, last), axis=-1)
 
 
-def _real(name: str, values: ArrayLike) -> Array:
-    try:
-        given = np.asarray(values)
-        if given.dtype.kind in "biufO" or not given.size:
-            return np.asarray(given, dtype=np.float64)
-    except (TypeError, ValueError):
-        pass
-    raise refused(name, values, "give real numbers, one or an array of them")
+def warn_of_unsolved(status: NDArray[np.int8], kind: type[IntEnum] = Status) -> None:
+    """Warn once of impacts that were not solved: how many, where the first is, why.
 
-
-def _shape(psi: Array, chi: Array) -> tuple[int, ...]:
-    try:
-        return np.broadcast_shapes(psi.shape, chi.shape)
-    except ValueError:
-        raise ValueError(
-            f"psi, chi: arrays of shapes {psi.shape} and {chi.shape} cannot be used together; "
-            "give one number for either, or arrays of one shape"
-        ) from None
-
-
-def refused(name: str, value: Any, allowed: str) -> ValueError:
-    """Return the error that refuses a value, in one line."""
-    shown = " ".join(reprlib.repr(value).split())
-    return ValueError(f"{name}: {shown} cannot be used; {allowed}")
-
-
-def warn_of_unsolved(status: NDArray[np.int8]) -> None:
-    """Warn once of impacts that were not solved: how many, where the first is, why."""
-    unsolved = np.argwhere(status != Status.SOLVED)
-    if unsolved.size or (status.ndim == 0 and status != Status.SOLVED):
+    Zero is solved; members of the kind of status have a `message`.
+    """
+    unsolved = np.argwhere(status)
+    if len(unsolved):
         first = tuple(int(i) for i in unsolved[0]) if status.ndim else ()
-        reason = Status(int(status[first])).message
+        reason = kind(int(status[first])).message  # type: ignore[attr-defined]
         where = f"first at index {first}: {reason}" if first else reason
         warnings.warn(
             f"{len(unsolved)} of {status.size} impacts give NaN ({where}); "

@@ -13,21 +13,14 @@ from carom.dimensionless.elastic.motion import PSI
 from carom.dimensionless.elastic.phases import Cause, Kind, Status, new_work, run_phases
 from carom.dimensionless.elastic.record import CAUSE, KIND, KIND_SIGN, Record, new_record, trimmed
 from carom.dimensionless.fields import surface
-from carom.dimensionless.lossy.normal import NormalLoss
+from carom.dimensionless.lossy.normal import NormalLoss, scale_free
 from carom.dimensionless.lossy.rebounds import is_elastic
 from carom.dimensionless.lossy.solution import LossySolution, solve_with_losses
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.rebounds import refused
-from carom.dimensionless.states import (
-    KIND_NAMES,
-    History,
-    Phase,
-    SlipAngle,
-    Trajectory,
-    now_at,
-    times_within,
-)
+from carom.dimensionless.states import KIND_NAMES, History, Phase, SlipAngle, Trajectory, now_at
+from carom.quantities.arrays import pure_numbers
+from carom.quantities.units import pure_number, refusal
 
 CAUSE_NAMES = {
     Cause.EDGE_AT_LIMIT: "edge reaches friction limit",
@@ -38,6 +31,7 @@ CAUSE_NAMES = {
     Cause.UNRESOLVED: "not resolved",
 }
 ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(48)  # in time, over a phase
+ONE = "give one number; carom.rebound takes arrays"
 SHORTEST = 1e-12  # of a phase, in units of d_max/V_1; what is shorter is rounding
 
 
@@ -104,7 +98,7 @@ class Solution(Trajectory):
 
         Raises
         ------
-        ValueError
+        InputError
             If a time is outside the contact, or the impact is not solved.
 
         Examples
@@ -113,9 +107,7 @@ class Solution(Trajectory):
         >>> carom.solve(0.5, 1.44).at([0.0, 1.0]).psi.round(4)
         array([ 0.5   , -0.0419])
         """
-        if self.status is not Status.SOLVED:
-            raise ValueError(f"psi = {self.psi_in:g}, chi = {self.chi:g}: {self.status.message}")
-        wanted = times_within(self.duration, time)
+        wanted = self._times_within(time)
         rows = np.empty((wanted.size, dense.COLUMNS))
         record, scale = self._record, self.scale
         dense.sample(record.nodes, record.series, self.chi, self._times, self._moved, wanted, rows)
@@ -151,7 +143,7 @@ class Solution(Trajectory):
 
         Raises
         ------
-        ValueError
+        InputError
             If the time is outside the contact, or the impact is not solved.
 
         Examples
@@ -161,7 +153,7 @@ class Solution(Trajectory):
         >>> bool(abs(memory.g(0.0)) < 1.0)
         True
         """
-        now = now_at(self.at(float(time)))
+        now = now_at(self.at(self._time_within(time)))
         return memory_at(self._record, self._times, self._moved, now, self.scale or 1.0)
 
     def phase_at(self, time: float) -> Phase:
@@ -177,13 +169,19 @@ class Solution(Trajectory):
         Phase
             Its kind, sign of slip, start and end in d_max/V_1, and what ended it.
 
+        Raises
+        ------
+        InputError
+            If the time is outside the contact, or the impact is not solved.
+
         Examples
         --------
         >>> import carom
         >>> carom.solve(0.5, 1.44).phase_at(1.0).kind
         'stick'
         """
-        started = [phase for phase in self.phases if phase.start <= time]
+        instant = self._time_within(time)
+        started = [phase for phase in self.phases if phase.start <= instant]
         return started[-1]
 
     def traction(self, time: float, radii: ArrayLike) -> Array:
@@ -205,7 +203,7 @@ class Solution(Trajectory):
 
         Raises
         ------
-        ValueError
+        InputError
             If the time is outside the contact, or the impact is not solved.
 
         Examples
@@ -215,7 +213,7 @@ class Solution(Trajectory):
         >>> gross.traction(0.5 * gross.duration, [0.0, 0.6]).round(6)
         array([1. , 0.8])
         """
-        places = np.ascontiguousarray(radii, dtype=np.float64).ravel()
+        places = _radii(radii)
         out = np.empty(places.size)
         surface.tractions(self.memory(time).profile(), places, out)
         return out
@@ -235,7 +233,7 @@ class Solution(Trajectory):
 
         Raises
         ------
-        ValueError
+        InputError
             If the time is outside the contact, or the impact is not solved.
 
         Examples
@@ -245,7 +243,7 @@ class Solution(Trajectory):
         0.0
         """
         sign = self.phase_at(time).sign
-        now = now_at(self.at(float(time)))
+        now = now_at(self.at(self._time_within(time)))
         return now["psi"] - sign * abs(self.scale) * now["speed"] if sign else 0.0
 
     def slid(self, time: float, radii: ArrayLike) -> Array:
@@ -268,7 +266,7 @@ class Solution(Trajectory):
 
         Raises
         ------
-        ValueError
+        InputError
             If the time is outside the contact, or the impact is not solved.
 
         Examples
@@ -278,8 +276,8 @@ class Solution(Trajectory):
         array([[0., 0.],
                [0., 0.]])
         """
-        now = now_at(self.at(float(time)))
-        places = np.ascontiguousarray(radii, dtype=np.float64).ravel()
+        now = now_at(self.at(self._time_within(time)))
+        places = _radii(radii)
         out = np.empty((places.size, 2))
         last = int(np.searchsorted(self._times, now["time"], side="right")) - 1
         record, b, v = self._record, now["contact_radius"], now["speed"]
@@ -304,13 +302,21 @@ class Solution(Trajectory):
             `largest` and `mean`, weighted by frictional work, of each phase, in rad; zero but in
             slip rings.
 
+        Raises
+        ------
+        InputError
+            If lambda is not between -1 and 1.
+
         Examples
         --------
         >>> import carom
         >>> [round(angle.largest, 4) for angle in carom.solve(0.5, 1.44).slip_angles(0.3 / 1.7)]
         [0.0, 0.1774, 0.0]
         """
-        return tuple(self._slip_angle(phase, lateral_ratio) for phase in self.phases)
+        ratio = pure_number("lateral_ratio", lateral_ratio)
+        if not abs(ratio) < 1.0:
+            raise refusal("lateral_ratio", lateral_ratio, "must lie between -1 and 1")
+        return tuple(self._slip_angle(phase, ratio) for phase in self.phases)
 
     def _slip_angle(self, phase: Phase, lateral_ratio: float) -> SlipAngle:
         if phase.kind != KIND_NAMES[Kind.SLIP]:
@@ -363,8 +369,8 @@ def solve(psi: float, chi: float, *, normal: NormalLoss | None = None) -> Soluti
 
     Raises
     ------
-    ValueError
-        If an argument is out of range.
+    InputError
+        If an argument is not one number, or out of range.
 
     Examples
     --------
@@ -376,15 +382,15 @@ def solve(psi: float, chi: float, *, normal: NormalLoss | None = None) -> Soluti
     slip       -1 until 2.4967: slip front reaches centre
     gross slip -1 until 2.9433: separation
     """
-    psi, chi = _one("psi", psi), _one("chi", chi)
+    psi, chi = pure_number("psi", psi, ONE), pure_number("chi", chi, ONE)
     if normal is not None:
-        return solve_with(psi, chi, *normal.scale_free())
+        return solve_with(psi, chi, *scale_free(normal))
     work, record = new_work(), new_record(True)
     recorded = max(abs(psi), LINEAR) if psi != 0.0 else 0.0
     status = Status(run_phases(recorded, chi, TOLERANCE, work, record))
     if status in (Status.PSI_NOT_FINITE, Status.CHI_NOT_POSITIVE):
         name, value = ("psi", psi) if status is Status.PSI_NOT_FINITE else ("chi", chi)
-        raise ValueError(f"{name}: {value:g} is not allowed; {status.message}")
+        raise refusal(name, value, f"not allowed: {status.message}")
     record = trimmed(record)
     steps = len(record.nodes)
     times, moved, changed = np.zeros(steps), np.zeros((steps + 1, 2)), np.zeros(len(record.changes))
@@ -397,11 +403,13 @@ def solve(psi: float, chi: float, *, normal: NormalLoss | None = None) -> Soluti
     return Solution(psi, chi, psi_out, status, phases, record, times, moved)
 
 
-def _one(name: str, value: float) -> float:
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise refused(name, value, "give one number; carom.rebound takes arrays") from None
+def _radii(radii: ArrayLike) -> Array:
+    """Return distances from the centre as a line of numbers, or raise InputError."""
+    places = pure_numbers("radii", radii).ravel()
+    bad = ~((places >= 0.0) & (places < np.inf))
+    if bad.any():
+        raise refusal("radii", float(places[bad][0]), "must be zero or positive and finite")
+    return places
 
 
 def _phases(changes: Array, times: Array, mirror: int) -> tuple[Phase, ...]:

@@ -2,14 +2,15 @@
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, fields
-from operator import index
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.dimensionless.elastic.phases import Kind
+from carom.dimensionless.elastic.phases import Kind, Status
 from carom.dimensionless.numerics.arrays import Array
+from carom.quantities.arrays import pure_numbers
+from carom.quantities.units import InputError, counted, refusal
 
 KIND_NAMES = {Kind.STICK: "stick", Kind.SLIP: "slip", Kind.GROSS_SLIP: "gross slip"}
 
@@ -59,7 +60,10 @@ class History:
 class Trajectory(ABC):
     """A solved impact: what its state at any time gives."""
 
+    psi_in: float
+    chi: float
     duration: float
+    status: Status
 
     @abstractmethod
     def at(self, time: ArrayLike) -> History:
@@ -71,7 +75,7 @@ class Trajectory(ABC):
         Parameters
         ----------
         n : int
-            How many times, 2 at least.
+            How many times, from 2 to a million.
 
         Returns
         -------
@@ -80,8 +84,8 @@ class Trajectory(ABC):
 
         Raises
         ------
-        ValueError
-            If there are fewer, or the impact is not solved.
+        InputError
+            If there are fewer or more, or the impact is not solved.
 
         Examples
         --------
@@ -89,19 +93,30 @@ class Trajectory(ABC):
         >>> carom.solve(0.5, 1.44).history(3).penetration.round(9)
         array([0., 1., 0.])
         """
-        if index(n) < 2:
-            raise ValueError(f"n: {n} cannot be used; must be a whole number of at least 2")
-        return self.at(np.linspace(0.0, self.duration, n))
+        count = counted("n", n, 2)
+        self._check_solved()
+        return self.at(np.linspace(0.0, self.duration, count))
 
+    def _check_solved(self) -> None:
+        if self.status is not Status.SOLVED:
+            raise InputError(f"psi: {self.psi_in:g} at chi = {self.chi:g} {self.status.message}")
 
-def times_within(duration: float, time: ArrayLike) -> Array:
-    """Return times of a contact as a line of numbers, or raise ValueError for one outside it."""
-    wanted = np.asarray(time, dtype=np.float64).ravel()
-    within = (wanted >= 0.0) & (wanted <= duration)
-    if not np.all(within):
-        outside = wanted[~within][0]
-        raise ValueError(f"time: {outside:g} is outside the contact, 0 to {duration:.6g}")
-    return wanted
+    def _times_within(self, time: ArrayLike) -> Array:
+        """Return times as a line of numbers, or raise InputError for one outside the contact."""
+        self._check_solved()
+        wanted = pure_numbers("time", time).ravel()
+        within = (wanted >= 0.0) & (wanted <= self.duration)
+        if not np.all(within):
+            outside = float(wanted[~within][0])
+            raise refusal("time", outside, f"it is outside the contact, 0 to {self.duration:.6g}")
+        return wanted
+
+    def _time_within(self, time: float) -> float:
+        """Return one time, or raise InputError."""
+        wanted = self._times_within(time)
+        if wanted.size != 1:
+            raise refusal("time", time, "give one time")
+        return float(wanted[0])
 
 
 def now_at(history: History) -> dict[str, float]:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-MOST = 1000  # elements across
+RANGES = {"elements": (8, 1000), "steps": (20, 100_000)}  # memory grows with elements squared
 LARGEST_CHI, LARGEST_PSI = 1e3, 1e9  # steps would be too many; the rest would be lost in rounding
 
 
@@ -43,7 +43,7 @@ class BoundaryElements:
         Square elements across the largest contact, 8 to 1000; 64 take some 35 MB of memory,
         128 take 135 MB, and so on with the square.
     steps : int
-        Steps in the duration of Hertz's impact, 20 at least.
+        Steps in the duration of Hertz's impact, 20 to 100,000.
 
     Raises
     ------
@@ -66,10 +66,8 @@ class BoundaryElements:
     steps: int = 300
 
     def __post_init__(self) -> None:
-        if counted("elements", self.elements, 8) > MOST:
-            allowed = f"at most {MOST}: memory grows with the square, time with the cube"
-            raise refusal("elements", self.elements, allowed)
-        counted("steps", self.steps, 20)
+        for name, (least, most) in RANGES.items():
+            counted(name, getattr(self, name), least, most)
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,12 +16,14 @@ from carom.dimensionless.rebounds import rebound, regime_borders
 from carom.dimensionless.solution import solve
 from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
-from carom.quantities.arrays import finite_line, positive_line
+from carom.quantities.arrays import Array, finite_line, positive_line
 from carom.quantities.keywords import known_keywords
+from carom.quantities.units import refusal
 
 if TYPE_CHECKING:
     import xarray as xr
 
+MOST, MOST_MAPPED = 10**7, 10**6  # points of a curve and of a map: minutes
 SOLID_SPHERE = 2.0 / 7.0  # m_t/m_n of a solid sphere on a fixed body
 
 REGIMES = (
@@ -83,13 +85,15 @@ def curve(
     Returns
     -------
     xarray.Dataset
-        psi_out, contact_restitution and tangential_restitution, pure numbers along (chi, psi_in);
-        without losses also border (chi, regime_border), the psi_1 at which the regime changes.
+        psi_out, contact_restitution and tangential_restitution, pure numbers along (chi, psi_in),
+        NaN with one RuntimeWarning where chi is too large for `rebound`; without losses also border
+        (chi, regime_border), the psi_1 at which the regime changes.
 
     Raises
     ------
     InputError
-        If a chi is not positive, psi is empty, or the losses depend on the speed.
+        If a chi is not positive, psi is empty, the points are more than ten million, or the losses
+        depend on the speed.
 
     Examples
     --------
@@ -99,7 +103,7 @@ def curve(
     >>> carom.curve(1.44, [6.0], normal=carom.KelvinVoigt(restitution=0.9)).psi_out.values.round(4)
     array([[0.5295]])
     """
-    chis, incoming = positive_line("chi", chi), finite_line("psi", psi)
+    chis, incoming = _axes(chi, psi, MOST)
     rows = chis[:, np.newaxis]
     nonzero = np.where(incoming == 0.0, 1e-12, incoming)
     outgoing = rebound(nonzero, rows, normal=normal)
@@ -123,6 +127,15 @@ def curve(
         },
         {"title": "rebound curve"} | ({} if elastic else {"normal": repr(normal)}),
     )
+
+
+def _axes(chi: Any, psi: Any, most: int) -> tuple[Array, Array]:
+    """Return the values along both axes, or raise InputError; also if the points are too many."""
+    chis, incoming = positive_line("chi", chi), finite_line("psi", psi)
+    if chis.size * incoming.size > most:
+        given = f"{chis.size} of chi by {incoming.size} of psi"
+        raise refusal("psi", given, f"at most {most:,} points are solved at once")
+    return chis, incoming
 
 
 def _border(chis: Iterable[float]) -> dict[str, Any]:
@@ -155,7 +168,8 @@ def regime_map(psi: ArrayLike, chi: ArrayLike, *, progress: Progress = None) -> 
     Raises
     ------
     InputError
-        If a chi is not positive, a psi not finite, or either is empty.
+        If a chi is not positive, a psi not finite, either is empty, or the points are more than a
+        million.
 
     Examples
     --------
@@ -164,7 +178,7 @@ def regime_map(psi: ArrayLike, chi: ArrayLike, *, progress: Progress = None) -> 
     >>> print(found.sequence_name.values[found.sequence.values[0, 1]])
     gross slip +, stick, slip -, gross slip -
     """
-    chis, incoming = positive_line("chi", chi), finite_line("psi", psi)
+    chis, incoming = _axes(chi, psi, MOST_MAPPED)
     rows = []
     with advancing("map of regimes", len(chis), progress, unit="rows") as advance:
         for value in chis:

@@ -15,6 +15,7 @@ from carom.bodies.pairs import Pair
 from carom.contacts.contact import Contact, contact_in_impact
 from carom.contacts.in_contact import InContact
 from carom.dimensionless.elastic.phases import Status
+from carom.dimensionless.lossy.normal import checked_law
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution, solve, solve_with
 from carom.dimensionless.states import SlipAngle
@@ -143,16 +144,19 @@ def solve_exactly(
 def _solution(
     pair: Pair, normal_speed: float, psi: float, normal: NormalLaw | None
 ) -> Solution | LossySolution:
-    if normal is None:
-        return solve(psi, pair.chi)
-    if not hasattr(normal, "loss"):
-        allowed = "must be a law of normal loss, e.g. carom.KelvinVoigt(restitution=0.9)"
-        raise refusal("normal", normal, allowed)
-    loss, parameter = normal.loss(pair, normal_speed)
-    if np.ndim(parameter):
-        allowed = "an impact takes one number; carom.sweep takes many"
-        raise refusal("normal", normal.describe(), allowed)
-    found = solve_with(psi, pair.chi, loss, float(parameter))
+    given = pair, normal_speed, psi
+    found = solve(psi, pair.chi) if normal is None else _with_losses(*given, normal)
     if found.status is not Status.SOLVED:
-        raise refusal("normal", normal.describe(), f"the impact is {found.status.message}")
+        name, value = ("chi", pair.chi) if normal is None else ("normal", normal)
+        what = f"the impact at psi_1 = {psi:g}, chi = {pair.chi:g} is {found.status.message}"
+        raise refusal(name, value, what)
     return found
+
+
+def _with_losses(
+    pair: Pair, normal_speed: float, psi: float, normal: NormalLaw
+) -> Solution | LossySolution:
+    loss, parameter = checked_law(normal, "loss")(pair, normal_speed)
+    if np.ndim(parameter):
+        raise refusal("normal", normal, "an impact takes one number; carom.sweep takes many")
+    return solve_with(psi, pair.chi, loss, float(parameter))

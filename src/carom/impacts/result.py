@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+MOST_FRAMES = 10_000
 SHOWN = (  # in a notebook
     "psi_in",
     "psi_out",
@@ -94,7 +95,7 @@ class ImpactResult(Outcome, Result):
         Parameters
         ----------
         n : int
-            How many times, 2 at least.
+            How many times, from 2 to a million.
 
         Returns
         -------
@@ -104,7 +105,7 @@ class ImpactResult(Outcome, Result):
         Raises
         ------
         InputError
-            If there are fewer than 2.
+            If there are fewer or more.
 
         Examples
         --------
@@ -199,7 +200,7 @@ class ImpactResult(Outcome, Result):
         path : str or Path
             The file, which is replaced whole or not at all.
         frames : int
-            Number of instants, evenly spaced; 12 are shown a second.
+            Number of instants, evenly spaced, up to 10,000; 12 are shown a second.
         progress : bool or callable, optional
             Whether a bar is shown after two seconds, by default in a notebook and on a terminal;
             or what is called after every frame.
@@ -224,7 +225,7 @@ class ImpactResult(Outcome, Result):
         ...     hit.animate(f"{folder}/hit.gif", frames=2).name
         'hit.gif'
         """
-        count = counted("frames", frames, 1)
+        count = counted("frames", frames, 1, MOST_FRAMES)
         times = (np.arange(count) + 0.5) / count * self.duration
         return plots.animate(self.history(), Film(self._picture, times), path, progress)
 

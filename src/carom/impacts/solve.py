@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Literal, TypedDict, Unpack, overload
 
 from carom.bodies.kinematics import Tangential, approach
 from carom.bodies.losses import NormalLaw
-from carom.bodies.pairs import Pair, representable
+from carom.bodies.pairs import Pair, checked_scales
 from carom.bodies.shapes import Sphere
 from carom.impacts.exact import Impact, solve_exactly
 from carom.io.progress import Progress
 from carom.quantities.keywords import known_keywords
-from carom.quantities.units import InputError, Value, finite, refusal
+from carom.quantities.units import Value, finite, refusal
 
 if TYPE_CHECKING:
     from carom.impacts.boundary_elements import BoundaryElements, HalfspaceImpact
@@ -129,8 +129,8 @@ def impact(
     if second_spin and not isinstance(pair.second, Sphere):
         raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
     motion = Tangential(tangential, first_spin, second_spin)
-    _refuse_overflow(pair, approaching, motion.contact_velocity(pair))
-    if method == "exact":
+    checked_scales(pair, approaching, motion.contact_velocity(pair))
+    if isinstance(method, str) and method == "exact":
         return solve_exactly(pair, approaching, motion, normal)
     return _by_elements(pair, approaching, motion, method, normal, progress)
 
@@ -145,23 +145,11 @@ def _by_elements(
 ) -> HalfspaceImpact:
     from carom.impacts.boundary_elements import BoundaryElements, solve_by_elements
 
-    elements = BoundaryElements() if method == "halfspace" else method
+    named = isinstance(method, str) and method == "halfspace"
+    elements = BoundaryElements() if named else method
     if not isinstance(elements, BoundaryElements):
         allowed = "must be 'exact', 'halfspace' or carom.BoundaryElements(elements=, steps=)"
         raise refusal("method", method, allowed)
     if normal is not None:
         raise refusal("normal", normal, "boundary elements are elastic; leave it or method out")
     return solve_by_elements(pair, normal_speed, motion, elements, progress)
-
-
-def _refuse_overflow(pair: Pair, normal: float, velocity: float) -> None:
-    """Refuse sizes and speeds whose scales leave the range of floating-point numbers."""
-    try:
-        fits = representable(pair.scales(normal), velocity)
-    except (OverflowError, ZeroDivisionError):
-        fits = False
-    if not fits:
-        raise InputError(
-            f"speed: {normal:g} m/s at a radius of {pair.first.radius:g} m gives numbers that "
-            "floating point cannot hold; check the units"
-        )

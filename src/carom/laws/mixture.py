@@ -12,10 +12,11 @@ from carom.dimensionless.numerics.chebyshev_2d import Patches, fitted_patches, v
 from carom.dimensionless.numerics.jit import kernel
 from carom.dimensionless.rebounds import warn_of_unsolved
 from carom.io.progress import advancing
-from carom.quantities.arrays import Array
-from carom.quantities.units import InputError, positive, refusal
+from carom.quantities.arrays import Array, pure_numbers, together
+from carom.quantities.units import flag, positive, refusal
 
 SMALLEST = 1e-6  # psi_1: below, psi_2/psi_1 is constant
+LARGEST_CHI = 5.0  # up to which a table takes minutes
 TOLERANCE = 3e-8  # of the last terms of a series; errors found are a third of the promised 1e-7
 
 
@@ -52,12 +53,12 @@ class MixtureLaw:
     Parameters
     ----------
     low, high : float
-        The range of chi, 0.5 <= low < high.
+        The range of chi, 0.5 <= low < high <= 5.
 
     Raises
     ------
     InputError
-        If the range is empty or begins below 0.5.
+        If the range is empty, begins below 0.5 or ends above 5.
 
     Examples
     --------
@@ -69,8 +70,9 @@ class MixtureLaw:
 
     def __init__(self, low: float, high: float) -> None:
         self.low, self.high = positive("chi", low), positive("chi", high)
-        if not 0.5 <= self.low < self.high:
-            raise refusal("chi", (low, high), "must be a range that begins at 0.5 or above")
+        if not 0.5 <= self.low < self.high <= LARGEST_CHI:
+            allowed = f"must be a range within 0.5 to {LARGEST_CHI:g}; carom.rebound takes any chi"
+            raise refusal("chi", (low, high), allowed)
         whole = (SMALLEST, 3.0, self.low, self.high)
         with advancing("table of rebounds", None, unit="impacts") as advance:
 
@@ -85,14 +87,16 @@ class MixtureLaw:
 
         With `return_status` also a `Status` for each; without it a warning tells of what is NaN.
         """
-        incoming, ratio = _broadcast(psi, chi)
-        flat_psi, flat_chi = incoming.flatten(), ratio.flatten()
+        return_status = flag("return_status", return_status)
+        given = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
+        shape = together(given)
+        flat_psi, flat_chi = (np.broadcast_to(each, shape).flatten() for each in given.values())
         psi_out, status = np.empty(flat_psi.size), np.zeros(flat_psi.size, dtype=np.int8)
         fill(flat_psi, flat_chi, self.patches, psi_out)
         outside = np.flatnonzero(np.isnan(psi_out))
         if outside.size:
             psi_out[outside], status[outside], _ = solved(flat_psi[outside], flat_chi[outside])
-        result, each = psi_out.reshape(incoming.shape)[()], status.reshape(incoming.shape)
+        result, each = psi_out.reshape(shape)[()], status.reshape(shape)
         if return_status:
             return result, each[()]
         warn_of_unsolved(each)
@@ -105,18 +109,6 @@ class MixtureLaw:
 
     def __repr__(self) -> str:
         return f"MixtureLaw({self.low!r}, {self.high!r})"
-
-
-def _broadcast(psi: ArrayLike, chi: ArrayLike) -> tuple[Array, Array]:
-    try:
-        both = np.asarray(psi, dtype=np.float64), np.asarray(chi, dtype=np.float64)
-        one, two = np.broadcast_arrays(*both)
-    except (TypeError, ValueError):
-        raise InputError(
-            f"psi, chi: {psi!r:.40} and {chi!r:.40} cannot be used; give real numbers or arrays "
-            "whose shapes broadcast"
-        ) from None
-    return one, two
 
 
 def _scaled_loss(place: Array, chi: Array) -> Array:

@@ -23,6 +23,7 @@ from carom.quantities.units import refusal
 
 Branches = NDArray[np.int64]
 
+LARGEST_CHI = 100.0  # tables of larger ones would take minutes
 SMALLEST, LOSSY_SMALLEST = 1e-6, 1e-3  # psi_1: below, r is that of the first panel
 TOLERANCE = 4e-10  # of the tail of a series; the error stays below 1e-9
 LOSSY_TOLERANCE = 1e-7

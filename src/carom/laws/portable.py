@@ -11,19 +11,32 @@ import array_api_compat
 import numpy as np
 
 from carom.laws.rules import Rule
+from carom.quantities.arrays import pure_numbers
 from carom.quantities.units import refusal
 
 ALLOWED = "must be a real number, or an array of them"
 
 
+def is_foreign(values: Any) -> bool:
+    """Return whether this is an array of another library than NumPy."""
+    numpy_own = isinstance(values, np.ndarray | np.generic)
+    return array_api_compat.is_array_api_obj(values) and not numpy_own
+
+
+def is_floats(values: Any) -> bool:
+    """Return whether these are NumPy's floating-point numbers, of which none is masked."""
+    plain = isinstance(values, np.ndarray | np.generic) and not isinstance(
+        values, np.ma.MaskedArray
+    )
+    return plain and values.dtype in (np.float32, np.float64)
+
+
 def applied(function: Callable[[Any, Any], Any], name: str, values: Any) -> Any:
     """Return function(array, library) for values of any kind; a number gives a float."""
-    if array_api_compat.is_array_api_obj(values):
-        return function(*floating(name, values))
-    try:
-        result = function(*floating(name, np.asarray(values)))
-    except ValueError:
-        raise refusal(name, values, ALLOWED) from None
+    with np.errstate(over="ignore"):  # what is infinite is told by the docstrings
+        if is_foreign(values) or is_floats(values):
+            return function(*floating(name, values))
+        result = function(*floating(name, pure_numbers(name, values, ALLOWED)))
     return result if np.ndim(result) else float(result)
 
 

@@ -15,6 +15,7 @@ from carom.quantities.arrays import Array
 from carom.quantities.units import positive, refusal
 
 POINTS = 2001
+SHORTEST, LONGEST = 1e-6, 1e9  # spans
 
 
 @dataclass(frozen=True)
@@ -62,7 +63,7 @@ def fit_walton(pair: Pair, span: float | None = None) -> WaltonFit:
     Raises
     ------
     InputError
-        If the pair has no friction, or the span is not positive.
+        If the pair has no friction, or the span is not positive, or beyond 1e9.
 
     Examples
     --------
@@ -77,7 +78,9 @@ def fit_walton(pair: Pair, span: float | None = None) -> WaltonFit:
         raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
     if pair.friction == 0.0:
         raise refusal("friction", pair.friction, "must be positive: without it nothing is to fit")
-    reach = 4.0 * pair.chi if span is None else positive("psi_in", span)
+    reach = 4.0 * pair.chi if span is None else positive("span", span, "1")
+    if not SHORTEST <= reach <= LONGEST:
+        raise refusal("span", span, f"must lie between {SHORTEST:g} and {LONGEST:g}")
     psi = np.linspace(0.0, reach, POINTS)
     exact, limit = law_of(pair.chi)(psi), 4.0 * pair.chi
 

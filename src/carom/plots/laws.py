@@ -14,7 +14,7 @@ from matplotlib.patches import Patch
 
 from carom.plots import style
 from carom.plots.regimes import draw_borders
-from carom.quantities.units import refusal
+from carom.quantities.units import positive, refusal
 
 SKY = "#56B4E9"
 COLORS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, SKY)
@@ -27,6 +27,7 @@ WORDS = 32  # characters in a line of a law's label
 PITCH, EDGE = 5.6, 22.0  # height of a bar and of what is around them, in mm
 NOTED = 0.1  # an error that is outlined
 DIVERGING = "RdBu_r"
+LARGEST = 1e100  # limit of a map
 LEAST = 1e-3  # a colour scale ends no nearer to zero
 PLAIN = {  # parameters of elastic laws, not worth a mention
     "stiffness": 1.0,
@@ -139,6 +140,13 @@ def _key(dataset: xr.Dataset) -> Iterator[Any]:
     yield Patch(fc="0.4", label="root mean square")
 
 
+def _read_limit(given: Any) -> float:
+    limit = positive("limit", given, "1")
+    if limit > LARGEST:
+        raise refusal("limit", given, f"must be at most {LARGEST:g}")
+    return limit
+
+
 @style.draws("an error map, what carom.verify.error_map returns", "error", "psi_in", "chi")
 def plot_error_map(dataset: xr.Dataset, limit: float | None = None) -> Figure:
     """Draw the error of a contact law in psi_2 over psi_1 and chi, white where there is none.
@@ -174,9 +182,7 @@ def plot_error_map(dataset: xr.Dataset, limit: float | None = None) -> Figure:
     style.check_grid(dataset, "error", "chi", "psi_in")
     psi, chi, error = (dataset[name].values for name in ("psi_in", "chi", "error"))
     finite = np.abs(error[np.isfinite(error)])
-    if limit is not None and not 0.0 < limit < np.inf:
-        raise refusal("limit", limit, "must be positive")
-    most = max(LEAST, float(finite.max(initial=0.0))) if limit is None else limit
+    most = max(LEAST, float(finite.max(initial=0.0))) if limit is None else _read_limit(limit)
     figure, axis = style.single_axis(height=66.0)
     axis.set_facecolor("0.8")
     colors: Any = {"cmap": DIVERGING, "vmin": -most, "vmax": most}

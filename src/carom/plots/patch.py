@@ -12,7 +12,7 @@ from matplotlib.patheffects import withStroke
 from carom.plots import style
 from carom.plots.bands import moment, slip_band
 from carom.quantities.arrays import Array
-from carom.quantities.units import refusal
+from carom.quantities.units import one_of
 
 SLIP = 2  # the zone's number in a fields dataset
 MARGIN = 1.12  # of the map around the contact
@@ -64,8 +64,7 @@ def plot_patch(dataset: xr.Dataset, variable: str = "traction_x") -> Figure:
     >>> carom.plots.plot_patch(hit.fields("21 us")).axes[0].get_title().splitlines()[1]
     'longest arrow: 277\\xa0mm/s'
     """
-    if variable not in MAPPED:
-        raise refusal("variable", variable, f"must be {' or '.join(MAPPED)}")
+    one_of("variable", variable, MAPPED)
     style.check_grid(dataset, "pressure", "y", "x")
     title = patch_title(dataset)
     figure, axis = style.single_axis(

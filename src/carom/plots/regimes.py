@@ -32,7 +32,9 @@ REGIMES = {
 
 
 @style.draws(
-    "rebound curves, what carom.curve returns", "psi_out", "psi_in", "chi", "contact_restitution"
+    "rebound curves, what carom.curve returns",
+    *("psi_out", "psi_in", "chi", "contact_restitution"),
+    along=("chi", "psi_in"),
 )
 def plot_curve(dataset: xr.Dataset) -> Figure:
     """Draw psi_2 against psi_1, one line per chi, with the borders of the regimes if it has them.
@@ -118,6 +120,7 @@ def _short(name: str) -> str:
 @style.draws(
     "a map of regimes, what carom.regime_map returns",
     *("sequence", "sequence_name", "psi_in", "chi"),
+    along=("chi", "psi_in"),
 )
 def plot_regime_map(dataset: xr.Dataset) -> Figure:
     """Draw which phases follow which over psi_1 and chi, with the borders 1, 2 chi, 4 chi - 1.

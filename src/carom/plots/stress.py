@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 from carom.plots import style
 from carom.plots.bands import moment
 from carom.quantities.arrays import Array
-from carom.quantities.units import InputError, refusal
+from carom.quantities.units import InputError, one_of
 
 CONTOURS = 9
 NEAR = 1e-6  # relative: a largest stress that lies in the plane drawn
@@ -55,8 +55,7 @@ def plot_stress(dataset: xr.Dataset, variable: str = "von_mises") -> Figure:
     known = [str(name) for name, item in dataset.items() if item.dims == ("z", "x")]
     if not known:
         raise InputError("stress: a map needs it on a grid of z and x, not at points")
-    if variable not in known:
-        raise refusal("variable", variable, f"must be one of {', '.join(known)}")
+    one_of("variable", variable, known)
     figure, axis = style.single_axis(height=66.0)
     x, unit, length = style.scaled(dataset, "x")
     z = dataset["z"].values * length

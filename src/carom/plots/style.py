@@ -82,11 +82,13 @@ def styled(draw: Callable[P, T]) -> Callable[P, T]:
     return drawn
 
 
-def draws(what: str, *needed: str, along: str = "") -> Callable[[Callable[P, T]], Callable[P, T]]:
+def draws(
+    what: str, *needed: str, along: str | tuple[str, ...] = ()
+) -> Callable[[Callable[P, T]], Callable[P, T]]:
     """Style a function whose first argument is a dataset, and refuse datasets of another kind.
 
     `what` tells what it draws and what makes such a dataset; all of `needed` must be in it, and
-    the first of them must go along a dimension, if one is named.
+    the first of them must go along these dimensions, if any are named, and have values.
     """
 
     def decorate(draw: Callable[P, T]) -> Callable[P, T]:
@@ -95,7 +97,7 @@ def draws(what: str, *needed: str, along: str = "") -> Callable[[Callable[P, T]]
         @wraps(draw)
         def checked(*args: P.args, **kwargs: P.kwargs) -> T:
             given: Any = next(iter(parameters.bind(*args, **kwargs).arguments.values()))
-            lacks = _lacking(given, needed, along)
+            lacks = _lacking(given, needed, (along,) if isinstance(along, str) else along)
             if lacks:
                 name = getattr(draw, "__name__", "")
                 raise InputError(f"{name} draws {what}; what was given {lacks}")
@@ -106,7 +108,7 @@ def draws(what: str, *needed: str, along: str = "") -> Callable[[Callable[P, T]]
     return decorate
 
 
-def _lacking(given: Any, needed: tuple[str, ...], along: str) -> str:
+def _lacking(given: Any, needed: tuple[str, ...], along: tuple[str, ...]) -> str:
     """Return what keeps an object from being a dataset of a kind; nothing if it is one."""
     if not hasattr(given, "data_vars"):
         return f"is no dataset but of type {type(given).__name__}"
@@ -114,8 +116,9 @@ def _lacking(given: Any, needed: tuple[str, ...], along: str) -> str:
     if missing:
         return f"has no {missing[0]}"
     lies = given[needed[0]].dims
-    wrong = lies != (along,) if along else not lies
-    return f"has no {needed[0]} along {along or 'a dimension'}" if wrong else ""
+    if lies != along if along else not lies:
+        return f"has no {needed[0]} along {' and '.join(along) or 'a dimension'}"
+    return "" if given[needed[0]].size else f"has no values of {needed[0]}"
 
 
 def check_grid(dataset: Any, name: str, *dims: str) -> None:

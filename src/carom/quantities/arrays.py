@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
+from math import prod
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -9,10 +10,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.texts import Unreadable, split
-from carom.quantities.units import InputError, in_si, number, refusal
+from carom.quantities.units import REAL, InputError, as_float, in_si, is_real, number, refusal
 
 Array = NDArray[np.float64]
 
+REALS = "give real numbers, one or an array of them"
+WIDE = 2**63  # integers that NumPy holds
+AT_ONCE = 10**8  # points of a batch
+PLACES = 4_000_000  # points of fields
 ASCII = re.compile(r"[0-9.+\-eE \t]*")  # of which NumPy reads the numbers of the grammar alone
 
 
@@ -24,38 +29,104 @@ class Places(NamedTuple):
     at: Array
 
 
-def numbers(name: str, given: Any, allowed: str, unit: str | None = None) -> Array:
+class _Reading(NamedTuple):
+    """What numbers are read for: their name and unit, what is allowed, whether a mask may be."""
+
+    name: str
+    unit: str
+    allowed: str
+    texts: bool
+    gaps: bool
+
+
+def numbers(
+    name: str, given: Any, allowed: str, unit: str | None = None, *, gaps: bool = False
+) -> Array:
     """Return real numbers in SI units as an array, or raise InputError.
 
     Texts, pint's quantities and xarray's arrays may have units of their own; `unit` is that of the
-    glossary, unless it is told, and that of bare numbers.
+    glossary, unless it is told, and that of bare numbers. With `gaps` what is masked is NaN.
     """
     unit = unit or (GLOSSARY[name].unit if name in GLOSSARY else "1")
+    return _read(given, _Reading(name, unit, allowed, texts=True, gaps=gaps))
+
+
+def pure_numbers(name: str, given: Any, allowed: str = REALS) -> Array:
+    """Return real numbers without a unit as an array, NaN where they are masked, or raise.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from carom.quantities.arrays import pure_numbers
+    >>> pure_numbers("psi", np.ma.masked_greater([0.5, 9.0], 1.0))
+    array([0.5, nan])
+    """
+    return _read(given, _Reading(name, "1", allowed, texts=False, gaps=True))
+
+
+def _read(given: Any, reading: _Reading) -> Array:
     try:
-        values = np.asarray(_bare(name, given, unit))
-    except (ValueError, TypeError, RecursionError) as error:
-        if isinstance(error, InputError):
-            raise
-        raise refusal(name, given, allowed) from None
-    if values.dtype.kind not in "iuf" or isinstance(given, np.ma.MaskedArray):
-        raise refusal(name, given, allowed)
-    return values.astype(np.float64)
+        values = np.asarray(_bare(given, reading))
+    except InputError:
+        raise
+    except Exception:  # of ragged lists, and whatever arrays of other libraries raise
+        values = np.asarray(None)
+    if values.dtype.kind not in REAL and values.size:
+        raise refusal(reading.name, given, reading.allowed)
+    with np.errstate(all="ignore"):
+        return values.astype(np.float64)
 
 
-def _bare(name: str, given: Any, unit: str) -> Any:
-    """Return one value or nested lists of them in SI units."""
-    if type(given) in (float, int):
+def _bare(given: Any, reading: _Reading) -> Any:
+    """Return numbers in SI units: one, an array, or nested lists of them; None for anything else.
+
+    Raises InputError for what has another unit or cannot be read.
+    """
+    if type(given) is float or (type(given) is int and abs(given) < WIDE):
         return given
-    if isinstance(given, str):
-        return number(name, given, unit)
-    if isinstance(given, np.ndarray) and given.dtype.kind in "OU":
-        given = given.tolist()
-        return _bare(name, given, unit)
     if isinstance(given, list | tuple):
-        return [_bare(name, each, unit) for each in given]
-    if isinstance(given, bool | np.bool_):
-        raise TypeError("a truth value is no number")
-    return in_si(name, given, unit)
+        return [_bare(each, reading) for each in given]
+    if isinstance(given, bytes | bytearray | memoryview):
+        return None
+    plain = in_si(reading.name, given, reading.unit)
+    if isinstance(plain, str):
+        return number(reading.name, plain, reading.unit) if reading.texts else None
+    if is_real(plain):
+        return as_float(reading.name, plain)
+    if isinstance(plain, np.ma.MaskedArray):
+        if not reading.gaps:
+            allowed = "a mask is not heeded; give plain arrays, NaN where none is"
+            raise refusal(reading.name, given, f"{allowed}; {reading.allowed}")
+        return np.ma.filled(plain.astype(np.float64), np.nan) if plain.dtype.kind in REAL else None
+    array = np.asarray(plain)
+    if array.dtype.kind in "OU" and (array.ndim or array is plain):
+        return _bare(array.tolist(), reading)
+    return array if array.dtype.kind in REAL or not array.size else None
+
+
+def together(given: Mapping[str, Array], most: int = AT_ONCE) -> tuple[int, ...]:
+    """Return the shape to which arrays broadcast, or raise InputError; also if it is too large.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from carom.quantities.arrays import together
+    >>> together({"psi": np.zeros((7, 1)), "chi": np.zeros(3)})
+    (7, 3)
+    """
+    names, shapes = ", ".join(given), [values.shape for values in given.values()]
+    try:
+        shape = np.broadcast_shapes(*shapes)
+    except ValueError:
+        words = " and ".join(map(str, shapes))
+        raise InputError(
+            f"{names}: arrays of shapes {words} cannot be used together; give one number for each, "
+            "or arrays of one shape: these do not fit each other"
+        ) from None
+    if prod(shape) > most:
+        allowed = f"{prod(shape):,} points are too many at once, the most are {most:,}"
+        raise InputError(f"{names}: {allowed}; give them in parts")
+    return shape
 
 
 def plain_numbers(texts: Sequence[str]) -> Array | None:
@@ -139,6 +210,9 @@ def places(
     lines = {
         name: default[name] if given is None else line(name, given) for name, given in grid.items()
     }
+    if prod(values.size for values in lines.values()) > PLACES:
+        sizes = " by ".join(f"{values.size}" for values in lines.values())
+        raise refusal(" and ".join(grid), f"{sizes} points", f"at most {PLACES:,} fit at once")
     columns = dict(zip(lines, np.meshgrid(*lines.values()), strict=True))
     zero = np.zeros_like(next(iter(columns.values())))
     at = np.stack([columns.get(name, zero) for name in space], axis=-1)

@@ -1,10 +1,12 @@
 """Reading and checking what users give: numbers, text with a unit, and clear refusals."""
 
 import math
+import re
 from collections.abc import Iterable, Mapping
 from decimal import Decimal
 from difflib import get_close_matches
 from numbers import Integral, Real
+from reprlib import Repr
 from typing import Any
 
 from carom.quantities.glossary import GLOSSARY
@@ -19,8 +21,18 @@ class InputError(ValueError):
 
     __module__ = "carom"  # the name by which users know it
 
+    def __init__(self, message: str) -> None:
+        super().__init__(" ".join(message.splitlines()))  # one line, whatever users have named
+
 
 LONGEST = 120  # characters of a value that a refusal shows
+MOST = 1_000_000  # of what is counted, where nothing else is said
+MOST_THREADS = 1024
+WHOLE = re.compile(r"[+-]?[0-9]{1,40}")
+REAL = "iuf"  # kinds of NumPy's types
+
+_short = Repr()
+_short.maxstring = _short.maxother = _short.maxlong = LONGEST
 
 HINTS = {
     "m": "5 mm",
@@ -53,18 +65,41 @@ def number(name: str, value: Any, unit: str | None = None) -> float:
     plain = in_si(name, value, unit)
     if isinstance(plain, str):
         return _of_text(name, plain, unit)
-    known = isinstance(plain, Real | Decimal) or getattr(plain, "shape", None) == ()
-    if not known or isinstance(plain, bool) or str(getattr(plain, "dtype", "")) == "bool":
+    if not is_real(plain):
         raise refusal(name, value, _expected(unit))
-    try:
-        result = float(plain)
-    except (TypeError, ValueError):
-        raise refusal(name, value, _expected(unit)) from None
-    except OverflowError:
-        raise refusal(name, value, "floating point cannot hold it") from None
+    result = as_float(name, plain)
     if math.isnan(result):
         raise refusal(name, value, _expected(unit))
     return result
+
+
+def pure_number(name: str, value: Any, allowed: str = "give one number") -> float:
+    """Return a number that has no unit, which may be NaN or infinite; texts are none.
+
+    Raises InputError for anything else.
+    """
+    plain = in_si(name, value, "1")
+    if not is_real(plain):
+        raise refusal(name, value, allowed)
+    return as_float(name, plain)
+
+
+def is_real(value: Any) -> bool:
+    """Tell whether this is one real number: no truth value, no bytes, no array of one or more."""
+    if getattr(value, "shape", None) == () and not getattr(value, "mask", False):
+        kind = getattr(getattr(value, "dtype", None), "kind", None)  # other libraries have no kinds
+        return kind in REAL if kind else "float" in str(value.dtype) or "int" in str(value.dtype)
+    return isinstance(value, Real | Decimal) and not isinstance(value, bool)
+
+
+def as_float(name: str, value: Any) -> float:
+    """Return one real number as a float, or raise InputError."""
+    try:
+        return float(value)
+    except OverflowError:
+        raise refusal(name, value, "floating point cannot hold it") from None
+    except Exception:  # whatever other libraries raise, and Decimal("sNaN")
+        raise refusal(name, value, "give one real number") from None
 
 
 def in_si(name: str, given: Any, unit: str) -> Any:
@@ -76,10 +111,14 @@ def in_si(name: str, given: Any, unit: str) -> Any:
         return _of_pint(name, given, unit)
     attributes = getattr(given, "attrs", None)
     if isinstance(attributes, Mapping):
+        within = getattr(given, "data", None)
+        if hasattr(within, "to_root_units"):
+            return _of_pint(name, within, unit)
         own = attributes.get("units", unit)
         return given if own == unit else factor_of(name, str(own), unit).apply(given)
     if hasattr(given, "unit") or hasattr(given, "units"):
-        raise refusal(name, given, f"give plain numbers in {unit}, or a quantity of pint's")
+        plain = "plain numbers" if unit == "1" else f"plain numbers in {unit}"
+        raise refusal(name, given, f"give {plain}, or a quantity of pint's")
     return given
 
 
@@ -91,19 +130,20 @@ def factor_of(name: str, expression: str, unit: str) -> Factor:
         raise refusal(name, expression, f"{error}; {_expected(unit)}") from None
 
 
-def positive(name: str, value: Any) -> float:
+def positive(name: str, value: Any, unit: str | None = None) -> float:
     """Return a positive finite value in SI units, or raise InputError."""
-    result = number(name, value)
+    result = number(name, value, unit)
     if not 0.0 < result < math.inf:
-        raise refusal(name, value, f"must be positive and finite, e.g. {_example(name)}")
+        raise refusal(name, value, f"must be positive and finite, e.g. {_example(name, unit)}")
     return result
 
 
-def not_negative(name: str, value: Any) -> float:
+def not_negative(name: str, value: Any, unit: str | None = None) -> float:
     """Return a finite value >= 0 in SI units, or raise InputError."""
-    result = number(name, value)
+    result = number(name, value, unit)
     if not 0.0 <= result < math.inf:
-        raise refusal(name, value, f"must be zero or positive and finite, e.g. {_example(name)}")
+        allowed = f"must be zero or positive and finite, e.g. {_example(name, unit)}"
+        raise refusal(name, value, allowed)
     return result
 
 
@@ -115,11 +155,48 @@ def finite(name: str, value: Any, unit: str | None = None) -> float:
     return result
 
 
-def counted(name: str, value: Any, least: int) -> int:
-    """Return a whole number that is large enough, or raise InputError."""
-    if isinstance(value, bool) or not isinstance(value, Integral) or value < least:
+def counted(name: str, value: Any, least: int, most: int = MOST) -> int:
+    """Return a whole number that is large enough and not too large, or raise InputError."""
+    count = int(value) if isinstance(value, Integral) and is_real(value) else least - 1
+    if count < least:
         raise refusal(name, value, f"must be a whole number of at least {least}")
-    return int(value)
+    if count > most:
+        raise refusal(name, value, f"must be a whole number from {least} to {most}")
+    return count
+
+
+def whole(name: str, text: str, least: int, most: int = MOST) -> int:
+    """Return the whole number in a text of ASCII digits, or raise InputError.
+
+    Examples
+    --------
+    >>> from carom.quantities.units import whole
+    >>> whole("points", "401", 2)
+    401
+    """
+    plain = text.strip()
+    return counted(name, int(plain) if WHOLE.fullmatch(plain) else text, least, most)
+
+
+def threads_or_none(threads: Any) -> int | None:
+    """Return how many threads are wanted, None for all cores, or raise InputError."""
+    return None if threads is None else counted("threads", threads, 1, MOST_THREADS)
+
+
+def one_of(name: str, value: Any, known: Iterable[str]) -> str:
+    """Return a text that is one of those known, or raise InputError with the nearest of them."""
+    words = tuple(known)
+    if isinstance(value, str) and value in words:
+        return value
+    near = nearest(value, words) if isinstance(value, str) else ""
+    raise refusal(name, value, near or f"must be one of {', '.join(words)}")
+
+
+def flag(name: str, value: Any) -> bool:
+    """Return True or False as it is given, or raise InputError."""
+    if isinstance(value, bool) or type(value).__name__ in ("bool", "bool_"):  # NumPy's, too
+        return bool(value)
+    raise refusal(name, value, "must be True or False")
 
 
 def or_none(value: float) -> float | None:
@@ -136,11 +213,23 @@ def or_none(value: float) -> float | None:
 
 def refusal(name: str, value: Any, allowed: str) -> InputError:
     """Return the error that refuses a value."""
+    return InputError(f"{clipped(name)}: {_shown(value)} cannot be used; {allowed}")
+
+
+def clipped(text: str) -> str:
+    """Return a text of users for a refusal: in one line, its end left out if it is long."""
+    line = " ".join(text.split())
+    return line if len(line) <= LONGEST else f"{line[:LONGEST]}..."
+
+
+def _shown(value: Any) -> str:
     shape = getattr(value, "shape", ())
-    shown = f"an array of shape {shape}" if shape and isinstance(shape, tuple) else repr(value)
-    if len(shown) > LONGEST:
-        shown = f"{shown[:LONGEST]}..."
-    return InputError(f"{name}: {' '.join(shown.split())} cannot be used; {allowed}")
+    if shape and isinstance(shape, tuple):
+        return f"an array of shape {shape}"
+    try:
+        return clipped(_short.repr(value) if isinstance(value, Iterable | int) else repr(value))
+    except Exception:  # of an integer with too many digits, of a class of users
+        return f"this {type(value).__name__}"
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
@@ -157,8 +246,8 @@ def hint(word: object, known: Iterable[str]) -> str:
     return nearest(str(word), known) or f"known are {', '.join(known)}"
 
 
-def _example(name: str) -> str:
-    return f"'{HINTS[GLOSSARY[name].unit]}'"
+def _example(name: str, unit: str | None) -> str:
+    return f"'{HINTS[unit or GLOSSARY[name].unit]}'"
 
 
 def _expected(unit: str) -> str:
@@ -184,4 +273,5 @@ def _of_pint(name: str, quantity: Any, unit: str) -> Any:
             return quantity.to(wanted.units).magnitude
     except Exception:  # pint raises what it likes at units with an offset
         pass
-    raise refusal(name, quantity, f"that is not a value in {unit}; {_expected(unit)}") from None
+    kind = "pure number" if unit == "1" else f"value in {unit}"
+    raise refusal(name, quantity, f"that is no {kind}; {_expected(unit)}") from None

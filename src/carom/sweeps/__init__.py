@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from carom.io.progress import Progress, advancing
 from carom.quantities.keywords import known_keywords
-from carom.quantities.units import InputError
+from carom.quantities.units import InputError, flag
 from carom.sweeps.blocks import Box, Values, points_in
 from carom.sweeps.designs import Design
 from carom.sweeps.problem import SweepProblem
@@ -85,7 +85,7 @@ def sweep(
     >>> dict(result.sizes), int(result.status.max())
     ({'angle': 2, 'friction': 3}, 0)
     """
-    problem = SweepProblem(case, design, outputs)
+    resume, problem = flag("resume", resume), SweepProblem(case, design, outputs)
     with team(scheduler, workers, problem) as those, _record(problem, store, resume) as record:
         with _telling_what_is_safe(record), closing(those.results(record.todo)) as results:
             _fill(record, prod(design.shape), results, progress)

@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.quantities.arrays import Array, numbers
-from carom.quantities.units import InputError, counted, number, refusal
+from carom.quantities.units import InputError, counted, number, one_of, refusal
 from carom.sweeps.inputs import leaf
 
 SPACINGS = ("linear", "log")
 RANGE = ("from", "to", "spacing")
-MOST = 10**8  # values of an axis
+MOST = 10**8  # values of an axis, which is in memory
 
 
 class Range(NamedTuple):
@@ -52,9 +52,7 @@ def read_axis(name: str, given: Any) -> Array:
     """Return the values of an axis from a list, or from a range with its number of points."""
     if not isinstance(given, Mapping):
         return read_values(name, given)
-    points = counted(f"{name}.points", given.get("points"), 1)
-    if points > MOST:
-        raise refusal(f"{name}.points", points, f"must be at most {MOST:g}: an axis is in memory")
+    points = counted(f"{name}.points", given.get("points"), 1, MOST)
     ends = {key: value for key, value in given.items() if key != "points"}
     reach = read_range(name, ends, apart=points > 1)
     values = reach.at(np.linspace(0.0, 1.0, points))
@@ -72,8 +70,7 @@ def read_range(name: str, given: Any, *, apart: bool = True) -> Range:
     whole = _as_table(name, given)
     start, stop = _end(name, "from", whole.get("from")), _end(name, "to", whole.get("to"))
     spacing = whole.get("spacing", SPACINGS[0])
-    if spacing not in SPACINGS:
-        raise refusal(f"{name}.spacing", spacing, f"must be {' or '.join(SPACINGS)}")
+    one_of(f"{name}.spacing", spacing, SPACINGS)
     if apart and start == stop:
         raise refusal(name, start, "a range must end elsewhere than it starts")
     if spacing == "log" and min(start, stop) <= 0.0:

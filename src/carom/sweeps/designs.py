@@ -23,6 +23,7 @@ from carom.sweeps.inputs import (
 from carom.sweeps.permutation import fractions, secrets
 
 MOST = 10**12  # samples, which leaves room for their places in a float
+MOST_SEED = 2**128 - 1
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -179,16 +180,15 @@ class LatinHypercube(Design):
 
     def __init__(self, ranges: Mapping[str, Any], *, samples: int, seed: int = 0) -> None:
         choices = _choices("ranges", ranges)
-        if counted("samples", samples, 1) > MOST:
-            raise refusal("samples", samples, f"must be at most {MOST:g}")
-        seed = counted("seed", seed, 0)
+        samples = counted("samples", samples, 1, MOST)
+        seed = counted("seed", seed, 0, MOST_SEED)
         reaches = {
             name: Range(0.0, len(choices[name]), False)
             if name in choices
             else read_range(name, reach)
             for name, reach in ranges.items()
         }
-        super().__init__(choices, reaches, samples=int(samples), seed=seed)
+        super().__init__(choices, reaches, samples=samples, seed=seed)
 
     @property
     def shape(self) -> tuple[int, ...]:

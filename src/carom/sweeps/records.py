@@ -17,6 +17,7 @@ from carom.sweeps.problem import SweepProblem
 if TYPE_CHECKING:
     import xarray as xr
 
+MOST = 50_000_000  # points in memory: some GB
 LONG = 1000  # values of an axis; the dataset has them as its coordinate
 TITLE = "sweep of oblique impacts of elastic spheres"
 LOSSY_TITLE = "sweep of oblique impacts of spheres with losses"
@@ -33,6 +34,8 @@ class MemoryRecord:
         self._problem = problem
         shape = problem.design.shape
         try:
+            if prod(shape) > MOST:
+                raise MemoryError
             self._arrays = {
                 name: np.empty(shape, info.dtype) for name, info in problem.variables().items()
             }

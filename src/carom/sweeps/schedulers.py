@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from carom.dimensionless.numerics.threads import available_cores
 from carom.io.extras import extra
 from carom.io.version import __version__
-from carom.quantities.units import InputError, counted, refusal
+from carom.quantities.units import MOST_THREADS, InputError, counted, refusal
 from carom.sweeps.blocks import Box, Values
 from carom.sweeps.problem import SweepProblem
 from carom.sweeps.records import SweepStopped
@@ -63,7 +63,7 @@ def team(scheduler: str | None, workers: int | None, problem: SweepProblem) -> I
 
 @contextmanager
 def _threads(workers: int | None, problem: SweepProblem) -> Iterator[Team]:
-    size = available_cores() if workers is None else counted("workers", workers, 1)
+    size = available_cores() if workers is None else counted("workers", workers, 1, MOST_THREADS)
     with futures.ThreadPoolExecutor(size, "sweep") as pool:
         yield Team(lambda box: pool.submit(problem.block, box), size, {})
 

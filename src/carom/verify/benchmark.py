@@ -20,7 +20,14 @@ from carom.quantities.units import InputError, refusal
 from carom.verify.catalogue import CATALOGUE, Entry, as_entry
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
 from carom.verify.engines.running import Engine, EngineError, EngineKilled, run
-from carom.verify.errors import INCIDENCES, in_words, largest, root_mean_square
+from carom.verify.errors import (
+    INCIDENCES,
+    in_words,
+    largest,
+    law_rebound,
+    laws_of,
+    root_mean_square,
+)
 
 STEPS = 2000  # per duration of Hertz's contact
 OVERLAP = 1e-6  # d_max/R*: so small that the turning of a normal costs some 2e-5 in psi_2
@@ -146,9 +153,11 @@ def bench(
     carom.InputError: LAMMPS: '/nowhere/lmp' is not an executable; give another path
     """
     bodies, psis = steel_on_steel() if pair is None else pair, finite_line("psi", psi)
+    if not isinstance(engine, Engine):
+        raise refusal("engine", engine, "must be a DEM program, e.g. carom.verify.Lammps()")
     if engine.executable() is None:
         raise InputError(f"{engine.name}: {engine.remedy}")
-    known = _supported(engine, [as_entry(given) for given in entries])
+    known = _supported(engine, [as_entry(given) for given in laws_of("entries", entries)])
     slow = (OVERLAP * bodies.effective_radius / bodies.scales(1.0).length) ** 1.25
     speed = psis * bodies.scales(slow).tangential_speed
     version, measured, outcomes = "", [], {}
@@ -200,7 +209,7 @@ def _measured(entry: Entry, experiment: Experiment, outcomes: Outcomes, seconds:
     psi, pair = experiment.psi_in, experiment.pair
     given = psi_out(experiment, outcomes)
     error = given - rebound(psi, pair.chi)
-    same = entry.law.rebound(psi, pair.chi, kappa=pair.kappa, steps=experiment.steps)
+    same = law_rebound(entry.law, psi, pair.chi, pair.kappa, experiment.steps)
     worst = float(psi[int(np.argmax(np.abs(error)))])
     off = largest(given - same)
     return Measured(entry, largest(error), worst, root_mean_square(error), off, seconds, None)

@@ -66,6 +66,7 @@ def called(law: dem.Law) -> str:
 def as_entry(given: object) -> Entry:
     """Return an entry as it is, or one for a law; raise InputError for anything else."""
     if isinstance(given, Entry):
+        as_law(given.law)
         return given
     law = as_law(given)
     return Entry(called(law), law, "")

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from math import exp, pi, sqrt
 from typing import NamedTuple
 
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, checked_scales
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.laws import dem
 from carom.laws.dem.damping import (
@@ -17,7 +17,7 @@ from carom.laws.dem.damping import (
     thornton_damping,
     tsuji_damping,
 )
-from carom.quantities.units import not_negative, positive, refusal
+from carom.quantities.units import not_negative, one_of, positive, refusal
 
 SPRING, MINDLIN = dem.LinearSpring(), dem.LammpsMindlin("mindlin_rescale/force")
 
@@ -75,7 +75,7 @@ def stiffnesses(pair: Pair, normal_speed: float | str) -> Stiffnesses:
     """
     if not isinstance(pair, Pair):
         raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
-    scales = pair.scales(positive("normal_speed", normal_speed))
+    scales = checked_scales(pair, positive("normal_speed", normal_speed))
     normal = 0.8 * scales.force / scales.length
     return Stiffnesses(
         normal=normal,
@@ -192,22 +192,19 @@ def restitution(value: float, convention: str = "critical") -> float:
     """
     from scipy.optimize import brentq
 
-    rule, wanted = _rule(convention), not_negative("tangential_damping", value)
+    rule, wanted = _rule(convention), not_negative("value", value, "1")
     if convention == "critical" and wanted < 1.0:
         return exp(-pi * wanted / sqrt(1.0 - wanted**2))
     least, most = rule(1.0), rule(SMALLEST)
     if wanted <= least:
         return 1.0
     if wanted > most:
-        raise refusal("damping", value, f"must be at most {most:.4g}: no restitution has more")
+        raise refusal("value", value, f"must be at most {most:.4g}: no restitution has more")
     return float(brentq(lambda e: rule(e) - wanted, SMALLEST, 1.0, xtol=1e-14))
 
 
 def _rule(convention: str) -> Callable[[float], float]:
-    if convention not in CONVENTIONS:
-        allowed = ", ".join(CONVENTIONS)
-        raise refusal("convention", convention, f"must be one of {allowed}")
-    return CONVENTIONS[convention][1]
+    return CONVENTIONS[one_of("convention", convention, CONVENTIONS)][1]
 
 
 def recipes(
@@ -249,6 +246,12 @@ def recipes(
     >>> print(carom.verify.recipes(pair, 1.0)["LAMMPS Hertz"])
     hertz 1.5385e+11 0 tangential mindlin_rescale/force 1.9005e+11 0 0.2 damping velocity
     """
+    for name, law, kind in (
+        ("spring", spring, dem.LinearSpring),
+        ("mindlin", mindlin, dem.LammpsMindlin),
+    ):
+        if not isinstance(law, kind):
+            raise refusal(name, law, f"must be a {kind.__name__}, e.g. carom.{kind.__name__}()")
     k, mu, zeta = stiffnesses(pair, normal_speed), pair.friction, damping(wanted)
     ratio = k.ratio if spring.stiffness_ratio is None else spring.stiffness_ratio
     k_n, k_t, dashpot = k.normal, ratio * k.normal, 2.0 * zeta * sqrt(k.normal * pair.normal_mass)

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import fields
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,14 +15,14 @@ from carom.io.labels import labelled_dataset
 from carom.laws.dem import ContactLaw, Law
 from carom.laws.dem.base import SOLID
 from carom.quantities.arrays import Array, finite_line, positive_line
-from carom.quantities.units import positive, refusal
+from carom.quantities.units import finite, positive, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
 INCIDENCES = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0)
-LARGEST = 1e9  # psi_1
+LARGEST, LARGEST_CHI = 1e9, 1e4  # psi_1, chi
 INSTANTS = 400  # at which forces are compared
 
 
@@ -40,12 +40,45 @@ def as_law(law: object) -> Law:
     return law
 
 
+def laws_of(name: str, given: Any) -> Sequence[Any]:
+    """Return what is given as laws, one or a sequence, not yet checked; InputError for none."""
+    if isinstance(given, Law):
+        return [given]
+    if isinstance(given, list | tuple) and given:
+        return given
+    raise refusal(name, given, "give a list of laws, e.g. [carom.LinearSpring()]")
+
+
+def law_rebound(
+    law: Law, psi: Array, chi: float | Array, kappa: float | None, steps: int | None = None
+) -> Array:
+    """Return psi_2 by a law, NaN where it leaves an impact unsolved, without a word of it."""
+    found = law.rebound(psi, chi, kappa=kappa, steps=steps, return_status=True)[0]
+    return np.asarray(found)
+
+
 def incidences(psi: ArrayLike) -> Array:
     """Return psi_1 as an array, or raise InputError if there is nothing to compare at them."""
+    values = psi_line(psi)
+    if not np.any(values):
+        raise refusal("psi", psi, "must not all be zero")
+    return values
+
+
+def checked_chi(chi: Any) -> float:
+    """Return chi, or raise InputError if it is none, or the exact impact has too many phases."""
+    value = positive("chi", chi)
+    if value > LARGEST_CHI:
+        raise refusal("chi", chi, f"must be at most {LARGEST_CHI:g}; spheres have 0.5 to 3")
+    return value
+
+
+def psi_line(psi: ArrayLike) -> Array:
+    """Return psi_1 as an array, or raise InputError beyond what errors can be told of."""
     values = finite_line("psi", psi)
-    if not np.any(values) or np.max(np.abs(values)) > LARGEST:
-        allowed = f"must not all be zero, nor beyond {LARGEST:g}"
-        raise refusal("psi", values.tolist(), allowed)
+    if np.max(np.abs(values)) > LARGEST:
+        allowed = f"must not be beyond {LARGEST:g}, of which rounding leaves no error to be told"
+        raise refusal("psi", float(np.max(np.abs(values))), allowed)
     return values
 
 
@@ -115,11 +148,11 @@ def error_map(
     rule = as_law(law)
     chis = np.linspace(7.0 / 6.0, 7.0 / 4.0, 15) if chi is None else positive_line("chi", chi)
     top = 4.0 * float(chis.max())
-    psis = np.linspace(0.0, top, 121) if psi is None else finite_line("psi", psi)
+    psis = np.linspace(0.0, top, 121) if psi is None else psi_line(psi)
     rows, wide = chis[:, np.newaxis], ("chi", "psi_in")
     exact = rebound(psis, rows)
     own = None if kappa is None else positive("kappa", kappa)
-    given = rule.rebound(psis, rows, kappa=own, steps=steps)
+    given = law_rebound(rule, psis, rows, own, steps)
     error = given - exact
     names = {"law": rule.name, "law_source": rule.source, "law_parameters": parameters(rule)}
     return labelled_dataset(
@@ -180,6 +213,7 @@ def force_error(law: Law, psi: float, chi: float, *, kappa: float | None = None)
     if not isinstance(as_law(law), ContactLaw):
         return ForceError(np.nan, np.nan)
     assert isinstance(law, ContactLaw)
+    psi, chi = finite("psi", psi, "1"), positive("chi", chi)
     history = law.history(psi, chi, kappa=kappa)
     parts = np.linspace(0.0, 1.0, INSTANTS)
     elapsed = history["time"] / history["time"][-1]

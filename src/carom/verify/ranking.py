@@ -13,10 +13,11 @@ from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.laws.dem import ContactLaw, Law
 from carom.plots.result import Result, card
-from carom.quantities.units import or_none, positive, refusal
+from carom.quantities.units import or_none
 from carom.verify.catalogue import CATALOGUE, Entry, as_entry
 from carom.verify.errors import (
     INCIDENCES,
+    checked_chi,
     dashed,
     energy_gain,
     exact_rebound,
@@ -25,6 +26,8 @@ from carom.verify.errors import (
     incidences,
     kappa_or_solid,
     largest,
+    law_rebound,
+    laws_of,
     pure,
     root_mean_square,
 )
@@ -115,7 +118,7 @@ class Ranking(Result):
             energy_gain (law), steps (law, step_kind), -1 where none suffice; chi and kappa.
         """
         laws = [standing.entry.law for standing in self.standings]
-        given = [law.rebound(self.psi, self.chi, kappa=self.kappa) for law in laws]
+        given = [law_rebound(law, np.array(self.psi), self.chi, self.kappa) for law in laws]
         exact = exact_rebound(np.array(self.psi), self.chi)
         steps = [
             [step.steps if step else -1 for step in (s.step, s.fine_step)] for s in self.standings
@@ -193,13 +196,12 @@ def rank(
     >>> best.entry.label, round(best.max_error, 3)
     ('linear spring, k_t/k_n = kappa', 0.176)
     """
-    ratio, psis = positive("chi", chi), incidences(psi)
-    if not entries:
-        raise refusal("entries", entries, "give one law at least")
+    ratio, psis = checked_chi(chi), incidences(psi)
+    given = [as_entry(each) for each in laws_of("entries", entries)]
     own = kappa_or_solid(kappa, ratio)
     standings = []
-    with advancing("ranking", len(entries), progress, unit="laws") as advance:
-        for entry in map(as_entry, entries):
+    with advancing("ranking", len(given), progress, unit="laws") as advance:
+        for entry in given:
             standings.append(_standing(entry, psis, ratio, own))
             advance(1)
     ordered = sorted(standings, key=lambda s: (np.isnan(s.max_error), s.max_error, s.entry.label))
@@ -208,7 +210,7 @@ def rank(
 
 def _standing(entry: Entry, psi: Any, chi: float, kappa: float) -> Standing:
     law = entry.law
-    given = law.rebound(psi, chi, kappa=kappa)
+    given = law_rebound(law, psi, chi, kappa)
     error = given - exact_rebound(psi, chi)
     most = largest(error)
     forces = [force_error(law, value, chi, kappa=kappa).rms for value in psi if value != 0.0]

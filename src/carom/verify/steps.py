@@ -6,9 +6,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.laws.dem import Law
-from carom.quantities.arrays import finite_line
 from carom.quantities.units import counted, positive
-from carom.verify.errors import INCIDENCES, as_law, largest
+from carom.verify.errors import (
+    INCIDENCES,
+    as_law,
+    checked_chi,
+    incidences,
+    kappa_or_solid,
+    largest,
+    law_rebound,
+)
 
 FEWEST, MOST = 10, 2_000_000
 GROWTH = 2.0**0.5
@@ -45,7 +52,7 @@ def step_error(
     law : Law
         A contact law, e.g. `carom.LinearSpring()`.
     steps : int
-        Time steps per t_c, 10 at least.
+        Time steps per t_c, from 10 to two million.
     psi : array_like
         Incidences psi_1.
     chi : float
@@ -69,10 +76,11 @@ def step_error(
     >>> carom.verify.step_error(carom.LammpsMindlin("mindlin"), 100) < 1e-3
     True
     """
-    counted("steps", steps, FEWEST)
-    own = finite_line("psi", psi), positive("chi", chi)
-    converged = as_law(law).rebound(*own, kappa=kappa)
-    return largest(law.rebound(*own, kappa=kappa, steps=steps) - converged)
+    counted("steps", steps, FEWEST, MOST)
+    psis, ratio = incidences(psi), checked_chi(chi)
+    own = kappa_or_solid(kappa, ratio)
+    converged = law_rebound(as_law(law), psis, ratio, own)
+    return largest(law_rebound(law, psis, ratio, own, steps) - converged)
 
 
 def advised_steps(
@@ -117,17 +125,18 @@ def advised_steps(
     >>> carom.verify.advised_steps(carom.LinearSpring(), 0.01).steps
     28
     """
-    positive("tolerance", allowed)
-    own = finite_line("psi", psi), positive("chi", chi)
-    converged = as_law(law).rebound(*own, kappa=kappa)
+    bound = positive("allowed", allowed, "1")
+    psis, ratio = incidences(psi), checked_chi(chi)
+    own = kappa_or_solid(kappa, ratio)
+    converged = law_rebound(as_law(law), psis, ratio, own)
     if not np.all(np.isfinite(converged)):
         return None
     held: list[TimeSteps] = []
     wanted = float(FEWEST)
     while wanted <= MOST:
         steps = round(wanted)
-        error = largest(law.rebound(*own, kappa=kappa, steps=steps) - converged)
-        held = [*held, TimeSteps(steps, error)] if error <= allowed else []
+        error = largest(law_rebound(law, psis, ratio, own, steps) - converged)
+        held = [*held, TimeSteps(steps, error)] if error <= bound else []
         if len(held) == 3:
             return held[0]
         wanted *= GROWTH

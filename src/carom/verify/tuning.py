@@ -11,15 +11,18 @@ from carom.io.progress import Progress, advancing
 from carom.laws import dem
 from carom.plots.result import card
 from carom.quantities.arrays import Array
-from carom.quantities.units import positive, refusal
+from carom.quantities.units import one_of
 from carom.verify.catalogue import CATALOGUE, called
 from carom.verify.errors import (
     as_law,
+    checked_chi,
     dashed,
     exact_rebound,
     incidences,
     kappa_or_solid,
     largest,
+    law_rebound,
+    laws_of,
     root_mean_square,
 )
 from carom.verify.steps import TimeSteps, advised_steps, told_steps
@@ -194,17 +197,16 @@ def tune(
     >>> found.parameter, round(found.value, 2), round(found.before, 2), round(found.max_error, 2)
     ('stiffness', 0.7, 0.61, 0.17)
     """
-    ratio = positive("chi", chi)
+    ratio = checked_chi(chi)
     own = kappa_or_solid(kappa, ratio)
     psis = np.linspace(0.0, 4.0 * ratio, 61)[1:] if psi is None else incidences(psi)
-    if measure not in MEASURES:
-        raise refusal("measure", measure, f"must be {' or '.join(MEASURES)}")
+    one_of("measure", measure, MEASURES)
     exact = exact_rebound(psis, ratio)
     advice = []
-    laws = [laws] if isinstance(laws, dem.Law) else laws
-    with advancing("tuning", len(laws), progress, unit="laws") as advance:
-        for law in laws:
-            advice.append(_advice(as_law(law), psis, exact, ratio, own, measure))
+    given = laws_of("laws", laws)
+    with advancing("tuning", len(given), progress, unit="laws") as advance:
+        for law in map(as_law, given):
+            advice.append(_advice(law, psis, exact, ratio, own, measure))
             advance(1)
     errors = [getattr(one, f"{measure}_error") for one in advice]
     ordered = [advice[i] for i in np.argsort(errors, kind="stable")]  # NaN last
@@ -215,7 +217,7 @@ def _advice(
     law: dem.Law, psi: Array, exact: Array, chi: float, kappa: float, measure: str
 ) -> TunedLaw:
     def error(candidate: dem.Law) -> Array:
-        return np.asarray(candidate.rebound(psi, chi, kappa=kappa)) - exact
+        return law_rebound(candidate, psi, chi, kappa) - exact
 
     def cost(candidate: dem.Law) -> float:
         value = MEASURES[measure](error(candidate))

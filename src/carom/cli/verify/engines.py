@@ -7,8 +7,8 @@ from typing import Annotated
 import typer
 
 import carom
-from carom.cli.cases import Json, check_outputs, file_option, stored, told_case
-from carom.quantities.units import InputError, positive
+from carom.cli.cases import Json, check_outputs, file_option, stored, told_case, whole_option
+from carom.quantities.units import InputError, positive, whole
 
 PURPOSE = """\
 Run {} through impacts with each of its laws and rank them by their error in psi_2.
@@ -32,7 +32,7 @@ def engine_command(
     law: Annotated[
         str | None, typer.Option(help="Only this law, named as by `carom verify laws`.")
     ] = None,
-    steps: Annotated[int, typer.Option(help="Time steps per duration of Hertz's contact.")] = 2000,
+    steps: Annotated[str, whole_option("Time steps per duration of Hertz's contact.")] = "2000",
     time_limit: Annotated[str, typer.Option(help="Time limit of each run, e.g. '60 s'.")] = "120 s",
     program: Annotated[
         str | None, typer.Option(help="Where the program is (searched for).")
@@ -47,7 +47,9 @@ def engine_command(
     from carom.bodies.cases import pair_of
     from carom.io.paths import checked_output, replace_whole
     from carom.verify.catalogue import named
+    from carom.verify.engines.experiments import MOST_STEPS
 
+    count = whole("steps", steps, 10, MOST_STEPS)
     check_outputs((output, (".csv",)))
     if output is not None and law is None:
         raise InputError("output: needs one --law, e.g. --law mindlin: results are of one")
@@ -56,7 +58,7 @@ def engine_command(
         engine(program),
         named(law),
         pair=None if case is None else pair_of(told_case(case)),
-        steps=steps,
+        steps=count,
         time_limit=positive("time_limit", time_limit),
     )
     if output is not None and not found.failed:

@@ -123,6 +123,8 @@ RETRACE, RETRACE_EXACTLY = 4e-12, 1e-7
 ROUNDING = 1e-13
 # Below this psi_1 the series are not resolved any better.
 SMALLEST = 1e-6
+# Beyond it impacts that do not slip throughout have too many phases, and take long to show it.
+LARGEST_CHI = 1e5
 # A contact radius below which nothing of the impact is left: psi changes by less than 1e-28.
 TINY = 1e-6
 
@@ -232,7 +234,7 @@ def run_phases(psi: float, chi: float, tolerance: float, work: Work, record: Rec
     kind = Kind.GROSS_SLIP.value if slides else Kind.STICK.value
     sign = 1 if slides else 0
     cause = Cause.FIRST_TOUCH.value
-    for _ in range(MAX_PHASES):
+    for _ in range(MAX_PHASES if chi <= LARGEST_CHI else 1):
         note_change(record, kind, sign, cause, s)
         given = 0
         if kind == Kind.STICK:

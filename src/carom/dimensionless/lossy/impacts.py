@@ -27,6 +27,7 @@ from carom.dimensionless.numerics.jit import kernel
 FIRST, LONGEST, SHORTEST = 0.3, 0.8, 1e-8  # lengths of panels
 TRIALS = 60  # of a panel
 NEAR, NEAR_FLAT = 1e-9, 1e-5  # part of a panel: a change so near its end is its end
+LARGEST_CHI = 1000.0  # beyond, few impacts are solved, and sliding begins above `rebounds.FAR`
 ORDER = 9.0  # of the error of a panel in its length, about
 NORMAL_WEIGHT = 30.0  # of the error of the normal motion, which is cheap to keep small
 SAFETY, STEEPEST, GROWTH = 0.8, 0.2, 4.0
@@ -100,6 +101,8 @@ def run(
         return Status.PSI_NOT_FINITE.value, 0
     if not (0.0 < chi < np.inf):
         return Status.CHI_NOT_POSITIVE.value, 0
+    if chi > LARGEST_CHI:
+        return Status.TOO_MANY_PHASES.value, 0
     numbers[:] = 0.0
     work.values[:, 0] = 0.0
     work.values[SPEED, 0], work.values[PSI, 0] = 1.0, psi

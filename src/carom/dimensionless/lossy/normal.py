@@ -10,11 +10,12 @@ The clock d(tau) = dt/(2 b), with b^2 = s at the edge of the contact, makes all 
 """
 
 from enum import IntEnum
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
 from carom.dimensionless.numerics.jit import kernel
+from carom.quantities.units import refusal
 
 
 class Loss(IntEnum):
@@ -38,6 +39,20 @@ class NormalLoss(Protocol):
 
     def scale_free(self) -> tuple[int, float]:
         """Return the loss and its parameter; ValueError if they depend on the speed."""
+
+
+def scale_free(normal: Any) -> tuple[int, float]:
+    """Return loss and parameter of what is given as a law of normal loss, or raise InputError."""
+    return checked_law(normal, "scale_free")()  # type: ignore[no-any-return]
+
+
+def checked_law(normal: Any, method: str) -> Any:
+    """Return a method of a law of normal loss, or raise InputError if this is none."""
+    found = getattr(normal, method, None)
+    if isinstance(normal, type) or not callable(found):
+        allowed = "must be a law of normal loss, e.g. carom.KelvinVoigt(restitution=0.9)"
+        raise refusal("normal", normal, allowed)
+    return found
 
 
 class Motion(NamedTuple):

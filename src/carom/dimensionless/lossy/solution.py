@@ -12,7 +12,8 @@ from carom.dimensionless.lossy.rebounds import outgoing
 from carom.dimensionless.lossy.record import Trace, new_record
 from carom.dimensionless.lossy.work import new_work
 from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.states import KIND_NAMES, History, Phase, Trajectory, times_within
+from carom.dimensionless.states import KIND_NAMES, History, Phase, Trajectory
+from carom.quantities.units import refusal
 
 SHORTEST = 1e-6  # of a phase, in units of d_max/V_1: structure is not told any finer
 CAUSES = {
@@ -58,12 +59,10 @@ class LossySolution(Trajectory):
     def at(self, time: ArrayLike) -> History:
         """Return the state at the given times, 0 <= time <= duration, one row for each.
 
-        `stick_radius` is what the stick zones add up to, wherever they lie. Raises ValueError for
+        `stick_radius` is what the stick zones add up to, wherever they lie. Raises InputError for
         a time outside the contact, or if the impact is not solved.
         """
-        if self.status is not Status.SOLVED:
-            raise ValueError(f"psi = {self.psi_in:g}, chi = {self.chi:g}: {self.status.message}")
-        wanted = times_within(self.duration, time)
+        wanted = self._times_within(time)
         rows, scale = self._sampled(wanted), self._scale
         first, psi = self._record.rows[0, layout.AT_PSI, 0], rows[layout.AT_PSI]
         stored = 1.875 * self.chi * rows[layout.AT_SQUARE]
@@ -95,13 +94,13 @@ class LossySolution(Trajectory):
 
 
 def solve_with_losses(psi: float, chi: float, loss: int, parameter: float) -> LossySolution:
-    """Solve one oblique impact whose normal motion loses energy; ValueError for bad numbers."""
+    """Solve one oblique impact whose normal motion loses energy; InputError for bad numbers."""
     record, numbers = new_record(True), np.zeros(layout.NUMBERS)
     code, panels = outgoing(psi, chi, int(loss), parameter, new_work(), record, numbers)
     status = Status(code)
     if status in (Status.PSI_NOT_FINITE, Status.CHI_NOT_POSITIVE):
         name, value = ("psi", psi) if status is Status.PSI_NOT_FINITE else ("chi", chi)
-        raise ValueError(f"{name}: {value:g} is not allowed; {status.message}")
+        raise refusal(name, value, f"not allowed: {status.message}")
     kept = Trace(record.rows[:panels].copy(), record.kinds[:panels].copy())
     first = float(kept.rows[0, layout.AT_PSI, 0]) if panels else 1.0
     return LossySolution(

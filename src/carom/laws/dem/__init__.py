@@ -5,6 +5,7 @@ from carom.laws.dem.hard import HardSphere
 from carom.laws.dem.incremental import ThorntonLaw, WaltonBraunLaw
 from carom.laws.dem.mindlin import EdemHertzMindlin, LammpsMindlin, LiggghtsHertz, YadeMindlin
 from carom.laws.dem.springs import HertzLinearHistory, LinearSpring, StrongeLaw
+from carom.laws.dem.status import LawStatus
 
 __all__ = [
     "ContactLaw",
@@ -13,6 +14,7 @@ __all__ = [
     "HertzLinearHistory",
     "LammpsMindlin",
     "Law",
+    "LawStatus",
     "LiggghtsHertz",
     "LinearSpring",
     "StrongeLaw",

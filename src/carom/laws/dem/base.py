@@ -9,15 +9,25 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom.dimensionless.numerics.threads import available_cores
+from carom.dimensionless.rebounds import warn_of_unsolved
 from carom.laws.dem.adaptive import rebounds
 from carom.laws.dem.coefficients import Coefficients
 from carom.laws.dem.damping import damped_restitution
+from carom.laws.dem.status import Codes, LawStatus, status_of
 from carom.laws.dem.stepping import HISTORY, PATIENCE, stepped, stepped_rebounds
-from carom.quantities.arrays import Array
-from carom.quantities.units import counted, finite, not_negative, positive, refusal
+from carom.quantities.arrays import Array, pure_numbers, together
+from carom.quantities.units import (
+    counted,
+    finite,
+    flag,
+    not_negative,
+    positive,
+    refusal,
+    threads_or_none,
+)
 
 SOLID = 4.0 / 7.0  # kappa/chi of solid spheres, and of one on a half-space
-FEWEST_STEPS = 4
+FEWEST_STEPS, MOST_STEPS = 4, 10_000_000
 BLOCK = 16  # impacts that a thread takes at once
 READERS = {  # of the parameters that laws have
     "stiffness_ratio": lambda name, value: None if value is None else positive(name, value),
@@ -33,6 +43,7 @@ class Law(ABC):
 
     name: ClassVar[str]
     source: ClassVar[str]
+    largest_chi: ClassVar[float] = np.inf
 
     def __post_init__(self) -> None:
         for name, read in READERS.items():
@@ -51,6 +62,7 @@ class Law(ABC):
         kappa: ArrayLike | None = None,
         steps: int | None = None,
         threads: int | None = None,
+        return_status: bool = False,
     ) -> Any:
         """Return the tangential velocity of the contact point after the impact, psi_2.
 
@@ -65,19 +77,25 @@ class Law(ABC):
             damping of its own.
         steps : int, optional
             How many equal time steps the elastic impact takes (the duration of Hertz's contact),
-            as the codes do it; by default as many, of adaptive size, as it takes for 1e-8.
+            as the codes do it, 4 to ten million; by default as many, of adaptive size, as it takes
+            for 1e-8.
         threads : int, optional
             How many threads to use, all cores by default. The result does not depend on it.
+        return_status : bool
+            Return also an array of `carom.laws.dem.LawStatus` values, one per impact.
 
         Returns
         -------
         float or ndarray
-            psi_2; NaN where an argument is out of range or the bodies do not part.
+            psi_2; NaN where an argument is out of range or masked, chi above a million, or the
+            bodies do not part, with one RuntimeWarning that says where and why unless
+            `return_status` is set.
 
         Raises
         ------
         InputError
-            If `steps` is below 4, or `threads` below 1.
+            If an argument is not a pure number at all, the shapes do not fit, or `steps` or
+            `threads` is out of range.
 
         Examples
         --------
@@ -87,27 +105,41 @@ class Law(ABC):
         (0.591, 0.014)
         """
         if steps is not None:
-            counted("steps", steps, FEWEST_STEPS)
-        if threads is not None:
-            counted("threads", threads, 1)
-        kappa = SOLID * np.asarray(chi, dtype=np.float64) if kappa is None else kappa
-        given = np.broadcast_arrays(*(np.asarray(x, dtype=np.float64) for x in (psi, chi, kappa)))
-        flat = [np.ravel(values) for values in given]
-        result = np.full(flat[0].size, np.nan)
+            steps = counted("steps", steps, FEWEST_STEPS, MOST_STEPS)
+        threads, return_status = threads_or_none(threads), flag("return_status", return_status)
+        given = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
+        given["kappa"] = SOLID * given["chi"] if kappa is None else pure_numbers("kappa", kappa)
+        shape = together(given)
+        flat = (np.broadcast_to(values, shape).ravel() for values in given.values())
+        result, status = self._solved(next(flat), next(flat), next(flat), steps, threads)
+        psi_out = result.reshape(shape) if shape else float(result[0])
+        if return_status:
+            return psi_out, status.reshape(shape) if shape else int(status[0])
+        warn_of_unsolved(status.reshape(shape), LawStatus)
+        return psi_out
+
+    def _solved(
+        self, psi: Array, chi: Array, kappa: Array, steps: int | None, threads: int | None
+    ) -> tuple[Array, Codes]:
+        """Return psi_2 and the status of impacts, in threads."""
+        status = status_of(psi, chi, kappa, self.largest_chi)
+        result, good = np.full(psi.size, np.nan), np.flatnonzero(status == LawStatus.SOLVED)
 
         def solve(part: NDArray[np.intp]) -> None:
-            own_chi, own_kappa = (float(values[part[0]]) for values in flat[1:])
-            if own_chi > 0.0 and own_kappa > 0.0:
-                result[part] = self._rebound(flat[0][part], own_chi, own_kappa, steps)
+            where = good[part]
+            bodies = float(chi[where[0]]), float(kappa[where[0]])
+            result[where] = self._rebound(psi[where], *bodies, steps)
 
-        parts = _parts(flat[1], flat[2])
+        parts = _parts(chi[good], kappa[good])
         workers = min(threads or available_cores(), len(parts))
         if workers <= 1:
             list(map(solve, parts))
         else:
             with ThreadPoolExecutor(workers) as pool:
                 list(pool.map(solve, parts))
-        return result.reshape(given[0].shape) if given[0].ndim else float(result[0])
+        lost = good[~np.isfinite(result[good])]
+        result[lost], status[lost] = np.nan, LawStatus.UNRESOLVED
+        return result, status
 
 
 def _parts(chi: Array, kappa: Array) -> list[NDArray[np.intp]]:
@@ -121,6 +153,8 @@ def _parts(chi: Array, kappa: Array) -> list[NDArray[np.intp]]:
 @dataclass(frozen=True)
 class ContactLaw(Law):
     """A law of the forces in a contact, from touch to parting."""
+
+    largest_chi: ClassVar[float] = 1e6  # which an adaptive impact takes a tenth of a second for
 
     @abstractmethod
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
@@ -149,7 +183,7 @@ class ContactLaw(Law):
         kappa : float, optional
             G*/E*, by default that of solid spheres, 4 chi/7.
         steps : int
-            Equal time steps that the elastic impact takes, as the codes do it.
+            Equal time steps that the elastic impact takes, as the codes do it, 4 to a million.
 
         Returns
         -------
@@ -169,11 +203,11 @@ class ContactLaw(Law):
         0.8
         """
         counted("steps", steps, FEWEST_STEPS)
-        chi, psi = positive("chi", chi), finite("psi_in", psi)
+        chi, psi = positive("chi", chi), finite("psi", psi, "1")
         law = self.coefficients(chi, SOLID * chi if kappa is None else positive("kappa", kappa))
         record = np.empty((PATIENCE * steps + 2, len(HISTORY)))
         count, _ = stepped(law, abs(psi), steps, record)
-        if count < 0:
+        if count < 0 or not np.all(np.isfinite(record[:count])):
             raise refusal("steps", steps, "the bodies do not part; take more steps")
         columns = {name: record[:count, i].copy() for i, name in enumerate(HISTORY)}
         for name in ("psi", "tangential_force"):

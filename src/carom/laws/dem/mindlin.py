@@ -11,7 +11,7 @@ from typing import ClassVar
 from carom.laws.dem.base import ContactLaw
 from carom.laws.dem.coefficients import MINDLIN, SPRING, Coefficients, hertzian
 from carom.laws.dem.damping import COEFF_RESTITUTION, RULES, hertz_damping, thornton_damping
-from carom.quantities.units import refusal
+from carom.quantities.units import one_of
 
 KEPT = {  # powers n, while the contact grows and while it shrinks
     "mindlin": (1.0, 1.0),
@@ -67,10 +67,8 @@ class LammpsMindlin(ContactLaw):
     tangential_damping: float = 0.0
 
     def __post_init__(self) -> None:
-        if self.variant not in KEPT:
-            raise refusal("variant", self.variant, f"must be one of {', '.join(KEPT)}")
-        if self.damping not in RULES:
-            raise refusal("damping", self.damping, f"must be {' or '.join(RULES)}")
+        one_of("variant", self.variant, KEPT)
+        one_of("damping", self.damping, RULES)
         super().__post_init__()
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import isclose
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.bodies.pairs import Pair, Scales
+from carom.bodies.pairs import Pair, Scales, checked_scales
 from carom.bodies.shapes import HalfSpace, Sphere
 from carom.dimensionless.numerics import hertz
 from carom.laws.dem import ContactLaw
-from carom.quantities.arrays import Array
-from carom.quantities.units import InputError, counted, finite, positive, refusal
+from carom.quantities.arrays import Array, finite_line, numbers
+from carom.quantities.units import InputError, counted, positive, refusal
 
+MOST_STEPS = 10_000_000
 SOLID = 0.4  # K^2/R^2
 BEFORE = ("normal_speed", "tangential_speed", "spin")
 COLUMNS = (*BEFORE, *(f"{name}_out" for name in BEFORE))
@@ -50,7 +50,7 @@ class Experiment:
     tangential_speed, spin : tuple of float, length n
         v_t in m/s of the first body relative to the second, and spin of the first body in rad/s.
     steps : int
-        Time steps per duration of Hertz's contact, whatever the law.
+        Time steps per duration of Hertz's contact, whatever the law, 10 to ten million.
 
     Raises
     ------
@@ -92,9 +92,10 @@ class Experiment:
                 "give one of each an impact"
             )
         object.__setattr__(self, "normal_speed", positive("normal_speed", self.normal_speed))
+        checked_scales(self.pair, self.normal_speed)
         object.__setattr__(self, "tangential_speed", speeds)
         object.__setattr__(self, "spin", spins)
-        object.__setattr__(self, "steps", counted("steps", self.steps, 10))
+        object.__setattr__(self, "steps", counted("steps", self.steps, 10, MOST_STEPS))
 
     def __len__(self) -> int:
         return len(self.tangential_speed)
@@ -179,7 +180,9 @@ def _refuse_bodies(pair: Pair) -> None:
         raise refusal("friction", pair.friction, "must be positive: without it nothing is to test")
 
 
-def _column(name: str, values: Iterable[float]) -> tuple[float, ...]:
-    if isinstance(values, str) or not isinstance(values, Iterable):
+def _column(name: str, values: Any) -> tuple[float, ...]:
+    if isinstance(values, tuple) and not values:
+        return ()
+    if np.ndim(numbers(name, values, "must be a sequence, one value an impact")) != 1:
         raise refusal(name, values, "must be a sequence, one value an impact")
-    return tuple(finite(name, value) for value in values)
+    return tuple(finite_line(name, values).tolist())
