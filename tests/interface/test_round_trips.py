@@ -171,10 +171,16 @@ DAMAGE = {
 }
 
 
+def unsealed(text):
+    """Return a table as it was stored before there were checksums."""
+    return "".join(x for x in text.splitlines(keepends=True) if not x.startswith('# {"sha256"'))
+
+
 @pytest.mark.parametrize("kind", DAMAGE)
-def test_damaged_tables_are_refused_in_one_line(kind, tmp_path):
+@pytest.mark.parametrize("older", [str, unsealed], ids=["sealed", "older"])
+def test_damaged_tables_are_refused_in_one_line(kind, older, tmp_path):
     path = save(curve(), tmp_path / "curve.csv")
-    path.write_text(DAMAGE[kind](path.read_text(encoding="utf-8")), encoding="utf-8")
+    path.write_text(DAMAGE[kind](older(path.read_text(encoding="utf-8"))), encoding="utf-8")
     with pytest.raises(InputError, match=r"file: .*curve\.csv' cannot be used; it is damaged") as e:
         read(path)
     assert "\n" not in str(e.value)

@@ -4,12 +4,15 @@ The first line names the format. Each further comment is a line of JSON: the att
 of the dimensions and those of the table; then each variable with its dimensions, type, attributes,
 and its values where the table does not hold them. The table runs along the dimensions of the first
 variable that has most of them, one row a point, the last dimension fastest. Floating-point numbers
-have as many digits as it takes to give them back to the last bit.
+have as many digits as it takes to give them back to the last bit. The last comment is the SHA-256
+of all other lines.
 """
 
 import csv
 import json
+import re
 from collections.abc import Callable, Hashable, Mapping, Sequence
+from hashlib import sha256
 from io import StringIO
 from math import isfinite, prod
 from typing import TYPE_CHECKING, Any
@@ -26,7 +29,13 @@ Values = NDArray[Any]
 Reader = Callable[[Any], Any]
 
 FORMAT = "# carom table 1"
+SEAL = '# {{"sha256": "{}"}}\n'
+SEALED = re.compile(r'^# \{"sha256": "([0-9a-f]{64})"\}\r?\n', re.MULTILINE)
 TEXT = "text"
+FAULTS = (
+    *(ValueError, LookupError, TypeError, AttributeError, ArithmeticError, csv.Error),
+    *(MemoryError, RecursionError),
+)
 TRUTH = {"True": True, "False": False}
 READ: dict[str, Reader] = {"f": float, "i": int, "u": int, "U": str, "b": lambda x: TRUTH[str(x)]}
 
@@ -60,8 +69,9 @@ def as_csv(dataset: "xr.Dataset") -> str:
         else:
             line["values"] = _jsonable(values)
         lines.append(line | {"attributes": _packed_all(item.attrs)})
-    head = [f"# {json.dumps(line, ensure_ascii=False, allow_nan=False)}\n" for line in lines]
-    return f"{FORMAT}\n{''.join(head)}{rows_of(columns)}"
+    told = (f"# {json.dumps(line, ensure_ascii=False, allow_nan=False)}\n" for line in lines)
+    head, rows = f"{FORMAT}\n{''.join(told)}", rows_of(columns)
+    return head + SEAL.format(_digest(head + rows)) + rows
 
 
 def from_csv(text: str) -> "xr.Dataset":
@@ -69,6 +79,7 @@ def from_csv(text: str) -> "xr.Dataset":
 
     Raises InputError, without the name of the file, if it is another or damaged.
     """
+    text = _unsealed(text)
     lines = text.split("\n")
     if lines[0].strip() != FORMAT:
         raise InputError("it was not stored by Carom")
@@ -78,8 +89,30 @@ def from_csv(text: str) -> "xr.Dataset":
     try:
         head = [json.loads(line[1:]) for line in lines[1:end]]
         return _rebuilt(head, list(csv.reader(StringIO("\n".join(lines[end:]), newline=""))))
-    except (ValueError, KeyError, TypeError, IndexError, AttributeError, csv.Error) as error:
+    except FAULTS as error:
         raise InputError(f"it is damaged; {' '.join(str(error).split())}") from None
+
+
+def _unsealed(text: str) -> str:
+    """Return what was stored without its checksum; of ends of lines either kind will do.
+
+    Raises InputError if something has changed. Text without a checksum is returned as it is.
+    """
+    seal = SEALED.search(text)
+    if seal is None:
+        return text
+    rest = text[: seal.start()] + text[seal.end() :]
+    for stored in (rest, rest.replace("\r\n", "\n")):
+        if _digest(stored) == seal[1]:
+            return stored
+    raise InputError(
+        "it is damaged, or was changed after it was stored; without its line 'sha256' it is read "
+        "as it is"
+    )
+
+
+def _digest(text: str) -> str:
+    return sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
 
 
 def rows_of(columns: Mapping[Any, Sequence[Any]]) -> str:

@@ -1,16 +1,13 @@
 """Storing results as NetCDF or CSV and reading them again; files are replaced whole or not."""
 
-import errno
-import os
-import shutil
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
-import numpy as np
-
 from carom.io.csv_format import as_csv, from_csv
+from carom.io.netcdf_format import read_netcdf, write_netcdf
 from carom.io.paths import checked_output, checked_path, ending_of, replace_whole
-from carom.io.stores import is_ours, read_store
+from carom.io.stores import read_store
 from carom.quantities.units import InputError, refusal
 
 if TYPE_CHECKING:
@@ -19,7 +16,6 @@ if TYPE_CHECKING:
 TABLES = (".nc", ".csv")
 STORE = ".zarr"  # of a sweep
 LONGEST_TEXT = 1_000_000  # characters
-OVERHEAD = 200_000  # bytes of a NetCDF file besides its values
 FIGURES = (".png", ".pdf", ".svg")
 ANIMATIONS = (".gif", ".mp4")
 
@@ -68,23 +64,11 @@ def save(result: "xr.Dataset | Storable", path: str | Path) -> Path:
 
     def write(where: Path) -> None:
         if ending == ".nc":
-            _require_room(where, dataset.nbytes)
-            # what has no missing values declares none: CF forbids it of coordinates
-            plain = {name: {"_FillValue": None} for name in dataset.variables}
-            dataset.drop_encoding().to_netcdf(where, engine="h5netcdf", encoding=plain)
+            write_netcdf(dataset, where)
         else:
             where.write_text(as_csv(dataset), encoding="utf-8", newline="\n")
 
     return replace_whole(target, write, ending)
-
-
-def _require_room(where: Path, size: int) -> None:
-    """Raise OSError if a NetCDF file of this size does not fit: HDF5 crashes on a full disk."""
-    needed = size + size // 20 + OVERHEAD
-    if shutil.disk_usage(where.parent).free < needed:
-        raise OSError(
-            errno.ENOSPC, f"{os.strerror(errno.ENOSPC)}, {needed / 1e6:.2g} MB are needed"
-        )
 
 
 def _dataset(result: "xr.Dataset | Storable") -> "xr.Dataset":
@@ -107,9 +91,11 @@ def read_dataset(source: Path) -> "xr.Dataset":
     if not source.is_file():
         raise refusal("file", str(source), "there is no such file")
     try:
-        if source.suffix.lower() == ".nc":
-            return _from_netcdf(source)
-        return from_csv(source.read_bytes().decode("utf-8-sig"))
+        with warnings.catch_warnings():  # of xarray and h5netcdf, at what is odd or damaged
+            warnings.simplefilter("ignore")
+            if source.suffix.lower() == ".nc":
+                return read_netcdf(source)
+            return from_csv(source.read_bytes().decode("utf-8-sig"))
     except OSError as error:
         reason = f"cannot be read; {error.strerror or error}"
     except UnicodeDecodeError:
@@ -117,24 +103,6 @@ def read_dataset(source: Path) -> "xr.Dataset":
     except InputError as error:
         reason = str(error)
     raise refusal("file", str(source), reason)
-
-
-def _from_netcdf(path: Path) -> "xr.Dataset":
-    import xarray as xr
-
-    try:
-        dataset = xr.load_dataset(path, engine="h5netcdf", decode_times=False)
-    except PermissionError:
-        raise
-    except Exception:  # h5py and xarray raise what they like at a damaged file
-        raise InputError("it is damaged, or not NetCDF-4") from None
-    if not is_ours(dataset):
-        raise InputError("it was not stored by Carom")
-    dataset.attrs = {
-        name: value.item() if isinstance(value, np.generic) else value
-        for name, value in dataset.attrs.items()
-    }
-    return dataset.drop_encoding()
 
 
 def read_text(what: str, path: Path) -> str:

@@ -10,11 +10,13 @@ from functools import cache
 from hashlib import sha256
 from math import prod
 from pathlib import Path
+from textwrap import shorten
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from carom.io.extras import extra
+from carom.io.labels import is_ours
 from carom.quantities.units import refusal
 
 if TYPE_CHECKING:
@@ -24,6 +26,7 @@ STATUS = "status"  # of the points of a sweep
 FROZEN = f"{STATUS}/.sha256sums"  # a place that zarr does not list; `sha256sum -c` reads it
 LEVEL = 1  # of compression: floating-point numbers gain nothing from more
 METADATA = "zarr.json"
+MISSING = "missing"
 
 
 def read_store(path: Path) -> "xr.Dataset":
@@ -46,7 +49,8 @@ def read_store(path: Path) -> "xr.Dataset":
             )
     except Exception:  # zarr and xarray raise what they like at a damaged store
         raise refusal("store", str(path), "it is damaged, or not a Zarr store") from None
-    if not (is_ours(dataset) and STATUS in dataset and "inputs" in dataset.attrs):
+    told = dataset.attrs
+    if not (is_ours(told.get("source")) and "inputs" in told and STATUS in dataset):
         raise refusal("store", str(path), "it was not stored by Carom")
     for variable in dataset.variables.values():  # what JSON has made a list
         if "flag_values" in variable.attrs:
@@ -54,11 +58,6 @@ def read_store(path: Path) -> "xr.Dataset":
             variable.attrs["flag_values"] = flags
     store.sizes.update({name: chunk_size(item) for name, item in dataset.data_vars.items()})
     return dataset
-
-
-def is_ours(dataset: "xr.Dataset") -> bool:
-    """Tell whether Carom has made a dataset."""
-    return str(dataset.attrs.get("source")).startswith("carom ")
 
 
 def chunk_size(variable: "xr.DataArray") -> int:
@@ -92,8 +91,8 @@ def _decoded(content: bytes, size: int) -> bytes | None:
 def _digest(file: Path) -> str:
     try:
         return sha256(file.read_bytes()).hexdigest()
-    except OSError:
-        return "none"
+    except (OSError, ValueError):  # a damaged list may name what can be no file
+        return MISSING
 
 
 def _check_frozen(path: Path) -> None:
@@ -105,11 +104,14 @@ def _check_frozen(path: Path) -> None:
     except OSError as error:
         raise refusal("store", str(path), f"cannot be read; {error.strerror}") from None
     known = {name: digest for digest, _, name in (x.partition("  ") for x in text.splitlines())}
-    changed = [name for name, digest in known.items() if _digest(path / name) != digest]
-    if changed or METADATA not in known:
-        name = changed[0] if METADATA in known else FROZEN
-        what = "has changed" if (path / name).is_file() else "is missing"
-        raise refusal("store", str(path), f"it is damaged: {name} {what}; begin anew")
+    if METADATA not in known:
+        raise refusal("store", str(path), f"it is damaged: {FROZEN} has changed; begin anew")
+    for name, digest in known.items():
+        found = _digest(path / name)
+        if found != digest:
+            what = "is missing" if found == MISSING else "has changed"
+            allowed = f"it is damaged: {shorten(name, 60)} {what}; begin anew"
+            raise refusal("store", str(path), allowed)
 
 
 def _checked(path: Path, sizes: Mapping[str, int]) -> Any:
