@@ -251,7 +251,7 @@ def test_no_number_of_steps_where_there_is_none():
         (lambda: step_error(carom.LinearSpring(), 9), "steps: 9 .*at least 10"),
         (lambda: step_error(carom.LinearSpring(), 20.5), "steps: 20.5 .*whole"),
         (lambda: step_error(carom.LinearSpring, 20), "law: .*must be a contact law"),
-        (lambda: advised_steps(carom.LinearSpring(), 0.0), "tolerance: 0.0 .*positive"),
+        (lambda: advised_steps(carom.LinearSpring(), 0.0), "allowed: 0.0 .*positive"),
         (lambda: advised_steps(carom.LinearSpring(), 0.1, [np.inf]), "psi: .*finite"),
     ],
 )

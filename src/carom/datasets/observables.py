@@ -13,7 +13,7 @@ from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.quantities.arrays import Array, numbers, together
 from carom.quantities.keywords import known_keywords
-from carom.quantities.units import InputError, hint, refusal
+from carom.quantities.units import InputError, clipped, hint, refusal
 
 Given = Mapping[str, Any]  # arrays by name
 
@@ -114,8 +114,9 @@ def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
 
 def _check_name(where: str, name: Any) -> None:
     if not isinstance(name, str) or name not in NAMES:
-        known = hint(name, NAMES) if isinstance(name, str) else hint("", NAMES)
-        raise refusal(where, name, f"unknown quantity; {known}")
+        if isinstance(name, str) and name.strip():
+            raise InputError(f"{clipped(name)}: unknown quantity; {hint(name, NAMES)}")
+        raise refusal(where, name, f"unknown quantity; {hint('', NAMES)}")
 
 
 def _values(name: str, value: Any) -> Array:

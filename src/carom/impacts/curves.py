@@ -23,7 +23,7 @@ from carom.quantities.units import refusal
 if TYPE_CHECKING:
     import xarray as xr
 
-MOST, MOST_MAPPED = 10**7, 10**6  # points of a curve and of a map: minutes
+MOST = 10**6  # points, which take a minute on a curve, and several on a map
 SOLID_SPHERE = 2.0 / 7.0  # m_t/m_n of a solid sphere on a fixed body
 
 REGIMES = (
@@ -92,7 +92,7 @@ def curve(
     Raises
     ------
     InputError
-        If a chi is not positive, psi is empty, the points are more than ten million, or the losses
+        If a chi is not positive, psi is empty, the points are more than a million, or the losses
         depend on the speed.
 
     Examples
@@ -103,7 +103,7 @@ def curve(
     >>> carom.curve(1.44, [6.0], normal=carom.KelvinVoigt(restitution=0.9)).psi_out.values.round(4)
     array([[0.5295]])
     """
-    chis, incoming = _axes(chi, psi, MOST)
+    chis, incoming = _axes(chi, psi)
     rows = chis[:, np.newaxis]
     nonzero = np.where(incoming == 0.0, 1e-12, incoming)
     outgoing = rebound(nonzero, rows, normal=normal)
@@ -129,12 +129,12 @@ def curve(
     )
 
 
-def _axes(chi: Any, psi: Any, most: int) -> tuple[Array, Array]:
+def _axes(chi: Any, psi: Any) -> tuple[Array, Array]:
     """Return the values along both axes, or raise InputError; also if the points are too many."""
     chis, incoming = positive_line("chi", chi), finite_line("psi", psi)
-    if chis.size * incoming.size > most:
+    if chis.size * incoming.size > MOST:
         given = f"{chis.size} of chi by {incoming.size} of psi"
-        raise refusal("psi", given, f"at most {most:,} points are solved at once")
+        raise refusal("psi", given, f"at most {MOST:,} points are solved at once")
     return chis, incoming
 
 
@@ -178,7 +178,7 @@ def regime_map(psi: ArrayLike, chi: ArrayLike, *, progress: Progress = None) -> 
     >>> print(found.sequence_name.values[found.sequence.values[0, 1]])
     gross slip +, stick, slip -, gross slip -
     """
-    chis, incoming = _axes(chi, psi, MOST_MAPPED)
+    chis, incoming = _axes(chi, psi)
     rows = []
     with advancing("map of regimes", len(chis), progress, unit="rows") as advance:
         for value in chis:

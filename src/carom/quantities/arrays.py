@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 REALS = "give real numbers, one or an array of them"
 WIDE = 2**63  # integers that NumPy holds
 AT_ONCE = 10**8  # points of a batch
-PLACES = 4_000_000  # points of fields
+PLACES = 1_000_000  # points of fields, which take half a minute
 ASCII = re.compile(r"[0-9.+\-eE \t]*")  # of which NumPy reads the numbers of the grammar alone
 
 
@@ -121,7 +121,7 @@ def together(given: Mapping[str, Array], most: int = AT_ONCE) -> tuple[int, ...]
         words = " and ".join(map(str, shapes))
         raise InputError(
             f"{names}: arrays of shapes {words} cannot be used together; give one number for each, "
-            "or arrays of one shape: these do not fit each other"
+            "or arrays that broadcast: these do not fit each other"
         ) from None
     if prod(shape) > most:
         allowed = f"{prod(shape):,} points are too many at once, the most are {most:,}"

@@ -189,7 +189,8 @@ def one_of(name: str, value: Any, known: Iterable[str]) -> str:
     if isinstance(value, str) and value in words:
         return value
     near = nearest(value, words) if isinstance(value, str) else ""
-    raise refusal(name, value, near or f"must be one of {', '.join(words)}")
+    choice = " or ".join(words) if len(words) == 2 else f"one of {', '.join(words)}"
+    raise refusal(name, value, f"must be {choice}{near and f'; {near}'}")
 
 
 def flag(name: str, value: Any) -> bool:

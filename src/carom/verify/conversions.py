@@ -192,14 +192,14 @@ def restitution(value: float, convention: str = "critical") -> float:
     """
     from scipy.optimize import brentq
 
-    rule, wanted = _rule(convention), not_negative("value", value, "1")
+    rule, wanted = _rule(convention), not_negative("damping", value, "1")
     if convention == "critical" and wanted < 1.0:
         return exp(-pi * wanted / sqrt(1.0 - wanted**2))
     least, most = rule(1.0), rule(SMALLEST)
     if wanted <= least:
         return 1.0
     if wanted > most:
-        raise refusal("value", value, f"must be at most {most:.4g}: no restitution has more")
+        raise refusal("damping", value, f"must be at most {most:.4g}: no restitution has more")
     return float(brentq(lambda e: rule(e) - wanted, SMALLEST, 1.0, xtol=1e-14))
 
 

@@ -1,0 +1,235 @@
+"""What users hand over is read by one reader: units, masks, truth values, sizes; or is refused."""
+
+from decimal import Decimal
+from fractions import Fraction
+
+import numpy as np
+import pandas as pd
+import pint
+import pytest
+import xarray as xr
+
+import carom
+from carom.laws.dem import LawStatus
+from carom.quantities.units import counted, flag, one_of, whole
+
+UNITS = pint.UnitRegistry()
+BALL = carom.Sphere(radius="5 mm", material="steel")
+PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
+LAWS = (carom.LinearSpring(), carom.LammpsMindlin(), carom.HardSphere(0.4))
+
+
+def refused(call, *words):
+    """The line that refuses a call; it has these words."""
+    with pytest.raises(carom.InputError) as error:
+        call()
+    line = str(error.value)
+    assert "\n" not in line
+    assert len(line) < 1000
+    assert all(word in line for word in words), line
+    return line
+
+
+@pytest.mark.parametrize(
+    "force",
+    [
+        UNITS.Quantity(0.01, "kN"),
+        [UNITS.Quantity(10.0, "N")],
+        UNITS.Quantity([0.01], "kN"),
+        np.array([UNITS.Quantity(0.01, "kN")], dtype=object),
+        xr.DataArray([0.01], attrs={"units": "kN"}),
+        xr.DataArray(UNITS.Quantity([0.01], "kN")),
+        pd.Series(["0.01 kN"]),
+        "0.01 kN",
+        Decimal(10),
+        [Fraction(10)],
+    ],
+)
+def test_units_of_forces_are_heeded(force):
+    path = carom.load_path(PAIR, normal_force=force, tangential_force=0.0)
+    assert path.normal_force == pytest.approx([10.0], rel=1e-12)
+
+
+def test_units_of_arrays_are_heeded():
+    """Of velocities, spins, angles: pint's arrays count as the numbers in SI units."""
+    fast, spin = UNITS.Quantity([[1000.0, 0.0, 2000.0]], "mm/s"), UNITS.Quantity([0, 60, 0], "rpm")
+    axis = [0.0, 0.0, 1.0]
+    told = carom.collide(PAIR, velocity1=fast, spin1=spin, normal=axis)
+    plain = carom.collide(
+        PAIR, velocity1=[[1.0, 0.0, 2.0]], spin1=[0.0, 2.0 * np.pi, 0.0], normal=axis
+    )
+    assert told.velocity1 == pytest.approx(plain.velocity1, rel=1e-12)
+    assert told.spin1 == pytest.approx(plain.spin1, rel=1e-12)
+    refused(lambda: carom.collide(PAIR, velocity1=spin, normal=axis), "velocity1: ", "m/s")
+    known = {"speed": 2.0, "contact_beta": 0.3, "normal_restitution": 0.9}
+    given = [
+        carom.convert(PAIR, known=known | {"angle": angle}, wanted="rebound_angle")
+        for angle in (UNITS.Quantity([10.0, 20.0], "deg"), ["10 deg", "20 deg"])
+    ]
+    assert given[0] == pytest.approx(given[1], rel=1e-12)
+
+
+PURE = {
+    "rebound": lambda psi: carom.rebound(psi, 1.44),
+    "law": carom.ReboundLaw(1.44),
+    "contact law": lambda psi: carom.LinearSpring().rebound(psi, 1.44),
+    "solve": lambda psi: carom.solve(psi, 1.44),
+    "curve": lambda psi: carom.curve(1.44, psi),
+}
+
+
+@pytest.mark.parametrize("call", PURE.values(), ids=PURE)
+@pytest.mark.parametrize(
+    "psi",
+    [
+        UNITS.Quantity(0.5, "mm"),
+        UNITS.Quantity([0.5], "mm"),
+        [UNITS.Quantity(0.5, "mm")],
+        xr.DataArray([0.5], attrs={"units": "mm"}),
+        *(True, [True], np.array([True]), b"1", bytearray(b"1"), np.array([b"1"]), 1j),
+        *(np.complex128(0.5), np.timedelta64(5), np.array(["2020-01-01"], "M8[D]"), "5 mm", None),
+        *(10**400, {"psi": 0.5}),
+    ],
+    ids=str,
+)
+def test_what_is_no_pure_number_is_refused(call, psi):
+    refused(lambda: call(psi), "psi: ", "cannot be used")
+
+
+def test_a_masked_point_is_a_point_without_number():
+    psi = np.ma.masked_array([0.5, 0.7], [False, True])
+    out, status = carom.rebound(psi, 1.44, return_status=True)
+    assert out[0] == carom.rebound(0.5, 1.44)
+    assert np.isnan(out[1])
+    assert status.tolist() == [carom.Status.SOLVED, carom.Status.PSI_NOT_FINITE]
+    with pytest.warns(RuntimeWarning, match=r"1 of 2 .* index \(1,\): psi must be a finite"):
+        carom.rebound(psi, 1.44)
+    assert np.isnan(carom.ReboundLaw(1.44)(psi)).tolist() == [False, True]
+
+
+@pytest.mark.parametrize("law", LAWS, ids=str)
+@pytest.mark.parametrize(
+    ("chi", "kappa", "status"),
+    [
+        *((chi, None, LawStatus.CHI_NOT_POSITIVE) for chi in (0.0, -1.0, np.nan, np.inf)),
+        *((1.44, kappa, LawStatus.KAPPA_NOT_POSITIVE) for kappa in (0.0, -1.0, np.nan, np.inf)),
+    ],
+)
+def test_contact_laws_say_what_they_leave_unsolved(law, chi, kappa, status):
+    found = law.rebound(0.5, chi, kappa=kappa, return_status=True)
+    assert np.isnan(found[0])
+    assert found[1] == status
+    with pytest.warns(RuntimeWarning, match=status.message):
+        assert np.isnan(law.rebound([0.5, 1.0], chi, kappa=kappa)).all()
+
+
+@pytest.mark.parametrize("law", LAWS[:2], ids=str)
+def test_a_chi_that_is_too_large_costs_no_time(law):
+    """A thousand of them in no time: each would take seconds to show that it cannot be solved."""
+    chi = np.full(1000, 1e15)
+    out, status = law.rebound(0.5, chi, return_status=True)
+    assert np.isnan(out).all()
+    assert set(status.tolist()) == {LawStatus.CHI_TOO_LARGE}
+    for normal in (None, carom.KelvinVoigt(restitution=0.9)):
+        out, status = carom.rebound(0.5, chi[:10], normal=normal, return_status=True)
+        assert np.isnan(out).all()
+        assert np.all(status != 0)
+
+
+def test_losses_with_a_large_chi_are_not_taken_for_sliding():
+    """At chi = 5000 an impact with psi_1 = 15000 sticks before it leaves, |psi_2| is of order one.
+
+    Taken for one that slides throughout it would leave with 5000.
+    """
+    losses = carom.KelvinVoigt(restitution=0.9)
+    out, status = carom.rebound(15000.0, 5000.0, normal=losses, return_status=True)
+    assert status == carom.Status.TOO_MANY_PHASES
+    assert np.isnan(out)
+    assert abs(carom.rebound(3000.0, 1000.0, normal=losses)) < 3.0
+
+
+LOSSES = "carom.KelvinVoigt(restitution=0.9)"
+TINY = {"material": "steel", "radius": 1e-120}
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        *(
+            (call, ("normal: ", LOSSES))
+            for call in (
+                lambda: carom.rebound(0.5, 1.44, normal=0.9),
+                lambda: carom.solve(0.5, 1.44, normal=carom.KelvinVoigt),
+                lambda: carom.curve(1.44, 0.5, normal=0.9),
+                lambda: carom.impact(PAIR, speed=1.0, normal=0.9),
+                lambda: carom.ReboundLaw(1.44, normal=0.9),
+            )
+        ),
+        *(
+            (call, ("normal: ",))
+            for call in (
+                lambda: carom.rebound(0.5, 1.44, normal=carom.KelvinVoigt([0.9, 0.8])),
+                lambda: carom.ReboundLaw(1.44, normal=carom.KelvinVoigt([0.9, 0.8])),
+                lambda: carom.impact(PAIR, speed=1.0, normal=carom.KelvinVoigt([0.9, 0.8])),
+            )
+        ),
+        (lambda: carom.KelvinVoigt(restitution=["most"]), ("restitution: ",)),
+        (lambda: carom.Sphere(**TINY), ("radius: 1e-120", "check the units")),
+        (lambda: carom.Sphere(material="steel", radius=1e120), ("radius: 1e+120",)),
+        (lambda: carom.Sphere(material="steel", radius=10**400), ("radius: ", "cannot hold")),
+        (lambda: carom.Sphere(material=10**5000, radius=1.0), ("material: this int",)),
+        (lambda: carom.ReboundLaw(1e15), ("chi: ", "up to 100")),
+        (lambda: carom.MixtureLaw(0.5, 1e15), ("chi: ", "within 0.5 to 5")),
+        (lambda: carom.verify.tune(chi=1e15), ("chi: ", "at most 10000")),
+        (lambda: carom.verify.rank(chi=1e15), ("chi: ", "at most 10000")),
+        (lambda: carom.rebound(np.zeros((10**5, 1)), np.ones(10**5)), ("psi, chi: ", "at once")),
+        (lambda: carom.curve(np.ones(10**4), np.ones(10**4)), ("psi: ", "at most 1,000,000")),
+        (lambda: carom.regime_map(np.ones(10**4), np.ones(10**4)), ("psi: ", "1,000,000")),
+        (lambda: carom.solve(0.5, 1.44).history(10**9), ("n: ", "2 to 1000000")),
+        (lambda: carom.rebound(0.5, 1.44, threads=10**9), ("threads: ", "1 to 1024")),
+        (lambda: carom.LammpsMindlin().rebound(0.5, 1.44, steps=10**9), ("steps: ",)),
+        (lambda: carom.LammpsMindlin().history(0.5, 1.44, steps=10**9), ("steps: ",)),
+        (lambda: carom.BoundaryElements(steps=10**9), ("steps: ", "20 to 100000")),
+        (lambda: carom.rebound(0.5, 1.44, return_status="no"), ("return_status: ",)),
+    ],
+)
+def test_what_cannot_be_used_is_refused_in_one_line(call, words):
+    refused(call, *words)
+
+
+def test_fields_on_too_many_points_are_refused():
+    hit, line = carom.impact(PAIR, speed=1.0), np.linspace(0.0, 1e-4, 32000)
+    refused(lambda: hit.fields(1e-6, line, line), "x and y: ", "32000 by 32000 points")
+    refused(lambda: hit.stress(1e-6, line, line), "x and z: ", "32000 by 32000 points")
+    refused(lambda: hit.radial(1e-6, 10**9), "n: ", "2 to 100000")
+    refused(lambda: hit.history(10**9), "n: ", "2 to 1000000")
+    refused(lambda: hit.animate("hit.gif", frames=10**9), "frames: ", "1 to 10000")
+
+
+def test_an_impact_that_cannot_be_solved_is_refused():
+    """A thin pin of inertia has chi = 1e7; not a result that is NaN."""
+    pin = carom.Sphere(radius="5 mm", material="steel", gyration_radius="1 um")
+    pair = carom.Pair(pin, carom.HalfSpace(material="steel"), friction=0.2)
+    refused(lambda: carom.impact(pair, speed=1.0, angle=0.1), "chi: ", "not solved")
+
+
+@pytest.mark.parametrize("text", ["1_000", "٣", "3.0", "1e3", "", "three", "0x10", "²", "1 000"])
+def test_whole_numbers_are_ascii_digits(text):
+    refused(lambda: whole("points", text, 2), "points: ", "whole number")
+    assert whole("points", " +401 ", 2) == 401
+
+
+@pytest.mark.parametrize("value", [True, 2.0, "2", np.timedelta64(2), None, [2], Decimal(2)])
+def test_counts_are_whole_numbers(value):
+    refused(lambda: counted("n", value, 1), "n: ", "whole number of at least 1")
+    assert counted("n", np.int8(2), 1) == 2
+    refused(lambda: counted("n", 10**5000, 1), "n: this int", "from 1 to 1000000")
+
+
+def test_flags_and_words_are_what_they_seem():
+    assert flag("inplace", np.bool_(True)) is True
+    for value in (1, "yes", None, [True], np.ones(2)):
+        refused(lambda value=value: flag("inplace", value), "inplace: ", "True or False")
+    assert one_of("measure", "max", ("max", "rms")) == "max"
+    for value in (["max"], np.array(["max", "rms"]), b"max", "Max", {}):
+        refused(lambda value=value: one_of("measure", value, ("max", "rms")), "measure: ", "max")
