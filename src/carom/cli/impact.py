@@ -138,14 +138,14 @@ def _method(name: str, elements: str | None, steps: str | None) -> "str | Bounda
         raise refusal("method", name, f"must be {' or '.join(METHODS)}")
     asked = {"elements": elements, "steps": steps}
     given = {key: value for key, value in asked.items() if value is not None}
-    if given and name != "halfspace":
-        key, value = next(iter(given.items()))
-        raise refusal(key, value, "only boundary elements have it; add --method halfspace")
     if not given:
         return name
     from carom.impacts.boundary_elements import RANGES
 
     counts = {key: whole(key, value, *RANGES[key]) for key, value in given.items()}
+    if name != "halfspace":
+        key, value = next(iter(counts.items()))
+        raise refusal(key, value, "only boundary elements have it; add --method halfspace")
     return carom.BoundaryElements(**counts)
 
 

@@ -14,7 +14,7 @@ from matplotlib.patches import Patch
 
 from carom.plots import style
 from carom.plots.regimes import draw_borders
-from carom.quantities.units import positive, refusal
+from carom.quantities.units import pure_number, refusal
 
 SKY = "#56B4E9"
 COLORS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, SKY)
@@ -141,9 +141,10 @@ def _key(dataset: xr.Dataset) -> Iterator[Any]:
 
 
 def _read_limit(given: Any) -> float:
-    limit = positive("limit", given, "1")
-    if limit > LARGEST:
-        raise refusal("limit", given, f"must be at most {LARGEST:g}")
+    allowed = f"must be positive, at most {LARGEST:g}"
+    limit = pure_number("limit", given, allowed)
+    if not 0.0 < limit <= LARGEST:
+        raise refusal("limit", given, allowed)
     return limit
 
 

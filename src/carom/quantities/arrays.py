@@ -176,8 +176,9 @@ def finite_line(name: str, given: ArrayLike) -> Array:
     """Return a list of finite numbers as an array of shape (n,), or raise InputError."""
     allowed = "must be a list of finite numbers"
     values = np.atleast_1d(numbers(name, given, allowed))
-    if values.size == 0 or values.ndim > 1 or not np.all(np.isfinite(values)):
-        raise refusal(name, given, allowed)
+    bad = ~np.isfinite(values)
+    if values.size == 0 or values.ndim > 1 or bad.any():
+        raise refusal(name, values[bad][0].item() if bad.any() else given, allowed)
     return values
 
 

@@ -157,12 +157,8 @@ def finite(name: str, value: Any, unit: str | None = None) -> float:
 
 def counted(name: str, value: Any, least: int, most: int = MOST) -> int:
     """Return a whole number that is large enough and not too large, or raise InputError."""
-    count = int(value) if isinstance(value, Integral) and is_real(value) else least - 1
-    if count < least:
-        raise refusal(name, value, f"must be a whole number of at least {least}")
-    if count > most:
-        raise refusal(name, value, f"must be a whole number from {least} to {most}")
-    return count
+    count = int(value) if isinstance(value, Integral) and is_real(value) else None
+    return _within(name, value, count, least, most)
 
 
 def whole(name: str, text: str, least: int, most: int = MOST) -> int:
@@ -175,7 +171,15 @@ def whole(name: str, text: str, least: int, most: int = MOST) -> int:
     401
     """
     plain = text.strip()
-    return counted(name, int(plain) if WHOLE.fullmatch(plain) else text, least, most)
+    return _within(name, text, int(plain) if WHOLE.fullmatch(plain) else None, least, most)
+
+
+def _within(name: str, given: Any, count: int | None, least: int, most: int) -> int:
+    if count is None or count < least:
+        raise refusal(name, given, f"must be a whole number of at least {least}")
+    if count > most:
+        raise refusal(name, given, f"must be a whole number from {least} to {most}")
+    return count
 
 
 def threads_or_none(threads: Any) -> int | None:

@@ -46,7 +46,7 @@ def laws_of(name: str, given: Any) -> Sequence[Any]:
         return [given]
     if isinstance(given, list | tuple) and given:
         return given
-    raise refusal(name, given, "give a list of laws, e.g. [carom.LinearSpring()]")
+    raise refusal(name, given, "give one law at least, e.g. [carom.LinearSpring()]")
 
 
 def law_rebound(
