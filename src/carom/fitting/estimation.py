@@ -34,8 +34,9 @@ class Information:
     @cached_property
     def covariance(self) -> Array:
         """Covariance of the coordinates; one that is not told is uncertain by 1/WEAK."""
-        count = len(self.matrix)
-        return np.asarray(np.linalg.inv(self.matrix + WEAK**2 * 1e-2 * np.eye(count)))
+        sizes, directions = np.linalg.eigh(self.matrix)
+        known = np.maximum(sizes, 0.0) + WEAK**2 * 1e-2
+        return np.asarray((directions / known) @ directions.T)
 
     @property
     def used(self) -> Array:
@@ -148,7 +149,7 @@ def estimate(model: Model, loss: errors.RobustLoss, start: Array | None = None) 
     problem = model.problem
     unknown = problem.present & ~np.isfinite(problem.errors)
     estimated = np.asarray(unknown.any(axis=0))
-    sigma = np.where(unknown, errors.first_errors(problem), problem.errors)
+    sigma = np.where(unknown, errors.first_errors(problem), errors.usable_errors(problem))
     scale = np.ones(len(problem.responses))
     at = scan(model, loss, sigma) if start is None else start
     rivals = Minimum(at, np.zeros(len(at)))
@@ -194,8 +195,13 @@ def scan(model: Model, loss: errors.RobustLoss, sigma: Array) -> Array:
 def polished(
     model: Model, weights: errors.Weights, loss: errors.RobustLoss, at: Array
 ) -> tuple[Array, Any]:
-    """Return the minimum that lmfit finds from here, and its result."""
+    """Return the minimum that lmfit finds from here, and its result.
+
+    It needs as many values as parameters; with fewer, or with none free, the point stays.
+    """
     lmfit = extra("lmfit", "fit", "fit")
+    if not 0 < len(at) <= model.problem.count:
+        return at, None
     parameters = lmfit.Parameters()
     for name, value, low, high in zip(model.free, at, *model.bounds, strict=True):
         parameters.add(name, value=float(value), min=float(low), max=float(high))

@@ -22,6 +22,7 @@ ROUNDS, CLOSE = 16, 2e-3  # at most; of the distance at which the loss has risen
 HELD_FIRST = (OFFSET, "restitution", "tangential_restitution", "kappa", "friction")
 EXAMPLES = {"restitution": 0.98, "kappa": 0.82, "friction": 0.1, OFFSET: 0.0}
 MEMBER = 0.25  # part of a direction that a parameter of a group has at least
+ROUNDED = 1e-10  # of the information: less is that of rounded difference quotients
 WORSE = 0.5  # rise of the loss at which a starting value contradicts the data
 
 
@@ -158,11 +159,13 @@ def settle(model: Model, loss: RobustLoss, start: Mapping[str, float]) -> Settle
 
 def weak_group(told: Information, names: tuple[str, ...]) -> tuple[str, ...]:
     """Return the parameters of a direction in which the values hardly change, to be held first."""
+    if not names:
+        return ()
     alone = np.sqrt(np.diag(told.matrix)) < WEAK
     if alone.any():
         return (names[int(np.argmax(alone))],)
     sizes, directions = np.linalg.eigh(told.matrix)
-    if sizes[0] >= WEAK**2:
+    if sizes[0] >= max(WEAK**2, ROUNDED * sizes[-1]):
         return ()
     members = [n for n, part in zip(names, directions[:, 0], strict=True) if abs(part) > MEMBER]
     return tuple(sorted(members, key=HELD_FIRST.index))

@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 from carom.bodies.cases import pair_of
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import BEFORE, OBSERVABLES, SCALED, convert
+from carom.fitting.interpolation import LEAST_CHI, MOST_CHI
 from carom.fitting.laws import IncomingMotion
 from carom.io.columns import ERROR, Results, in_units, others, with_errors
 from carom.io.tables import read_table
 from carom.quantities.arrays import Array
+from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import InputError, refusal
 
 Mask = NDArray[np.bool_]
@@ -84,11 +86,19 @@ class FitProblem:
             motion.tangential_speed + self.pair.first.radius * motion.spin + radius2 * motion.spin2
         )
 
+    @cached_property
+    def sizes(self) -> Array:
+        """What each response is of the order of: 1, the speed, or the spin that rolls with it."""
+        motion = self.motion
+        speed = float(np.median(np.hypot(motion.normal_speed, motion.tangential_speed)))
+        units = {"rad/s": speed / self.pair.first.radius, "m/s": speed}
+        return np.array([units.get(GLOSSARY[name].unit, 1.0) for name in self.responses])
+
     def moved(self, changes: Mapping[str, Array]) -> IncomingMotion:
         """Return the motion before with some of its columns changed by so much."""
         known = {name: values + changes.get(name, 0.0) for name, values in self.before.items()}
-        if "angle" in known:
-            known["angle"] = np.clip(known["angle"], -STEEPEST, STEEPEST)
+        for name in {"angle", "contact_angle"} & set(known):
+            known[name] = np.clip(known[name], -STEEPEST, STEEPEST)
         if not self.has_speeds:
             known["normal_speed"] = np.ones(len(self.measured))
         speeds = (
@@ -113,12 +123,16 @@ def read_problem(data: Any, pair: Pair | None) -> FitProblem:
     known = with_errors((*BEFORE, *OBSERVABLES))
     ignored = others(table, known)
     rows = in_units(table, [name for name in known if name in table.names], gaps=OBSERVABLES)
-    responses = tuple(name for name in OBSERVABLES if name in rows.columns)
-    if not responses:
+    measured = tuple(name for name in OBSERVABLES if name in rows.columns)
+    responses = tuple(name for name in measured if np.isfinite(rows[name]).any())
+    if not measured:
         raise InputError(
             f"data: no measured response among the columns {', '.join(table.names)}; there must be "
             f"one or more of {', '.join(OBSERVABLES)}"
         )
+    if not responses:
+        raise InputError(f"data: no value in {', '.join(measured)}; '-' is what was not measured")
+    empty = (f"{name} (no value in it)" for name in measured if name not in responses)
     bodies = _bodies(pair, table.case)
     before = {name: rows[name] for name in BEFORE if name in rows.columns}
     _check_before(rows, before, responses)
@@ -130,7 +144,7 @@ def read_problem(data: Any, pair: Pair | None) -> FitProblem:
         measured=np.stack([rows[name] for name in responses], axis=-1),
         errors=np.stack([_errors(rows, name) for name in responses], axis=-1),
         rows=rows,
-        ignored=ignored,
+        ignored=(*ignored, *empty),
         doi=table.comments.get("doi", ""),
     )
     _check_responses(problem.rows, problem.motion, problem.contact_velocity)
@@ -150,6 +164,11 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> Pair:
             "--case FILE in a shell, or write the bodies as JSON into a comment '# case: {...}' "
             "of the file"
         )
+    if not LEAST_CHI <= bodies.chi <= MOST_CHI:
+        raise InputError(
+            f"pair: chi of {bodies.chi:.3g} cannot be fitted, curves are known from "
+            f"{LEAST_CHI:.2g} to {MOST_CHI:.2g}; check radii and gyration_radius"
+        )
     return bodies if bodies.friction > 0.0 else Pair(bodies.first, bodies.second, START)
 
 
@@ -158,6 +177,12 @@ def _errors(rows: Results, name: str) -> Array:
     if name + ERROR not in rows.columns:
         return np.full(len(rows), np.nan)
     errors, measured = rows[name + ERROR], np.isfinite(rows[name])
+    missing = measured & np.isnan(errors)
+    if missing.any():
+        raise InputError(
+            f"{name + ERROR}: missing in {rows.named(missing)}, where {name} was measured; give it "
+            "there, too, or leave the column out"
+        )
     rows.refuse(name + ERROR, measured & ~(errors > 0.0), "a standard deviation is positive")
     return np.where(measured, errors, np.nan)
 
@@ -183,6 +208,9 @@ def _check_before(rows: Results, before: Mapping[str, Array], responses: Collect
         if name + ERROR in rows.columns:
             negative = ~(rows[name + ERROR] >= 0.0)
             rows.refuse(name + ERROR, negative, "a standard deviation is zero or positive")
+            if name in ("speed", "normal_speed"):
+                too_large = rows[name + ERROR] >= before[name]
+                rows.refuse(name + ERROR, too_large, f"must be smaller than the {name} itself")
 
 
 def _check_responses(rows: Results, motion: IncomingMotion, velocity: Array) -> None:

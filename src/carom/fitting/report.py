@@ -2,10 +2,12 @@
 
 import numpy as np
 
-from carom.fitting.estimates import FitRecord
+from carom.fitting.errors import least_error
+from carom.fitting.estimates import LIMITS, FitRecord
 from carom.fitting.estimation import Best
 from carom.fitting.intervals import ProfiledFit
 
+AT_END = 1e-6  # of a coordinate from an end of its range
 FAR = 4.0  # standard deviations of an outlier
 COLUMN = 14
 
@@ -14,12 +16,13 @@ def as_text(fit: FitRecord) -> str:
     """Return a small table of the parameters, and what else is to be known."""
     problem = fit.best.model.problem
     head = (
-        f"{problem.count} values of {', '.join(problem.responses)} in {len(problem.rows)} rows; "
+        f"{problem.count} value{'s' * (problem.count != 1)} of {', '.join(problem.responses)} in "
+        f"{len(problem.rows)} row{'s' * (len(problem.rows) != 1)}; "
         f"intervals of {100.0 * fit.confidence:g} % by profile likelihood"
     )
     lines = [head, *(f"  {name:{COLUMN}s} {each}" for name, each in fit.estimates.items())]
-    counted = ", ".join(f"{name}: {count}" for name, count in fit.regimes.items() if count)
-    lines.append(f"rows by regime: {counted}")
+    regimes = ", ".join(f"{name}: {count}" for name, count in fit.regimes.items() if count)
+    lines.append(f"rows by regime: {regimes}")
     lines += [f"note: {note}" for note in fit.notes]
     return "\n".join([*lines, str(fit.comparison)])
 
@@ -29,7 +32,7 @@ def notes(found: ProfiledFit) -> tuple[str, ...]:
     best = found.best
     problem = best.model.problem
     lines = [*_about_errors(best), *_about_outliers(best), *_about_regimes(found)]
-    lines += _about_others(best)
+    lines += [*_about_ranges(best), *_about_others(best)]
     if problem.ignored:
         lines.append(f"columns that were not used: {', '.join(problem.ignored)}")
     gaps = np.asarray(~problem.present.any(axis=1))
@@ -40,6 +43,7 @@ def notes(found: ProfiledFit) -> tuple[str, ...]:
 
 def _about_errors(best: Best) -> list[str]:
     problem, lines = best.model.problem, []
+    least = least_error(problem)
     for place, name in enumerate(problem.responses):
         if best.estimated[place]:
             unknown = problem.present[:, place] & ~np.isfinite(problem.errors[:, place])
@@ -50,6 +54,24 @@ def _about_errors(best: Best) -> list[str]:
                 f"{name}: the scatter is {best.scale[place]:.1f} times what the errors allow; "
                 "they were enlarged"
             )
+        if np.any(problem.errors[:, place] < least[place]):
+            lines.append(
+                f"{name}: errors below {least[place]:.2g} count as that; the curves are no better"
+            )
+    return lines
+
+
+def _about_ranges(best: Best) -> list[str]:
+    """Return which parameters lie at an end of the range in which they are searched for."""
+    lines = []
+    for parameter, at, low, high in zip(
+        best.model.parameters, best.at, *best.model.bounds, strict=True
+    ):
+        ends = {parameter.low: at - low, parameter.high: high - at}
+        for end, distance in ends.items():
+            if distance < AT_END and end not in LIMITS[parameter.name]:
+                reach = f"from {parameter.low:.3g} to {parameter.high:.3g}"
+                lines.append(f"{parameter.name}: best at an end of its range, {reach}")
     return lines
 
 
