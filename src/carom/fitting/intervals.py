@@ -153,7 +153,7 @@ def settle(model: Model, loss: RobustLoss, start: Mapping[str, float]) -> Settle
         groups.append(group)
         if len(best.model.free) == 1:
             break
-        best = _held(best, group[0], start[group[0]], loss)
+        best = _held(best, group, start[group[0]])
     return Settled(best, tuple(groups), whole)
 
 
@@ -171,12 +171,22 @@ def weak_group(told: Information, names: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(sorted(members, key=HELD_FIRST.index))
 
 
-def _held(best: Best, name: str, start: float, loss: RobustLoss) -> Best:
-    """Return the fit with a parameter held where it starts, or where it was if that is worse."""
-    at_start = estimate(best.model.holding(name, start), loss)
-    if abs(at_start.sum - best.sum) < WORSE * best.spread or at_start.estimated.any():
-        return at_start
-    return estimate(best.model.holding(name, best.values[name]), loss)
+def _held(best: Best, group: tuple[str, ...], start: float) -> Best:
+    """Return the fit with the first of a group held where it starts, or where it was.
+
+    It is held where it starts if the data allow that: with the others of its group following, or
+    with all others as they are if it is alone. The fit goes on from where it was: elsewhere the
+    data may tell what they do not tell here.
+    """
+    name = group[0]
+    others = best.at[np.newaxis, [each != name for each in best.model.free]]
+    model = best.model.holding(name, start)
+    residuals = model.residuals(best.weights, best.loss)
+    at = others if len(group) == 1 else descend(residuals, others, model.bounds).at
+    rise = float(np.square(residuals(at)).sum()) - best.sum
+    if rise < WORSE * best.spread:
+        return estimate(model, best.loss, at)
+    return estimate(best.model.holding(name, best.values[name]), best.loss, others)
 
 
 def reason(group: tuple[str, ...], best: Best) -> str:

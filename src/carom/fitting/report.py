@@ -1,11 +1,13 @@
 """The result of a fit in words."""
 
+from itertools import chain
+
 import numpy as np
 
 from carom.fitting.errors import least_error
 from carom.fitting.estimates import LIMITS, FitRecord
 from carom.fitting.estimation import Best
-from carom.fitting.intervals import ProfiledFit
+from carom.fitting.intervals import ProfiledFit, Settled
 
 AT_END = 1e-6  # of a coordinate from an end of its range
 FAR = 4.0  # standard deviations of an outlier
@@ -27,12 +29,12 @@ def as_text(fit: FitRecord) -> str:
     return "\n".join([*lines, str(fit.comparison)])
 
 
-def notes(found: ProfiledFit) -> tuple[str, ...]:
+def notes(found: ProfiledFit, settled: Settled) -> tuple[str, ...]:
     """Return what is to be known besides the numbers."""
     best = found.best
     problem = best.model.problem
     lines = [*_about_errors(best), *_about_outliers(best), *_about_regimes(found)]
-    lines += [*_about_ranges(best), *_about_others(best)]
+    lines += [*_about_ranges(best), *_about_others(best, settled)]
     if problem.ignored:
         lines.append(f"columns that were not used: {', '.join(problem.ignored)}")
     gaps = np.asarray(~problem.present.any(axis=1))
@@ -94,14 +96,16 @@ def _about_regimes(found: ProfiledFit) -> list[str]:
     return [f"regime within the intervals not certain: {model.problem.rows.named(unsure)}"]
 
 
-def _about_others(best: Best) -> list[str]:
-    """Return another minimum that the data do not exclude."""
-    rivals = best.rivals
-    near = rivals.sums - rivals.sums[0] < 4.0 * best.spread
-    apart = np.any(np.abs(rivals.at - rivals.at[0]) > 0.1, axis=1)
+def _about_others(best: Best, settled: Settled) -> list[str]:
+    """Return another minimum that the data do not exclude, apart in what they seem to tell."""
+    whole, told = settled.whole, set(best.model.free) - set(chain(*settled.groups))
+    rivals, model = whole.rivals, whole.model
+    near = rivals.sums - rivals.sums[0] < 4.0 * whole.spread
+    known = [name in told for name in model.free]
+    apart = np.any(np.abs(rivals.at - model.coordinates(best.values))[:, known] > 0.1, axis=1)
     lines = []
     for point in rivals.at[near & apart][:1]:
-        values = best.model.values_at(point)
-        shown = ", ".join(f"{name} {values[name]:.3g}" for name in best.model.free)
+        values = model.values_at(point)
+        shown = ", ".join(f"{name} {values[name]:.3g}" for name in model.free)
         lines.append(f"fits nearly as well: {shown}")
     return lines
