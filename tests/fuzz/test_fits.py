@@ -1,4 +1,4 @@
-"""`fit` with measurements as people have them: a result that is whole, or one line that says why.
+"""`fit` with measurements as people have them: a whole result, or one line that says why.
 
 Few rows, equal rows, one angle, normal impacts, gaps, outliers, no scatter, any errors, any bodies.
 """
@@ -123,6 +123,9 @@ def measured(rng, pair):
             data[name] = np.clip(data[name], -1.5, 1.5)
     table = {name: values.tolist() for name, values in (before | data).items()}
     habits(rng, table, before, names)
+    if rng.random() < 0.02:
+        name = str(rng.choice(list(table)))
+        table[name][rng.integers(rows)] = float(rng.choice([1e-200, 1e15, 1e200, -1e200]))
     if rng.random() < 0.15:  # one drop, told as often as there are rows
         table = {name: values[:1] * rows for name, values in table.items()}
     return table
@@ -135,7 +138,9 @@ def habits(rng, table, before, names):
         sizes = np.abs([value for value in table[name] if np.isfinite(value)])
         size = float(sizes.max(initial=0.0)) or 1.0
         if rng.random() < 0.1:
-            table[name][rng.integers(rows)] = float(rng.choice([0.0, 0.9, -3.0, 10.0])) * size
+            table[name][rng.integers(rows)] = (
+                float(rng.choice([0.0, 0.9, -3.0, 10.0, 1e5, 1e200])) * size
+            )
         if rng.random() < 0.5:
             part = rng.choice([1e-9, 1e-3, 0.03, 0.3, 100.0])
             table[f"{name}_error"] = (part * size * rng.uniform(0.5, 1.0, rows)).tolist()
@@ -234,6 +239,12 @@ def stored(found, folder):
     assert "<table" in found._repr_html_()
 
 
+def line(error):
+    """Return the one line that a refusal is."""
+    assert LINE.fullmatch(str(error)), error
+    return str(error)
+
+
 def attempt(seed, folder, pictures=True):
     """Make up measurements and fit them; return the fit, or the line that refuses them."""
     rng = np.random.default_rng(seed)
@@ -246,8 +257,7 @@ def attempt(seed, folder, pictures=True):
         try:
             found = carom.fit(table, pair=other, **given)
         except carom.InputError as error:
-            assert LINE.fullmatch(str(error)), error
-            return str(error)
+            return line(error)
         used(found)
         if pictures:
             stored(found, folder)

@@ -76,9 +76,7 @@ def advise(fit: FitRecord, n: int, parameter: str | None) -> Advice:
 
     Raises InputError for a parameter that was not to be fitted, or an n below 1 or above 1000.
     """
-    count = counted("n", n, 1)
-    if count > PLAN:
-        raise refusal("n", n, f"must be at most {PLAN}; `needed` tells how many halve an interval")
+    count = counted_plan("n", n)
     best = _with_all(fit)
     name = _wanted(fit, best, parameter)
     place = best.model.free.index(name)
@@ -101,6 +99,14 @@ def advise(fit: FitRecord, n: int, parameter: str | None) -> Advice:
     shorter = float(np.sqrt(_variance(root, place) / now))
     wanted = "chi" if parameter == "chi" else name
     return Advice(wanted, tuple(chosen), places[int(np.argmin(needed))], shorter)
+
+
+def counted_plan(name: str, n: int) -> int:
+    """Return how many measurements are to be advised, or raise InputError."""
+    count = counted(name, n, 1)
+    if count > PLAN:
+        raise refusal(name, n, f"must be at most {PLAN}, as many as one plans one by one")
+    return count
 
 
 def _with_all(fit: FitRecord) -> Best:

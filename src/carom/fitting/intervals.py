@@ -16,7 +16,7 @@ from carom.fitting.model import Model
 from carom.fitting.problem import Mask
 from carom.quantities.arrays import Array
 
-TRIES = 4  # better fits that the search for the ends may meet
+TRIES = 4  # fits of which the ends are searched for, each better than the one before
 FIRST = 4.0  # parts of the range in which an open side is searched for, at first
 ROUNDS, CLOSE = 16, 2e-3  # at most; of the distance at which the loss has risen enough
 HELD_FIRST = (OFFSET, "restitution", "tangential_restitution", "kappa", "friction")
@@ -41,15 +41,16 @@ class ProfiledFit:
 def profiled(best: Best, confidence: float) -> ProfiledFit:
     """Return a fit with the ends of its intervals, or a better fit if the search meets one.
 
-    The loss may rise by its spread times a quantile of chi squared, or of F.
+    The loss may rise by its spread times a quantile of chi squared, or of F. Where weights change
+    with the parameters so that better fits never end, the last one counts.
     """
-    for _ in range(TRIES):
+    for last in range(TRIES):
         rises = best.spread * (best.caution * rise_of(confidence, best.freedom))
-        found, better = _profile(best, np.repeat(rises, 2))
+        found, better = _profile(best, np.repeat(rises, 2), whatever=last == TRIES - 1)
         if better is None:
             break
         best = estimate(best.model, best.loss, better[np.newaxis])
-    return ProfiledFit(best, found.ends, found.open)
+    return found
 
 
 def rise_of(confidence: float, freedom: Array) -> Array:
@@ -59,10 +60,11 @@ def rise_of(confidence: float, freedom: Array) -> Array:
     return np.asarray(np.where(np.isfinite(freedom), stdtrit(bounded, level), ndtri(level)) ** 2)
 
 
-def _profile(best: Best, rises: Array) -> tuple[ProfiledFit, Array | None]:
+def _profile(best: Best, rises: Array, whatever: bool) -> tuple[ProfiledFit, Array | None]:
     """Return both ends of all intervals, searched for at once, and a better fit if one was met.
 
-    `rises`, of shape (2 parameters,), is what the loss may rise by, the other parameters following.
+    `rises`, of shape (2 parameters,), is what the loss may rise by, the other parameters following;
+    `whatever` tells to go on beyond a better fit.
     """
     low, high = best.model.bounds
     residuals = best.model.residuals(best.weights, best.loss)
@@ -85,7 +87,7 @@ def _profile(best: Best, rises: Array) -> tuple[ProfiledFit, Array | None]:
         start[place] = target
         at, sums = descend(residuals, start, best.model.bounds, others)
         excess = (sums - best.sum) / rises
-        if np.any(excess < -0.02):
+        if np.any(excess < -0.02) and not whatever:
             better = at[np.argmin(excess)]
             break
         ends = np.where(done[:, np.newaxis], ends, at)

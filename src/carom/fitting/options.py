@@ -1,6 +1,6 @@
 """Which parameters are varied and which are fixed, read from what a user gives."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from carom.fitting.laws import EXACT, OFFSET, half_ratio, ranged
@@ -53,7 +53,7 @@ def checked_confidence(value: Any) -> float:
     return confidence
 
 
-def check_count(problem: FitProblem, free: Collection[str]) -> None:
+def check_count(problem: FitProblem, free: Sequence[str]) -> None:
     """Raise InputError if there are too few values for so many parameters."""
     least = len(free) + (not problem.all_errors_known)
     if problem.count < least:

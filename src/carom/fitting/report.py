@@ -1,15 +1,16 @@
 """The result of a fit in words."""
 
-from itertools import chain
+from collections.abc import Mapping
 
 import numpy as np
 
 from carom.fitting.errors import least_error
-from carom.fitting.estimates import LIMITS, FitRecord
+from carom.fitting.estimates import LIMITS, Estimate, FitRecord
 from carom.fitting.estimation import Best
-from carom.fitting.intervals import ProfiledFit, Settled
+from carom.fitting.intervals import ProfiledFit
 
 AT_END = 1e-6  # of a coordinate from an end of its range
+APART = 0.1  # of a coordinate between two minima
 FAR = 4.0  # standard deviations of an outlier
 COLUMN = 14
 
@@ -29,12 +30,12 @@ def as_text(fit: FitRecord) -> str:
     return "\n".join([*lines, str(fit.comparison)])
 
 
-def notes(found: ProfiledFit, settled: Settled) -> tuple[str, ...]:
-    """Return what is to be known besides the numbers."""
+def notes(found: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) -> tuple[str, ...]:
+    """Return what is to be known besides the numbers; `whole` is the fit with nothing held."""
     best = found.best
     problem = best.model.problem
     lines = [*_about_errors(best), *_about_outliers(best), *_about_regimes(found)]
-    lines += [*_about_ranges(best), *_about_others(best, settled)]
+    lines += [*_about_ranges(best), *_about_incidence(whole), *_about_others(whole, estimates)]
     if problem.ignored:
         lines.append(f"columns that were not used: {', '.join(problem.ignored)}")
     gaps = np.asarray(~problem.present.any(axis=1))
@@ -96,16 +97,25 @@ def _about_regimes(found: ProfiledFit) -> list[str]:
     return [f"regime within the intervals not certain: {model.problem.rows.named(unsure)}"]
 
 
-def _about_others(best: Best, settled: Settled) -> list[str]:
-    """Return another minimum that the data do not exclude, apart in what they seem to tell."""
-    whole, told = settled.whole, set(best.model.free) - set(chain(*settled.groups))
+def _about_incidence(whole: Best) -> list[str]:
+    """Return that rows at one incidence, whose psi_1 are one, tell one number of two."""
+    if not {"friction", "kappa"} <= set(whole.model.free) or not whole.model.problem.is_one:
+        return []
+    return ["one incidence tells friction or kappa, not both; fix one, or measure at other angles"]
+
+
+def _about_others(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]:
+    """Return another minimum that the data do not exclude, outside of the intervals."""
     rivals, model = whole.rivals, whole.model
-    near = rivals.sums - rivals.sums[0] < 4.0 * whole.spread
-    known = [name in told for name in model.free]
-    apart = np.any(np.abs(rivals.at - model.coordinates(best.values))[:, known] > 0.1, axis=1)
-    lines = []
-    for point in rivals.at[near & apart][:1]:
+    found = model.coordinates({name: estimates[name].value for name in model.free})
+    near = rivals.sums - whole.sum < 4.0 * whole.spread
+    for point in rivals.at[near][np.argsort(rivals.sums[near])]:
         values = model.values_at(point)
-        shown = ", ".join(f"{name} {values[name]:.3g}" for name in model.free)
-        lines.append(f"fits nearly as well: {shown}")
-    return lines
+        outside = [
+            estimates[name].excludes(values[name]) and abs(away) > APART
+            for name, away in zip(model.free, point - found, strict=True)
+        ]
+        if any(outside):
+            shown = ", ".join(f"{name} {values[name]:.3g}" for name in model.free)
+            return [f"fits nearly as well: {shown}"]
+    return []
