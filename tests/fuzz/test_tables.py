@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.fitting.problem import read_problem
+from carom.fitting.reading import read_problem
 from carom.io import csv_cells
 
 HEAD = "angle [deg],speed [m/s],spin,spin_out [rpm],e_n,tangential_restitution [%]\n"

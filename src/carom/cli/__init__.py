@@ -56,7 +56,7 @@ def main(arguments: list[str] | None = None) -> int:
             typer.echo(error.format_message())
             return error.exit_code
         asked = _option_meant(error) or "see carom --help or carom COMMAND --help"
-        return _refuse(f"{str(error).rstrip('.')}; {asked}")
+        return _refuse(f"{error.format_message().rstrip('.')}; {asked}")
     except typer.Abort:
         typer.echo("carom: stopped", err=True)
         return 1

@@ -73,21 +73,23 @@ def fit_command(
 
     Columns before: angle and speed; normal_speed and tangential_speed; or angle, contact_angle,
     psi_in alone where no speed is needed; spin, spin2. After, any of: normal_restitution,
-    normal_speed_out, tangential_restitution, tangential_speed_out, rebound_angle, spin_out,
-    contact_restitution, contact_beta, contact_rebound_angle, impulse_ratio, psi_out; '-' where
-    nothing was measured. Standard deviations: spin_out_error, angle_error and so on.
+    normal_speed_out, tangential_restitution, tangential_speed_out, rebound_speed, rebound_angle,
+    spin_out, contact_restitution, contact_beta, contact_rebound_angle, impulse_ratio, psi_out; '-'
+    where nothing was measured. Standard deviations: spin_out_error, angle_error and so on.
 
     Example: carom fit --dataset kharaz2001 --plot kharaz.png
 
     Own data: carom fit rebounds.csv --case ball.toml --fix restitution=0.98 --advice 5
     """
+    from carom.fitting.advice import PLAN
+    from carom.fitting.posterior import FEWEST_STEPS, MOST_SEED, MOST_STEPS
     from carom.io.files import FIGURES, TABLES
 
     source = _source(data, dataset)
     if about is not None and advice is None:
         raise refusal("for", about, "it is the parameter of --advice; give that, too")
-    count = None if advice is None else whole("advice", advice, 1)
-    sampling = whole("steps", steps, 100), whole("seed", seed, 0, 2**32 - 1)
+    count = None if advice is None else whole("advice", advice, 1, PLAN)
+    sampling = whole("steps", steps, FEWEST_STEPS, MOST_STEPS), whole("seed", seed, 0, MOST_SEED)
     files = {"data": source, "case": case, "plot": plot, "output": output, "posterior": posterior}
     refuse_same(files)
     check_outputs((plot, FIGURES), (output, TABLES), (posterior, (*TABLES, *FIGURES)))
@@ -100,10 +102,10 @@ def fit_command(
         confidence=number("confidence", confidence, "1"),
         columns=named_values("column", column, "omega=spin_out"),
     )
+    advised = None if count is None else found.advice(count, about)
     store(found, output, plot)
     if posterior is not None:
         stored(_sampled(found, posterior, *sampling))
-    advised = None if count is None else found.advice(count, about)
     if as_json:
         extra = {} if advised is None else {"advice": advised.to_dict()}
         typer.echo(json.dumps(found.to_dict() | extra, indent=2))
@@ -122,7 +124,7 @@ def _source(data: Path | None, dataset: str | None) -> Path:
 def _pair(case: Path | None) -> "Pair | None":
     """Return the bodies of a case file, whose friction may be left out."""
     from carom.bodies.cases import pair_of
-    from carom.fitting.problem import START
+    from carom.fitting.reading import START
 
     return None if case is None else pair_of({"friction": START, **told_case(case)})
 
