@@ -16,7 +16,7 @@ OPTIONS = {
 ENGINE = ["verify", "lammps"]
 
 
-@pytest.mark.parametrize("text", ["1_000", "٣٠", "3.0", "1e3", "many", "", "-5", "1000000000000"])
+@pytest.mark.parametrize("text", ["1_000", "٣٠", "3.0", "1e3", "many", "", "-5", "9" * 30])
 @pytest.mark.parametrize(
     ("name", "command"), [*OPTIONS.items(), ("steps", ENGINE)], ids=[*OPTIONS, "verify steps"]
 )

@@ -134,7 +134,7 @@ def warn_of_unusable(status: Any) -> None:
         f"of {_counted(prod(status.shape), 'pair')} some were left alone: {'; '.join(found)}; "
         "`status` tells which",
         UserWarning,
-        stacklevel=3,
+        stacklevel=4,
     )
 
 
