@@ -112,7 +112,7 @@ def test_files_of_an_impact_with_losses_are_what_it_is_and_can_be_drawn(run):
     [
         (["--restitution", "1.1"], ("restitution: 1.1", "from 0.001 to 1")),
         (["--restitution", "0"], ("restitution: 0",)),
-        (["--restitution", "190 %"], ("restitution: '190 %'", "from 0.001 to 1")),
+        (["--restitution", "190 %"], ("restitution: 1.9", "from 0.001 to 1")),
         (["--restitution", "0.9", "--loss-time", "1 us"], ("give it or restitution, not both",)),
         (["--loss-time", "2 mm"], ("loss_time: '2 mm'", "not a value in s")),
         (["--loss-time", "1 s"], ("loss_time", "not solved")),
