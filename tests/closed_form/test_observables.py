@@ -80,6 +80,7 @@ def followed(pair, motion, impulse, restitution):
         "tangential_speed_out": after[0],
         "spin_out": -after_omega_1,
         "spin2_out": -after_omega_2,
+        "rebound_speed": math.hypot(*after),
         "rebound_angle": math.atan(after[0] / after[1]),
         "contact_rebound_angle": math.atan(slip_out / after[1]),
         "tangential_restitution": after[0] / before[0],
@@ -182,6 +183,50 @@ def test_ratios_and_angles_need_no_speed():
     np.testing.assert_allclose(ratio, expected, rtol=1e-12)
 
 
+@pytest.mark.parametrize("name", PAIRS)
+def test_speed_and_angle_after_tell_everything(name):
+    """Both parts of the motion after, so that not even the normal restitution is needed."""
+    pair, truth = impacts(name)
+    names = ("normal_speed", "tangential_speed", "spin", "spin2", "rebound_speed", "rebound_angle")
+    known = {key: truth[key] for key in names_of(pair, names)}
+    for wanted in names_of(pair, set(NAMES) - {"rebound_angle"}):
+        found = convert(pair, known=known, wanted=wanted)
+        scale = np.abs(truth[wanted]).max()
+        np.testing.assert_allclose(found, truth[wanted], rtol=1e-9, atol=1e-11 * scale)
+
+
+@pytest.mark.parametrize("name", PAIRS)
+@pytest.mark.parametrize("angle", [-0.9, -0.2, 0.01, 0.3, 1.2])
+def test_speed_after_tells_the_rebound_of_an_impact(name, angle):
+    """Without spin before the centre goes on: of both signs of v_t' friction allows one."""
+    pair = PAIRS[name]
+    hit = carom.impact(pair, speed=2.0, angle=angle)
+    known = {"speed": 2.0, "angle": angle, "normal_restitution": 1.0}
+    known["rebound_speed"] = hit.rebound_speed
+    for wanted in ("tangential_speed_out", "spin_out", "psi_out", "rebound_angle"):
+        found = convert(pair, known=known, wanted=wanted)
+        assert found == pytest.approx(getattr(hit, wanted), rel=1e-8), wanted
+
+
+def test_speed_after_of_a_centre_that_goes_back():
+    """Solid sphere, v_t = 0 before and spin: friction gives it v_t' of the sign of the spin."""
+    pair = PAIRS["sphere on wall"]
+    for spin in (-300.0, 300.0):
+        hit = carom.impact(pair, speed=1.0, angle=0.0, spin=spin)
+        known = {"speed": 1.0, "angle": 0.0, "spin": spin, "normal_restitution": 1.0}
+        known["rebound_speed"] = hit.rebound_speed
+        found = convert(pair, known=known, wanted="tangential_speed_out")
+        assert found == pytest.approx(hit.tangential_speed_out, rel=1e-9)
+        assert found * spin < 0.0
+
+
+def test_speed_after_with_scatter_takes_the_sign_that_is_nearer():
+    """A speed that even without friction would be 1 % less: v_t' is that root, not its negative."""
+    known = {"speed": 2.0, "angle": 0.5, "normal_restitution": 1.0, "rebound_speed": 2.02}
+    found = convert(PAIRS["sphere on wall"], known=known, wanted="tangential_speed_out")
+    assert found == pytest.approx(math.sqrt(2.02**2 - (2.0 * math.cos(0.5)) ** 2), rel=1e-12)
+
+
 def test_what_is_not_known_stays_unknown():
     known = {"speed": 2.0, "angle": 0.5, "spin_out": [1.0, np.nan]}
     found = convert(PAIRS["sphere on wall"], known=known, wanted="tangential_restitution")
@@ -211,6 +256,27 @@ START = {"speed": 2.0, "angle": 0.5}
         (START | {"spin2_out": 1.0}, "psi_out", "spin2_out: only a second sphere can spin"),
         (START | {"spinout": 1.0}, "psi_out", "spinout: unknown quantity; did you mean 'spin_out'"),
         (START, "restitution", "restitution: unknown quantity; did you mean"),
+        (START | {"rebound_speed": 1.9}, "spin_out", "normal_restitution: missing; rebound_speed"),
+        (
+            START | {"rebound_speed": 1.0, "normal_restitution": 1.0},
+            "spin_out",
+            "rebound_speed: 1.0 cannot be used; is below the normal speed after",
+        ),
+        (
+            START | {"rebound_speed": 1.8, "normal_restitution": 1.0, "spin": 1500.0},
+            "spin_out",
+            "the centre may go on or back with it; give rebound_angle, too",
+        ),
+        (
+            START | {"rebound_speed": 1.8, "rebound_angle": 0.3, "spin_out": 1.0},
+            "psi_out",
+            "rebound_speed and rebound_angle tell the rebound; leave spin_out out",
+        ),
+        (
+            {"angle": 0.5, "rebound_speed": 1.8, "rebound_angle": 0.3},
+            "psi_out",
+            "speed: missing; rebound_speed needs",
+        ),
         (START | {"spin_out": [1.0, 2.0], "spin": [1, 2, 3]}, "psi_out", "do not fit each other"),
         ({"speed": 2.0, "angle": 0.0, "contact_beta": 0.3}, "spin_out", "contact_beta: says noth"),
         (

@@ -37,10 +37,15 @@ IMPULSE: dict[str, Callable[[Rebound, Array], Any]] = {  # J_t, from what is kno
         r.pair.tangential_mass * (r.contact_velocity - x * _psi_unit(r.pair, r.normal_speed))
     ),
 }
-OBSERVABLES = (*NORMAL, *IMPULSE)
+SPEED = "rebound_speed"  # of both parts of the motion after
+OBSERVABLES = (*NORMAL, *IMPULSE, SPEED)
 NAMES = (*BEFORE, *OBSERVABLES)
+ROUNDING = 1e-9  # of a speed
+SLOWEST, FASTEST = 1e-12, 1e9  # normal speeds in m/s that measurements and programs may have
 SCALED = {name for name in NAMES if "spin" in name or "speed" in name}  # not a ratio or an angle
-RECEDING = ("rebound_angle", "contact_rebound_angle", "impulse_ratio", *NORMAL)  # these need e
+RECEDING = (  # these need e
+    *("rebound_angle", "contact_rebound_angle", "impulse_ratio", SPEED, *NORMAL),
+)
 RELATIVE = {  # these say nothing where there was nothing before
     "tangential_restitution": "tangential_speed",
     "contact_restitution": "contact_velocity",
@@ -67,7 +72,8 @@ def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
         After: normal_restitution or normal_speed_out; and one of tangential_speed_out, spin_out,
         spin2_out, rebound_angle (of the centre), contact_rebound_angle (of the contact point),
         tangential_restitution (v_t'/v_t), contact_restitution (V_x'/V_x), contact_beta (-V_x'/V_x),
-        impulse_ratio (J_t/J_n), psi_out.
+        impulse_ratio (J_t/J_n), psi_out; or rebound_speed (of the centre, V') where only one sign
+        of v_t' is possible, 0 <= J_t <= 2 m_t V_x. Or rebound_speed and rebound_angle.
     wanted : str
         Any of these names.
 
@@ -96,7 +102,7 @@ def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     _check_name(wanted)
     _check_bodies(pair, {*given, wanted})
     try:
-        shape = np.broadcast_shapes(*(values.shape for values in given.values()))
+        shape = np.broadcast_shapes(*(each.shape for each in given.values()))
     except ValueError:
         raise InputError("known: arrays of shapes that do not fit each other") from None
     rebound = _rebound(pair, given, wanted)
@@ -115,15 +121,15 @@ def _values(name: str, value: Any) -> Array:
     values = numbers(name, value, "must be numbers, or text with a unit")
     if "angle" in name:
         _refuse(name, values, abs(values) >= 0.5 * pi, "must be below pi/2, '90 deg'")
-    elif name in ("speed", "normal_speed", *NORMAL):
+    elif name in ("speed", "normal_speed", SPEED, *NORMAL):
         _refuse(name, values, values <= 0.0, "must be positive")
     _refuse(name, values, np.isinf(values), "must be finite")
     return values
 
 
 def _refuse(name: str, values: Array, bad: NDArray[np.bool_], allowed: str) -> None:
-    if bad.any():
-        raise refusal(name, float(values[bad][0]), allowed)
+    if np.any(bad):
+        raise refusal(name, float(np.broadcast_to(values, bad.shape)[bad][0]), allowed)
 
 
 def _check_bodies(pair: Pair, names: set[str]) -> None:
@@ -136,13 +142,27 @@ def _check_bodies(pair: Pair, names: set[str]) -> None:
         raise InputError(f"{psis[0]}: infinite without friction; give the pair a friction")
 
 
+def _resolved(given: Given) -> Given:
+    """Return speed and angle after as the two velocities that they are."""
+    both = (SPEED, "rebound_angle")
+    if not given.keys() >= set(both):
+        return given
+    twice = [name for name in OBSERVABLES if name in given and name not in both]
+    if twice:
+        raise InputError(f"known: {' and '.join(both)} tell the rebound; leave {twice[0]} out")
+    normal, tangential = components(*(given[name] for name in both))
+    others = {name: value for name, value in given.items() if name not in both}
+    return {**others, "normal_speed_out": normal, "tangential_speed_out": tangential}
+
+
 def _rebound(pair: Pair, given: Given, wanted: str) -> Rebound:
     """Return the rebound, with NaN for what is not known of it and not wanted."""
     normal, before = _before(pair, given, wanted)
+    given = _resolved(given)
     start = Rebound(pair, normal, before, _restitution(normal, given), 0.0)
     if wanted in BEFORE:
         return start
-    ways = _one_of("the rebound", given, tuple(IMPULSE)) if wanted not in NORMAL else ""
+    ways = _one_of("the rebound", given, (*IMPULSE, SPEED)) if wanted not in NORMAL else ""
     needing = [name for name in (ways, wanted) if name in RECEDING]
     if needing and not given.keys() & set(NORMAL):
         raise InputError(f"normal_restitution: missing; {needing[0]} needs it, e.g. 0.98")
@@ -155,7 +175,31 @@ def _rebound(pair: Pair, given: Given, wanted: str) -> Rebound:
                 f"{ways}: says nothing where {RELATIVE[ways]} is zero before; give another, "
                 "e.g. spin_out"
             )
+    if ways == SPEED:
+        return replace(start, impulse=_slowing(start, given[SPEED]))
     return replace(start, impulse=IMPULSE[ways](start, given[ways]))
+
+
+def _slowing(start: Rebound, speed: Array) -> Any:
+    """Return the tangential impulse that leaves this speed of the centre, v_t' = +-sqrt(...).
+
+    Of the two signs friction allows one that opposes the sliding and does not more than turn it,
+    0 <= J_t <= 2 m_t V_x, to which scatter may come near from outside.
+    """
+    normal, before = start.normal_speed_out, start.tangential_speed
+    _refuse(SPEED, speed, speed < normal * (1.0 - ROUNDING), "is below the normal speed after")
+    along = np.sqrt(np.maximum((speed - normal) * (speed + normal), 0.0))
+    ends = before, before - 2.0 * _carried(start)
+    low, high = np.minimum(*ends), np.maximum(*ends)
+    on, back = (np.maximum(low - x, x - high) for x in (along, -along))  # how far outside
+    unsure = (np.maximum(on, back) <= 0.0) & (along > ROUNDING * speed)
+    _refuse(SPEED, speed, unsure, "the centre may go on or back with it; give rebound_angle, too")
+    return start.pair.normal_mass * (before - np.where(on <= back, along, -along))
+
+
+def _carried(start: Rebound) -> Any:
+    """Return by how much an impulse m_t V_x changes the speed of the centre."""
+    return start.pair.tangential_mass / start.pair.normal_mass * start.contact_velocity
 
 
 def _one_of(what: str, given: Given, names: tuple[str, ...]) -> str:
