@@ -209,3 +209,38 @@ def test_turned_psi_and_wrong_chi_are_suspected():
     other = score({"psi_1": psi, "psi_2": carom.rebound(psi, 0.9 * CHI)}, chi=CHI)
     assert "is chi 0.9 times as large?" in other.notes[0]
     assert score({"psi_1": psi, "psi_2": exact}, chi=CHI).notes == ()
+
+
+@pytest.mark.parametrize(
+    ("results", "words"),
+    [
+        ({"psi_1": [0.1, 1.0, 2.0], "psi_2": [0.0, 1e300, -0.8]}, "psi. is above 1e.09 in row 2"),
+        ({"tangential_speed_out": [1e300, 1.0, 1.0]}, "psi. is above 1e.09 in row 1"),
+        ({"spin_out": [1.0, -1e200, 1.0]}, "psi. is above 1e.09 in row 2"),
+        ({"normal_speed": [1.0, 1.0, 1e300]}, "normal_speed: 1e.300 in row 3.*check its unit"),
+        ({"normal_speed": [1.0, 1e-300, 1.0]}, "normal_speed: 1e-300 in row 2.*check its unit"),
+        ({"normal_force": [1e300] * 30}, "normal_force: 1e.300 in every row.*check its unit"),
+    ],
+)
+def test_numbers_that_cannot_be_meant_are_refused(results, words):
+    """No overflow on the way to an error: the row and what to check are named."""
+    rows = len(next(iter(results.values())))
+    names = ("normal_speed", "tangential_speed", "spin", "tangential_speed_out", "spin_out")
+    given, bodies = {"chi": 1.44}, {}
+    if "normal_force" in results:
+        bodies = {"time": np.linspace(0.0, 1e-5, rows), "tangential_force": np.zeros(rows)}
+        given = {"case": carom.impact(PAIR, speed=1.0, angle=0.3)}
+    elif "psi_1" not in results:
+        bodies, given = dict.fromkeys(names, [1.0] * rows), {"case": PAIR}
+    with pytest.raises(carom.InputError, match=words):
+        score(bodies | results, **given)
+
+
+def test_forces_without_friction_cannot_be_scored():
+    """Even at normal incidence, where psi_1 is zero and not infinite."""
+    pair = carom.Pair(PAIR.first, PAIR.second, friction=0.0)
+    hit = carom.impact(pair, speed=1.0, angle=0.0)
+    table = {name: hit.to_dataset()[name].values for name in ("time", "normal_force")}
+    table["tangential_force"] = np.zeros(len(table["time"]))
+    with pytest.raises(carom.InputError, match="friction: without friction"):
+        score(table, case=hit)

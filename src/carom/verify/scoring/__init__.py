@@ -18,7 +18,13 @@ from carom.io.tables import read_table
 from carom.quantities.arrays import Array
 from carom.quantities.units import InputError, nearest, number, positive, refusal
 from carom.verify.scoring.histories import NAMES as HISTORY, score_history
-from carom.verify.scoring.points import compared, energy_audit, friction_audit, notes_on
+from carom.verify.scoring.points import (
+    compared,
+    energy_audit,
+    friction_audit,
+    notes_on,
+    refuse_large,
+)
 from carom.verify.scoring.result import Score
 from carom.verify.scoring.velocities import AFTER, BEFORE, score_velocities
 
@@ -134,8 +140,8 @@ def _score_psi(results: Results, case: Any, chi: Any, limit: float) -> Score:
     results.require_rows(FEWEST)
     chis = _chis(results, case, chi)
     before, after = results["psi_in"], results["psi_out"]
-    with np.errstate(over="ignore", invalid="ignore"):  # what is too large is refused next
-        change = (after - before) * (after + before)
+    refuse_large(before, after, results)
+    change = (after - before) * (after + before)
     points = compared(before, after, chis, change, results)
     elastic = np.ones(len(results))
     audit = energy_audit(points, elastic, "in psi^2", limit), friction_audit(points, elastic, limit)

@@ -1,10 +1,10 @@
 """The score of a history of forces: the rebound that it makes, and what is found on the way."""
 
-from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
 
+from carom.bodies.pairs import Scales
 from carom.dimensionless.numerics import hertz
 from carom.impacts.exact import Impact
 from carom.io.columns import Results
@@ -12,7 +12,15 @@ from carom.io.labels import Finding
 from carom.quantities.arrays import Array
 from carom.quantities.units import InputError
 from carom.verify.scoring.contact import Samples, contact_samples
-from carom.verify.scoring.points import PRINTED, Points, compared, energy_audit, restitution_audit
+from carom.verify.scoring.points import (
+    LARGEST,
+    PRINTED,
+    Points,
+    compared,
+    energy_audit,
+    refuse_large,
+    restitution_audit,
+)
 
 TAIL = 64  # instants added where the exact contact outlasts the one that was given
 NAMES = ("time", "normal_force", "tangential_force", "contact_velocity")
@@ -92,12 +100,14 @@ def score_history(
     Raises InputError for a record that is not one whole contact, or is in wrong units.
     """
     results.require("time", "normal_force", "tangential_force")
-    if not isfinite(hit.psi_in):
+    if hit.pair.friction == 0.0:
         raise InputError("friction: without friction psi is infinite; there is nothing to score")
+    _refuse_large(results, hit.scales)
     forces = forces_of(hit, contact_samples(results, hit.scales))
     change = np.array([_energy_change(forces)])
     before, after = np.array([hit.psi_in]), forces.psi[-1:]
     one = Results({}, np.array([1]), "impact")
+    refuse_large(before, after, one)
     points = compared(before, after, np.array([hit.pair.chi]), change, one)
     unit = 0.5 * hit.pair.tangential_mass * np.array([hit.scales.tangential_speed]) ** 2
     findings = (
@@ -112,6 +122,15 @@ def score_history(
         *_velocity_audit(results, forces, limit),
     )
     return points, findings, _notes(forces), forces
+
+
+def _refuse_large(results: Results, scales: Scales) -> None:
+    """Raise InputError for numbers in a unit that cannot be theirs."""
+    units = {"normal_force": scales.force, "tangential_force": scales.force}
+    units["contact_velocity"] = scales.tangential_speed
+    for name, unit in units.items():
+        if name in results.columns:
+            results.refuse(name, np.abs(results[name]) > LARGEST * unit, "check its unit")
 
 
 def _energy_change(forces: Forces) -> float:

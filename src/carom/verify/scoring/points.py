@@ -82,6 +82,14 @@ class Points:
         return tuple(self.group(self.sequence_names[i], members[i]) for i in order)
 
 
+def refuse_large(psi_in: Array, psi_out: Array, results: Results) -> None:
+    """Raise InputError for velocities in a unit that cannot be theirs."""
+    large = ~(np.maximum(np.abs(psi_in), np.abs(psi_out)) <= LARGEST)
+    if large.any():
+        where = results.named(large)
+        raise InputError(f"results: |psi| is above {LARGEST:g} in {where}; check the units")
+
+
 def compared(
     psi_in: Array, psi_out: Array, chi: Array, energy_change: Array, results: Results
 ) -> Points:
@@ -89,10 +97,6 @@ def compared(
 
     Raises InputError for a row of which the exact rebound is not known.
     """
-    large = np.maximum(np.abs(psi_in), np.abs(psi_out)) > LARGEST
-    if large.any():
-        where = results.named(large)
-        raise InputError(f"results: |psi| is above {LARGEST:g} in {where}; check the units")
     exact, status, codes = solved(np.array(psi_in), np.array(chi))
     if (status != Status.SOLVED).any():
         bad = status != Status.SOLVED

@@ -8,6 +8,7 @@ import numpy as np
 from carom.bodies.kinematics import Tangential, components, inertia
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
+from carom.datasets.observables import FASTEST, SLOWEST
 from carom.io.columns import Results
 from carom.io.labels import Finding
 from carom.quantities.units import InputError
@@ -16,6 +17,7 @@ from carom.verify.scoring.points import (
     compared,
     energy_audit,
     friction_audit,
+    refuse_large,
     restitution_audit,
 )
 
@@ -65,13 +67,13 @@ def score_velocities(
     before = _before(results)
     after, notes = _after(results, pair, before)
     normal = before.normal_speed
+    name = "normal_speed" if "normal_speed" in results.columns else "speed"
+    results.refuse(name, (normal < SLOWEST) | (normal > FASTEST), "check its unit")
+    psi = before.psi(pair, normal), after.psi(pair, normal)
+    refuse_large(*psi, results)
     momentum = momentum_audit(results, pair, before.tangential, after.tangential, normal, limit)
     points = compared(
-        before.psi(pair, normal),
-        after.psi(pair, normal),
-        np.full(len(results), pair.chi),
-        after.energy(pair) - before.energy(pair),
-        results,
+        *psi, np.full(len(results), pair.chi), after.energy(pair) - before.energy(pair), results
     )
     unit: Any = 0.5 * pair.tangential_mass * pair.scales(normal).tangential_speed ** 2
     restitution = after.normal_speed / normal
