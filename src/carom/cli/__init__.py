@@ -53,7 +53,8 @@ def main(arguments: list[str] | None = None) -> int:
         if type(error).__name__ == "NoArgsIsHelpError":  # no command: the message is the help
             typer.echo(error.format_message())
             return error.exit_code
-        return _refuse(f"{str(error).rstrip('.')}; see carom --help or carom COMMAND --help")
+        told = error.format_message().rstrip(".")
+        return _refuse(f"{told}; see carom --help or carom COMMAND --help")
     except typer.Abort:
         typer.echo("carom: stopped", err=True)
         return 1
