@@ -98,6 +98,14 @@ def test_files_are_stored(capsys, tmp_path):
         (("data.csv", "--case", "ball.toml", "--output", "data.csv"), "it is the file of data"),
         (("data.csv", "--case", "ball.toml", "--confidence", "95"), "between 0.5 and 1"),
         (("data.csv", "--case", "ball.toml", "--for", "friction"), "--advice"),
+        (("data.csv", "--case", "ball.toml", "--advice", "0"), "advice: 0 cannot be used"),
+        (("data.csv", "--case", "ball.toml", "--advice", "-2"), "advice: -2 cannot be used"),
+        (("data.csv", "--case", "ball.toml", "--advice", str(10**12)), "must be at most 1000"),
+        (("data.csv", "--case", "ball.toml", "--advice", "1.5"), "'--advice'"),
+        (("data.csv", "--case", "ball.toml", "--steps", "0"), "steps: 0 cannot be used"),
+        (("data.csv", "--case", "ball.toml", "--steps", str(10**12)), "must be at most 100000"),
+        (("data.csv", "--case", "ball.toml", "--seed", "-1"), "seed: -1 cannot be used"),
+        (("data.csv", "--case", "ball.toml", "--seed", str(10**30)), "seed: 1000"),
     ],
 )
 def test_bad_input_is_one_line_and_code_2(capsys, arguments, words):

@@ -19,6 +19,7 @@ NAMES = (
     "rebound_angle",
     "contact_restitution",
     "tangential_speed_out",
+    "rebound_speed",
 )
 SIGMA = {"tangential_restitution": 0.01, "spin_out": 8.0, "rebound_angle": 0.005}
 SETS = 40

@@ -62,19 +62,24 @@ def fit_command(
 
     Columns before: angle and speed; normal_speed and tangential_speed; or angle, contact_angle,
     psi_in alone where no speed is needed; spin, spin2. After, any of: normal_restitution,
-    normal_speed_out, tangential_restitution, tangential_speed_out, rebound_angle, spin_out,
-    contact_restitution, contact_beta, contact_rebound_angle, impulse_ratio, psi_out; '-' where
-    nothing was measured. Standard deviations: spin_out_error, angle_error and so on.
+    normal_speed_out, tangential_restitution, tangential_speed_out, rebound_speed, rebound_angle,
+    spin_out, contact_restitution, contact_beta, contact_rebound_angle, impulse_ratio, psi_out; '-'
+    where nothing was measured. Standard deviations: spin_out_error, angle_error and so on.
 
     Example: carom fit --dataset kharaz2001 --plot kharaz.png
 
     Own data: carom fit rebounds.csv --case ball.toml --fix restitution=0.98 --advice 5
     """
+    from carom.fitting.advice import counted_plan
+    from carom.fitting.posterior import check_sampling
     from carom.io.files import FIGURES, TABLES
 
     source = _source(data, dataset)
     if about is not None and advice is None:
         raise refusal("for", about, "it is the parameter of --advice; give that, too")
+    if advice is not None:
+        counted_plan("advice", advice)
+    check_sampling(steps, seed)
     files = {"data": source, "case": case, "plot": plot, "output": output, "posterior": posterior}
     refuse_same(files)
     check_outputs((plot, FIGURES), (output, TABLES), (posterior, (*TABLES, *FIGURES)))
@@ -86,10 +91,10 @@ def fit_command(
         robust=not squares,
         confidence=number("confidence", confidence, "1"),
     )
+    advised = None if advice is None else found.advice(advice, about)
     store(found, output, plot)
     if posterior is not None:
         stored(_sampled(found, posterior, steps, seed))
-    advised = None if advice is None else found.advice(advice, about)
     if as_json:
         extra = {} if advised is None else {"advice": advised.to_dict()}
         typer.echo(json.dumps(found.to_dict() | extra, indent=2))
@@ -108,7 +113,7 @@ def _source(data: Path | None, dataset: str | None) -> Path:
 def _pair(case: Path | None) -> "Pair | None":
     """Return the bodies of a case file, whose friction may be left out."""
     from carom.bodies.cases import pair_of, read_case
-    from carom.fitting.problem import START
+    from carom.fitting.reading import START
 
     return None if case is None else pair_of({"friction": START, **read_case(case)})
 

@@ -12,7 +12,7 @@ from carom.fitting.intervals import settle
 from carom.fitting.laws import EXACT
 from carom.fitting.model import Model
 from carom.fitting.options import check_count, checked_confidence, read_options
-from carom.fitting.problem import read_problem
+from carom.fitting.reading import read_problem
 from carom.fitting.result import Fit
 
 __all__ = ["Estimate", "Fit", "fit"]
@@ -42,9 +42,10 @@ def fit(
         before: angle and speed, normal_speed and tangential_speed, or angle, contact_angle or
         psi_in alone where no speed is needed; spin, spin2. Measured after, any of:
         normal_restitution, normal_speed_out, tangential_restitution, tangential_speed_out,
-        rebound_angle, spin_out, contact_restitution, contact_beta, contact_rebound_angle,
-        impulse_ratio, psi_out. Standard deviations in columns `<name>_error`; errors of the motion
-        before count, too; where there are none they come from the scatter. "-": not measured.
+        rebound_speed, rebound_angle, spin_out, contact_restitution, contact_beta,
+        contact_rebound_angle, impulse_ratio, psi_out. Standard deviations in columns
+        `<name>_error`; errors of the motion before count, too; where there are none they come from
+        the scatter. "-": not measured.
     pair : Pair, optional
         The bodies, by default those of the comment "# case:" of the file.
     vary : names, optional

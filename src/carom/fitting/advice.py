@@ -6,6 +6,7 @@ from math import ceil, inf, log10
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from carom.fitting.errors import RobustLoss
 from carom.fitting.estimates import FitRecord
@@ -13,13 +14,14 @@ from carom.fitting.estimation import Best, information
 from carom.fitting.problem import FitProblem
 from carom.impacts.curves import REGIMES
 from carom.quantities.arrays import Array
-from carom.quantities.units import InputError, counted, nearest
+from carom.quantities.units import InputError, counted, nearest, refusal
 
 DEGREES = np.arange(1.0, 86.0)  # incidences that are considered
-MOST = 10_000  # further measurements that are worth a thought
+MOST = 10_000  # further measurements at one incidence that are worth a thought
+PLAN = 1000  # measurements that are told one by one, at most
 ROUNDING = 0.01  # of a measurement
 PRIOR = 1e-2  # information on what nothing is known of, per unit of its coordinate
-HALF = 4.0  # the variance that is to be divided by
+HALF = 4.0  # what a variance is divided by where its interval is halved
 
 
 @dataclass(frozen=True)
@@ -72,16 +74,17 @@ def advise(fit: FitRecord, n: int, parameter: str | None) -> Advice:
     Expected Fisher information (Atkinson, Donev & Tobias 2007, chapter 10): one more impact at an
     angle, at the usual speed, with the responses and errors measured so far, adds J^T J.
 
-    Raises InputError for a parameter that was not to be fitted, or an n below 1.
+    Raises InputError for a parameter that was not to be fitted, or an n below 1 or above 1000.
     """
-    count = counted("n", n, 1)
+    count = counted_plan("n", n)
     best = _with_all(fit)
     name = _wanted(fit, best, parameter)
     place = best.model.free.index(name)
     gains, regimes = _candidates(best)
-    matrix = best.information.matrix + PRIOR * np.eye(len(best.model.free))
-    now = np.linalg.inv(matrix)[place, place]
-    needed = [_needed(matrix, gain, place, now) for gain in gains]
+    free = len(best.model.free)
+    root = _joined(np.sqrt(PRIOR) * np.eye(free), best.information.slopes.reshape(-1, free))
+    now = _variance(root, place)
+    needed = _needed(root, gains, place)
     places = [
         Incidence(
             float(np.radians(degrees)), regime, None if need > MOST else ceil(need - ROUNDING)
@@ -90,13 +93,20 @@ def advise(fit: FitRecord, n: int, parameter: str | None) -> Advice:
     ]
     chosen = []
     for _ in range(count):
-        after = [np.linalg.inv(matrix + gain)[place, place] for gain in gains]
-        index = int(np.argmin(after))
+        index = int(np.argmin(_variance(_joined(root, gains), place)))
         chosen.append(places[index])
-        matrix = matrix + gains[index]
-    shorter = float(np.sqrt(np.linalg.inv(matrix)[place, place] / now))
+        root = _joined(root, gains[index])
+    shorter = float(np.sqrt(_variance(root, place) / now))
     wanted = "chi" if parameter == "chi" else name
     return Advice(wanted, tuple(chosen), places[int(np.argmin(needed))], shorter)
+
+
+def counted_plan(name: str, n: int) -> int:
+    """Return how many measurements are to be advised, or raise InputError."""
+    count = counted(name, n, 1)
+    if count > PLAN:
+        raise refusal(name, n, f"must be at most {PLAN}, as many as one plans one by one")
+    return count
 
 
 def _with_all(fit: FitRecord) -> Best:
@@ -126,15 +136,14 @@ def _wanted(fit: FitRecord, best: Best, parameter: str | None) -> str:
 
 
 def _candidates(best: Best) -> tuple[Array, list[str]]:
-    """Return the information of one impact at each incidence, and its regime."""
+    """Return the slopes of one impact at each incidence, by deviations, and its regime."""
     seen = best.model.problem
     model = replace(best.model, problem=_impacts(seen))
     sigma = np.array([np.median(s[p]) for s, p in zip(best.sigma.T, seen.present.T, strict=True)])
     everywhere = np.broadcast_to(sigma, model.problem.measured.shape)
     weights = model.weights(best.at, everywhere, best.scale)
     slopes = information(model, best.at, weights, RobustLoss(inf)).slopes
-    gains = np.einsum("rjp,rjq->rpq", slopes, slopes) / best.spread
-    return gains, [REGIMES[index] for index in model.regimes(best.at)]
+    return slopes / np.sqrt(best.spread), [REGIMES[index] for index in model.regimes(best.at)]
 
 
 def _impacts(problem: FitProblem) -> FitProblem:
@@ -159,16 +168,33 @@ def _impacts(problem: FitProblem) -> FitProblem:
     )
 
 
-def _needed(matrix: Array, gain: Array, place: int, now: float) -> float:
-    """Return how many measurements at one incidence divide a variance by four."""
+def _joined(root: Array, slopes: Array) -> Array:
+    """Return a root of information, R^T R, with slopes added, of shape (..., rows, parameters).
 
-    def variance(times: float) -> float:
-        return float(np.linalg.inv(matrix + times * gain)[place, place])
+    Roots by orthogonal steps keep what is known of a direction beside one known far better.
+    """
+    batch = np.broadcast_to(root, (*slopes.shape[:-2], *root.shape[-2:]))
+    return np.asarray(np.linalg.qr(np.concatenate([batch, slopes], axis=-2), mode="r"))
 
-    if variance(float(MOST)) > now / HALF:
-        return inf
-    low, high = -3.0, log10(MOST)
+
+def _variance(root: Array, place: int) -> Array:
+    """Return the variance of one coordinate, given roots of the information."""
+    unit = np.eye(root.shape[-1])[:, place : place + 1]
+    return np.asarray(np.square(np.linalg.solve(root.swapaxes(-1, -2), unit)).sum(axis=(-2, -1)))
+
+
+def _needed(root: Array, gains: Array, place: int) -> Array:
+    """Return how many measurements at each incidence divide a variance by four."""
+    wanted = _variance(root, place) / HALF
+
+    def suffices(times: Array) -> NDArray[np.bool_]:
+        more = np.sqrt(times)[:, np.newaxis, np.newaxis] * gains
+        return np.asarray(_variance(_joined(root, more), place) <= wanted)
+
+    low, high = np.full(len(gains), -3.0), np.full(len(gains), log10(MOST))
+    never = ~suffices(10.0**high)
     for _ in range(40):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if variance(10.0**middle) > now / HALF else (low, middle)
-    return float(10.0**high)
+        enough = suffices(10.0**middle)
+        low, high = np.where(enough, low, middle), np.where(enough, middle, high)
+    return np.where(never, inf, 10.0**high)

@@ -28,7 +28,7 @@ def assembled(settled: Settled, confidence: float) -> Fit:
     counts = np.bincount(model.regimes(best.at), minlength=len(REGIMES))
     regimes = dict(zip(REGIMES, counts.tolist(), strict=True))
     ordered = {name: estimates[name] for name in NAMES}
-    return Fit(ordered, confidence, regimes, notes(found), best)
+    return Fit(ordered, confidence, regimes, notes(found, settled.whole, ordered), best)
 
 
 def _estimate(found: ProfiledFit, name: str) -> Estimate:

@@ -83,7 +83,10 @@ class Comparison:
         lines = ["law            AICc - least  weight  parameters"]
         for each in sorted(self.standings, key=lambda s: s.excess):
             shown = ", ".join(f"{name} {value:.4g}" for name, value in each.values.items())
-            lines.append(f"  {each.law:14s} {each.excess:10.1f}  {each.weight:6.3f}  {shown}")
+            excess, weight = f"{each.excess:.1f}", f"{each.weight:.3f}"
+            if not isfinite(each.criterion):
+                excess = weight = "-"
+            lines.append(f"  {each.law:14s} {excess:>10s}  {weight:>6s}  {shown}")
         return "\n".join([*lines, self.verdict])
 
 

@@ -10,6 +10,8 @@ from carom.quantities.arrays import Array
 NORMAL = np.linspace(-10.0, 10.0, 2001)  # where means over a normal distribution are taken
 SURE = 3.09  # standard deviations beyond which errors that were given are called too small
 RESOLVED = 1e-4  # of the largest measured value: errors below are those of the curves
+OUTLYING = 10.0  # times the median: larger values are outliers
+TINY = 1e-2  # of what a response may be: values below are as good as zero
 
 
 @dataclass(frozen=True)
@@ -61,9 +63,16 @@ def first_errors(problem: FitProblem) -> Array:
     return np.asarray(0.1 * spread + least_error(problem))
 
 
+def usable_errors(problem: FitProblem) -> Array:
+    """Return the errors that were given, none smaller than that of the curves."""
+    return np.maximum(problem.errors, least_error(problem))
+
+
 def least_error(problem: FitProblem) -> Array:
     """Return the error of the interpolated curves, by response."""
-    return np.asarray(RESOLVED * np.nanmax(np.abs(problem.measured), axis=0) + 1e-12)
+    sizes = np.abs(problem.measured)
+    largest = np.minimum(np.nanmax(sizes, axis=0), OUTLYING * np.nanmedian(sizes, axis=0))
+    return np.asarray(RESOLVED * np.maximum(largest, TINY * problem.sizes))
 
 
 def scatter(residuals: Array, present: Mask, used: Array, loss: RobustLoss) -> Array:

@@ -34,8 +34,9 @@ class Information:
     @cached_property
     def covariance(self) -> Array:
         """Covariance of the coordinates; one that is not told is uncertain by 1/WEAK."""
-        count = len(self.matrix)
-        return np.asarray(np.linalg.inv(self.matrix + WEAK**2 * 1e-2 * np.eye(count)))
+        sizes, directions = np.linalg.eigh(self.matrix)
+        known = np.maximum(sizes, 0.0) + WEAK**2 * 1e-2
+        return np.asarray((directions / known) @ directions.T)
 
     @property
     def used(self) -> Array:
@@ -65,7 +66,7 @@ class Best:
     """A model fitted: coordinates, loss there, and the errors that were used.
 
     `estimated` tells of which responses the errors come from the scatter, `scale` by how much
-    errors that were given had to be made larger.
+    errors that were given had to be made larger; `rivals` are minima found from other starts.
     """
 
     model: Model
@@ -148,18 +149,17 @@ def estimate(model: Model, loss: errors.RobustLoss, start: Array | None = None) 
     problem = model.problem
     unknown = problem.present & ~np.isfinite(problem.errors)
     estimated = np.asarray(unknown.any(axis=0))
-    sigma = np.where(unknown, errors.first_errors(problem), problem.errors)
+    sigma = np.where(unknown, errors.first_errors(problem), errors.usable_errors(problem))
     scale = np.ones(len(problem.responses))
     at = scan(model, loss, sigma) if start is None else start
-    rivals = Minimum(at, np.zeros(len(at)))
+    others = at
     for turn in range(TURNS):
         weights = model.weights(at[0], sigma, scale)
         found = descend(model.residuals(weights, loss), at, model.bounds)
         order = np.argsort(found.sums)
         at = found.at[order]
         if turn == 0:
-            rivals = Minimum(at, found.sums[order])
-            at = at[:2]
+            others, at = at[1:], at[:2]
         residuals = weights.whitened(problem, model.expected(at[:1]))[0]
         used = information(model, at[0], weights, loss).used
         factors = errors.scatter(residuals, problem.present, used, loss)
@@ -171,19 +171,26 @@ def estimate(model: Model, loss: errors.RobustLoss, start: Array | None = None) 
             break
     weights = model.weights(at[0], sigma, scale)
     best, result = polished(model, weights, loss, at[0])
-    total = float(np.square(model.residuals(weights, loss)(best[np.newaxis])).sum())
+    residuals_of = model.residuals(weights, loss)
+    total = float(np.square(residuals_of(best[np.newaxis])).sum())
+    rivals = descend(residuals_of, others, model.bounds)
     return Best(model, best, total, weights, loss, sigma, scale, estimated, rivals, result)
 
 
 def scan(model: Model, loss: errors.RobustLoss, sigma: Array) -> Array:
-    """Return a few starting points: the best of a grid over the ranges, unlike each other."""
-    grid = np.array(list(product(*(_levels(model, name) for name in model.free))))
+    """Return a few starting points: the best of a grid over the ranges, unlike each other.
+
+    Valleys along one parameter, the others following, come first: there may be other minima.
+    """
+    levels = [_levels(model, name) for name in model.free]
+    grid = np.array(list(product(*levels)))
     inverse = 1.0 / np.where(model.problem.present, sigma, 1.0)
     weights = errors.Weights(inverse[:, :, np.newaxis] * np.eye(sigma.shape[1]))
     sums = np.square(model.residuals(weights, loss)(grid)).sum(axis=1)
     chosen: list[int] = []
     apart = np.array([max(np.ptp(column), 1e-9) for column in grid.T]) / 8.0
-    for place in np.argsort(sums):
+    valley = _valleys(sums.reshape([len(each) for each in levels]))
+    for place in np.lexsort((sums, ~valley)):
         if all(np.any(np.abs(grid[place] - grid[other]) > apart) for other in chosen):
             chosen.append(int(place))
         if len(chosen) == STARTS:
@@ -191,11 +198,32 @@ def scan(model: Model, loss: errors.RobustLoss, sigma: Array) -> Array:
     return grid[chosen]
 
 
+def _valleys(sums: Array) -> Mask:
+    """Return which points of a grid, counted in one row, are least along one of its axes.
+
+    Along an axis counts the least of all points with the same place on it.
+    """
+    found = np.zeros(sums.size, dtype=bool)
+    places = np.arange(sums.size).reshape(sums.shape)
+    for axis, count in enumerate(sums.shape):
+        across = np.moveaxis(sums, axis, 0).reshape(count, -1)
+        least, at = across.min(axis=1), across.argmin(axis=1)
+        beside = np.concatenate([[np.inf], least, [np.inf]])
+        low = (least <= beside[:-2]) & (least <= beside[2:])
+        found[np.moveaxis(places, axis, 0).reshape(count, -1)[low, at[low]]] = True
+    return found
+
+
 def polished(
     model: Model, weights: errors.Weights, loss: errors.RobustLoss, at: Array
 ) -> tuple[Array, Any]:
-    """Return the minimum that lmfit finds from here, and its result."""
+    """Return the minimum that lmfit finds from here, and its result.
+
+    It needs as many values as parameters; with fewer, or with none free, the point stays.
+    """
     lmfit = extra("lmfit", "fit", "fit")
+    if not 0 < len(at) <= model.problem.count:
+        return at, None
     parameters = lmfit.Parameters()
     for name, value, low, high in zip(model.free, at, *model.bounds, strict=True):
         parameters.add(name, value=float(value), min=float(low), max=float(high))

@@ -16,12 +16,13 @@ from carom.fitting.model import Model
 from carom.fitting.problem import Mask
 from carom.quantities.arrays import Array
 
-TRIES = 4  # better fits that the search for the ends may meet
+TRIES = 4  # fits of which the ends are searched for, each better than the one before
 FIRST = 4.0  # parts of the range in which an open side is searched for, at first
 ROUNDS, CLOSE = 16, 2e-3  # at most; of the distance at which the loss has risen enough
 HELD_FIRST = (OFFSET, "restitution", "tangential_restitution", "kappa", "friction")
 EXAMPLES = {"restitution": 0.98, "kappa": 0.82, "friction": 0.1, OFFSET: 0.0}
 MEMBER = 0.25  # part of a direction that a parameter of a group has at least
+ROUNDED = 1e-10  # of the information: less is that of rounded difference quotients
 WORSE = 0.5  # rise of the loss at which a starting value contradicts the data
 
 
@@ -40,15 +41,16 @@ class ProfiledFit:
 def profiled(best: Best, confidence: float) -> ProfiledFit:
     """Return a fit with the ends of its intervals, or a better fit if the search meets one.
 
-    The loss may rise by its spread times a quantile of chi squared, or of F.
+    The loss may rise by its spread times a quantile of chi squared, or of F. Where weights change
+    with the parameters so that better fits never end, the last one counts.
     """
-    for _ in range(TRIES):
+    for last in range(TRIES):
         rises = best.spread * (best.caution * rise_of(confidence, best.freedom))
-        found, better = _profile(best, np.repeat(rises, 2))
+        found, better = _profile(best, np.repeat(rises, 2), whatever=last == TRIES - 1)
         if better is None:
             break
         best = estimate(best.model, best.loss, better[np.newaxis])
-    return ProfiledFit(best, found.ends, found.open)
+    return found
 
 
 def rise_of(confidence: float, freedom: Array) -> Array:
@@ -58,10 +60,11 @@ def rise_of(confidence: float, freedom: Array) -> Array:
     return np.asarray(np.where(np.isfinite(freedom), stdtrit(bounded, level), ndtri(level)) ** 2)
 
 
-def _profile(best: Best, rises: Array) -> tuple[ProfiledFit, Array | None]:
+def _profile(best: Best, rises: Array, whatever: bool) -> tuple[ProfiledFit, Array | None]:
     """Return both ends of all intervals, searched for at once, and a better fit if one was met.
 
-    `rises`, of shape (2 parameters,), is what the loss may rise by, the other parameters following.
+    `rises`, of shape (2 parameters,), is what the loss may rise by, the other parameters following;
+    `whatever` tells to go on beyond a better fit.
     """
     low, high = best.model.bounds
     residuals = best.model.residuals(best.weights, best.loss)
@@ -84,7 +87,7 @@ def _profile(best: Best, rises: Array) -> tuple[ProfiledFit, Array | None]:
         start[place] = target
         at, sums = descend(residuals, start, best.model.bounds, others)
         excess = (sums - best.sum) / rises
-        if np.any(excess < -0.02):
+        if np.any(excess < -0.02) and not whatever:
             better = at[np.argmin(excess)]
             break
         ends = np.where(done[:, np.newaxis], ends, at)
@@ -152,28 +155,40 @@ def settle(model: Model, loss: RobustLoss, start: Mapping[str, float]) -> Settle
         groups.append(group)
         if len(best.model.free) == 1:
             break
-        best = _held(best, group[0], start[group[0]], loss)
+        best = _held(best, group, start[group[0]])
     return Settled(best, tuple(groups), whole)
 
 
 def weak_group(told: Information, names: tuple[str, ...]) -> tuple[str, ...]:
     """Return the parameters of a direction in which the values hardly change, to be held first."""
+    if not names:
+        return ()
     alone = np.sqrt(np.diag(told.matrix)) < WEAK
     if alone.any():
         return (names[int(np.argmax(alone))],)
     sizes, directions = np.linalg.eigh(told.matrix)
-    if sizes[0] >= WEAK**2:
+    if sizes[0] >= max(WEAK**2, ROUNDED * sizes[-1]):
         return ()
     members = [n for n, part in zip(names, directions[:, 0], strict=True) if abs(part) > MEMBER]
     return tuple(sorted(members, key=HELD_FIRST.index))
 
 
-def _held(best: Best, name: str, start: float, loss: RobustLoss) -> Best:
-    """Return the fit with a parameter held where it starts, or where it was if that is worse."""
-    at_start = estimate(best.model.holding(name, start), loss)
-    if abs(at_start.sum - best.sum) < WORSE * best.spread or at_start.estimated.any():
-        return at_start
-    return estimate(best.model.holding(name, best.values[name]), loss)
+def _held(best: Best, group: tuple[str, ...], start: float) -> Best:
+    """Return the fit with the first of a group held where it starts, or where it was.
+
+    It is held where it starts if the data allow that: with the others of its group following, or
+    with all others as they are if it is alone. The fit goes on from where it was: elsewhere the
+    data may tell what they do not tell here.
+    """
+    name = group[0]
+    others = best.at[np.newaxis, [each != name for each in best.model.free]]
+    model = best.model.holding(name, start)
+    residuals = model.residuals(best.weights, best.loss)
+    at = others if len(group) == 1 else descend(residuals, others, model.bounds).at
+    rise = float(np.square(residuals(at)).sum()) - best.sum
+    if rise < WORSE * best.spread:
+        return estimate(model, best.loss, at)
+    return estimate(best.model.holding(name, best.values[name]), best.loss, others)
 
 
 def reason(group: tuple[str, ...], best: Best) -> str:

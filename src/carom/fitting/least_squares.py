@@ -12,6 +12,7 @@ Residuals = Callable[[Array], Array]  # coordinates (batch, parameters) -> (batc
 
 STEP = 1e-5  # of a difference quotient
 ROUNDS, ENOUGH = 60, 1e-7  # steps at most; part of the sum that no longer counts
+LEAST = 1e-12  # damping that keeps equations solvable where coordinates act only together
 FREER, TIGHTER = 0.2, 6.0  # of the damping after a step that helped, or did not
 
 
@@ -35,7 +36,7 @@ def jacobian(residuals: Residuals, at: Array, base: Array, bounds: BoxBounds) ->
     steps = np.where(at + STEP <= bounds.high, STEP, -STEP)
     moved = np.repeat(at[:, np.newaxis, :], count, axis=1)
     moved[:, np.arange(count), np.arange(count)] += steps
-    values = residuals(moved.reshape(-1, count)).reshape(batch, count, -1)
+    values = residuals(moved.reshape(batch * count, count)).reshape(batch, count, base.shape[1])
     return ((values - base[:, np.newaxis, :]) / steps[:, :, np.newaxis]).swapaxes(1, 2)
 
 
@@ -64,7 +65,8 @@ def descend(
         at = np.where(better[:, np.newaxis], trial, at)
         base = np.where(better[:, np.newaxis], values, base)
         sums = np.where(better, squares, sums)
-        damping = np.where(better, FREER * damping, TIGHTER * np.maximum(damping, 1e-6))
+        freer = np.maximum(FREER * damping, LEAST)
+        damping = np.where(better, freer, TIGHTER * np.maximum(damping, 1e-6))
         if np.all((quiet >= 2) | (damping > 1e8)):
             break
         slopes = jacobian(residuals, at, base, bounds)

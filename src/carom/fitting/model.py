@@ -90,7 +90,8 @@ class Model:
         """Return the function whose sum of squares is to be least."""
 
         def of(at: Array) -> Array:
-            return loss.root(weights.whitened(self.problem, self.expected(at))).reshape(len(at), -1)
+            roots = loss.root(weights.whitened(self.problem, self.expected(at)))
+            return roots.reshape(len(at), self.problem.measured.size)
 
         return of
 

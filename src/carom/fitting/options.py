@@ -1,9 +1,9 @@
 """Which parameters are varied and which are fixed, read from what a user gives."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from carom.fitting.laws import EXACT, KAPPA, OFFSET, half_ratio, ranged
+from carom.fitting.laws import EXACT, OFFSET, half_ratio, ranged
 from carom.fitting.model import offset_parameter
 from carom.fitting.problem import FitProblem
 from carom.quantities.units import InputError, nearest, number, refusal
@@ -38,9 +38,7 @@ def read_options(
     if not wanted:
         raise InputError("vary: nothing is left to fit; fix fewer parameters")
     pair = problem.pair
-    kappa = ranged(KAPPA, pair)
-    stiffness = min(max(pair.kappa, kappa.low), kappa.high)
-    start = {"friction": pair.friction, "kappa": stiffness, "restitution": 1.0, OFFSET: 0.0}
+    start = {"friction": pair.friction, "kappa": pair.kappa, "restitution": 1.0, OFFSET: 0.0}
     return Options(tuple(wanted), {**start, **held})
 
 
@@ -55,14 +53,15 @@ def checked_confidence(value: Any) -> float:
     return confidence
 
 
-def check_count(problem: FitProblem, free: Collection[str]) -> None:
+def check_count(problem: FitProblem, free: Sequence[str]) -> None:
     """Raise InputError if there are too few values for so many parameters."""
     least = len(free) + (not problem.all_errors_known)
     if problem.count < least:
+        values = f"{problem.count} measured value{'s' * (problem.count != 1)}"
+        told = f"{len(free)} parameters ({', '.join(free)})" if len(free) > 1 else free[0]
+        fewer = ", or fix some, e.g. fixed={'restitution': 0.98}" if len(free) > 1 else ""
         raise InputError(
-            f"data: {problem.count} measured values cannot tell {len(free)} parameters "
-            f"({', '.join(free)}), at least {least} are needed; measure more, or fix some, e.g. "
-            "fixed={'restitution': 0.98}"
+            f"data: {values} cannot tell {told}, at least {least} are needed; measure more{fewer}"
         )
 
 

@@ -10,15 +10,25 @@ from carom.io.extras import extra
 from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.quantities.arrays import Array
-from carom.quantities.units import counted
+from carom.quantities.units import counted, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
 
 WALKERS = 8  # per parameter
 BURN = 0.25  # part of the steps that is left out
+FEWEST_STEPS, MOST_STEPS = 100, 100_000
+MOST_SEED = 2**63 - 1  # that a file can hold
 CHUNK = 50  # steps between two words of progress
 LONG = 50.0  # autocorrelation times that a chain should have (emcee's documentation)
+
+
+def check_sampling(steps: int, seed: int | None) -> None:
+    """Raise InputError for steps or a seed that cannot be used."""
+    if counted("steps", steps, FEWEST_STEPS) > MOST_STEPS:
+        raise refusal("steps", steps, f"must be at most {MOST_STEPS}")
+    if seed is not None and counted("seed", seed, 0) > MOST_SEED:
+        raise refusal("seed", seed, f"must be at most {MOST_SEED}")
 
 
 def sample(fit: FitRecord, steps: int, seed: int | None, progress: Progress) -> "xr.Dataset":
@@ -28,10 +38,11 @@ def sample(fit: FitRecord, steps: int, seed: int | None, progress: Progress) -> 
     exp(-loss/(2 lambda)) with the loss and its spread lambda of the fit, the prior even in log
     friction, log kappa, restitution and spin offset within their ranges.
 
-    Raises InputError for fewer than 100 steps, or if emcee is not there.
+    Raises InputError for steps or a seed that cannot be used, or if emcee is not there.
     """
     emcee = extra("emcee", "posterior", "fit")
-    count = counted("steps", steps, 100)
+    check_sampling(steps, seed)
+    count = int(steps)
     best = fit.best
     low, high = best.model.bounds
     residuals = best.model.residuals(best.weights, best.loss)

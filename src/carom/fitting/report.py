@@ -1,11 +1,16 @@
 """The result of a fit in words."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
-from carom.fitting.estimates import FitRecord
+from carom.fitting.errors import least_error
+from carom.fitting.estimates import LIMITS, Estimate, FitRecord
 from carom.fitting.estimation import Best
 from carom.fitting.intervals import ProfiledFit
 
+AT_END = 1e-6  # of a coordinate from an end of its range
+APART = 0.1  # of a coordinate between two minima
 FAR = 4.0  # standard deviations of an outlier
 COLUMN = 14
 
@@ -14,22 +19,23 @@ def as_text(fit: FitRecord) -> str:
     """Return a small table of the parameters, and what else is to be known."""
     problem = fit.best.model.problem
     head = (
-        f"{problem.count} values of {', '.join(problem.responses)} in {len(problem.rows)} rows; "
+        f"{problem.count} value{'s' * (problem.count != 1)} of {', '.join(problem.responses)} in "
+        f"{len(problem.rows)} row{'s' * (len(problem.rows) != 1)}; "
         f"intervals of {100.0 * fit.confidence:g} % by profile likelihood"
     )
     lines = [head, *(f"  {name:{COLUMN}s} {each}" for name, each in fit.estimates.items())]
-    counted = ", ".join(f"{name}: {count}" for name, count in fit.regimes.items() if count)
-    lines.append(f"rows by regime: {counted}")
+    regimes = ", ".join(f"{name}: {count}" for name, count in fit.regimes.items() if count)
+    lines.append(f"rows by regime: {regimes}")
     lines += [f"note: {note}" for note in fit.notes]
     return "\n".join([*lines, str(fit.comparison)])
 
 
-def notes(found: ProfiledFit) -> tuple[str, ...]:
-    """Return what is to be known besides the numbers."""
+def notes(found: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) -> tuple[str, ...]:
+    """Return what is to be known besides the numbers; `whole` is the fit with nothing held."""
     best = found.best
     problem = best.model.problem
     lines = [*_about_errors(best), *_about_outliers(best), *_about_regimes(found)]
-    lines += _about_others(best)
+    lines += [*_about_ranges(best), *_about_incidence(whole), *_about_others(whole, estimates)]
     if problem.ignored:
         lines.append(f"columns that were not used: {', '.join(problem.ignored)}")
     gaps = np.asarray(~problem.present.any(axis=1))
@@ -40,6 +46,7 @@ def notes(found: ProfiledFit) -> tuple[str, ...]:
 
 def _about_errors(best: Best) -> list[str]:
     problem, lines = best.model.problem, []
+    least = least_error(problem)
     for place, name in enumerate(problem.responses):
         if best.estimated[place]:
             unknown = problem.present[:, place] & ~np.isfinite(problem.errors[:, place])
@@ -50,6 +57,24 @@ def _about_errors(best: Best) -> list[str]:
                 f"{name}: the scatter is {best.scale[place]:.1f} times what the errors allow; "
                 "they were enlarged"
             )
+        if np.any(problem.errors[:, place] < least[place]):
+            lines.append(
+                f"{name}: errors below {least[place]:.2g} count as that; the curves are no better"
+            )
+    return lines
+
+
+def _about_ranges(best: Best) -> list[str]:
+    """Return which parameters lie at an end of the range in which they are searched for."""
+    lines = []
+    for parameter, at, low, high in zip(
+        best.model.parameters, best.at, *best.model.bounds, strict=True
+    ):
+        ends = {parameter.low: at - low, parameter.high: high - at}
+        for end, distance in ends.items():
+            if distance < AT_END and end not in LIMITS[parameter.name]:
+                reach = f"from {parameter.low:.3g} to {parameter.high:.3g}"
+                lines.append(f"{parameter.name}: best at an end of its range, {reach}")
     return lines
 
 
@@ -72,14 +97,25 @@ def _about_regimes(found: ProfiledFit) -> list[str]:
     return [f"regime within the intervals not certain: {model.problem.rows.named(unsure)}"]
 
 
-def _about_others(best: Best) -> list[str]:
-    """Return another minimum that the data do not exclude."""
-    rivals = best.rivals
-    near = rivals.sums - rivals.sums[0] < 4.0 * best.spread
-    apart = np.any(np.abs(rivals.at - rivals.at[0]) > 0.1, axis=1)
-    lines = []
-    for point in rivals.at[near & apart][:1]:
-        values = best.model.values_at(point)
-        shown = ", ".join(f"{name} {values[name]:.3g}" for name in best.model.free)
-        lines.append(f"fits nearly as well: {shown}")
-    return lines
+def _about_incidence(whole: Best) -> list[str]:
+    """Return that rows at one incidence, whose psi_1 are one, tell one number of two."""
+    if not {"friction", "kappa"} <= set(whole.model.free) or not whole.model.problem.is_one:
+        return []
+    return ["one incidence tells friction or kappa, not both; fix one, or measure at other angles"]
+
+
+def _about_others(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]:
+    """Return another minimum that the data do not exclude, outside of the intervals."""
+    rivals, model = whole.rivals, whole.model
+    found = model.coordinates({name: estimates[name].value for name in model.free})
+    near = rivals.sums - whole.sum < 4.0 * whole.spread
+    for point in rivals.at[near][np.argsort(rivals.sums[near])]:
+        values = model.values_at(point)
+        outside = [
+            estimates[name].excludes(values[name]) and abs(away) > APART
+            for name, away in zip(model.free, point - found, strict=True)
+        ]
+        if any(outside):
+            shown = ", ".join(f"{name} {values[name]:.3g}" for name in model.free)
+            return [f"fits nearly as well: {shown}"]
+    return []

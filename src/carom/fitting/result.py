@@ -81,7 +81,7 @@ class Fit(FitRecord, Result):
         Parameters
         ----------
         n : int
-            How many measurements.
+            How many measurements, 1 to 1000.
         parameter : str, optional
             What is to be known better, by default what is known least: friction, kappa, chi,
             restitution or spin_offset.
@@ -97,7 +97,7 @@ class Fit(FitRecord, Result):
         Raises
         ------
         InputError
-            If the parameter was not to be fitted, or n is below 1.
+            If the parameter was not to be fitted, or n is out of range.
 
         Examples
         --------
@@ -122,9 +122,9 @@ class Fit(FitRecord, Result):
         Parameters
         ----------
         steps : int
-            Steps of the walkers, 100 at least, of which a quarter is left out.
+            Steps of the walkers, 100 to 100000, of which a quarter is left out.
         seed : int, optional
-            Of the random numbers; the same seed gives the same samples.
+            Of the random numbers, not negative; the same seed gives the same samples.
         progress : bool or callable, optional
             Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
             what is called with the steps done and their number.
@@ -139,7 +139,7 @@ class Fit(FitRecord, Result):
         Raises
         ------
         InputError
-            If there are too few steps, or emcee is not installed.
+            If steps or seed are out of range, or emcee is not installed.
 
         Examples
         --------
