@@ -45,7 +45,7 @@ from .laws.exact import ReboundLaw as ReboundLaw
 from .laws.mixture import MixtureLaw as MixtureLaw
 from .laws.rigid import RoughLaw as RoughLaw, SmoothLaw as SmoothLaw, WaltonLaw as WaltonLaw
 from .laws.walton_fit import WaltonFit as WaltonFit, fit_walton as fit_walton
-from .quantities.units import InputError as InputError
+from .quantities.refusals import InputError as InputError
 from .sweeps import sweep as sweep
 from .sweeps.designs import Grid as Grid, LatinHypercube as LatinHypercube
 from .sweeps.points import PointStatus as PointStatus

@@ -14,7 +14,7 @@ import carom
 from carom import read, save
 from carom.classical import cattaneo_mindlin, critical_obliquity, loop_energy
 from carom.contacts.load_paths import load_path
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 
 GLASS = carom.Material(young="70 GPa", poisson=0.23, density=2500)
 STEEL = carom.Material(young="210 GPa", poisson=0.3, density=7850)

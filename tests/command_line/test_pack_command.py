@@ -16,7 +16,7 @@ import typer
 
 import carom
 from carom.cli.verify.pack import pack_command
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 from carom.verify.engines.lammps import Lammps
 from carom.verify.pack import VERSION, write_pack
 from carom.verify.pack.collect import collect

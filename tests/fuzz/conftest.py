@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 import pytest
 
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 
 ALPHABET = (
     "0123456789.+-eE,; \t\n\r\"'[](){}=:#/*^%°µ²⁻·−–_~<>?!$&@|\\\u00a0\u200b\u0663½∞\0mskgNPadrinfx"

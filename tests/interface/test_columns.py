@@ -9,7 +9,8 @@ import xarray as xr
 import carom
 from carom.io.columns import in_units, others, with_errors
 from carom.io.tables import read_table
-from carom.quantities.units import InputError, number
+from carom.quantities.refusals import InputError
+from carom.quantities.units import number
 
 KNOWN = with_errors(("angle", "speed", "spin_out", "tangential_restitution", "rebound_angle"))
 GAPS = ("spin_out", "tangential_restitution", "rebound_angle")

@@ -164,7 +164,9 @@ def test_bodies_beyond_the_curves_are_refused():
 
 def test_a_plan_of_measurements_has_an_end():
     found = fit(impacts((5, 25, 60), "spin_out"), pair=START, fixed={"restitution": 1.0})
-    with pytest.raises(carom.InputError, match="n: 1000000 cannot be used; must be a whole number from 1 to 1000"):
+    with pytest.raises(
+        carom.InputError, match="n: 1000000 cannot be used; must be a whole number from 1 to 1000"
+    ):
         found.advice(1_000_000)
     for given in ({"steps": 10**9}, {"seed": -1}, {"seed": 10**30}):
         with pytest.raises(carom.InputError, match=next(iter(given))):

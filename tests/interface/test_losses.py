@@ -7,7 +7,7 @@ from scipy.special import beta
 import carom
 from carom.bodies.losses import yield_velocity
 from carom.dimensionless.lossy.normal import Loss
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 
 STEEL = carom.Pair(
     carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), friction=0.2

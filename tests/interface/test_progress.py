@@ -13,7 +13,7 @@ import termios
 import pytest
 
 from carom.io.progress import Place, advancing, place
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 
 LONG = """
 import sys, time, rich.progress

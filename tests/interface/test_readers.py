@@ -11,7 +11,8 @@ import xarray as xr
 
 import carom
 from carom.laws.dem import LawStatus
-from carom.quantities.units import counted, flag, one_of, whole
+from carom.quantities.refusals import flag, one_of
+from carom.quantities.units import counted, whole
 
 UNITS = pint.UnitRegistry()
 BALL = carom.Sphere(radius="5 mm", material="steel")

@@ -13,7 +13,7 @@ import xarray as xr
 import zarr
 
 from carom.io.stores import FROZEN
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 from carom.sweeps import sweep
 from carom.sweeps.blocks import boxes, chunk_shape, points_in
 from carom.sweeps.designs import Grid, LatinHypercube

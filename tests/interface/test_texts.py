@@ -15,8 +15,9 @@ from hypothesis import given, settings, strategies as st
 from carom.io.columns import column_in_si
 from carom.quantities.arrays import numbers, plain_numbers
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.refusals import InputError
 from carom.quantities.texts import LONGEST, Unreadable, read_text
-from carom.quantities.units import InputError, number
+from carom.quantities.units import number
 
 DEGREE = math.pi / 180
 READ = [  # text, quantity, value in SI units

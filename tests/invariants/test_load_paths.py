@@ -25,7 +25,7 @@ from carom.dimensionless.load_paths.paths import (
     slid,
 )
 from carom.dimensionless.numerics.chebyshev import evaluate
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 
 PAIR = carom.Pair(
     carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), friction=0.3

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 from carom.sweeps import schedulers, sweep
 from carom.sweeps.designs import Grid
 

@@ -12,7 +12,7 @@ import pytest
 
 import carom
 from carom.laws.dem import ContactLaw, EdemHertzMindlin, LammpsMindlin, LiggghtsHertz, LinearSpring
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 from carom.verify.engines.arrangement import touching, young_moduli
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out
 from carom.verify.engines.liggghts import INPUT, RESULT, SPHERES, Liggghts

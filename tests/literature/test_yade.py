@@ -14,7 +14,7 @@ import pytest
 import carom
 from carom.laws.dem import ContactLaw, LammpsMindlin, LinearSpring, YadeMindlin
 from carom.laws.dem.damping import thornton_damping
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out
 from carom.verify.engines.running import run
 from carom.verify.engines.yade import MINDLIN, RESULT, SCRIPT, Yade

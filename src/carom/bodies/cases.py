@@ -14,7 +14,8 @@ from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.io.files import read_text
 from carom.quantities.faults import TOLD, Faults
-from carom.quantities.units import InputError, finite, hint, not_negative, number, positive, refusal
+from carom.quantities.refusals import InputError, hint, refusal
+from carom.quantities.units import finite, not_negative, number, positive
 
 if TYPE_CHECKING:
     from carom.bodies.losses import NormalLaw

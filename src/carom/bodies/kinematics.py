@@ -10,7 +10,8 @@ from typing import Any, NamedTuple
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.quantities.elementwise import arctan2, cos, hypot, quotient, sin, where
-from carom.quantities.units import InputError, Value, finite, number, positive, refusal
+from carom.quantities.refusals import InputError, refusal
+from carom.quantities.units import Value, finite, number, positive
 
 
 def approach(

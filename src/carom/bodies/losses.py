@@ -15,7 +15,8 @@ from carom.io.citations import VISCOUS
 from carom.quantities.arrays import numbers
 from carom.quantities.elementwise import sqrt
 from carom.quantities.keywords import known_keywords
-from carom.quantities.units import InputError, Value, not_negative, number, positive, refusal
+from carom.quantities.refusals import InputError, refusal
+from carom.quantities.units import Value, not_negative, number, positive
 
 SMALLEST_RESTITUTION = 1e-3
 LIMIT_PRESSURE = 1.6  # in yield strengths: where a sphere first yields (Johnson 1985, 6.1)

@@ -8,7 +8,8 @@ from importlib.resources import files
 from typing import Any, TypeVar
 
 from carom.quantities.keywords import known_keywords
-from carom.quantities.units import Value, nearest, number, positive, refusal
+from carom.quantities.refusals import nearest, refusal
+from carom.quantities.units import Value, number, positive
 
 VALUES = ("young", "poisson", "density", "yield_strength")
 T = TypeVar("T")

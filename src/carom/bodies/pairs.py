@@ -9,7 +9,8 @@ from carom.bodies.materials import Material
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.quantities.elementwise import isfinite, quotient, sqrt, where
 from carom.quantities.keywords import known_keywords
-from carom.quantities.units import InputError, Value, not_negative, refusal
+from carom.quantities.refusals import InputError, refusal
+from carom.quantities.units import Value, not_negative
 
 Counterbody = Sphere | HalfSpace | Cup
 

@@ -9,7 +9,8 @@ from carom.bodies.materials import VALUES
 from carom.bodies.pairs import Pair
 from carom.io.labels import Finding
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.units import InputError, number
+from carom.quantities.refusals import InputError
+from carom.quantities.units import number
 
 BODIES = ("first", "second")
 SIZES = ("radius", "inner_radius", "gyration_radius")

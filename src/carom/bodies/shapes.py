@@ -7,7 +7,8 @@ from typing import Any, cast
 
 from carom.bodies.materials import VALUES, Material, as_material, set_fields
 from carom.quantities.keywords import known_keywords
-from carom.quantities.units import InputError, Value, not_negative, positive, refusal
+from carom.quantities.refusals import InputError, refusal
+from carom.quantities.units import Value, not_negative, positive
 
 
 @dataclass(frozen=True, init=False)

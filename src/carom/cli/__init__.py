@@ -18,8 +18,8 @@ from carom.cli.impact import impact_command
 from carom.cli.materials import materials_command
 from carom.cli.sweep import sweep_command
 from carom.cli.verify import app as verify_app
+from carom.quantities.refusals import InputError, nearest
 from carom.quantities.symbols import meant, remark
-from carom.quantities.units import InputError, nearest
 
 app = typer.Typer(
     name="carom",

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 import typer
 
 import carom
-from carom.quantities.units import InputError, refusal
+from carom.quantities.refusals import InputError, refusal
 
 if TYPE_CHECKING:
     from carom.bodies.cases import Case

@@ -7,7 +7,8 @@ import typer
 
 import carom
 from carom.cli.cases import Json, Plot, check_outputs, stored, whole_option
-from carom.quantities.units import InputError, finite, or_none, positive, refusal, whole
+from carom.quantities.refusals import InputError, refusal
+from carom.quantities.units import finite, or_none, positive, whole
 
 if TYPE_CHECKING:
     import xarray as xr

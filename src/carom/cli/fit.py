@@ -22,7 +22,8 @@ from carom.cli.cases import (
     told_case,
     whole_option,
 )
-from carom.quantities.units import InputError, number, refusal, whole
+from carom.quantities.refusals import InputError, refusal
+from carom.quantities.units import number, whole
 
 if TYPE_CHECKING:
     from carom.bodies.pairs import Pair

@@ -21,7 +21,8 @@ from carom.cli.cases import (
     whole_option,
 )
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.units import refusal, whole
+from carom.quantities.refusals import refusal
+from carom.quantities.units import whole
 
 if TYPE_CHECKING:
     from carom.impacts.boundary_elements import BoundaryElements

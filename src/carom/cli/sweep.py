@@ -22,7 +22,8 @@ from carom.cli.cases import (
     whole_option,
 )
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.units import or_none, refusal, whole
+from carom.quantities.refusals import refusal
+from carom.quantities.units import or_none, whole
 
 if TYPE_CHECKING:
     from carom.bodies.cases import Case

@@ -26,7 +26,8 @@ from carom.laws.exact import law_of
 from carom.laws.portable import is_foreign
 from carom.laws.rules import Rule
 from carom.quantities.keywords import known_keywords
-from carom.quantities.units import flag, refusal, threads_or_none
+from carom.quantities.refusals import flag, refusal
+from carom.quantities.units import threads_or_none
 
 __all__ = ["CollisionLaw", "CollisionStatus", "Collisions", "collide"]
 

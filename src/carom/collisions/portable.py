@@ -12,7 +12,7 @@ import numpy as np
 from carom.collisions import records
 from carom.laws.portable import constants, floating, is_foreign, part_lost
 from carom.laws.rules import Rule
-from carom.quantities.units import InputError, refusal
+from carom.quantities.refusals import InputError, refusal
 
 
 class Approach(NamedTuple):

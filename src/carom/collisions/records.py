@@ -15,7 +15,7 @@ from carom.bodies.shapes import Sphere
 from carom.laws.portable import is_floats
 from carom.plots.result import card
 from carom.quantities.arrays import numbers
-from carom.quantities.units import InputError, refusal
+from carom.quantities.refusals import InputError, refusal
 
 NO_VALUES = (TypeError, RuntimeError)  # what jax and torch raise while they trace or map
 SKEW = 1e-5  # of a normal's squared length from 1; so much is rounding, and made up for

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from carom.bodies.pairs import Pair
 from carom.quantities.arrays import Array, numbers, together
-from carom.quantities.units import refusal
+from carom.quantities.refusals import refusal
 
 
 class Obliquity(NamedTuple):

@@ -24,7 +24,8 @@ from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.keywords import known_keywords
-from carom.quantities.units import is_real, refusal
+from carom.quantities.refusals import refusal
+from carom.quantities.units import is_real
 
 if TYPE_CHECKING:
     import xarray as xr

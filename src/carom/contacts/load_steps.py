@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.bodies.pairs import ContactScales, Pair
 from carom.quantities.arrays import Array, numbers
-from carom.quantities.units import InputError, refusal
+from carom.quantities.refusals import InputError, refusal
 
 Given = ArrayLike | str | None
 

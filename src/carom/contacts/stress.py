@@ -16,7 +16,7 @@ from carom.dimensionless.fields.extremes import (
 from carom.dimensionless.fields.subsurface import COMPONENTS, stresses
 from carom.io.labels import labelled_dataset
 from carom.quantities.arrays import Array, places
-from carom.quantities.units import one_of, refusal
+from carom.quantities.refusals import one_of, refusal
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -13,7 +13,7 @@ from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.quantities.arrays import Array, numbers, together
 from carom.quantities.keywords import known_keywords
-from carom.quantities.units import InputError, clipped, hint, refusal
+from carom.quantities.refusals import InputError, clipped, hint, refusal
 
 Given = Mapping[str, Any]  # arrays by name
 

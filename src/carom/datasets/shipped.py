@@ -9,7 +9,7 @@ from carom.datasets.observables import OBSERVABLES
 from carom.io.columns import ERROR, Results, entry, in_units
 from carom.io.labels import attributes, labelled_dataset
 from carom.io.tables import Cells, read_table
-from carom.quantities.units import nearest, refusal
+from carom.quantities.refusals import nearest, refusal
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -15,7 +15,8 @@ from carom.dimensionless.lossy.normal import NormalLoss, scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.arrays import Array
 from carom.quantities.arrays import pure_numbers, together
-from carom.quantities.units import flag, threads_or_none
+from carom.quantities.refusals import flag
+from carom.quantities.units import threads_or_none
 
 
 @overload

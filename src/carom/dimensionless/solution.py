@@ -20,7 +20,8 @@ from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.states import KIND_NAMES, History, Phase, SlipAngle, Trajectory, now_at
 from carom.quantities.arrays import pure_numbers
-from carom.quantities.units import pure_number, refusal
+from carom.quantities.refusals import refusal
+from carom.quantities.units import pure_number
 
 CAUSE_NAMES = {
     Cause.EDGE_AT_LIMIT: "edge reaches friction limit",

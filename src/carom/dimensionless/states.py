@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike
 from carom.dimensionless.elastic.phases import Kind, Status
 from carom.dimensionless.numerics.arrays import Array
 from carom.quantities.arrays import pure_numbers
-from carom.quantities.units import InputError, counted, refusal
+from carom.quantities.refusals import InputError, refusal
+from carom.quantities.units import counted
 
 KIND_NAMES = {Kind.STICK: "stick", Kind.SLIP: "slip", Kind.GROSS_SLIP: "gross slip"}
 

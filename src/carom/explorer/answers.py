@@ -12,7 +12,7 @@ from carom.explorer.overlays import LawCurve, exact_curve, followers, law_curves
 from carom.explorer.scenes import Scene, scene_of
 from carom.explorer.views import View
 from carom.io.labels import MARKS
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 
 EQUAL = 1e-6  # laws are solved to 1e-8
 PROMPT = 0.03  # s that an answer waits for the contact laws; what is not solved then follows

@@ -14,7 +14,7 @@ from carom.explorer.layout import page
 from carom.explorer.limits import LARGEST_REQUEST, Busy
 from carom.explorer.measures import connect_measures
 from carom.explorer.worker import Worker
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 
 OWN_HOST_ONLY = (
     "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval'; "

@@ -10,7 +10,7 @@ from dash import ClientsideFunction, Dash, Input, Output, State, no_update
 from carom.explorer.layout import CONTROLS, SLIDERS
 from carom.explorer.scenes import impact_of
 from carom.explorer.views import BODIES, OF_NUMBERS, View
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 
 CARRIED = 6  # digits of what is carried over
 FIELDS = ("numbers", "motion", "bodies", "second_radius-field")  # hidden unless of use

@@ -22,8 +22,8 @@ from carom.io.files import save
 from carom.io.labels import labelled_dataset
 from carom.plots import plot_curve, plot_impact, plot_patch, save_figure
 from carom.plots.style import DASHES, LINES, MM, VERMILION, legend_above, styled
+from carom.quantities.refusals import InputError, refusal
 from carom.quantities.texts import Unreadable, read_text
-from carom.quantities.units import InputError, refusal
 
 BODIES = """\
 import numpy as np

@@ -12,7 +12,7 @@ from carom.explorer.limits import LARGEST_UPLOAD, Busy
 from carom.explorer.uploads import shown_name
 from carom.explorer.views import CHOICES, OF_BODIES, View
 from carom.explorer.worker import Worker
-from carom.quantities.units import InputError, refusal
+from carom.quantities.refusals import InputError, refusal
 
 log = logging.getLogger(__name__)
 

@@ -12,7 +12,7 @@ from carom.explorer.overlays import exact_curve, followers, law_curves
 from carom.explorer.scenes import impact_of, scene_of
 from carom.explorer.views import LAWS, NUMBERS, View
 from carom.explorer.worker import Worker
-from carom.quantities.units import InputError, refusal
+from carom.quantities.refusals import InputError, refusal
 
 LOOPBACK = "127.0.0.1"
 OWN_NAMES = [LOOPBACK, "localhost", "::1", "[::1]"]

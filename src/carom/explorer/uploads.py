@@ -17,7 +17,7 @@ from carom.explorer.views import View
 from carom.explorer.worker import READY
 from carom.fitting import Fit, fit
 from carom.io.tables import read_table
-from carom.quantities.units import InputError, refusal
+from carom.quantities.refusals import InputError, refusal
 
 try:
     import resource

@@ -11,8 +11,8 @@ from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.datasets.shipped import names as dataset_names
 from carom.explorer.limits import LONGEST_LINK
+from carom.quantities.refusals import InputError, nearest, refusal
 from carom.quantities.texts import Unreadable, read_text
-from carom.quantities.units import InputError, nearest, refusal
 from carom.verify.catalogue import CATALOGUE
 
 BODIES, NUMBERS = "bodies", "numbers"

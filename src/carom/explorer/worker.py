@@ -11,7 +11,7 @@ from time import monotonic
 from typing import Any
 
 from carom.explorer.limits import FIT_SECONDS, START_SECONDS, Busy, Turns
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 
 PROGRAM = """\
 import json, os, sys

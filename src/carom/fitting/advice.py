@@ -14,7 +14,8 @@ from carom.fitting.estimation import Best, information
 from carom.fitting.problem import FitProblem
 from carom.impacts.curves import REGIMES
 from carom.quantities.arrays import Array
-from carom.quantities.units import InputError, counted, nearest
+from carom.quantities.refusals import InputError, nearest
+from carom.quantities.units import counted
 
 DEGREES = np.arange(1.0, 86.0)  # incidences that are considered
 MOST = 10_000  # further measurements at one incidence that are worth a thought

@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 from carom.fitting.laws import EXACT, OFFSET, half_ratio, ranged
 from carom.fitting.model import offset_parameter
 from carom.fitting.problem import FitProblem
-from carom.quantities.units import InputError, nearest, number, refusal
+from carom.quantities.refusals import InputError, nearest, refusal
+from carom.quantities.units import number
 
 NAMES = ("friction", "kappa", "chi", "restitution", OFFSET)
 FIRST = ("friction", "kappa", "restitution")  # varied unless something else is said

@@ -17,7 +17,7 @@ from carom.io.tables import Cells, read_table
 from carom.quantities.arrays import Array
 from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.units import InputError, refusal
+from carom.quantities.refusals import InputError, refusal
 
 MOST = 1.5  # restitution that scatter may reach; beyond it is a percentage, or another unit
 LARGEST = 1e9  # of what has no unit

@@ -19,7 +19,8 @@ from carom.impacts.validity import judge_contact, judge_errors
 from carom.io.citations import ELEMENTS, bibtex
 from carom.io.labels import Validity, labelled_dataset
 from carom.io.progress import Progress, advancing
-from carom.quantities.units import InputError, Value, counted, refusal
+from carom.quantities.refusals import InputError, refusal
+from carom.quantities.units import Value, counted
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -18,7 +18,7 @@ from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.quantities.arrays import Array, finite_line, positive_line
 from carom.quantities.keywords import known_keywords
-from carom.quantities.units import refusal
+from carom.quantities.refusals import refusal
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -23,7 +23,8 @@ from carom.impacts.result import ImpactResult
 from carom.impacts.validity import judge
 from carom.io.citations import IMPACT, bibtex
 from carom.io.labels import Validity
-from carom.quantities.units import InputError, Value, refusal
+from carom.quantities.refusals import InputError, refusal
+from carom.quantities.units import Value
 
 if TYPE_CHECKING:
     import xarray as xr

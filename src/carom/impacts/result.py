@@ -21,7 +21,8 @@ from carom.io.labels import Validity, labelled
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.units import Value, counted, number, or_none, refusal
+from carom.quantities.refusals import refusal
+from carom.quantities.units import Value, counted, number, or_none
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -11,7 +11,8 @@ from carom.bodies.shapes import Sphere
 from carom.impacts.exact import Impact, solve_exactly
 from carom.io.progress import Progress
 from carom.quantities.keywords import known_keywords
-from carom.quantities.units import Value, finite, refusal
+from carom.quantities.refusals import refusal
+from carom.quantities.units import Value, finite
 
 if TYPE_CHECKING:
     from carom.impacts.boundary_elements import BoundaryElements, HalfspaceImpact

@@ -14,9 +14,10 @@ from carom.io.tables import GAP, Cells, Rows, name_and_unit, spelled
 from carom.quantities.arrays import Array
 from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.refusals import InputError, nearest
 from carom.quantities.symbols import meant
 from carom.quantities.texts import Factor, split
-from carom.quantities.units import InputError, factor_of, nearest, number
+from carom.quantities.units import factor_of, number
 
 Mask = NDArray[np.bool_]
 

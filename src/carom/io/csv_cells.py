@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from carom.io.paths import checked_path
 from carom.io.progress import advancing
 from carom.quantities.arrays import plain_numbers
-from carom.quantities.units import InputError, refusal
+from carom.quantities.refusals import InputError, refusal
 
 COMMENT = re.compile(r"#\s*([A-Za-z]\w*)\s*:\s*(.*)")
 SEPARATORS = ",;\t"

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.quantities.units import InputError, refusal
+from carom.quantities.refusals import InputError, refusal
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -3,7 +3,7 @@
 from importlib import import_module
 from types import ModuleType
 
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 
 
 def extra(name: str, purpose: str, group: str = "cluster") -> ModuleType:

@@ -8,7 +8,7 @@ from carom.io.csv_format import as_csv, from_csv
 from carom.io.netcdf_format import read_netcdf, write_netcdf
 from carom.io.paths import checked_output, checked_path, ending_of, replace_whole
 from carom.io.stores import read_store
-from carom.quantities.units import InputError, refusal
+from carom.quantities.refusals import InputError, refusal
 
 if TYPE_CHECKING:
     import xarray as xr

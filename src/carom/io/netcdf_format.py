@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from carom.io.labels import is_ours
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 
 if TYPE_CHECKING:
     import xarray as xr

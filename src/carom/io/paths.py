@@ -13,7 +13,7 @@ from contextlib import suppress
 from pathlib import Path
 from stat import S_ISDIR, S_ISREG
 
-from carom.quantities.units import InputError, refusal
+from carom.quantities.refusals import InputError, refusal
 
 DESCRIPTORS = ("/dev/fd", "/proc/self/fd")  # folders in which a name is an open file
 STREAMED = (".csv", ".png", ".gif", ".h")  # formats of what goes into a stream without an ending

@@ -10,7 +10,7 @@ from functools import partial
 from threading import Event, Lock, Thread
 from typing import TYPE_CHECKING
 
-from carom.quantities.units import refusal
+from carom.quantities.refusals import refusal
 
 if TYPE_CHECKING:
     from rich.progress import Progress as Bar

@@ -17,7 +17,7 @@ import numpy as np
 
 from carom.io.extras import extra
 from carom.io.labels import is_ours
-from carom.quantities.units import refusal
+from carom.quantities.refusals import refusal
 
 if TYPE_CHECKING:
     import xarray as xr

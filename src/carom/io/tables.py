@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.io.csv_cells import MOST_COLUMNS, read_csv
+from carom.quantities.refusals import InputError, nearest, refusal
 from carom.quantities.texts import LONGEST
-from carom.quantities.units import InputError, nearest, refusal
 
 ALIASES = {"psi_1": "psi_in", "psi_2": "psi_out", "angle_deg": "angle [deg]"}
 SPELLINGS = {name: alias for alias, name in ALIASES.items()}

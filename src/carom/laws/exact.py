@@ -21,7 +21,8 @@ from carom.laws.panels import LARGEST_CHI, elastic_panels, lossy_panels, panel_e
 from carom.laws.portable import applied, lost
 from carom.laws.rules import DEGREE, Rule, frozen
 from carom.quantities.arrays import Array
-from carom.quantities.units import InputError, positive, refusal
+from carom.quantities.refusals import InputError, refusal
+from carom.quantities.units import positive
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from carom.io.version import __version__
 from carom.laws.exact import ReboundLaw
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 
 HEADER = Template("""\
 /* The exact oblique impact of spheres: psi_2(psi_1), to $error,

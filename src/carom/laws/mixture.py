@@ -13,7 +13,8 @@ from carom.dimensionless.numerics.jit import kernel
 from carom.dimensionless.rebounds import warn_of_unsolved
 from carom.io.progress import advancing
 from carom.quantities.arrays import Array, pure_numbers, together
-from carom.quantities.units import flag, positive, refusal
+from carom.quantities.refusals import flag, refusal
+from carom.quantities.units import positive
 
 SMALLEST = 1e-6  # psi_1: below, psi_2/psi_1 is constant
 LARGEST_CHI = 5.0  # up to which a table takes minutes

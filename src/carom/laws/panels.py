@@ -19,7 +19,7 @@ from carom.dimensionless.rebounds import rebound, regime_borders
 from carom.io.progress import advancing
 from carom.laws.rules import DEGREE
 from carom.quantities.arrays import Array
-from carom.quantities.units import refusal
+from carom.quantities.refusals import refusal
 
 Branches = NDArray[np.int64]
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from carom.laws.rules import Rule
 from carom.quantities.arrays import pure_numbers
-from carom.quantities.units import refusal
+from carom.quantities.refusals import refusal
 
 ALLOWED = "must be a real number, or an array of them"
 

@@ -7,7 +7,8 @@ from math import inf
 
 from carom.bodies.pairs import Pair
 from carom.laws.rules import Rule, constant_rule
-from carom.quantities.units import not_negative, number, refusal
+from carom.quantities.refusals import refusal
+from carom.quantities.units import not_negative, number
 
 
 def _check_ratios(law: object, **least: float) -> None:

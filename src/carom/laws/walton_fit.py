@@ -12,7 +12,8 @@ from carom.bodies.pairs import Pair
 from carom.laws.exact import law_of
 from carom.laws.rigid import WaltonLaw
 from carom.quantities.arrays import Array
-from carom.quantities.units import positive, refusal
+from carom.quantities.refusals import refusal
+from carom.quantities.units import positive
 
 POINTS = 2001
 SHORTEST, LONGEST = 1e-6, 1e9  # spans

@@ -23,7 +23,7 @@ from carom.plots import style
 from carom.plots.bands import BANDS
 from carom.plots.impact import FORCES, HISTORY, RADII, forces_panel, phase_handles
 from carom.plots.patch import patch_panel, patch_title
-from carom.quantities.units import InputError, refusal
+from carom.quantities.refusals import InputError, refusal
 
 Progress = bool | Callable[[], object] | None
 

@@ -14,7 +14,8 @@ from matplotlib.patches import Patch
 
 from carom.plots import style
 from carom.plots.regimes import draw_borders
-from carom.quantities.units import pure_number, refusal
+from carom.quantities.refusals import refusal
+from carom.quantities.units import pure_number
 
 SKY = "#56B4E9"
 COLORS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, SKY)

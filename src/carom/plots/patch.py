@@ -12,7 +12,7 @@ from matplotlib.patheffects import withStroke
 from carom.plots import style
 from carom.plots.bands import moment, slip_band
 from carom.quantities.arrays import Array
-from carom.quantities.units import one_of
+from carom.quantities.refusals import one_of
 
 SLIP = 2  # the zone's number in a fields dataset
 MARGIN = 1.12  # of the map around the contact

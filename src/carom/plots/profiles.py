@@ -9,7 +9,7 @@ from matplotlib.patches import Patch
 from carom.plots import style
 from carom.plots.bands import STICK, Band, moment, shade, slip_band
 from carom.quantities.arrays import Array
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 
 MARGIN = 1.2  # of a line through the contact, in contact radii
 NEAR = 1e-9  # relative: a y that is 0 but for rounding

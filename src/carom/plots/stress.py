@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 from carom.plots import style
 from carom.plots.bands import moment
 from carom.quantities.arrays import Array
-from carom.quantities.units import InputError, one_of
+from carom.quantities.refusals import InputError, one_of
 
 CONTOURS = 9
 NEAR = 1e-6  # relative: a largest stress that lies in the plane drawn

@@ -19,7 +19,7 @@ from carom.io.files import FIGURES
 from carom.io.paths import checked_output, ending_of, replace_whole
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 
 P = ParamSpec("P")
 T = TypeVar("T")

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.refusals import InputError, refusal
 from carom.quantities.texts import Unreadable, split
-from carom.quantities.units import REAL, InputError, as_float, in_si, is_real, number, refusal
+from carom.quantities.units import REAL, as_float, in_si, is_real, number
 
 Array = NDArray[np.float64]
 

@@ -2,7 +2,7 @@
 
 from typing import Self
 
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 
 TOLD = 12  # faults in one message
 

@@ -5,7 +5,7 @@ from functools import wraps
 from inspect import Parameter, signature
 from typing import ParamSpec, TypeVar
 
-from carom.quantities.units import InputError, hint
+from carom.quantities.refusals import InputError, hint
 
 Given = ParamSpec("Given")
 Found = TypeVar("Found")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from carom.io.progress import Progress, advancing
 from carom.quantities.keywords import known_keywords
-from carom.quantities.units import InputError, flag
+from carom.quantities.refusals import InputError, flag
 from carom.sweeps.blocks import Box, Values, points_in
 from carom.sweeps.designs import Design
 from carom.sweeps.problem import SweepProblem

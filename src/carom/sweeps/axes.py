@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.quantities.arrays import Array, numbers
-from carom.quantities.units import InputError, counted, number, one_of, refusal
+from carom.quantities.refusals import InputError, one_of, refusal
+from carom.quantities.units import counted, number
 from carom.sweeps.inputs import leaf
 
 SPACINGS = ("linear", "log")

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.bodies import cases
-from carom.quantities.units import InputError, not_negative
+from carom.quantities.refusals import InputError
+from carom.quantities.units import not_negative
 from carom.sweeps.designs import Design
 from carom.sweeps.inputs import BODIES, ELASTIC, STRENGTH, leaf, refuse_contradictions
 

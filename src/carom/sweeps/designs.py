@@ -8,7 +8,8 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.quantities.units import counted, refusal
+from carom.quantities.refusals import refusal
+from carom.quantities.units import counted
 from carom.sweeps.axes import Range, read_axis, read_range
 from carom.sweeps.blocks import Box
 from carom.sweeps.inputs import (

@@ -9,8 +9,8 @@ import numpy as np
 
 from carom.bodies import cases
 from carom.io.labels import attributes
+from carom.quantities.refusals import InputError, hint, refusal
 from carom.quantities.symbols import meant, remark
-from carom.quantities.units import InputError, hint, refusal
 
 CODE = np.int8
 

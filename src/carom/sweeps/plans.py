@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from carom.bodies.cases import SWEEP, Case, line_of
-from carom.quantities.units import InputError, hint, refusal
+from carom.quantities.refusals import InputError, hint, refusal
 from carom.sweeps.designs import Design, Grid, LatinHypercube
 from carom.sweeps.tables import Table
 

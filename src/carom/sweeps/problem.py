@@ -9,7 +9,7 @@ import numpy as np
 from carom.bodies.cases import FROM_STRENGTH
 from carom.impacts.history import PAIR, RESULTS
 from carom.io.labels import attributes, flags
-from carom.quantities.units import InputError, hint, refusal
+from carom.quantities.refusals import InputError, hint, refusal
 from carom.sweeps.blocks import Box, Values, chunk_shape
 from carom.sweeps.columns import AT_REST, common
 from carom.sweeps.designs import Design

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.io.labels import labelled_dataset
-from carom.quantities.units import refusal
+from carom.quantities.refusals import refusal
 from carom.sweeps.blocks import Box, Values, boxes
 from carom.sweeps.problem import SweepProblem
 

@@ -12,7 +12,8 @@ from typing import Any, NamedTuple
 from carom.dimensionless.numerics.threads import available_cores
 from carom.io.extras import extra
 from carom.io.version import __version__
-from carom.quantities.units import MOST_THREADS, InputError, counted, refusal
+from carom.quantities.refusals import InputError, refusal
+from carom.quantities.units import MOST_THREADS, counted
 from carom.sweeps.blocks import Box, Values
 from carom.sweeps.problem import SweepProblem
 from carom.sweeps.records import SweepStopped

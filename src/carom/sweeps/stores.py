@@ -28,7 +28,7 @@ from carom.io.files import STORE
 from carom.io.paths import checked_path
 from carom.io.stores import LEVEL, STATUS, chunk_size, freeze, read_chunk, read_store
 from carom.io.version import __version__
-from carom.quantities.units import refusal
+from carom.quantities.refusals import refusal
 from carom.sweeps.blocks import Box, Values, boxes
 from carom.sweeps.points import PointStatus
 from carom.sweeps.problem import SweepProblem

@@ -15,7 +15,7 @@ from carom.io.columns import column_in_si
 from carom.io.tables import name_and_unit, read_table
 from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 from carom.sweeps.blocks import Box
 from carom.sweeps.designs import Design
 from carom.sweeps.inputs import (

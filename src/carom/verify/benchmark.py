@@ -16,7 +16,7 @@ from carom.io.progress import Progress, advancing
 from carom.io.tables import CASE
 from carom.laws.dem import ContactLaw, Law
 from carom.quantities.arrays import finite_line
-from carom.quantities.units import InputError, refusal
+from carom.quantities.refusals import InputError, refusal
 from carom.verify.catalogue import CATALOGUE, Entry, as_entry
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
 from carom.verify.engines.running import Engine, EngineError, EngineKilled, run

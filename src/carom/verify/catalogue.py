@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from carom.laws import dem
-from carom.quantities.units import nearest, refusal
+from carom.quantities.refusals import nearest, refusal
 from carom.verify.errors import as_law
 
 

@@ -17,7 +17,8 @@ from carom.laws.dem.damping import (
     thornton_damping,
     tsuji_damping,
 )
-from carom.quantities.units import not_negative, one_of, positive, refusal
+from carom.quantities.refusals import one_of, refusal
+from carom.quantities.units import not_negative, positive
 
 SPRING, MINDLIN = dem.LinearSpring(), dem.LammpsMindlin("mindlin_rescale/force")
 

@@ -15,7 +15,8 @@ from carom.io.labels import labelled_dataset
 from carom.laws.dem import ContactLaw, Law
 from carom.laws.dem.base import SOLID
 from carom.quantities.arrays import Array, finite_line, positive_line
-from carom.quantities.units import finite, positive, refusal
+from carom.quantities.refusals import refusal
+from carom.quantities.units import finite, positive
 
 if TYPE_CHECKING:
     import xarray as xr

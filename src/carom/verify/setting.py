@@ -11,7 +11,8 @@ from carom.bodies.cases import motion_of, pair_of, read_case
 from carom.bodies.kinematics import approach, slope
 from carom.bodies.pairs import Pair
 from carom.dimensionless.numerics.hertz import DURATION
-from carom.quantities.units import InputError, finite, number, positive, refusal
+from carom.quantities.refusals import InputError, refusal
+from carom.quantities.units import finite, number, positive
 
 POINTS = 61
 SPEEDS = ("speed", "angle", "normal_speed", "tangential_speed")

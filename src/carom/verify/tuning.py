@@ -11,7 +11,7 @@ from carom.io.progress import Progress, advancing
 from carom.laws import dem
 from carom.plots.result import card
 from carom.quantities.arrays import Array
-from carom.quantities.units import one_of
+from carom.quantities.refusals import one_of
 from carom.verify.catalogue import CATALOGUE, called
 from carom.verify.errors import (
     as_law,

@@ -8,7 +8,8 @@ import typer
 
 import carom
 from carom.cli.cases import Json, check_outputs, file_option, stored, told_case, whole_option
-from carom.quantities.units import InputError, positive, whole
+from carom.quantities.refusals import InputError
+from carom.quantities.units import positive, whole
 
 PURPOSE = """\
 Run {} through impacts with each of its laws and rank them by their error in psi_2.

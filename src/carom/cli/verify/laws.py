@@ -8,7 +8,8 @@ import typer
 
 import carom
 from carom.cli.cases import Json, Plot, check_outputs, refuse_same, store, stored
-from carom.quantities.units import InputError, finite, positive
+from carom.quantities.refusals import InputError
+from carom.quantities.units import finite, positive
 
 if TYPE_CHECKING:
     from carom.laws.dem import Law

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from carom.dimensionless.numerics.jit import kernel
-from carom.quantities.units import refusal
+from carom.quantities.refusals import refusal
 
 
 class Loss(IntEnum):

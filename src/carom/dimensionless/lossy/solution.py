@@ -13,7 +13,7 @@ from carom.dimensionless.lossy.record import Trace, new_record
 from carom.dimensionless.lossy.work import new_work
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.states import KIND_NAMES, History, Phase, Trajectory
-from carom.quantities.units import refusal
+from carom.quantities.refusals import refusal
 
 SHORTEST = 1e-6  # of a phase, in units of d_max/V_1: structure is not told any finer
 CAUSES = {

@@ -16,15 +16,8 @@ from carom.laws.dem.damping import damped_restitution
 from carom.laws.dem.status import Codes, LawStatus, status_of
 from carom.laws.dem.stepping import HISTORY, PATIENCE, stepped, stepped_rebounds
 from carom.quantities.arrays import Array, pure_numbers, together
-from carom.quantities.units import (
-    counted,
-    finite,
-    flag,
-    not_negative,
-    positive,
-    refusal,
-    threads_or_none,
-)
+from carom.quantities.refusals import flag, refusal
+from carom.quantities.units import counted, finite, not_negative, positive, threads_or_none
 
 SOLID = 4.0 / 7.0  # kappa/chi of solid spheres, and of one on a half-space
 FEWEST_STEPS, MOST_STEPS = 4, 10_000_000

@@ -4,7 +4,8 @@ from math import exp, log, pi, sqrt
 from typing import Any
 
 from carom.laws.dem.coefficients import SPRING
-from carom.quantities.units import number, refusal
+from carom.quantities.refusals import refusal
+from carom.quantities.units import number
 
 COEFF_RESTITUTION, TSUJI = "coeff_restitution", "tsuji"
 RULES = (COEFF_RESTITUTION, TSUJI)

@@ -7,7 +7,8 @@ import numpy as np
 
 from carom.laws.dem.base import Law
 from carom.quantities.arrays import Array
-from carom.quantities.units import number, refusal
+from carom.quantities.refusals import refusal
+from carom.quantities.units import number
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from typing import ClassVar
 from carom.laws.dem.base import ContactLaw
 from carom.laws.dem.coefficients import MINDLIN, SPRING, Coefficients, hertzian
 from carom.laws.dem.damping import COEFF_RESTITUTION, RULES, hertz_damping, thornton_damping
-from carom.quantities.units import one_of
+from carom.quantities.refusals import one_of
 
 KEPT = {  # powers n, while the contact grows and while it shrinks
     "mindlin": (1.0, 1.0),

@@ -15,7 +15,7 @@ from carom.laws.dem import LinearSpring
 from carom.laws.dem.coefficients import SPRING
 from carom.laws.dem.damping import damping_ratio
 from carom.quantities.arrays import Array
-from carom.quantities.units import refusal
+from carom.quantities.refusals import refusal
 from carom.verify.engines.experiments import Experiment, Outcomes
 
 SPACING = 4.0  # from centre to centre, in radii of the larger sphere

@@ -14,7 +14,8 @@ from carom.bodies.shapes import HalfSpace, Sphere
 from carom.dimensionless.numerics import hertz
 from carom.laws.dem import ContactLaw
 from carom.quantities.arrays import Array, finite_line, numbers
-from carom.quantities.units import InputError, counted, positive, refusal
+from carom.quantities.refusals import InputError, refusal
+from carom.quantities.units import counted, positive
 
 MOST_STEPS = 10_000_000
 SOLID = 0.4  # K^2/R^2

@@ -16,7 +16,7 @@ from typing import ClassVar
 
 from carom.bodies.shapes import Sphere
 from carom.laws.dem import ContactLaw, HertzLinearHistory, LammpsMindlin, LinearSpring
-from carom.quantities.units import refusal
+from carom.quantities.refusals import refusal
 from carom.verify.engines import arrangement
 from carom.verify.engines.experiments import Experiment, Outcomes
 from carom.verify.engines.running import Engine

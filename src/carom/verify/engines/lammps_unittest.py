@@ -9,7 +9,8 @@ import numpy as np
 from carom.bodies.shapes import Sphere
 from carom.dimensionless.rebounds import rebound
 from carom.quantities.arrays import Array
-from carom.quantities.units import positive, refusal
+from carom.quantities.refusals import refusal
+from carom.quantities.units import positive
 from carom.verify.engines import arrangement
 from carom.verify.engines.arrangement import Placed
 from carom.verify.engines.experiments import Experiment, Outcomes

@@ -19,7 +19,8 @@ from typing import IO, ClassVar, NamedTuple
 import numpy as np
 
 from carom.laws.dem import ContactLaw
-from carom.quantities.units import InputError, positive, refusal
+from carom.quantities.refusals import InputError, refusal
+from carom.quantities.units import positive
 from carom.verify.engines.experiments import Experiment, Outcomes
 
 PRINTED = "printed.txt"  # what the program printed, in its folder

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from carom.bodies.cases import read_case
 from carom.io.paths import replace_whole
-from carom.quantities.units import InputError, refusal
+from carom.quantities.refusals import InputError, refusal
 from carom.verify.pack.frozen import CASE, INPUTS
 from carom.verify.pack.programs import AFTER, PROGRAMS, experiment_of
 from carom.verify.pack.tables import DecimalTable, read_table

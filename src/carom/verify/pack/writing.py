@@ -8,7 +8,7 @@ import tempfile
 from pathlib import Path
 
 from carom.io.paths import checked_path
-from carom.quantities.units import InputError, refusal
+from carom.quantities.refusals import InputError, refusal
 from carom.verify.pack.frozen import CASE, INPUTS, REFERENCE, VERSION, folders_with, frozen_files
 from carom.verify.pack.programs import program_files
 from carom.verify.pack.references import ACCURACY, title_of

@@ -18,7 +18,8 @@ from carom.io.tables import read_table
 from carom.quantities.arrays import Array
 from carom.quantities.faults import Faults
 from carom.quantities.keywords import known_keywords
-from carom.quantities.units import InputError, nearest, number, positive, refusal
+from carom.quantities.refusals import InputError, nearest, refusal
+from carom.quantities.units import number, positive
 from carom.verify.scoring.histories import NAMES as HISTORY, score_history
 from carom.verify.scoring.points import (
     compared,

@@ -9,7 +9,7 @@ from carom.bodies.pairs import Scales
 from carom.dimensionless.numerics import hertz
 from carom.io.columns import Mask, Results
 from carom.quantities.arrays import Array
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 
 FEWEST = 20  # rows with a force
 SMALL = 0.1  # of the peak: what the first and last force may be

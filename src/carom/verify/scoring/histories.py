@@ -10,7 +10,7 @@ from carom.impacts.exact import Impact
 from carom.io.columns import Results
 from carom.io.labels import Finding
 from carom.quantities.arrays import Array
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 from carom.verify.scoring.contact import Samples, contact_samples
 from carom.verify.scoring.points import (
     LARGEST,

@@ -15,7 +15,7 @@ from carom.io.labels import Finding
 from carom.io.progress import advancing
 from carom.io.tables import SHOWN, named
 from carom.quantities.arrays import Array
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 
 CHUNK = 1 << 16  # impacts after which the bar moves
 LARGEST = 1e9  # of |psi|: there rounding is as large as errors that matter

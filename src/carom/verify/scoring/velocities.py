@@ -11,7 +11,7 @@ from carom.bodies.shapes import Sphere
 from carom.datasets.observables import FASTEST, SLOWEST
 from carom.io.columns import Results
 from carom.io.labels import Finding
-from carom.quantities.units import InputError
+from carom.quantities.refusals import InputError
 from carom.verify.scoring.points import (
     Points,
     compared,
