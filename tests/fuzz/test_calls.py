@@ -279,7 +279,7 @@ def complaint(name, function, given):
             return f"{type(error).__name__}: {error}"
     told = [str(each.message) for each in warned]
     others = [each for each in told if not any(words in each for words in TOLD)]
-    explained = len(others) < len(told) or name in OPEN or "status" in name
+    explained = len(others) < len(told) or name in OPEN or given.get("return_status") is True
     if others:
         return f"warns: {others[0]}"
     return "" if explained or not is_open(result) else f"not finite: {result!r:.200}"
