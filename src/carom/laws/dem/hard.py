@@ -54,5 +54,6 @@ class HardSphere(Law):
 
     def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
         most = 2.0 * chi * (1.0 + self.restitution)
-        lost = np.minimum(most, (1.0 + self.tangential_restitution) * np.abs(psi))
+        with np.errstate(over="ignore"):
+            lost = np.minimum(most, (1.0 + self.tangential_restitution) * np.abs(psi))
         return np.asarray(psi - np.copysign(lost, psi))
