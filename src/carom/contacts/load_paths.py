@@ -304,22 +304,31 @@ def _followed(pair: Pair, steps: Steps) -> LoadPath:
         n, most = path.refused, pair.friction * normal[path.refused]
         allowed = f"step {n}: Coulomb's law allows at most {most:g} N at F_z = {normal[n]:g} N"
         raise refusal("tangential_force", float(steps.target[n]), allowed)
-    energy = scales.tangential_force * scales.tangential_length
-    if not np.all(np.isfinite(path.results)):
+    with np.errstate(all="ignore"):
+        columns = _columns(path.results, scales)
+    if not all(np.all(np.isfinite(values)) for values in columns.values()):
         raise refusal("penetration", float(steps.penetration.max()), BEYOND)
     return LoadPath(
         pair,
         penetration=steps.penetration,
-        displacement=path.results[:, paths.DISPLACEMENT] * scales.tangential_length,
         normal_force=normal,
-        tangential_force=path.results[:, paths.TRACTION] * scales.tangential_force,
         contact_radius=np.sqrt(np.maximum(steps.penetration / scales.length, 0.0)) * scales.radius,
-        stick_radius=path.results[:, paths.STICK] * scales.radius,
-        frictional_work=path.results[:, paths.WORK] * energy,
-        tangential_elastic_energy=path.results[:, paths.STORED] * energy,
+        **columns,
         scales=scales,
         _steps=steps,
     )
+
+
+def _columns(results: Array, scales: ContactScales) -> dict[str, Array]:
+    """Return what a path has come to after each step, in SI units."""
+    energy = scales.tangential_force * scales.tangential_length
+    return {
+        "displacement": results[:, paths.DISPLACEMENT] * scales.tangential_length,
+        "tangential_force": results[:, paths.TRACTION] * scales.tangential_force,
+        "stick_radius": results[:, paths.STICK] * scales.radius,
+        "frictional_work": results[:, paths.WORK] * energy,
+        "tangential_elastic_energy": results[:, paths.STORED] * energy,
+    }
 
 
 def _scales(pair: Pair, deepest: float) -> ContactScales:
