@@ -53,10 +53,6 @@ class Estimate:
         lowest, highest = LIMITS[self.name]
         return self.determined and (self.low == lowest or self.high == highest)
 
-    def excludes(self, value: float) -> bool:
-        """Tell whether a value lies outside of the interval, if there is one."""
-        return self.determined and not self.low <= value <= self.high
-
     def to_dict(self) -> dict[str, Any]:
         """Return value, ends and reason as plain numbers and texts; what is open is None."""
         numbers = {name: or_none(getattr(self, name)) for name in ("value", "low", "high")}

@@ -1,8 +1,7 @@
-"""The best fit: a scan for where to start, descents from there, and lmfit at the end."""
+"""The best fit: descents from a few starts, errors from the scatter, and lmfit at the end."""
 
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
 from typing import Any
 
 import numpy as np
@@ -10,14 +9,13 @@ import numpy as np
 from carom.fitting import errors
 from carom.fitting.least_squares import Minimum, descend, jacobian
 from carom.fitting.model import Model
-from carom.fitting.problem import FitProblem, Mask
+from carom.fitting.problem import Mask
+from carom.fitting.starts import scan
 from carom.io.extras import extra
 from carom.quantities.arrays import Array
 
 WEAK = 0.3  # standard deviations by which a coordinate changes the values, too few to tell
-STARTS = 6  # starting points that are followed to the end
 TURNS = 8  # times that errors are estimated and the fit is made anew
-FINE = {"friction": 25, "kappa": 12, "tangential_restitution": 9}  # levels of the scan
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +64,7 @@ class Best:
     """A model fitted: coordinates, loss there, and the errors that were used.
 
     `estimated` tells of which responses the errors come from the scatter, `scale` by how much
-    errors that were given had to be made larger; `rivals` are minima found from other starts.
+    errors that were given had to be made larger, `others` where descents from other starts ended.
     """
 
     model: Model
@@ -77,7 +75,7 @@ class Best:
     sigma: Array
     scale: Array
     estimated: Mask
-    rivals: Minimum
+    others: Array
     result: Any = None
 
     @property
@@ -94,6 +92,12 @@ class Best:
     def residuals(self) -> Array:
         """Residuals in standard deviations, of shape (rows, responses), 0 where not measured."""
         return np.asarray(self.weights.whitened(self.model.problem, self.expected[np.newaxis])[0])
+
+    @cached_property
+    def rivals(self) -> Minimum:
+        """Minima found from other starts."""
+        residuals = self.model.residuals(self.weights, self.loss)
+        return descend(residuals, self.others, self.model.bounds)
 
     @cached_property
     def information(self) -> Information:
@@ -171,47 +175,8 @@ def estimate(model: Model, loss: errors.RobustLoss, start: Array | None = None) 
             break
     weights = model.weights(at[0], sigma, scale)
     best, result = polished(model, weights, loss, at[0])
-    residuals_of = model.residuals(weights, loss)
-    total = float(np.square(residuals_of(best[np.newaxis])).sum())
-    rivals = descend(residuals_of, others, model.bounds)
-    return Best(model, best, total, weights, loss, sigma, scale, estimated, rivals, result)
-
-
-def scan(model: Model, loss: errors.RobustLoss, sigma: Array) -> Array:
-    """Return a few starting points: the best of a grid over the ranges, unlike each other.
-
-    Valleys along one parameter, the others following, come first: there may be other minima.
-    """
-    levels = [_levels(model, name) for name in model.free]
-    grid = np.array(list(product(*levels)))
-    inverse = 1.0 / np.where(model.problem.present, sigma, 1.0)
-    weights = errors.Weights(inverse[:, :, np.newaxis] * np.eye(sigma.shape[1]))
-    sums = np.square(model.residuals(weights, loss)(grid)).sum(axis=1)
-    chosen: list[int] = []
-    apart = np.array([max(np.ptp(column), 1e-9) for column in grid.T]) / 8.0
-    valley = _valleys(sums.reshape([len(each) for each in levels]))
-    for place in np.lexsort((sums, ~valley)):
-        if all(np.any(np.abs(grid[place] - grid[other]) > apart) for other in chosen):
-            chosen.append(int(place))
-        if len(chosen) == STARTS:
-            break
-    return grid[chosen]
-
-
-def _valleys(sums: Array) -> Mask:
-    """Return which points of a grid, counted in one row, are least along one of its axes.
-
-    Along an axis counts the least of all points with the same place on it.
-    """
-    found = np.zeros(sums.size, dtype=bool)
-    places = np.arange(sums.size).reshape(sums.shape)
-    for axis, count in enumerate(sums.shape):
-        across = np.moveaxis(sums, axis, 0).reshape(count, -1)
-        least, at = across.min(axis=1), across.argmin(axis=1)
-        beside = np.concatenate([[np.inf], least, [np.inf]])
-        low = (least <= beside[:-2]) & (least <= beside[2:])
-        found[np.moveaxis(places, axis, 0).reshape(count, -1)[low, at[low]]] = True
-    return found
+    total = float(np.square(model.residuals(weights, loss)(best[np.newaxis])).sum())
+    return Best(model, best, total, weights, loss, sigma, scale, estimated, others, result)
 
 
 def polished(
@@ -238,28 +203,3 @@ def polished(
     found = np.array(list(result.params.valuesdict().values()))
     before, after = np.square(of(parameters)).sum(), np.square(residuals(found[None])).sum()
     return (found if after <= before else at), result
-
-
-def _levels(model: Model, name: str) -> Array:
-    """Return the coordinates of a parameter in the scan."""
-    if name == "restitution":
-        return _likely_restitutions(model.problem)
-    if name not in FINE:
-        return np.zeros(1)
-    place = model.free.index(name)
-    low, high = model.bounds.low[place], model.bounds.high[place]
-    if name == "friction":
-        low, high = np.log(5e-3), np.log(3.0)
-    return np.linspace(low, high, FINE[name] + 2)[1:-1]
-
-
-def _likely_restitutions(problem: FitProblem) -> Array:
-    """Return normal restitutions to start from: what was measured, or a few."""
-    measured = dict(zip(problem.responses, problem.measured.T, strict=True))
-    if "normal_restitution" in measured:
-        found = measured["normal_restitution"]
-    elif "normal_speed_out" in measured:
-        found = measured["normal_speed_out"] / problem.motion.normal_speed
-    else:
-        return np.array([0.6, 0.8, 0.95])
-    return np.clip([float(np.nanmedian(found))], 0.35, 0.999)

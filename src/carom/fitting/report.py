@@ -111,11 +111,11 @@ def _about_others(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]:
     near = rivals.sums - whole.sum < 4.0 * whole.spread
     for point in rivals.at[near][np.argsort(rivals.sums[near])]:
         values = model.values_at(point)
-        outside = [
-            estimates[name].excludes(values[name]) and abs(away) > APART
-            for name, away in zip(model.free, point - found, strict=True)
+        far = [
+            name for name, off in zip(model.free, point - found, strict=True) if abs(off) > APART
         ]
-        if any(outside):
+        told = [estimates[name] for name in far if estimates[name].determined]
+        if any(not each.low <= values[each.name] <= each.high for each in told):
             shown = ", ".join(f"{name} {values[name]:.3g}" for name in model.free)
             return [f"fits nearly as well: {shown}"]
     return []
