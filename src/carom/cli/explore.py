@@ -1,6 +1,7 @@
 """`carom explore`: the page."""
 
 import json
+import os
 import signal
 import webbrowser
 from contextlib import suppress
@@ -37,3 +38,4 @@ def explore_command(
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends like Ctrl-C
     with suppress(KeyboardInterrupt):
         page.serve()
+    os._exit(0)  # without waiting for threads that are at work

@@ -65,7 +65,7 @@ def new_app(worker: Worker, hosts: list[str] | None = None) -> Dash:
 
 
 def _told_on_page(error: Exception) -> None:
-    if isinstance(error, InputError):
+    if isinstance(error, InputError | Busy):
         set_on_page("notice", {"children": str(error)})
         return
     log.error("%s: %s", type(error).__name__, error)

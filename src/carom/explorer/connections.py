@@ -101,11 +101,16 @@ class Server(ThreadedWSGIServer):
     def handle_error(self, request: Any, client_address: Any) -> None:
         """Say in a line what went wrong with a connection."""
         error = sys.exc_info()[1]
+        if isinstance(error, OSError):  # it was closed meanwhile
+            return
         log.error("%s: %s", type(error).__name__, " ".join(str(error).split()))
 
     def _answer(self, environ: dict[str, Any], start_response: Any) -> Iterable[bytes]:
+        connection = environ["werkzeug.socket"]
         _take_body(environ)
-        with self._working(environ["werkzeug.socket"]):
+        if connection not in self._since:
+            raise ConnectionAbortedError  # it was closed before all had arrived
+        with self._working(connection):
             return self._app(environ, start_response)
 
     @contextmanager

@@ -19,6 +19,7 @@ WAITING = 4  # requests that wait until another's upload is fitted, or its file 
 WAITING_SECONDS = 20.0  # that they do
 
 CONNECTIONS = 200  # at once
+QUEUED = 128  # connections that are not accepted yet: a burst of so many drives nobody out
 REQUEST_SECONDS = 60.0  # from the connection until the answer is taken
 
 

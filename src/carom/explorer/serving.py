@@ -8,6 +8,7 @@ from carom import datasets
 from carom.explorer.app import new_app
 from carom.explorer.connections import Server
 from carom.explorer.fits import fit_of
+from carom.explorer.limits import QUEUED
 from carom.explorer.overlays import exact_curve, followers, law_curves
 from carom.explorer.scenes import impact_of, scene_of
 from carom.explorer.views import LAWS, NUMBERS, View
@@ -18,7 +19,6 @@ LOOPBACK = "127.0.0.1"
 OWN_NAMES = [LOOPBACK, "localhost", "::1", "[::1]"]
 PORT = 8050
 PORTS = 65535
-WAITING = 128  # requests that may queue
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,7 @@ def _bound(host: str, port: int) -> socket.socket:
     try:
         found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         found.bind((host, port))
-        found.listen(WAITING)
+        found.listen(QUEUED)
     except OSError as error:
         found.close()
         if isinstance(error, socket.gaierror) or error.errno == EADDRNOTAVAIL:
