@@ -4,6 +4,7 @@ Imports inside functions are for what only one command needs, so that `carom --h
 the rest of the package, for third-party packages that are heavy or optional.
 """
 
+import logging
 import sys
 import warnings
 
@@ -87,5 +88,16 @@ def _refuse(message: str) -> int:
 def run() -> None:
     """Run a command from the shell, in a process of its own."""
     cases.may_interpret = True
-    warnings.formatwarning = lambda message, *_, **__: f"carom: {message}\n"
+    _quieten()
     sys.exit(main())
+
+
+def _quieten() -> None:
+    """Show the warnings of this package in one line each, and none of the packages it uses."""
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # of its folders and its fonts
+    if sys.warnoptions:  # somebody looks for them
+        return
+    warnings.filterwarnings("ignore")
+    warnings.filterwarnings("default", module=r"carom\.")
+    warnings.filterwarnings("ignore", r".* encountered in ", RuntimeWarning)  # by NumPy
+    warnings.formatwarning = lambda message, *_, **__: f"carom: {message}\n"

@@ -97,7 +97,7 @@ def _image(title: str, figure: "Figure | None") -> str:
     if figure is None:
         return ""
     stream = BytesIO()
-    with plots.style.style():
+    with plots.style.style(), plots.style.quiet():
         figure.savefig(stream, format="png", dpi=DPI)
     data = f"data:image/png;base64,{b64encode(stream.getvalue()).decode('ascii')}"
     return f"<img alt='{escape(title)}' style='max-width:100%;background:white' src='{data}'>"

@@ -2,6 +2,7 @@
 
 import logging
 import textwrap
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import wraps
@@ -66,6 +67,7 @@ STYLE: Any = {  # typed differently by the versions of matplotlib
     "pdf.fonttype": 42,
 }
 
+LOGGERS = ("matplotlib", "fontTools")  # which log what does not help a user
 TICKS = ("labelsize", "major.size", "major.width", "major.pad")
 
 PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
@@ -85,7 +87,7 @@ def styled(draw: Callable[P, T]) -> Callable[P, T]:
 def draws(
     what: str, *needed: str, along: str | tuple[str, ...] = ()
 ) -> Callable[[Callable[P, T]], Callable[P, T]]:
-    """Style a function whose first argument is a dataset, and refuse datasets of another kind.
+    """Style a function whose first argument is a dataset, and refuse what it cannot draw.
 
     `what` tells what it draws and what makes such a dataset; all of `needed` must be in it, and
     the first of them must go along these dimensions, if any are named, and have values.
@@ -98,10 +100,17 @@ def draws(
         def checked(*args: P.args, **kwargs: P.kwargs) -> T:
             given: Any = next(iter(parameters.bind(*args, **kwargs).arguments.values()))
             lacks = _lacking(given, needed, (along,) if isinstance(along, str) else along)
+            name = getattr(draw, "__name__", "")
             if lacks:
-                name = getattr(draw, "__name__", "")
                 raise InputError(f"{name} draws {what}; what was given {lacks}")
-            return styled_draw(*args, **kwargs)
+            try:
+                with quiet():
+                    return styled_draw(*args, **kwargs)
+            except InputError:
+                raise
+            except (ValueError, LookupError, ArithmeticError) as error:  # of numbers or words in it
+                reason = " ".join(str(error).split())
+                raise InputError(f"{name}: this dataset cannot be drawn; {reason}") from error
 
         return checked
 
@@ -119,6 +128,21 @@ def _lacking(given: Any, needed: tuple[str, ...], along: tuple[str, ...]) -> str
     if lies != along if along else not lies:
         return f"has no {needed[0]} along {' and '.join(along) or 'a dimension'}"
     return "" if given[needed[0]].size else f"has no values of {needed[0]}"
+
+
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Let matplotlib not complain of numbers that are not finite, of glyphs, of fonts and room."""
+    levels = {logger: logger.level for logger in map(logging.getLogger, LOGGERS)}
+    for logger in levels:
+        logger.setLevel(logging.ERROR)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        for logger, level in levels.items():
+            logger.setLevel(level)
 
 
 def check_grid(dataset: Any, name: str, *dims: str) -> None:
@@ -235,8 +259,7 @@ def save_figure(figure: Figure, path: str | Path) -> Path:
     'curve.png'
     """
     target = checked_output(path, FIGURES)
-    logging.getLogger("fontTools").setLevel(logging.ERROR)  # it doubts the dates of fonts
-    with style():
+    with style(), quiet():
         return replace_whole(
             target, lambda where: figure.savefig(where, dpi=DPI), ending_of(target, FIGURES)
         )
