@@ -71,7 +71,7 @@ def test_numbers_that_cannot_be_are_told_in_a_line(visit):
         ("friction", "-1", "0.2"),
         ("radius", "", "5"),
         ("speed", "1,5", "0.6"),  # a comma is not dropped: 15
-        ("spin", "\N{MINUS SIGN}3", "0"),  # nor a sign that no keyboard has
+        ("friction", "\N{MINUS SIGN}3", "0.2"),  # nor a sign that no keyboard has: 3
     ):
         seen.page.fill(f"#{name}", typed)
         notice = seen.until(lambda: seen.notice())
@@ -81,6 +81,8 @@ def test_numbers_that_cannot_be_are_told_in_a_line(visit):
         assert shows(seen, steel())
         seen.page.fill(f"#{name}", right)
         seen.until(lambda: seen.notice() == "")
+    seen.page.fill("#spin", "\N{MINUS SIGN}3")
+    seen.until(lambda: shows(seen, steel(spin=-3.0)))
 
 
 def test_bodies_chosen_from_lists(visit):

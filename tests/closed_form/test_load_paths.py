@@ -258,7 +258,7 @@ def test_dataset_is_labelled_and_stored(tmp_path):
         ({"penetration": [1e-6, np.nan], "displacement": 0}, "penetration: nan .* step 1"),
         ({"normal_force": [1.0, np.inf], "displacement": 0}, "normal_force: inf .* step 1"),
         ({"normal_force": [1.0, -2.0], "displacement": 0}, r"normal_force: -2.0 .* step 1"),
-        ({"normal_force": "3 kg", "displacement": 0}, "normal_force: '3 kg' .* in kilogram"),
+        ({"normal_force": "3 kg", "displacement": 0}, "normal_force: '3 kg' .* not a value in N;"),
         ({"normal_force": 1.0, "tangential_force": "push"}, "tangential_force: 'push'"),
         ({"normal_force": [1.0, 2.0], "displacement": [0.0] * 3}, "displacement: .* 3 values"),
         ({"penetration": 1e300, "displacement": 0}, "penetration: 1e.300 .* check the units"),

@@ -255,7 +255,7 @@ START = {"speed": 2.0, "angle": 0.5}
         (START | {"spin_out": math.inf}, "psi_out", "spin_out: inf cannot be used; must be finite"),
         (START | {"spin2_out": 1.0}, "psi_out", "spin2_out: only a second sphere can spin"),
         (START | {"spinout": 1.0}, "psi_out", "spinout: unknown quantity; did you mean 'spin_out'"),
-        (START, "restitution", "restitution: unknown quantity; did you mean"),
+        (START, "restitution", "restitution: unknown quantity; write normal_restitution"),
         (START | {"rebound_speed": 1.9}, "spin_out", "normal_restitution: missing; rebound_speed"),
         (
             START | {"rebound_speed": 1.0, "normal_restitution": 1.0},

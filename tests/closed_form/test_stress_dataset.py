@@ -151,7 +151,7 @@ def test_dataset():
         (HIT, {"x": [math.inf]}, "x: .*finite"),
         (HIT, {"x": [0.0], "points": [[0.0, 0.0, 0.0]]}, "points: .*grid by x and z, or points"),
         (HIT, {"body": "secnd"}, "body: 'secnd'.*did you mean 'second'"),
-        (HIT, {"body": None}, "body: None.*'first' or 'second'"),
+        (HIT, {"body": None}, "body: None .* must be first or second"),
         (ON_RIGID, {}, "body: 'second'.*rigid.*first"),
     ],
 )

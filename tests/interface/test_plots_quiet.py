@@ -28,7 +28,7 @@ DATASETS = {
     "fields": (HIT.fields(1.5e-5, x=SIDE, y=SIDE), ("plot_patch",)),
     "curve": (carom.curve([0.5, 1.44], np.linspace(0.0, 6.0, 9)), ("plot_curve",)),
     "score": (
-        carom.verify.score({"psi_1": [0.5, 1.0], "psi_2": [0.1, 0.2]}, chi=1.44).to_dataset(),
+        carom.verify.score({"psi_1": [0.5, 1.0, 2.0], "psi_2": [0.1, 0.2, -0.8]}, chi=1.44).to_dataset(),
         ("plot_score",),
     ),
 }

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.io.csv_cells import MOST_COLUMNS, read_csv
+from carom.io.paths import checked_path
 from carom.quantities.refusals import InputError, nearest, refusal
 from carom.quantities.texts import LONGEST
 
@@ -84,7 +85,7 @@ def read_table(
     (('angle', 'spin'), 'row', 2)
     """
     if isinstance(source, str | Path):
-        found = read_csv(what, Path(source), fewest)
+        found = read_csv(what, checked_path(what, source), fewest)
         heads, cells = found.heads, found.columns
         table = Cells({}, found.lines, "line", found.comments)
     else:
