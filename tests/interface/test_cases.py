@@ -82,3 +82,14 @@ def test_values_of_materials_with_and_without_gaps():
 def test_what_is_no_case_is_refused(make, message):
     with pytest.raises(InputError, match=message):
         make()
+
+
+def test_all_unknown_keys_are_counted_and_the_first_are_told(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text("".join(f"k{i} = 1\n" for i in range(30)), encoding="utf-8")
+    with pytest.raises(carom.InputError) as refused:
+        carom.read(path)
+    message = str(refused.value)
+    assert message.startswith("30 faults: (1) k0: unknown key in ")
+    assert message.endswith("; and 18 more")
+    assert message.count("unknown key") == 12

@@ -4,7 +4,6 @@ import re
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
-from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -81,8 +80,11 @@ def check_case(
     """
 
     def check(table: Mapping[str, Any], allowed: Iterable[str], name: str) -> None:
-        for key in islice((key for key in table if key not in allowed), TOLD):
+        unknown = [key for key in table if key not in allowed]
+        for key in unknown[:TOLD]:
             faults.add(f"{key}: unknown key{place(key, name)}; {hint(key, allowed)}")
+        for key in unknown[TOLD:]:  # which are counted, not told
+            faults.add(f"{key}: unknown key")
 
     if not isinstance(case, Mapping):
         raise refusal("case", case, "must be a mapping with friction, speeds, first and second")
