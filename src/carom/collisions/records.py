@@ -2,7 +2,6 @@
 
 import warnings
 from collections.abc import Sequence
-from enum import IntEnum
 from math import prod
 from typing import Any, NamedTuple
 
@@ -16,6 +15,7 @@ from carom.laws.portable import is_floats
 from carom.plots.result import card
 from carom.quantities.arrays import numbers
 from carom.quantities.refusals import InputError, refusal
+from carom.quantities.statuses import WordedStatus
 
 NO_VALUES = (TypeError, RuntimeError)  # what jax and torch raise while they trace or map
 SKEW = 1e-5  # of a normal's squared length from 1; so much is rounding, and made up for
@@ -25,7 +25,7 @@ MOST = 200_000_000  # pairs at once
 ALLOWED = "must be an array of real numbers of shape (..., 3)"
 
 
-class CollisionStatus(IntEnum):
+class CollisionStatus(WordedStatus):
     """What became of a pair; its `message` says so in words.
 
     Examples
@@ -35,23 +35,10 @@ class CollisionStatus(IntEnum):
     'left alone: the bodies do not approach'
     """
 
-    COLLIDED = 0
-    SEPARATING = 1
-    NOT_FINITE = 2
-    NORMAL_NOT_UNIT = 3
-
-    @property
-    def message(self) -> str:
-        """The status in words."""
-        return MESSAGES[self]
-
-
-MESSAGES = {
-    CollisionStatus.COLLIDED: "collided",
-    CollisionStatus.SEPARATING: "left alone: the bodies do not approach",
-    CollisionStatus.NOT_FINITE: "left alone: a number is not finite, or too large",
-    CollisionStatus.NORMAL_NOT_UNIT: "left alone: the normal is not a unit vector",
-}
+    COLLIDED = 0, "collided"
+    SEPARATING = 1, "left alone: the bodies do not approach"
+    NOT_FINITE = 2, "left alone: a number is not finite, or too large"
+    NORMAL_NOT_UNIT = 3, "left alone: the normal is not a unit vector"
 
 
 ADVICE = {

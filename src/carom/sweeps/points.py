@@ -1,7 +1,6 @@
 """Impacts of many points at once: bodies whose numbers are arrays, and a status for each point."""
 
 from collections.abc import Callable, Mapping, Sequence
-from enum import IntEnum
 from math import pi
 from typing import Any, NamedTuple
 
@@ -21,13 +20,14 @@ from carom.dimensionless.rebounds import rebound
 from carom.impacts.history import PAIR
 from carom.impacts.outcome import Outcome
 from carom.quantities.arrays import Array
+from carom.quantities.statuses import WordedStatus
 from carom.sweeps.inputs import ELASTIC, STRENGTH, leaf
 
 Codes = NDArray[np.int8]
 Columns = Mapping[str, Any]  # inputs by name: a number, or an array with one for every point
 
 
-class PointStatus(IntEnum):
+class PointStatus(WordedStatus):
     """What became of one point of a sweep; its `message` says so in words.
 
     Examples
@@ -37,31 +37,16 @@ class PointStatus(IntEnum):
     'bodies do not approach'
     """
 
-    NOT_RUN = -1
-    SOLVED = 0
-    NOT_A_NUMBER = 1
-    OUT_OF_RANGE = 2
-    NOT_APPROACHING = 3
-    BEYOND_FLOATING_POINT = 4
-    TOO_MANY_PHASES = 5
-    UNRESOLVED = 6
-
-    @property
-    def message(self) -> str:
-        """The status in words."""
-        return MESSAGES[self]
+    NOT_RUN = -1, "not run yet"
+    SOLVED = 0, "solved"
+    NOT_A_NUMBER = 1, "input missing or not a finite number"
+    OUT_OF_RANGE = 2, "input out of range"
+    NOT_APPROACHING = 3, "bodies do not approach"
+    BEYOND_FLOATING_POINT = 4, "numbers beyond floating point"
+    TOO_MANY_PHASES = 5, "not solved as chi is too large"
+    UNRESOLVED = 6, "not solved as a phase did not end"
 
 
-MESSAGES = {
-    PointStatus.NOT_RUN: "not run yet",
-    PointStatus.SOLVED: "solved",
-    PointStatus.NOT_A_NUMBER: "input missing or not a finite number",
-    PointStatus.OUT_OF_RANGE: "input out of range",
-    PointStatus.NOT_APPROACHING: "bodies do not approach",
-    PointStatus.BEYOND_FLOATING_POINT: "numbers beyond floating point",
-    PointStatus.TOO_MANY_PHASES: "not solved as chi is too large",
-    PointStatus.UNRESOLVED: "not solved as a phase did not end",
-}
 OF_SOLVER = {
     Status.SOLVED: PointStatus.SOLVED,
     Status.PSI_NOT_FINITE: PointStatus.BEYOND_FLOATING_POINT,

@@ -34,6 +34,7 @@ from carom.dimensionless.elastic.record import (
     note_stretch,
 )
 from carom.dimensionless.numerics.jit import kernel
+from carom.quantities.statuses import WordedStatus
 
 # Modes of a recorded step that need no integration.
 GROSS, RETRACED = 3, 4
@@ -85,7 +86,7 @@ def _table() -> np.ndarray:
 NEXT = _table()
 
 
-class Status(IntEnum):
+class Status(WordedStatus):
     """How a run ended; its `message` says so in words.
 
     Examples
@@ -95,25 +96,11 @@ class Status(IntEnum):
     'solved'
     """
 
-    SOLVED = 0
-    PSI_NOT_FINITE = 1
-    CHI_NOT_POSITIVE = 2
-    TOO_MANY_PHASES = 3
-    UNRESOLVED = 4
-
-    @property
-    def message(self) -> str:
-        """The status in words."""
-        return MESSAGES[self]
-
-
-MESSAGES = {
-    Status.SOLVED: "solved",
-    Status.PSI_NOT_FINITE: "psi must be a finite number",
-    Status.CHI_NOT_POSITIVE: "chi must be positive and finite",
-    Status.TOO_MANY_PHASES: f"not solved: more than {MAX_PHASES} phases (chi is too large)",
-    Status.UNRESOLVED: "not solved: a phase did not end within the bound on steps",
-}
+    SOLVED = 0, "solved"
+    PSI_NOT_FINITE = 1, "psi must be a finite number"
+    CHI_NOT_POSITIVE = 2, "chi must be positive and finite"
+    TOO_MANY_PHASES = 3, f"not solved: more than {MAX_PHASES} phases (chi is too large)"
+    UNRESOLVED = 4, "not solved: a phase did not end within the bound on steps"
 
 
 # A stick phase that lasts to within this speed of the turning point, times psi_1, goes back as it

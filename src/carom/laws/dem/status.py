@@ -1,16 +1,15 @@
 """What became of an impact by a contact law: a status, and its words."""
 
-from enum import IntEnum
-
 import numpy as np
 from numpy.typing import NDArray
 
 from carom.quantities.arrays import Array
+from carom.quantities.statuses import WordedStatus
 
 Codes = NDArray[np.int8]
 
 
-class LawStatus(IntEnum):
+class LawStatus(WordedStatus):
     """What became of an impact by a contact law; its `message` says so in words.
 
     Examples
@@ -20,27 +19,12 @@ class LawStatus(IntEnum):
     'chi must be positive and finite'
     """
 
-    SOLVED = 0
-    PSI_NOT_FINITE = 1
-    CHI_NOT_POSITIVE = 2
-    KAPPA_NOT_POSITIVE = 3
-    CHI_TOO_LARGE = 4
-    UNRESOLVED = 5
-
-    @property
-    def message(self) -> str:
-        """The status in words."""
-        return MESSAGES[self]
-
-
-MESSAGES = {
-    LawStatus.SOLVED: "solved",
-    LawStatus.PSI_NOT_FINITE: "psi must be a finite number",
-    LawStatus.CHI_NOT_POSITIVE: "chi must be positive and finite",
-    LawStatus.KAPPA_NOT_POSITIVE: "kappa must be positive and finite",
-    LawStatus.CHI_TOO_LARGE: "not solved: chi is too large",
-    LawStatus.UNRESOLVED: "not solved: the bodies do not part, or steps are too few",
-}
+    SOLVED = 0, "solved"
+    PSI_NOT_FINITE = 1, "psi must be a finite number"
+    CHI_NOT_POSITIVE = 2, "chi must be positive and finite"
+    KAPPA_NOT_POSITIVE = 3, "kappa must be positive and finite"
+    CHI_TOO_LARGE = 4, "not solved: chi is too large"
+    UNRESOLVED = 5, "not solved: the bodies do not part, or steps are too few"
 
 
 def status_of(psi: Array, chi: Array, kappa: Array, largest_chi: float) -> Codes:
