@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carom.collisions.records import SKEW, CollisionStatus, Inertia
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.arrays import Codes, Vector
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.dimensionless.numerics.threads import available_cores
 from carom.laws.rules import LARGEST, Rule, one_plus_beta
 from carom.quantities.arrays import Array
 
-Flat = NDArray[np.floating]  # x, y, z of one pair after the other
+Flat = Annotated[NDArray[np.floating], 1]  # x, y, z of one pair after the other
+Panels = Annotated[NDArray[np.int32], 1]
 
 CHUNK = 256  # pairs whose numbers stay in the nearest cache
 BLOCK = 65536  # pairs that a thread takes at once
@@ -32,14 +34,14 @@ class Motions(NamedTuple):
 class Scratch(NamedTuple):
     """What a chunk of collisions needs in between; the first four are flat vectors."""
 
-    linear: Array  # v_1 - v_2, then the impulse J on the second body
-    angular: Array  # R_1 omega_1 + R_2 omega_2, then n x J
-    axis: Array  # the normal, of length one to the last bit
-    sliding: Array  # V_t of the contact point
-    closing: Array  # V_n
-    slope: Array
-    fraction: Array  # 1 + beta
-    panel: NDArray[np.int32]
+    linear: Vector  # v_1 - v_2, then the impulse J on the second body
+    angular: Vector  # R_1 omega_1 + R_2 omega_2, then n x J
+    axis: Vector  # the normal, of length one to the last bit
+    sliding: Vector  # V_t of the contact point
+    closing: Vector  # V_n
+    slope: Vector
+    fraction: Vector  # 1 + beta
+    panel: Panels
 
 
 def new_scratch() -> Scratch:
@@ -109,7 +111,8 @@ def impulses(
 def add(before: Flat, factor: float, change: Array, after: Flat, inplace: bool) -> None:
     """Write before + factor change; where nothing changes not even the sign of a zero does."""
     if not inplace:
-        after[:] = before
+        for k in range(after.size):
+            after[k] = before[k]
     for k in range(after.size):  # one array only: a loop over two that may be one is not vectorised
         step = factor * change[k]
         after[k] = after[k] + step if step != 0.0 else after[k]
@@ -124,7 +127,7 @@ def part(motions: Motions, low: int, high: int) -> Motions:
     )
 
 
-@kernel
+@entry_point("float32", "float64")
 def collide_block(
     before: Motions,
     normal: Flat,
@@ -132,7 +135,7 @@ def collide_block(
     rule: Rule,
     scratch: Scratch,
     after: Motions,
-    status: NDArray[np.int8],
+    status: Codes,
     inplace: bool,
     start: int,
 ) -> None:

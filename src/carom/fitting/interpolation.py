@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.arrays import Cube, Matrix, Vector
+from carom.dimensionless.numerics.kernels import entry_point
 from carom.dimensionless.rebounds import regime_borders
 from carom.quantities.arrays import Array
 
@@ -49,8 +50,8 @@ def regimes(psi: Array, chi: float, restitution: float) -> NDArray[np.int8]:
     return np.searchsorted(ends, np.abs(psi), side="right").astype(np.int8)
 
 
-@kernel
-def interpolate(curves: Array, starts: Array, slide: Array, psi: Array, result: Array) -> None:
+@entry_point()
+def interpolate(curves: Matrix, starts: Matrix, slide: Vector, psi: Matrix, result: Matrix) -> None:
     """Write psi_2 of all points, from the values at the nodes, a row of either for a curve."""
     for row in range(psi.shape[0]):
         top = starts[row, PANELS - 1]
@@ -74,7 +75,7 @@ def interpolate(curves: Array, starts: Array, slide: Array, psi: Array, result: 
             result[row, point] = out if psi[row, point] >= 0.0 else -out
 
 
-@kernel
+@entry_point()
 def cubic(part: float) -> tuple[float, float, float, float]:
     """Return the weights of the values at -1, 0, 1, 2 (Lagrange) for a place between 0 and 1."""
     below, above, far = part + 1.0, part - 1.0, part - 2.0

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.dimensionless.elastic.batch import solved
+from carom.dimensionless.numerics.arrays import Vector
 from carom.dimensionless.numerics.chebyshev_2d import Patches, fitted_patches, value_at
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.dimensionless.rebounds import warn_of_unsolved
 from carom.io.progress import advancing
 from carom.quantities.arrays import Array, pure_numbers, together
@@ -27,8 +28,8 @@ def place_of(psi: float, chi: float) -> float:
     return psi if psi <= 1.0 else 1.0 + (psi - 1.0) / (2.0 * chi - 1.0)
 
 
-@kernel
-def fill(psi: Array, chi: Array, patches: Patches, psi_out: Array) -> None:
+@entry_point()
+def fill(psi: Vector, chi: Vector, patches: Patches, psi_out: Vector) -> None:
     """Write psi_2; beyond the table NaN."""
     low, high = patches.corners[0, 2], patches.corners[0, 3]
     for i in range(psi.size):

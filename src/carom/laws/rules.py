@@ -5,7 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.arrays import Matrix, Vector
+from carom.dimensionless.numerics.kernels import kernel
 from carom.quantities.arrays import Array
 
 DEGREE = 10  # of a series, even: known to the compiler, which unrolls its sum
@@ -26,10 +27,10 @@ class Rule(NamedTuple):
     scale: float
     sliding: float
     bend: float
-    edges: Array  # (n,)
-    slopes: Array  # (n,)
-    shifts: Array  # (n,)
-    powers: Array  # (n, DEGREE + 1), or (1, 1) of a constant
+    edges: Vector  # (n,)
+    slopes: Vector  # (n,)
+    shifts: Vector  # (n,)
+    powers: Matrix  # (n, DEGREE + 1), or (1, 1) of a constant
 
 
 def constant_rule(restitution: float, sliding: float, one_plus_beta: float) -> Rule:

@@ -9,7 +9,8 @@ every machine.
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.arrays import Vector, Words
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.quantities.arrays import Array
 
 Whole = NDArray[np.uint64]
@@ -59,8 +60,8 @@ def permuted(index: np.uint64, n: int, bits: int, secret: Whole) -> np.uint64:
     return x
 
 
-@kernel
-def fill_fractions(index: Whole, n: int, bits: int, secret: Whole, out: Array) -> None:
+@entry_point()
+def fill_fractions(index: Words, n: int, bits: int, secret: Words, out: Vector) -> None:
     """Write where samples lie in (0, 1): each in a part of its own of n, at random in it."""
     places = EXACT_BITS - bits
     unit = 0.5**places

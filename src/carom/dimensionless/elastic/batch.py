@@ -7,8 +7,8 @@ from carom.dimensionless.elastic.integration import Work
 from carom.dimensionless.elastic.motion import PSI
 from carom.dimensionless.elastic.phases import Status, new_work, run_phases
 from carom.dimensionless.elastic.record import KIND, KIND_SIGN, Record, new_record
-from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.arrays import Array, Codes, Counts, Vector
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.dimensionless.numerics.threads import in_blocks
 
 TOLERANCE = 1e-10  # of one Taylor step; keeps psi_2 to a tenth of what `rebound` promises
@@ -41,15 +41,15 @@ def code_of_phases(record: Record) -> int:
     return code
 
 
-@kernel
+@entry_point()
 def fill(
-    psi: Array,
-    chi: Array,
+    psi: Vector,
+    chi: Vector,
     work: Work,
     record: Record,
-    psi_out: Array,
-    status: NDArray[np.int8],
-    sequence: NDArray[np.int64],
+    psi_out: Vector,
+    status: Codes,
+    sequence: Counts,
 ) -> None:
     """Write psi_2, the status and the sequence of phases of every impact."""
     for i in range(psi.size):

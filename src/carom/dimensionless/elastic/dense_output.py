@@ -7,8 +7,8 @@ from carom.dimensionless.elastic.motion import FRONT, PSI, SLOWER, STICK, A, B, 
 from carom.dimensionless.elastic.phases import GROSS, RETRACED
 from carom.dimensionless.elastic.record import AT_B, AT_V as CHANGE_V, CLOCK, MODE, SIGN, STEP
 from carom.dimensionless.numerics import hertz
-from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.arrays import Array, Cube, Matrix, Vector
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(16)
 MAX_BISECTIONS = 80
@@ -19,15 +19,15 @@ COLUMNS = 9
 AT_D, AT_V, AT_PSI, AT_U, AT_Q, AT_STORED, AT_DISSIPATED, AT_STICK, AT_CONTACT = range(COLUMNS)
 
 
-@kernel
+@entry_point()
 def tabulate(
-    nodes: Array,
-    series: Array,
-    changes: Array,
+    nodes: Matrix,
+    series: Cube,
+    changes: Matrix,
     chi: float,
-    times: Array,
-    moved: Array,
-    change_times: Array,
+    times: Vector,
+    moved: Matrix,
+    change_times: Vector,
 ) -> None:
     """Write the times of all steps and changes, and displacement and frictional work at steps."""
     for i in range(changes.shape[0]):
@@ -96,9 +96,15 @@ def position(node: Array, series: Series, row: int, target: float, falling: bool
     return float(x)
 
 
-@kernel
+@entry_point()
 def sample(
-    nodes: Array, series: Array, chi: float, times: Array, moved: Array, wanted: Array, out: Array
+    nodes: Matrix,
+    series: Cube,
+    chi: float,
+    times: Vector,
+    moved: Matrix,
+    wanted: Vector,
+    out: Matrix,
 ) -> None:
     """Write one row of `out` for each wanted time."""
     psi_in = series[0, 0, PSI]
@@ -170,8 +176,8 @@ def loading_state(nodes: Array, series: Array, moved: Array, radius: float) -> t
     return g, moved[nearest, 0] + u
 
 
-@kernel
-def loading_states(nodes: Array, series: Array, moved: Array, radii: Array, out: Array) -> None:
+@entry_point()
+def loading_states(nodes: Matrix, series: Cube, moved: Matrix, radii: Vector, out: Matrix) -> None:
     """Write g and U for every radius, as `loading_state` gives them."""
     for i in range(radii.size):
         out[i, 0], out[i, 1] = loading_state(nodes, series, moved, radii[i])

@@ -4,7 +4,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.elastic.memory import Stack
 from carom.dimensionless.elastic.motion import (
     CONTACT,
     FLAT,
@@ -23,7 +22,8 @@ from carom.dimensionless.elastic.motion import (
     expand,
 )
 from carom.dimensionless.elastic.record import Record, is_full, note_node
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.arrays import Matrix, Vector
+from carom.dimensionless.numerics.kernels import kernel
 
 NOTHING = -1
 # In stick events 0 and 1 are the edge reaching Coulomb's limit of either sign; in a slip ring:
@@ -44,9 +44,9 @@ SHALLOW = 1e-3  # the lowest point of a gap is sought exactly where the cubic co
 class Work(NamedTuple):
     """Arrays that an impact needs, made once and used for many."""
 
-    series: Series
-    gap: Series
-    stack: Stack
+    series: Matrix
+    gap: Vector
+    stack: Matrix
 
 
 @kernel

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.dimensionless.elastic.motion import FLAT, LAID, PSI, PSI_A, Q_A, V_A, A, B, Q, Series, V
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import kernel
 
 Stack = NDArray[np.float64]
 

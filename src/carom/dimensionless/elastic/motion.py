@@ -20,7 +20,7 @@ slip starts after stick N = D = 0, N/D = 1 and the recurrence is shifted by one 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import kernel
 
 Series = NDArray[np.float64]  # one row per order, one column per variable; row 0 is the state
 

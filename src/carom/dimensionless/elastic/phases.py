@@ -33,7 +33,7 @@ from carom.dimensionless.elastic.record import (
     note_node,
     note_stretch,
 )
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.quantities.statuses import WordedStatus
 
 # Modes of a recorded step that need no integration.
@@ -203,7 +203,7 @@ def gross_slip(work: Work, record: Record, sign: int, chi: float) -> tuple[int, 
     return Cause.SLIP_STOPS.value, push_flat(work.stack, 0, s, sign, record.counts[0])
 
 
-@kernel
+@entry_point()
 def run_phases(psi: float, chi: float, tolerance: float, work: Work, record: Record) -> int:
     """Run a whole impact, psi >= 0, to its last state in row 0 of the series; return its status."""
     if not np.isfinite(psi):

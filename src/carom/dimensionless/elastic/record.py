@@ -3,11 +3,11 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from carom.dimensionless.elastic.memory import COLUMNS, Stack
 from carom.dimensionless.elastic.motion import ORDER, SLOWER, B, Series, V
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.arrays import Counts, Cube, Matrix
+from carom.dimensionless.numerics.kernels import kernel
 
 MAX_NODES = 8000
 MAX_STRETCHES = 1000
@@ -23,12 +23,12 @@ KEPT = SLOWER + 1
 class Record(NamedTuple):
     """Rows filled so far: `counts` of nodes, stretches, changes. Empty arrays keep nothing."""
 
-    nodes: NDArray[np.float64]
-    series: NDArray[np.float64]
-    stacks: NDArray[np.float64]
-    depths: NDArray[np.int64]
-    changes: NDArray[np.float64]
-    counts: NDArray[np.int64]
+    nodes: Matrix
+    series: Cube
+    stacks: Cube
+    depths: Counts
+    changes: Matrix
+    counts: Counts
 
 
 def new_record(wanted: bool) -> Record:
@@ -64,7 +64,9 @@ def note_stretch(record: Record, stack: Stack, depth: int) -> None:
     """Keep the memory as it is below the front when a stretch starts."""
     row = record.counts[1]
     if is_wanted(record):
-        record.stacks[row, :depth] = stack[:depth]
+        for i in range(depth):
+            for column in range(COLUMNS):
+                record.stacks[row, i, column] = stack[i, column]
         record.depths[row] = depth
     record.counts[1] = row + 1
 
@@ -79,7 +81,9 @@ def note_node(record: Record, mode: int, clock: int, sign: int, h: float, series
         record.nodes[row, SIGN] = sign
         record.nodes[row, STEP] = h
         record.nodes[row, STRETCH] = record.counts[1] - 1
-        record.series[row] = series[:, :KEPT]
+        for k in range(ORDER + 1):
+            for column in range(KEPT):
+                record.series[row, k, column] = series[k, column]
         record.counts[0] = row + 1
 
 

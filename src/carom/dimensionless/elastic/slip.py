@@ -8,8 +8,8 @@ from carom.dimensionless.elastic.motion import FRONT, PSI, SLOWER, STICK, A, B, 
 from carom.dimensionless.elastic.phases import GROSS, RETRACED
 from carom.dimensionless.elastic.record import CLOCK, MODE, SIGN, STEP
 from carom.dimensionless.fields.surface import slip_shape
-from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.arrays import Array, Cube, Matrix, Vector
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(10)
 AROUND, WEIGHTS_AROUND = np.polynomial.legendre.leggauss(32)
@@ -67,9 +67,16 @@ def slid_in_ring(node: Array, series: Series, r: float, h_end: float) -> tuple[f
     return mean, lateral
 
 
-@kernel
+@entry_point()
 def slid(
-    nodes: Array, series: Array, chi: float, last: int, b: float, v: float, radii: Array, out: Array
+    nodes: Matrix,
+    series: Cube,
+    chi: float,
+    last: int,
+    b: float,
+    v: float,
+    radii: Vector,
+    out: Matrix,
 ) -> None:
     """Write the radial functions of the slip up to step `last`, where b and v are, for each radius.
 

@@ -4,9 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.numerics.arrays import Array
+from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
 from carom.dimensionless.numerics.chebyshev import nodes, transform
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import kernel
 
 TERMS = 17  # of a Chebyshev series on a panel
 
@@ -18,9 +18,9 @@ class Profile(NamedTuple):
     (n, TERMS), are Chebyshev coefficients on a panel mapped to [-1, 1].
     """
 
-    edges: Array
-    q: Array
-    g: Array
+    edges: Vector
+    q: Matrix
+    g: Matrix
 
 
 @kernel

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.dimensionless.fields.profile import Profile
-from carom.dimensionless.numerics.arrays import Array
+from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
 from carom.dimensionless.numerics.chebyshev import evaluate
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 Components = tuple[complex, complex, complex, complex, complex, complex]
 Stress = tuple[float, float, float, float, float, float]
@@ -34,8 +34,8 @@ BELOW, INSIDE, OUTSIDE = range(3)  # ways along s: at depth; on the surface, s <
 class Load(NamedTuple):
     """What acts on a body: pressure on 0 <= r <= edges[-1] = 1, friction of memory g along x."""
 
-    edges: Array
-    g: Array
+    edges: Vector
+    g: Matrix
     friction: float  # positive where it pulls along +x
     poisson: float
 
@@ -154,8 +154,8 @@ def stress_at(total: Array, x: float, y: float, z: float, load: Load) -> None:
             add_slices(total, (x, y, 0.0, r), OUTSIDE, panel, load)
 
 
-@kernel
-def fill(stress: Array, points: Array, load: Load) -> None:
+@entry_point()
+def fill(stress: Matrix, points: Matrix, load: Load) -> None:
     """Compute the stress at many points."""
     for row in range(points.shape[0]):
         stress_at(stress[row], points[row, 0], points[row, 1], points[row, 2], load)

@@ -8,9 +8,9 @@ sqrt(R* L) for radii, p_L = (2 E*/pi) sqrt(L/R*) for tractions, L or mu L/kappa 
 import numpy as np
 
 from carom.dimensionless.fields.profile import Profile, is_constant
-from carom.dimensionless.numerics.arrays import Array
+from carom.dimensionless.numerics.arrays import Matrix, Vector
 from carom.dimensionless.numerics.chebyshev import evaluate
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(20)
 
@@ -62,8 +62,8 @@ def traction(profile: Profile, r: float) -> float:
     return total
 
 
-@kernel
-def tractions(profile: Profile, radii: Array, out: Array) -> None:
+@entry_point()
+def tractions(profile: Profile, radii: Vector, out: Vector) -> None:
     """Write the traction over mu for every radius."""
     for i in range(radii.size):
         out[i] = traction(profile, radii[i])
@@ -115,7 +115,7 @@ def uniform_panel(
     return (rim + g * high * high) * span - g * squares, lateral
 
 
-@kernel
+@entry_point()
 def slip_shape(front: float, r: float) -> tuple[float, float]:
     """Return the radial functions of the slip rate outside the front, per unit of it far outside.
 
@@ -130,8 +130,8 @@ def slip_shape(front: float, r: float) -> tuple[float, float]:
     return 2.0 / np.pi * np.arctan2(w, front), 2.0 / np.pi * front * w / (r * r)
 
 
-@kernel
-def sample(profile: Profile, d: float, radii: Array, out: Array) -> None:
+@entry_point()
+def sample(profile: Profile, d: float, radii: Vector, out: Matrix) -> None:
     """Write pressure, traction over mu, u_z, u_0 and u_2 for every radius."""
     for i in range(radii.size):
         r = radii[i]

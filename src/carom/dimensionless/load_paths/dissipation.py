@@ -6,7 +6,7 @@ import numpy as np
 
 from carom.dimensionless.load_paths.memory import RADIUS, RIM, SHIFT, SLOPE, ring_square, shift_at
 from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import kernel
 
 NODES = np.array([-np.sqrt(0.6), 0.0, np.sqrt(0.6)])  # Gauss: exact for degree 5 in the radius
 WEIGHTS = np.array([5.0, 8.0, 5.0]) / 9.0

@@ -10,7 +10,7 @@ import numpy as np
 from carom.dimensionless.fields import profile
 from carom.dimensionless.fields.profile import Profile
 from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import kernel
 
 # A row is the outer rim of an annulus: s there, the radius, g of the annulus, c at the rim, and of
 # q - q(rim) the integral up to the rim and that of the square. Row 0 is the centre.

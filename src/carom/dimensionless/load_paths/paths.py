@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from carom.dimensionless.load_paths import memory
 from carom.dimensionless.load_paths.dissipation import Step, work_leaving, work_on_new, work_within
-from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.arrays import Array, Flags, Matrix, Vector
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 # What is known after a step.
 DISPLACEMENT, TRACTION, STICK, STORED, WORK = range(5)
@@ -130,9 +130,9 @@ def advance(
     return unload(stack, top, d0, u0, d1, target, by_force)
 
 
-@kernel
+@entry_point()
 def follow(
-    stack: Array, depths: Array, targets: Array, by_force: NDArray[np.bool_], results: Array
+    stack: Matrix, depths: Vector, targets: Vector, by_force: Flags, results: Matrix
 ) -> tuple[int, int]:
     """Follow a path from the first touch; return the top and the step that is refused, or INSIDE.
 
@@ -154,13 +154,14 @@ def follow(
     return top, INSIDE
 
 
-@kernel
-def motion_of_surfaces(depths: Array, displacements: Array, radii: Array, out: Array) -> None:
+@entry_point()
+def motion_of_surfaces(
+    stack: Matrix, depths: Vector, displacements: Vector, radii: Vector, out: Matrix
+) -> None:
     """Write U less the mean displacement u_0 of the surfaces, and u_2, where radii ask for them.
 
     A row for each step, and in the last rows the end of the path for each radius again.
     """
-    stack = np.zeros((depths.size + 2, memory.COLUMNS))
     top, d, u = 0, 0.0, 0.0
     for n in range(depths.size):
         top, u, _ = advance(stack, top, d, u, depths[n], displacements[n], False)
@@ -192,9 +193,9 @@ def slid(depths: Array, displacements: Array, radii: Array) -> Array:
     met = u[before] + share * (u[before + 1] - u[before])
     marks = np.insert(np.full(depths.size, -1.0), before, radii[order])
     rows = np.empty((marks.size + s.size, 2))
-    motion_of_surfaces(
-        np.insert(depths, before, s), np.insert(displacements, before, met), marks, rows
-    )
+    stack = memory.new_stack(marks.size)
+    depths, displacements = np.insert(depths, before, s), np.insert(displacements, before, met)
+    motion_of_surfaces(stack, depths, displacements, marks, rows)
     slip[order] = rows[marks.size :] - rows[: marks.size][marks >= 0.0]
     return slip
 

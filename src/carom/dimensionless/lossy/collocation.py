@@ -7,8 +7,9 @@ there makes them smooth in x.
 
 import numpy as np
 
+from carom.dimensionless.numerics.arrays import Cube
 from carom.dimensionless.numerics.chebyshev import extrema, from_extrema
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 DEGREE = 11
 NODES = DEGREE + 1
@@ -19,7 +20,7 @@ EVEN, FLAT_START, FLAT_END, FLAT_ENDS = range(4)  # clocks
 MAX_STEPS = 80
 
 
-@kernel
+@entry_point()
 def clock(kind: int, x: float) -> float:
     """Return theta = tau/h at a place of a panel."""
     y = 0.5 * (1.0 + x)
@@ -119,8 +120,8 @@ def tail(series: np.ndarray) -> float:
     return float(abs(series[DEGREE]) + abs(series[DEGREE - 1]))
 
 
-@kernel
-def place(table: np.ndarray, panel: int, row: int, level: float, low: float, high: float) -> float:
+@entry_point()
+def place(table: Cube, panel: int, row: int, level: float, low: float, high: float) -> float:
     """Return where a monotone series between two places passes a level (Illinois method)."""
     f_low = evaluate(table, panel, row, low) - level
     f_high = evaluate(table, panel, row, high) - level

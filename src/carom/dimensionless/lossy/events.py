@@ -8,7 +8,7 @@ from carom.dimensionless.lossy.memory import MOVED, RADIUS
 from carom.dimensionless.lossy.normal import Motion, Stage
 from carom.dimensionless.lossy.panels import Panel, State, cut_memory, state_at_node
 from carom.dimensionless.lossy.work import PSI, SPEED, Arrays
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import kernel
 
 EARLY = 5e-4  # part of a panel in which zones that begin with it are too thin to be told
 TO = 0.9999  # place up to which the structure is looked at

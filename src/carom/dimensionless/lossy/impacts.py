@@ -20,9 +20,9 @@ from carom.dimensionless.lossy.normal import Motion, Stage
 from carom.dimensionless.lossy.panels import Panel, commit, solve_panel
 from carom.dimensionless.lossy.record import Trace, note_panel
 from carom.dimensionless.lossy.stages import cut_to_stage, next_stage
-from carom.dimensionless.lossy.work import MAX_PANELS, PSI, SPEED, Arrays
+from carom.dimensionless.lossy.work import MAX_PANELS, PSI, SPEED, VALUES, Arrays
 from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import kernel
 
 FIRST, LONGEST, SHORTEST = 0.3, 0.8, 1e-8  # lengths of panels
 TRIALS = 60  # of a panel
@@ -116,7 +116,8 @@ def run(
         panel = Panel(number, plan.clock, plan.length, pieces)
         note_panel(work, motion, panel, numbers, record)
         pieces = commit(work, motion, panel)
-        work.values[:, 0] = work.values[:, NODES - 1]
+        for row in range(VALUES):
+            work.values[row, 0] = work.values[row, NODES - 1]
         if plan.to_stage_end and motion.stage == Stage.UNLOADING.value:
             return Status.SOLVED.value, number + 1
         from_change, natural = plan.to_change or plan.to_stage_end, plan.natural

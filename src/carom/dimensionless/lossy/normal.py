@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import kernel
 from carom.quantities.refusals import refusal
 
 

@@ -38,7 +38,7 @@ from carom.dimensionless.lossy.memory import (
 )
 from carom.dimensionless.lossy.normal import Motion, Stage
 from carom.dimensionless.lossy.work import PSI, SPEED, Arrays
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import kernel
 
 MAX_ITERATIONS = 30
 SETTLED = 1e-13

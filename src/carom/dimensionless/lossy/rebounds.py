@@ -13,8 +13,8 @@ from carom.dimensionless.lossy.normal import Loss
 from carom.dimensionless.lossy.record import PSI_OUT, Trace, new_record
 from carom.dimensionless.lossy.work import Arrays, new_work
 from carom.dimensionless.numerics import hertz
-from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.arrays import Array, Codes, Matrix, Vector
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.dimensionless.numerics.threads import in_blocks
 
 TOLERANCE = 1e-9  # of a panel; keeps psi_2 to 1e-8 max(1, |psi_1|)
@@ -43,9 +43,15 @@ class LossyRebounds(NamedTuple):
     status: NDArray[np.int8]
 
 
-@kernel
+@entry_point()
 def outgoing(
-    psi: float, chi: float, loss: int, parameter: float, work: Arrays, record: Trace, numbers: Array
+    psi: float,
+    chi: float,
+    loss: int,
+    parameter: float,
+    work: Arrays,
+    record: Trace,
+    numbers: Vector,
 ) -> tuple[int, int]:
     """Run an impact of any psi_1; return its status and the number of panels.
 
@@ -82,16 +88,16 @@ def run_beside(
     return status, panels
 
 
-@kernel
+@entry_point()
 def fill(
-    psi: Array,
-    chi: Array,
+    psi: Vector,
+    chi: Vector,
     loss: int,
-    parameter: Array,
+    parameter: Vector,
     work: Arrays,
     record: Trace,
-    numbers: Array,
-    status: NDArray[np.int8],
+    numbers: Matrix,
+    status: Codes,
 ) -> None:
     """Write what every impact comes to, and its status."""
     for i in range(psi.size):

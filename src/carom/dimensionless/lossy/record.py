@@ -11,8 +11,8 @@ from carom.dimensionless.lossy.memory import RADIUS
 from carom.dimensionless.lossy.normal import Loss, Motion
 from carom.dimensionless.lossy.panels import Panel, cut_memory, state_at_node
 from carom.dimensionless.lossy.work import MAX_PANELS, PSI, SPEED, Arrays
-from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.arrays import Array, CodePairs, Cube
+from carom.dimensionless.numerics.kernels import kernel
 
 # What an impact comes to; time, penetration and loss are those so far.
 PSI_OUT, RESTITUTION, TIME, PENETRATION, LOST, DEEPEST, STRONGEST, WIDEST = range(8)
@@ -29,8 +29,8 @@ SEARCH = 40
 class Trace(NamedTuple):
     """Panels kept so far; empty arrays keep nothing."""
 
-    rows: Array  # (panels, ROWS, NODES)
-    kinds: NDArray[np.int8]  # (panels, 2): what the panel does, sign of slip
+    rows: Cube  # (panels, ROWS, NODES)
+    kinds: CodePairs  # (panels, 2): what the panel does, sign of slip
 
 
 def new_record(wanted: bool) -> Trace:
@@ -62,11 +62,11 @@ def note_panel(work: Arrays, motion: Motion, panel: Panel, numbers: Array, recor
 @kernel
 def strongest(work: Arrays, motion: Motion, panel: Panel) -> float:
     """Return the largest normal force in a panel, by bisection between its nodes."""
-    values, best = work.values, 0
-    force = np.empty(NODES)
+    values, best, largest = work.values, 0, -np.inf
     for j in range(NODES):
-        force[j] = normal.normal_force(motion, values[RADIUS, j], values[SPEED, j])
-        best = j if force[j] > force[best] else best
+        force = normal.normal_force(motion, values[RADIUS, j], values[SPEED, j])
+        if force > largest:
+            best, largest = j, force
     low, high = PLACES[max(best - 1, 0)], PLACES[min(best + 1, NODES - 1)]
     series, n = work.series, panel.number
     for _ in range(SEARCH):
@@ -77,7 +77,7 @@ def strongest(work: Arrays, motion: Motion, panel: Panel) -> float:
             low = near
         else:
             high = far
-    return max(force_at(motion, series, n, 0.5 * (low + high)), float(force[best]))
+    return max(force_at(motion, series, n, 0.5 * (low + high)), largest)
 
 
 @kernel
@@ -103,7 +103,8 @@ def keep(work: Arrays, motion: Motion, panel: Panel, numbers: Array, record: Tra
         keep_node(work, motion, panel, j, rows, record.kinds[panel.number])
     begin_smoothly(rows[AT_STUCK])  # what slips from the first node on does not slip at it yet
     if motion.loss == Loss.PLASTIC.value:
-        rows[AT_LOST] = 1.0 - v * v - rows[AT_STORED]
+        for j in range(NODES):
+            rows[AT_LOST, j] = 1.0 - v[j] * v[j] - rows[AT_STORED, j]
     numbers[LOST] = rows[AT_LOST, NODES - 1]
 
 

@@ -7,7 +7,7 @@ from carom.dimensionless.lossy.collocation import CLOCKS, EVEN, NODES, PLACES, i
 from carom.dimensionless.lossy.memory import RADIUS
 from carom.dimensionless.lossy.normal import Loss, Motion, Stage
 from carom.dimensionless.lossy.work import MAX_PANELS, SPEED, Arrays, new_work
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 MAX_ITERATIONS = 40
 SETTLED = 1e-15
@@ -118,7 +118,7 @@ def next_stage(work: Arrays, motion: Motion) -> Motion:
     return Motion(loss, Stage.UNLOADING.value, parameter, growth, chi)
 
 
-@kernel
+@entry_point()
 def restitution(loss: int, parameter: float, work: Arrays) -> float:
     """Return the normal speed after to before, normal motion alone; NaN if without end."""
     values = work.values

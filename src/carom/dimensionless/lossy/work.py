@@ -3,11 +3,11 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from carom.dimensionless.lossy import memory
 from carom.dimensionless.lossy.collocation import NODES
-from carom.dimensionless.lossy.memory import MAX_PIECES, PARTS, Pieces
+from carom.dimensionless.lossy.memory import MAX_PIECES, PARTS
+from carom.dimensionless.numerics.arrays import Counts, Cube, Matrix
 
 MAX_PANELS = 600
 SPEED, PSI, VALUES = 6, 7, 8  # rows beyond those of the memory: v, psi
@@ -16,14 +16,14 @@ SPEED, PSI, VALUES = 6, 7, 8  # rows beyond those of the memory: v, psi
 class Arrays(NamedTuple):
     """Arrays that an impact needs, made once and used for many."""
 
-    series: Pieces  # (panels, VALUES, NODES)
-    values: Pieces  # (VALUES, NODES), at the nodes of the panel of the moment
-    rates: Pieces  # (3, NODES)
-    matrix: Pieces  # (NODES, NODES)
-    pieces: Pieces
-    spare: Pieces
-    parts: Pieces
-    zones: NDArray[np.int64]  # (NODES,)
+    series: Cube  # (panels, VALUES, NODES)
+    values: Matrix  # (VALUES, NODES), at the nodes of the panel of the moment
+    rates: Matrix  # (3, NODES)
+    matrix: Matrix  # (NODES, NODES)
+    pieces: Matrix
+    spare: Matrix
+    parts: Matrix
+    zones: Counts  # (NODES,)
 
 
 def new_work() -> Arrays:

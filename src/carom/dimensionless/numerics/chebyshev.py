@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.arrays import Array, Vector
+from carom.dimensionless.numerics.kernels import entry_point
 
 Branched = Callable[[Array], tuple[Array, NDArray[np.int64]]]  # values, and on which branch each is
 
@@ -29,8 +29,8 @@ class Panels(NamedTuple):
     coefficients: Array
 
 
-@kernel
-def evaluate(coefficients: Array, low: float, high: float, x: float) -> float:
+@entry_point()
+def evaluate(coefficients: Vector, low: float, high: float, x: float) -> float:
     """Return the value at x of a Chebyshev series on [low, high] (Clenshaw 1955)."""
     y = (2.0 * x - low - high) / (high - low)
     last, one = 0.0, 0.0

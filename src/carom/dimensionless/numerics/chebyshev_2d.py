@@ -6,11 +6,10 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.dimensionless.numerics.arrays import Array
+from carom.dimensionless.numerics.arrays import Array, CountTable, Cube, Matrix
 from carom.dimensionless.numerics.chebyshev import evaluate, nodes, transform
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import kernel
 
 Rectangle = tuple[float, float, float, float]  # x from, to, y from, to
 
@@ -27,10 +26,10 @@ class Patches(NamedTuple):
     below; `corners` x from, to, y from, to; `series` the coefficients of T_i(x) T_j(y).
     """
 
-    cuts: Array  # (n, 2)
-    children: NDArray[np.int64]  # (n, 2)
-    corners: Array  # (n, 4)
-    series: Array  # (n, TERMS, TERMS)
+    cuts: Matrix  # (n, 2)
+    children: CountTable  # (n, 2)
+    corners: Matrix  # (n, 4)
+    series: Cube  # (n, TERMS, TERMS)
 
 
 @kernel
@@ -43,11 +42,13 @@ def value_at(patches: Patches, x: float, y: float) -> float:
             break
         beyond = (x if axis == 0.0 else y) >= patches.cuts[node, 1]
         node = patches.children[node, 1 if beyond else 0]
-    corner = patches.corners[node]
-    along = np.empty(TERMS)
-    for i in range(TERMS):
-        along[i] = evaluate(patches.series[node, i], corner[2], corner[3], y)
-    return float(evaluate(along, corner[0], corner[1], x))
+    corner, series = patches.corners[node], patches.series[node]
+    place = (2.0 * x - corner[0] - corner[1]) / (corner[1] - corner[0])
+    last, one = 0.0, 0.0
+    for i in range(TERMS - 1, 0, -1):
+        coefficient = evaluate(series[i], corner[2], corner[3], y)
+        last, one = one, coefficient + 2.0 * place * one - last
+    return float(evaluate(series[0], corner[2], corner[3], y) + place * one - last)
 
 
 def fitted_patches(

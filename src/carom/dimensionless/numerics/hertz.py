@@ -7,7 +7,7 @@ singular points, touch (x = 0) and turning point (v = 0), is nearer.
 
 import numpy as np
 
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 TERMS = 54  # of either series, for 1e-17 at x = 1/2
 
@@ -26,7 +26,7 @@ DURATION = 2.94327518432470465738  # (4/5) B(2/5, 1/2)
 HALF = DURATION / 2.0
 
 
-@kernel
+@entry_point()
 def elapsed(d: float) -> float:
     """Return the time since touch at penetration d while loading, d^(5/2) <= 1/2 or so."""
     x = d * d * np.sqrt(d)
@@ -49,7 +49,7 @@ def until_turning(v: float) -> float:
 HALFWAY = float((2.0**-0.4) * np.polynomial.polynomial.polyval(0.5, FROM_TOUCH))  # x = 1/2
 
 
-@kernel
+@entry_point()
 def time(d: float, v: float) -> float:
     """Return the time since the first touch at penetration d and speed v (of either sign)."""
     if 2.0 * v * v <= 1.0:

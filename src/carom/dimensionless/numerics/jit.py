@@ -1,26 +1,25 @@
-"""The one way in which kernels are compiled, and the word to users who wait for it."""
+"""Kernels compiled by numba on first use, and the word to users who wait for it."""
 
 import sys
 from collections.abc import Callable
 from pathlib import Path
 from time import monotonic
-from typing import Any, TypeVar, cast
+from typing import Any
 
 import numba
 from numba.core import event
 
-F = TypeVar("F", bound=Callable[..., Any])
 MESSAGE = "carom: compiling what this needs, once; it takes up to a minute ..."
 PATIENCE = 2.0  # seconds before it is said
+OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy"}
 
 
-def kernel(function: F) -> F:
-    """Compile a function of numbers and arrays on first use, free of the GIL, cached on disk."""
-    options: dict[str, Any] = {"nogil": True, "error_model": "numpy"}
+def dispatcher(function: Callable[..., Any]) -> Any:
+    """Return a function that is compiled on first use, free of the GIL, cached on disk."""
     try:
-        return cast(F, numba.njit(cache=True, **options)(function))
+        return numba.njit(cache=True, **OPTIONS)(function)
     except RuntimeError:  # no folder that can be written to
-        return cast(F, numba.njit(**options)(function))
+        return numba.njit(**OPTIONS)(function)
 
 
 class Teller(event.Listener):

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import kernel
 from carom.dimensionless.twins import marching_motion, marching_springs
 from carom.dimensionless.twins.marching_springs import OUTSIDE
 

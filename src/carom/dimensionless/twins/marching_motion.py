@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import kernel
 
 TERMS = 12  # of the power series in one step
 STRIDE = 0.02  # of the clock, while looking for the end of loading or of contact

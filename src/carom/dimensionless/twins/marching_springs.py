@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import kernel
 
 Slips = NDArray[np.int8]
 

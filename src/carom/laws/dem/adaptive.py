@@ -8,7 +8,8 @@ begins or ceases to slide, or turns back: these are found by bisection. Steps by
 
 import numpy as np
 
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.arrays import Matrix, Vector
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.laws.dem.coefficients import (
     AGAIN,
     BACK,
@@ -28,6 +29,7 @@ from carom.quantities.arrays import Array
 
 B, V, PSI, T, UPPER, LOWER = range(6)  # the state
 SIZE = 6
+WORK = (9, SIZE)  # scratch: seven derivatives, the next state, the state
 TOUCH = 3e-5  # contact radius at which an impact begins and ends
 TOLERANCE = 1e-10
 MOST_STEPS = 300_000
@@ -243,7 +245,8 @@ def outgoing(law: Coefficients, psi: float, work: Array, y: Array) -> float:
             continue
         chatters = changes > PATIENCE and h <= DWELL
         what = until_event(law, slip, branch, loading, peak, chatters, h, y, work)
-        y[:] = work[7]
+        for k in range(SIZE):
+            y[k] = work[7, k]
         h = min(LONGEST, max(SHORTEST, h * min(5.0, 0.9 * max(error, 1e-10) ** -0.2)))
         if what != NOTHING:
             changes += 1
@@ -267,10 +270,10 @@ def outgoing(law: Coefficients, psi: float, work: Array, y: Array) -> float:
     return np.nan
 
 
-@kernel
-def rebounds(law: Coefficients, psi: Array, out: Array) -> None:
+@entry_point()
+def rebounds(law: Coefficients, psi: Vector, work: Matrix, out: Vector) -> None:
     """Write psi_2 of each impact, NaN where psi is not finite or the bodies do not part."""
-    work, y = np.empty((8, SIZE)), np.empty(SIZE)
+    y = work[8]
     for i in range(psi.size):
         if np.isfinite(psi[i]):
             out[i] = np.copysign(1.0, psi[i]) * outgoing(law, abs(psi[i]), work, y)

@@ -10,11 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.dimensionless.numerics.threads import available_cores
 from carom.dimensionless.rebounds import warn_of_unsolved
-from carom.laws.dem.adaptive import rebounds
+from carom.laws.dem.adaptive import WORK, rebounds
 from carom.laws.dem.coefficients import Coefficients
 from carom.laws.dem.damping import damped_restitution
 from carom.laws.dem.status import Codes, LawStatus, status_of
-from carom.laws.dem.stepping import HISTORY, PATIENCE, stepped, stepped_rebounds
+from carom.laws.dem.stepping import HISTORY, PATIENCE, REMEMBERED, stepped, stepped_rebounds
 from carom.quantities.arrays import Array, pure_numbers, together
 from carom.quantities.refusals import flag, refusal
 from carom.quantities.units import counted, finite, not_negative, positive, threads_or_none
@@ -157,9 +157,10 @@ class ContactLaw(Law):
         law = self.coefficients(chi, kappa)
         out = np.empty(psi.size)
         if steps is None:
-            rebounds(law, psi, out)
+            rebounds(law, psi, np.empty(WORK), out)
         else:
-            stepped_rebounds(law, psi, steps, out)
+            nothing = np.empty((0, len(HISTORY)))
+            stepped_rebounds(law, psi, steps, np.empty(REMEMBERED), nothing, out)
         return out
 
     def history(
@@ -199,7 +200,7 @@ class ContactLaw(Law):
         chi, psi = positive("chi", chi), finite("psi", psi, "1")
         law = self.coefficients(chi, SOLID * chi if kappa is None else positive("kappa", kappa))
         record = np.empty((PATIENCE * steps + 2, len(HISTORY)))
-        count, _ = stepped(law, abs(psi), steps, record)
+        count, _ = stepped(law, abs(psi), steps, np.empty(REMEMBERED), record)
         if count < 0 or not np.all(np.isfinite(record[:count])):
             raise refusal("steps", steps, "the bodies do not part; take more steps")
         columns = {name: record[:count, i].copy() for i, name in enumerate(HISTORY)}

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import kernel
 
 ELASTIC_PULL = 1.25  # d'' = -1.25 f: Johnson (1985), 11.4
 SPRING = 0.8  # of a linear contact that is pressed as far as Hertz's by the same energy

@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from carom.dimensionless.numerics.arrays import Matrix, Vector
 from carom.dimensionless.numerics.hertz import DURATION
-from carom.dimensionless.numerics.jit import kernel
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.laws.dem.coefficients import (
     AGAIN,
     BACK,
@@ -72,16 +73,19 @@ def shear_force(
     return whole
 
 
-@kernel
-def stepped(law: Coefficients, psi: float, steps: int, record: Array) -> tuple[int, float]:
+@entry_point()
+def stepped(
+    law: Coefficients, psi: float, steps: int, memory: Vector, record: Matrix
+) -> tuple[int, float]:
     """Return how many rows of the record are filled and psi_2; -1 if the bodies do not part."""
     dt = DURATION / steps
-    memory = np.zeros(REMEMBERED)
+    memory[:] = 0.0
     d, v, f, t = 0.0, 1.0, 0.0, 0.0
     loading, peak = True, 0.0
     for i in range(PATIENCE * steps):
         if i < record.shape[0]:
-            record[i] = (i * dt, d, v, psi, f, t)
+            record[i, 0], record[i, 1], record[i, 2] = i * dt, d, v
+            record[i, 3], record[i, 4], record[i, 5] = psi, f, t
         v_half = v - 0.5 * dt * ELASTIC_PULL * f
         psi_half = psi - 0.5 * dt * 2.0 * ELASTIC_PULL * law.chi * t
         d += dt * v_half
@@ -99,12 +103,13 @@ def stepped(law: Coefficients, psi: float, steps: int, record: Array) -> tuple[i
     return -1, np.nan
 
 
-@kernel
-def stepped_rebounds(law: Coefficients, psi: Array, steps: int, out: Array) -> None:
-    """Write psi_2 of each impact, NaN where the bodies do not part."""
-    nothing = np.empty((0, 6))
+@entry_point()
+def stepped_rebounds(
+    law: Coefficients, psi: Vector, steps: int, memory: Vector, nothing: Matrix, out: Vector
+) -> None:
+    """Write psi_2 of each impact, NaN where the bodies do not part; `nothing` has no rows."""
     for i in range(psi.size):
         if np.isfinite(psi[i]):
-            out[i] = np.copysign(1.0, psi[i]) * stepped(law, abs(psi[i]), steps, nothing)[1]
+            out[i] = np.copysign(1.0, psi[i]) * stepped(law, abs(psi[i]), steps, memory, nothing)[1]
         else:
             out[i] = np.nan

@@ -1,0 +1,94 @@
+"""Kernels: functions of numbers and arrays, plain Python that is run as machine code.
+
+`kernel` marks them all. Those that Python calls are entry points: they come compiled with the
+package, in one shared library, and their annotations tell how they are called. Without a library,
+and for kernels that are none of these, numba compiles on first use.
+"""
+
+import os
+from collections.abc import Callable
+from functools import cached_property, update_wrapper
+from typing import Any, Generic, ParamSpec, TypeVar, cast
+
+from carom.dimensionless.numerics import library
+from carom.dimensionless.numerics.signatures import Signature, signature_of
+
+VARIABLE = "CAROM_KERNELS"  # of the environment: library, numba or python
+WAYS = ("library", "numba", "python")
+Given = ParamSpec("Given")
+Found = TypeVar("Found")
+
+
+def way() -> str:
+    """Return how kernels are to be run, or raise ValueError."""
+    told = os.environ.get(VARIABLE, "library")
+    if told not in WAYS:
+        raise ValueError(
+            f"{VARIABLE}: {told!r} cannot be used; it must be one of {', '.join(WAYS)}"
+        )
+    return told
+
+
+class Kernel(Generic[Given, Found]):
+    """A function of numbers and arrays, and its compiled forms, each made when it is asked for."""
+
+    def __init__(self, function: Callable[Given, Found], floats: tuple[str, ...] = ()) -> None:
+        self.py_func = function
+        self.floats = floats
+        update_wrapper(self, function)
+
+    def __call__(self, *args: Given.args, **kwargs: Given.kwargs) -> Found:
+        """Run the machine code."""
+        return self.compiled(*args, **kwargs)
+
+    @cached_property
+    def compiled(self) -> Callable[Given, Found]:
+        """The machine code: that of the library, or numba's."""
+        if way() == "library" and self.floats:
+            found = library.function(self)
+            if found is not None:
+                return cast(Callable[Given, Found], found)
+        return cast(Callable[Given, Found], self.dispatcher)
+
+    @cached_property
+    def dispatcher(self) -> Any:
+        """The kernel as numba has it."""
+        from carom.dimensionless.numerics.jit import dispatcher
+
+        return dispatcher(self.py_func)
+
+    @property
+    def _numba_type_(self) -> Any:  # by which numba knows what a global name in a kernel is
+        return self.dispatcher._numba_type_
+
+    def signatures(self) -> dict[str, Signature]:
+        """Return the signatures of an entry point, by the name of its C function."""
+        stem = f"{self.__module__}.{self.__qualname__}".replace(".", "_")
+        names = {
+            floats: stem if len(self.floats) == 1 else f"{stem}_{floats}" for floats in self.floats
+        }
+        return {names[floats]: signature_of(self.py_func, floats) for floats in self.floats}
+
+
+ENTRIES: list[Kernel[..., Any]] = []
+
+
+def kernel(function: Callable[Given, Found]) -> Callable[Given, Found]:
+    """Mark a function of numbers and arrays as one that is compiled."""
+    return function if way() == "python" else Kernel(function)
+
+
+def entry_point(*floats: str) -> Callable[[Callable[Given, Found]], Callable[Given, Found]]:
+    """Mark a kernel that Python calls; its annotations are its signature.
+
+    With several types of floating-point arrays there is a C function for each.
+    """
+
+    def mark(function: Callable[Given, Found]) -> Callable[Given, Found]:
+        if way() == "python":
+            return function
+        found = Kernel(function, floats or ("float64",))
+        ENTRIES.append(found)
+        return found
+
+    return mark

@@ -1,0 +1,112 @@
+"""The shared library of compiled kernels: found beside the package, checked, opened.
+
+A library is used if it is whole, was made from these sources, and is for a processor that this one
+can stand for. Otherwise numba does the same, more slowly at first, and `reason` says why.
+"""
+
+import ctypes
+import json
+from collections.abc import Callable, Iterable
+from functools import cache
+from hashlib import sha256
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from carom.dimensionless.numerics.signatures import caller
+
+if TYPE_CHECKING:
+    from carom.dimensionless.numerics.kernels import Kernel
+
+PACKAGE = Path(__file__).parents[2]
+FOLDER = PACKAGE / "lib"
+CONTENTS = "kernels.json"  # beside the libraries: what they are, and from what they were made
+
+
+class Opened(NamedTuple):
+    """An open library, and the signatures of its functions as texts."""
+
+    path: Path
+    handle: ctypes.CDLL
+    signatures: dict[str, str]
+
+
+class Unusable(Exception):
+    """There is no library that can be used; the message says why."""
+
+
+def function(kernel: "Kernel[..., Any]") -> Callable[..., Any] | None:
+    """Return a function of Python's that calls a kernel in the library; None if that is not there."""
+    try:
+        found = opened()
+    except Unusable:
+        return None
+    calls = []
+    for name, signature in kernel.signatures().items():
+        if found.signatures.get(name) != str(signature):
+            return None
+        calls.append(caller(getattr(found.handle, name), signature))
+    return calls[0] if len(calls) == 1 else _by_type(dict(zip(kernel.floats, calls, strict=True)))
+
+
+def _by_type(calls: dict[str, Callable[..., Any]]) -> Callable[..., Any]:
+    """Return a function that looks at the first array."""
+
+    def call(first: Any, *more: Any) -> Any:
+        array = first[0] if isinstance(first, tuple) else first
+        return calls[array.dtype.name](first, *more)
+
+    return call
+
+
+def reason() -> str:
+    """Return why there is no library, in a few words; empty if there is one."""
+    try:
+        opened()
+    except Unusable as error:
+        return str(error)
+    return ""
+
+
+@cache
+def opened() -> Opened:
+    """Return the best of the libraries, opened, or raise Unusable."""
+    contents = _contents()
+    if not _is_made_from(contents):
+        raise Unusable("the compiled library was made from other sources")
+    trouble = "no compiled library is for this processor"
+    for each in contents["libraries"]:  # the best first
+        path = FOLDER / each["file"]
+        try:
+            if sha256(path.read_bytes()).hexdigest() != each["sha256"]:
+                raise Unusable("the compiled library is damaged; install carom again")
+            handle = ctypes.CDLL(str(path))
+        except OSError as error:
+            trouble = f"the compiled library cannot be opened: {error}"
+            continue
+        if handle.carom_processor_level() >= each["level"]:
+            return Opened(path, handle, contents["signatures"])
+    raise Unusable(trouble)
+
+
+def _is_made_from(contents: Any) -> bool:
+    try:
+        return bool(digest(PACKAGE / name for name in contents["files"]) == contents["sources"])
+    except OSError:
+        return False
+
+
+def _contents() -> Any:
+    try:
+        return json.loads((FOLDER / CONTENTS).read_text(encoding="utf-8"))
+    except OSError:
+        raise Unusable("carom was installed without its compiled library") from None
+    except ValueError:
+        raise Unusable("the compiled library is damaged; install carom again") from None
+
+
+def digest(files: Iterable[Path]) -> str:
+    """Return a checksum of files: their names and what they hold."""
+    found = sha256()
+    for path in files:
+        found.update(path.name.encode() + b"\0" + path.read_bytes())
+    return found.hexdigest()

@@ -1,0 +1,23 @@
+/* Which machine code this processor can run: the levels of x86-64, or 0 if it is another one. */
+
+#if defined(_WIN32)
+#define CAROM_API __declspec(dllexport)
+#else
+#define CAROM_API __attribute__((visibility("default")))
+#endif
+
+CAROM_API int carom_processor_level(void)
+{
+#if defined(__x86_64__) || defined(_M_X64)
+    __builtin_cpu_init();
+    if (!(__builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"))) return 1;
+    if (!(__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+          __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2"))) return 2;
+    if (!(__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+          __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+          __builtin_cpu_supports("avx512vl"))) return 3;
+    return 4;
+#else
+    return 0;
+#endif
+}
