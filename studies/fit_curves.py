@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from rich.progress import track
 
 import carom
-from carom.fitting.interpolation import TABLE, grid, nodes, table, tabulated
+from carom.dimensionless.interpolation import TABLE, grid, nodes, table, tabulated
 
 FILE = Path(carom.__file__).parent / TABLE
 CHECKED = (0, 3, 11)  # of the e of the table

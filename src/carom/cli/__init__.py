@@ -11,7 +11,6 @@ import warnings
 import typer
 
 import carom
-from carom.cli import cases
 from carom.cli.curve import curve_command
 from carom.cli.explore import explore_command
 from carom.cli.fit import fit_command
@@ -87,7 +86,6 @@ def _refuse(message: str) -> int:
 
 def run() -> None:
     """Run a command from the shell, in a process of its own."""
-    cases.may_interpret = True
     _quieten()
     sys.exit(main())
 

@@ -1,7 +1,6 @@
 """What commands share: flags over a case file, files that are asked for, interpreted kernels."""
 
 import os
-import sys
 from collections.abc import Mapping
 from itertools import combinations
 from pathlib import Path
@@ -47,9 +46,6 @@ def file_argument(words: str) -> Any:
 def whole_option(words: str) -> Any:
     """Return an option whose text `carom.quantities.units.whole` reads."""
     return typer.Option(help=words, metavar="INTEGER")
-
-
-may_interpret = False  # in a process that runs one command
 
 
 def named_values(option: str, given: list[str] | None, example: str) -> dict[str, str]:
@@ -144,13 +140,3 @@ def store(result: "Result", output: str | None, plot: str | None) -> None:
 def stored(path: str | Path) -> None:
     """Tell that a file was written."""
     typer.echo(f"stored {path}", err=True)
-
-
-def interpret() -> None:
-    """Let kernels run as Python in this process: one impact is done sooner than they are loaded."""
-    if may_interpret and "carom.dimensionless.numerics.jit" not in sys.modules:
-        import numba
-        import numpy as np
-
-        numba.config.DISABLE_JIT = True  # type: ignore[attr-defined]
-        np.seterr(all="ignore")  # as in compiled code

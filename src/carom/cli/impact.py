@@ -14,7 +14,6 @@ from carom.cli.cases import (
     Plot,
     check_outputs,
     file_argument,
-    interpret,
     merged,
     outputs,
     stored,
@@ -122,8 +121,6 @@ def impact_command(
     }
     content = merged(read_case(case, losses=True) if case else {}, flags)
     files = outputs(content)
-    if files.animation is None:
-        interpret()
     normal = normal_of(content)
     _check_outputs(files, elastic=normal is None)
     solver = _method(method, elements, steps)

@@ -8,7 +8,7 @@ import numpy as np
 
 from carom.bodies.kinematics import Rebound, Tangential
 from carom.bodies.pairs import Pair
-from carom.fitting.interpolation import LEAST_CHI, LEAST_E, MOST_CHI, psi_out
+from carom.dimensionless.interpolation import LEAST_CHI, LEAST_E, MOST_CHI, psi_out
 from carom.quantities.arrays import Array
 
 Values = Mapping[str, Array]  # of parameters by name, each of shape (batch, 1)

@@ -9,7 +9,7 @@ from carom.bodies.cases import pair_of
 from carom.bodies.kinematics import Tangential
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import BEFORE, FASTEST, INCIDENCE, OBSERVABLES, SCALED, SLOWEST
-from carom.fitting.interpolation import LEAST_CHI, MOST_CHI
+from carom.dimensionless.interpolation import LEAST_CHI, MOST_CHI
 from carom.fitting.laws import IncomingMotion
 from carom.fitting.problem import NOTHING, FitProblem
 from carom.io.columns import ERROR, Results, entry, in_units, others, with_errors

@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.dimensionless.numerics.permutation import fractions, secrets
 from carom.quantities.refusals import refusal
 from carom.quantities.units import counted
 from carom.sweeps.axes import Range, read_axis, read_range
@@ -21,7 +22,6 @@ from carom.sweeps.inputs import (
     read_choices,
     variable,
 )
-from carom.sweeps.permutation import fractions, secrets
 
 MOST = 10**12  # samples, which leaves room for their places in a float
 MOST_SEED = 2**128 - 1

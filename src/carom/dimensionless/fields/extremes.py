@@ -5,9 +5,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import maximum_filter
-from scipy.optimize import minimize
-from scipy.special import cosdg, sindg
 
 from carom.dimensionless.fields.profile import Profile
 from carom.dimensionless.numerics.arrays import Array
@@ -78,6 +75,8 @@ def largest(measure: Measure, profile: Profile, depths: Array = DEPTHS) -> Large
     >>> round(found.value, 4), round(found.z, 4)
     (0.62, 0.4809)
     """
+    from scipy.ndimage import maximum_filter
+
     b = profile.edges[-1]
     if b == 0.0:
         return Largest(0.0, 0.0, 0.0, 0.0)
@@ -109,6 +108,8 @@ def _radii(profile: Profile) -> Array:
 
 def _refined(measured: Measure, axes: Axes, peak: NDArray[np.intp]) -> Array:
     """Return the place of the maximum near a peak of the grid (Nelder & Mead 1965)."""
+    from scipy.optimize import minimize
+
     low, start, high = (
         np.array(
             [axis[np.clip(i + step, 0, axis.size - 1)] for axis, i in zip(axes, peak, strict=True)]
@@ -139,5 +140,7 @@ def _and_in_plane(place: Array) -> Array:
 
 
 def _cartesian(cylindrical: Array) -> Array:
+    from scipy.special import cosdg, sindg
+
     r, angle, z = cylindrical.T
     return np.stack([r * cosdg(angle), r * np.abs(sindg(angle)), z], axis=-1)

@@ -50,7 +50,9 @@ def build(folder: Path, levels: Sequence[int] = ()) -> None:
             checksum = sha256(path.read_bytes()).hexdigest()
             libraries.append({"file": path.name, "level": level, "sha256": checksum})
             shutil.copy(path, folder)
-    signatures = {name: str(each) for kernel in ENTRIES for name, each in kernel.signatures().items()}
+    signatures = {
+        name: str(each) for kernel in ENTRIES for name, each in kernel.signatures().items()
+    }
     contents = {
         "sources": known,
         "files": [path.relative_to(PACKAGE).as_posix() for path in files],
@@ -146,7 +148,12 @@ def _shared_out(modules: Iterable[str], workers: int) -> list[list[str]]:
 def _size(names: Sequence[str]) -> int:
     """Return how much code of kernels lies in the folder of some modules."""
     folder = Path(sys.modules[names[0]].__file__ or "").parent
-    return sum(len(text) for path in folder.glob("*.py") for text in [path.read_bytes()] if b"@kernel" in text)
+    return sum(
+        len(text)
+        for path in folder.glob("*.py")
+        for text in [path.read_bytes()]
+        if b"@kernel" in text
+    )
 
 
 def _link(target: Path, objects: Sequence[Path]) -> None:
@@ -162,7 +169,9 @@ def _run(command: Sequence[str], environment: Any) -> None:
         subprocess.run(command, env=environment, check=True, capture_output=True, text=True)
     except (OSError, subprocess.CalledProcessError) as error:
         told = str(getattr(error, "stderr", "") or error).strip().splitlines()
-        raise NotBuilt(f"{Path(command[0]).name} has failed: {told[-1] if told else error}") from None
+        raise NotBuilt(
+            f"{Path(command[0]).name} has failed: {told[-1] if told else error}"
+        ) from None
 
 
 def _ending() -> str:

@@ -7,19 +7,22 @@ bits: there are no fast-math flags that would let LLVM change results.
 """
 
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack, contextmanager
 from importlib import import_module
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import llvmlite.binding as llvm
 import numba
 import numpy as np
 from llvmlite import ir
-from numba import carray, types
-from numba.core import codegen, cpu, dispatcher, registry
+from numba import _dynfunc, carray, types
+from numba.core import codegen, cpu, registry
 from numba.core.compiler import Flags
 from numba.core.compiler_lock import global_compiler_lock
+from numba.core.dispatcher import _FunctionCompiler  # type: ignore[attr-defined]
 
 from carom.dimensionless.numerics import jit
 from carom.dimensionless.numerics.jit import OPTIONS
@@ -74,33 +77,22 @@ define void @NRT_decref(i8* %x) alwaysinline { ret void }
 """
 
 
-class FrontEnd:
-    """A context in which numba only makes and links modules; they are optimised and written after."""
-
-    def __enter__(self) -> "FrontEnd":
-        self.kept = [
-            (owner, name, getattr(owner, name))
-            for owner, name in (
-                (jit, "dispatcher"),
-                (Library, "_optimize_functions"),
-                (Library, "_optimize_final_module"),
-                (codegen.JITCodeLibrary, "_finalize_specific"),
-                (codegen.JITCPUCodegen, "_add_module"),
-                (cpu.CPUContext, "get_executable"),
-                (dispatcher._FunctionCompiler, "_customize_flags"),
-            )
-        ]
-        jit.dispatcher = numba.njit(**OPTIONS)  # not cached
-        Library._optimize_functions = _lay_out
-        Library._optimize_final_module = codegen.JITCodeLibrary._finalize_specific = _nothing
-        codegen.JITCPUCodegen._add_module = _nothing
-        cpu.CPUContext.get_executable = _placeholder
-        dispatcher._FunctionCompiler._customize_flags = _without_wrappers
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        for owner, name, value in self.kept:
-            setattr(owner, name, value)
+@contextmanager
+def front_end() -> Iterator[None]:
+    """Let numba make and link modules only: they are optimised and made machine code later."""
+    changes = (
+        (jit, "dispatcher", numba.njit(**OPTIONS)),  # not cached
+        (Library, "_optimize_functions", _lay_out),
+        (Library, "_optimize_final_module", _nothing),
+        (codegen.JITCodeLibrary, "_finalize_specific", _nothing),
+        (codegen.JITCPUCodegen, "_add_module", _nothing),
+        (cpu.CPUContext, "get_executable", _placeholder),
+        (_FunctionCompiler, "_customize_flags", _without_wrappers),
+    )
+    with ExitStack() as stack:
+        for owner, name, value in changes:
+            stack.enter_context(patch.object(owner, name, value))
+        yield
 
 
 def _nothing(*_: object) -> None:
@@ -118,20 +110,18 @@ def _without_wrappers(compiler: Any, flags: Flags) -> Flags:
 
 def _placeholder(_: Any, library: Any, description: Any, environment: Any) -> Any:
     """Return what numba keeps by kernel and types; nobody calls it."""
-    from numba import _dynfunc
-
     name = description.qualname.rpartition(".")[2]
     module = description.lookup_module()
     return _dynfunc.make_function(module, name, "", 1, environment, (library,))
 
 
-@global_compiler_lock
+@global_compiler_lock  # type: ignore[untyped-decorator]
 def object_code(entries: Iterable[Kernel[..., Any]]) -> bytes:
     """Return an object file of entry points, which needs nothing but the C library.
 
     Raises RuntimeError for kernels that need more: that allocate memory, or raise.
     """
-    with FrontEnd():
+    with front_end():
         modules = {
             name: _module(name, kernel.dispatcher, signature)
             for kernel in entries

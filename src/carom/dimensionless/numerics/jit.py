@@ -9,7 +9,8 @@ from typing import Any
 import numba
 from numba.core import event
 
-MESSAGE = "carom: compiling what this needs, once; it takes up to a minute ..."
+from carom.dimensionless.numerics import library
+
 PATIENCE = 2.0  # seconds before it is said
 OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy"}
 
@@ -22,7 +23,13 @@ def dispatcher(function: Callable[..., Any]) -> Any:
         return numba.njit(**OPTIONS)(function)
 
 
-class Teller(event.Listener):
+def message() -> str:
+    """Return what to say to users who wait, and why they do."""
+    why = f" ({library.reason()})" if library.reason() else ""
+    return f"carom: compiling its kernels, once; this takes up to a minute{why} ..."
+
+
+class Teller(event.Listener):  # type: ignore[misc]
     """Says so once, on a terminal or in a notebook, when kernels of this package take long."""
 
     def __init__(self) -> None:
@@ -36,7 +43,7 @@ class Teller(event.Listener):
         own = happened.data["dispatcher"].py_func.__module__.startswith("carom.")
         waited = self.spent + self.begun[-1] - self.begun[0]
         if own and not self.said and waited > PATIENCE and is_watched():
-            print(MESSAGE, file=sys.stderr, flush=True)
+            print(message(), file=sys.stderr, flush=True)
             self.said = True
 
     def on_end(self, happened: Any) -> None:

@@ -45,7 +45,7 @@ class Kernel(Generic[Given, Found]):
     def compiled(self) -> Callable[Given, Found]:
         """The machine code: that of the library, or numba's."""
         if way() == "library" and self.floats:
-            found = library.function(self)
+            found = library.function(self.signatures(), self.floats)
             if found is not None:
                 return cast(Callable[Given, Found], found)
         return cast(Callable[Given, Found], self.dispatcher)
@@ -63,11 +63,12 @@ class Kernel(Generic[Given, Found]):
 
     def signatures(self) -> dict[str, Signature]:
         """Return the signatures of an entry point, by the name of its C function."""
-        stem = f"{self.__module__}.{self.__qualname__}".replace(".", "_")
-        names = {
-            floats: stem if len(self.floats) == 1 else f"{stem}_{floats}" for floats in self.floats
+        name = f"{self.__module__}.{self.py_func.__name__}".replace(".", "_")
+        several = len(self.floats) > 1
+        return {
+            f"{name}_{floats}" if several else name: signature_of(self.py_func, floats)
+            for floats in self.floats
         }
-        return {names[floats]: signature_of(self.py_func, floats) for floats in self.floats}
 
 
 ENTRIES: list[Kernel[..., Any]] = []

@@ -6,16 +6,13 @@ can stand for. Otherwise numba does the same, more slowly at first, and `reason`
 
 import ctypes
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from carom.dimensionless.numerics.signatures import caller
-
-if TYPE_CHECKING:
-    from carom.dimensionless.numerics.kernels import Kernel
+from carom.dimensionless.numerics.signatures import Signature, caller
 
 PACKAGE = Path(__file__).parents[2]
 FOLDER = PACKAGE / "lib"
@@ -34,18 +31,23 @@ class Unusable(Exception):
     """There is no library that can be used; the message says why."""
 
 
-def function(kernel: "Kernel[..., Any]") -> Callable[..., Any] | None:
-    """Return a function of Python's that calls a kernel in the library; None if that is not there."""
+def function(
+    signatures: Mapping[str, Signature], floats: Sequence[str]
+) -> Callable[..., Any] | None:
+    """Return what calls a kernel in the library from Python; None if it is not there.
+
+    There is a signature for each of the types of floating-point arrays.
+    """
     try:
         found = opened()
     except Unusable:
         return None
     calls = []
-    for name, signature in kernel.signatures().items():
+    for name, signature in signatures.items():
         if found.signatures.get(name) != str(signature):
             return None
         calls.append(caller(getattr(found.handle, name), signature))
-    return calls[0] if len(calls) == 1 else _by_type(dict(zip(kernel.floats, calls, strict=True)))
+    return calls[0] if len(calls) == 1 else _by_type(dict(zip(floats, calls, strict=True)))
 
 
 def _by_type(calls: dict[str, Callable[..., Any]]) -> Callable[..., Any]:

@@ -42,7 +42,7 @@ class Signature(NamedTuple):
     single: bool
 
     def __str__(self) -> str:
-        """The types in the order of the C function; two with the same text can be exchanged."""
+        """Return the types in the order of the C function: all that a caller must know."""
         return f"{' '.join(map(_label, self.leaves()))} -> {' '.join(map(_label, self.results))}"
 
     def leaves(self) -> Iterator[Any]:

@@ -9,9 +9,8 @@ every machine.
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.numerics.arrays import Vector, Words
+from carom.dimensionless.numerics.arrays import Array, Vector, Words
 from carom.dimensionless.numerics.kernels import entry_point, kernel
-from carom.quantities.arrays import Array
 
 Whole = NDArray[np.uint64]
 

@@ -7,10 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.numerics.arrays import Cube, Matrix, Vector
+from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point
 from carom.dimensionless.rebounds import regime_borders
-from carom.quantities.arrays import Array
 
 TABLE = "data/fit_curves.npz"  # made by studies/fit_curves.py
 PANELS, NODES = 4, 33  # of a curve; nodes even in arccos, for roots at the kinks
