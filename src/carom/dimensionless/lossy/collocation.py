@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.dimensionless.numerics.arrays import Cube
 from carom.dimensionless.numerics.chebyshev import extrema, from_extrema
-from carom.dimensionless.numerics.kernels import entry_point, kernel
+from carom.dimensionless.numerics.kernels import entry_point, kernel, plain
 
 DEGREE = 11
 NODES = DEGREE + 1
@@ -20,7 +20,7 @@ EVEN, FLAT_START, FLAT_END, FLAT_ENDS = range(4)  # clocks
 MAX_STEPS = 80
 
 
-@entry_point()
+@kernel
 def clock(kind: int, x: float) -> float:
     """Return theta = tau/h at a place of a panel."""
     y = 0.5 * (1.0 + x)
@@ -47,7 +47,7 @@ def place_of_clock(kind: int, part: float) -> float:
 
 def _clocks() -> np.ndarray:
     """Return theta at the nodes, by clock."""
-    return np.array([[clock(kind, x) for x in PLACES] for kind in range(4)])
+    return np.array([[plain(clock)(kind, x) for x in PLACES] for kind in range(4)])
 
 
 def _integrals() -> np.ndarray:

@@ -16,6 +16,7 @@ import sys
 import tempfile
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from hashlib import sha256
 from importlib import import_module
 from importlib.metadata import version
@@ -49,7 +50,7 @@ def build(folder: Path, levels: Sequence[int] = ()) -> None:
             path = _kept(known, modules, level, Path(scratch))
             checksum = sha256(path.read_bytes()).hexdigest()
             libraries.append({"file": path.name, "level": level, "sha256": checksum})
-            shutil.copy(path, folder)
+            _put(path, folder)
     signatures = {
         name: str(each) for kernel in ENTRIES for name, each in kernel.signatures().items()
     }
@@ -99,14 +100,17 @@ def _kept(known: str, modules: Sequence[str], level: int, scratch: Path) -> Path
     if (folder / name).is_file():
         return folder / name
     _link(scratch / name, _objects(modules, level, scratch))
-    try:
+    with suppress(OSError):  # it is made again then
         folder.mkdir(parents=True, exist_ok=True)
-        partial = folder / f"{name}.{os.getpid()}"
-        shutil.copy(scratch / name, partial)
-        partial.replace(folder / name)
-    except OSError:  # it is made again then
-        pass
+        _put(scratch / name, folder)
     return scratch / name
+
+
+def _put(path: Path, folder: Path) -> None:
+    """Copy a file into a folder, whole or not at all; a process may have an older one open."""
+    partial = folder / f"{path.name}.{os.getpid()}"
+    shutil.copy(path, partial)
+    partial.replace(folder / path.name)
 
 
 def _cache() -> Path:

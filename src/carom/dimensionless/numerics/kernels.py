@@ -93,3 +93,8 @@ def entry_point(*floats: str) -> Callable[[Callable[Given, Found]], Callable[Giv
         return found
 
     return mark
+
+
+def plain(kernel: Callable[Given, Found]) -> Callable[Given, Found]:
+    """Return the Python function of a kernel, for tables that are made when a module is loaded."""
+    return kernel.py_func if isinstance(kernel, Kernel) else kernel

@@ -1,0 +1,122 @@
+"""The compiled library and numba agree to the last bit, at every entry point."""
+
+import copy
+
+import numpy as np
+import pytest
+
+import carom
+from carom.dimensionless import interpolation
+from carom.dimensionless.numerics import chebyshev, hertz, library
+from carom.dimensionless.numerics.kernels import ENTRIES
+
+pytestmark = pytest.mark.skipif(bool(library.reason()), reason=f"no library: {library.reason()}")
+STEEL = carom.material("steel")
+BALL = carom.Sphere(radius=0.005, material=STEEL)
+PAIR = carom.Pair(BALL, carom.HalfSpace(material=STEEL), friction=0.2)
+
+
+def leaves(value):
+    """Give arrays and numbers within tuples."""
+    if isinstance(value, tuple):
+        for each in value:
+            yield from leaves(each)
+    elif value is not None:
+        yield np.asarray(value)
+
+
+@pytest.fixture
+def calls(monkeypatch):
+    """How often each entry point is called, while every call is made in both ways and compared."""
+    counts = {kernel.__name__ + "@" + kernel.__module__: 0 for kernel in ENTRIES}
+
+    def checked(kernel):
+        by_library = library.function(kernel.signatures(), kernel.floats)
+        assert by_library is not None
+
+        def call(*given):
+            other = copy.deepcopy(given)
+            expected = kernel.dispatcher(*other)
+            found = by_library(*given)
+            pairs = zip(leaves((given, found)), leaves((other, expected)), strict=True)
+            for one, two in pairs:
+                assert one.dtype.kind == two.dtype.kind
+                assert one.tobytes() == two.tobytes(), kernel.__name__
+            counts[kernel.__name__ + "@" + kernel.__module__] += 1
+            return found
+
+        return call
+
+    for kernel in ENTRIES:
+        monkeypatch.setitem(kernel.__dict__, "compiled", checked(kernel))
+    return counts
+
+
+def rebounds(rng):
+    chi = np.concatenate([rng.uniform(0.05, 8.0, 300), [0.5, 1.0, 1.44, 2.0, np.nan, -1.0, 1e4]])
+    psi = rng.uniform(-12.0, 12.0, chi.size)
+    psi[:20] = [0.0, -0.0, 1.0, -1.0, 1e-9, 4.0, 5.0, 5.76, 1e9, np.inf] * 2
+    carom.rebound(psi, chi, threads=1, return_status=True)
+    for e in (1.0, 0.9, 0.5, 0.1):
+        some = slice(0, 60)
+        normal = carom.KelvinVoigt(restitution=e)
+        carom.rebound(psi[some], chi[40:100], normal=normal, threads=1, return_status=True)
+
+
+def impacts(rng):
+    for psi, chi in zip(rng.uniform(0.0, 6.0, 12), rng.uniform(0.3, 2.5, 12), strict=True):
+        found = carom.solve(psi, chi)
+        times = found.duration * np.concatenate([[0.0, 0.5, 1.0], rng.uniform(0.0, 1.0, 9)])
+        found.at(times)
+        found.traction(times[4], np.linspace(0.0, 1.0, 7))
+        found.slid(times[5], np.linspace(0.0, 1.0, 7))
+        found.memory(times[6]).profile()
+        lossy = carom.solve(psi, chi, normal=carom.KelvinVoigt(restitution=0.8))
+        lossy.at(lossy.duration * rng.uniform(0.0, 1.0, 4))
+
+
+def contacts(rng):
+    hit = carom.impact(PAIR, speed=2.0, angle=0.5)
+    path = carom.load_path(PAIR, normal_force=10.0, tangential_force=[0.0, 1.5, -1.0, 0.5])
+    for time in rng.uniform(0.05, 0.95, 4):
+        for contact in (hit.contact(time * hit.duration), path.contact(3)):
+            assert contact is not None
+        hit.fields(time * hit.duration)
+        hit.radial(time * hit.duration)
+        hit.stress(time * hit.duration, x=[0.0, 1e-4], z=[0.0, 1e-4])
+    path.fields(2)
+    path.radial(1)
+
+
+def laws(rng):
+    psi = rng.uniform(-6.0, 6.0, 20)
+    for law in (carom.LinearSpring(), carom.LammpsMindlin(), carom.ThorntonLaw()):
+        law.rebound(psi, 1.44)
+        law.rebound(psi, 1.44, steps=100)
+        law.history(0.7, 1.44)
+    mixed = carom.MixtureLaw(1.4, 1.45)
+    mixed(psi, 1.42)
+    for kind in (np.float32, np.float64):
+        velocity = rng.normal(size=(700, 3)).astype(kind)
+        normal = rng.normal(size=(700, 3))
+        normal = (normal / np.linalg.norm(normal, axis=1, keepdims=True)).astype(kind)
+        for law in (None, carom.WaltonLaw(friction=0.2, restitution=0.9, tangential_restitution=0.4)):
+            carom.collide(PAIR, velocity1=velocity, normal=normal, law=law, threads=1)
+    carom.LatinHypercube({"angle": (0.1, 1.0), "friction": (0.1, 0.3)}, samples=50, seed=1)
+
+
+def numbers(rng):
+    for t in rng.uniform(0.0, 1.0, 20):
+        hertz.time(t * t, t)
+        hertz.elapsed(t)
+        interpolation.cubic(t)
+        chebyshev.evaluate(rng.normal(size=9), 0.0, 1.0, t)
+    interpolation.psi_out(rng.uniform(-5, 5, (4, 9)), np.full(4, 1.3), np.full(4, 0.9))
+
+
+def test_the_library_gives_the_bits_of_numba(calls):
+    rng = np.random.default_rng(20)
+    for work in (rebounds, impacts, contacts, laws, numbers):
+        work(rng)
+    never = [name for name, count in calls.items() if count == 0]
+    assert not never
