@@ -5,7 +5,8 @@ import pytest
 from scipy.optimize import brentq, least_squares
 
 import carom
-from carom.fitting import fit, interpolation as curves
+from carom.dimensionless import interpolation as curves
+from carom.fitting import fit
 
 MU, SIGMA = 0.12, 0.02
 BALL = carom.Sphere(radius="2.5 mm", material="steel")

@@ -7,7 +7,7 @@ import pytest
 
 import carom
 from carom.dimensionless import interpolation
-from carom.dimensionless.numerics import chebyshev, hertz, library
+from carom.dimensionless.numerics import chebyshev, hertz, library, permutation
 from carom.dimensionless.numerics.kernels import ENTRIES
 
 pytestmark = pytest.mark.skipif(bool(library.reason()), reason=f"no library: {library.reason()}")
@@ -102,7 +102,8 @@ def laws(rng):
         normal = (normal / np.linalg.norm(normal, axis=1, keepdims=True)).astype(kind)
         for law in (None, carom.WaltonLaw(friction=0.2, restitution=0.9, tangential_restitution=0.4)):
             carom.collide(PAIR, velocity1=velocity, normal=normal, law=law, threads=1)
-    carom.LatinHypercube({"angle": (0.1, 1.0), "friction": (0.1, 0.3)}, samples=50, seed=1)
+    places = np.arange(50, dtype=np.uint64)
+    permutation.fractions(places, 1000, permutation.secrets(1, 1)[0])
 
 
 def numbers(rng):

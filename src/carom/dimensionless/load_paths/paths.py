@@ -216,5 +216,6 @@ def follow_path(depths: Array, targets: Array, by_force: NDArray[np.bool_]) -> P
     """
     results = np.full((depths.size, RESULTS), np.nan)
     stack = memory.new_stack(depths.size)
-    top, refused = follow(stack, depths, targets, by_force, results)
+    given = map(np.ascontiguousarray, (depths, targets, by_force))
+    top, refused = follow(stack, *given, results)
     return Path(results, stack[: top + 1].copy(), refused)

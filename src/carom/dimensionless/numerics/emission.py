@@ -172,16 +172,24 @@ def _module(name: str, compiled: Any, signature: Signature) -> Any:
 
 
 def _c_function(name: str, found: Any, arguments: tuple[Any, ...]) -> Any:
-    """Return the module of a C function that calls a function of numba's; not 0 if that raised."""
-    context = found.target_context
-    kind = context.call_conv.get_function_type(types.none, arguments)
+    """Return the module of a C function of a block of arguments; not 0 if the kernel has raised."""
+    kind = found.target_context.call_conv.get_function_type(types.none, arguments)
     module = ir.Module(name)
     module.data_layout = found.library._codegen._data_layout
     inner = ir.Function(module, kind, found.fndesc.llvm_func_name)
-    outer = ir.Function(module, ir.FunctionType(ir.IntType(32), kind.args[2:]), name)
+    word = ir.IntType(64)
+    outer = ir.Function(module, ir.FunctionType(ir.IntType(32), [word.as_pointer()]), name)
     builder = ir.IRBuilder(outer.append_basic_block())
-    room = [builder.alloca(each.pointee) for each in kind.args[:2]]
-    builder.ret(builder.call(inner, [*room, *outer.args]))
+    given = [builder.alloca(each.pointee) for each in kind.args[:2]]
+    for i, (wanted, each) in enumerate(zip(arguments, kind.args[2:], strict=True)):
+        place = builder.gep(outer.args[0], [word(i)])
+        if isinstance(wanted, types.CPointer):  # a result, which lies in the block itself
+            given.append(builder.bitcast(place, each))
+        elif wanted == types.voidptr:
+            given.append(builder.inttoptr(builder.load(place), each))
+        else:
+            given.append(builder.load(builder.bitcast(place, each.as_pointer())))
+    builder.ret(builder.call(inner, given))
     return llvm.parse_assembly(str(module))
 
 

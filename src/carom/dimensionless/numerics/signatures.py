@@ -1,23 +1,20 @@
 """How Python's arguments become those of a C function: read from the annotations of a kernel.
 
-A float is a double, an int or a bool an int64_t, an array its address and its shape, a named tuple
-its fields one after the other. What a kernel returns is written to addresses that come last.
+All are packed into one block of eight bytes each: a float as a double, an int or a bool as an
+int64_t, an array as its address and its shape, a named tuple as its fields one after the other.
+What a kernel returns is written to the end of the block.
 """
 
 import ctypes
+import struct
 from collections.abc import Callable, Iterator, Mapping
 from types import NoneType
 from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-NUMBERS: dict[Any, tuple[Any, Callable[[Any], Any]]] = {
-    float: (ctypes.c_double, float),
-    int: (ctypes.c_int64, int),
-    bool: (ctypes.c_int64, bool),
-}
+CODES: dict[Any, str] = {float: "d", int: "q", bool: "q"}  # of the struct module
 BYTE = ctypes.c_char
-Flatten = Callable[[Any, list[Any]], None]
 
 
 class ArrayType(NamedTuple):
@@ -77,7 +74,7 @@ def _plain(hint: Any, floating: Any) -> Any:
     if hasattr(hint, "_fields"):
         fields = get_type_hints(hint, include_extras=True)
         return Group(hint, tuple(_plain(fields[name], floating) for name in hint._fields))
-    if hint in NUMBERS:
+    if hint in CODES:
         return hint
     raise TypeError(f"{hint!r} cannot be handed to a kernel of the library")
 
@@ -94,70 +91,64 @@ def _label(kind: Any) -> str:
     return f"{kind.dtype.str}[{kind.ndim}]" if isinstance(kind, ArrayType) else kind.__name__
 
 
-def c_types(signature: Signature) -> list[Any]:
-    """Return the types of the arguments of the C function, as ctypes has them."""
-    found: list[Any] = []
-    for kind in signature.leaves():
-        if isinstance(kind, ArrayType):
-            found += [ctypes.c_void_p, *[ctypes.c_int64] * kind.ndim]
-        else:
-            found.append(NUMBERS[kind][0])
-    return found + [ctypes.POINTER(NUMBERS[kind][0]) for kind in signature.results]
-
-
 def caller(pointer: Any, signature: Signature) -> Callable[..., Any]:
     """Return a function of Python's that calls a C function.
 
-    It raises TypeError for arrays of another type, or that are not contiguous: the C function
-    could not tell.
+    Its text is written for the signature, as a loop over the arguments would take longer than an
+    impact. It raises TypeError for arrays of another type, or that are not contiguous, and
+    ValueError for another number of dimensions: the C function could not tell.
     """
-    pointer.argtypes, pointer.restype = c_types(signature), ctypes.c_int
-    flatteners = [_flattener(kind) for kind in signature.parameters.values()]
-    kinds = [NUMBERS[kind] for kind in signature.results]
-
-    def call(*given: Any) -> Any:
-        flat: list[Any] = []
-        for flatten, value in zip(flatteners, given, strict=True):
-            flatten(value, flat)
-        results = [kind() for kind, _ in kinds]
-        if pointer(*flat, *map(ctypes.byref, results)):
-            raise RuntimeError(f"{pointer.__name__} has failed")
-        values = tuple(python(each.value) for each, (_, python) in zip(results, kinds, strict=True))
-        if signature.single:
-            return values[0] if values else None
-        return values
-
-    return call
-
-
-def _flattener(kind: Any) -> Flatten:
-    if isinstance(kind, ArrayType):
-        return _array_flattener(kind)
-    if not isinstance(kind, Group):
-        python = NUMBERS[kind][1]
-        return lambda value, flat: flat.append(python(value))
-    inner = [_flattener(each) for each in kind.kinds]
-
-    def flatten(value: Any, flat: list[Any]) -> None:
-        for one, item in zip(inner, value, strict=True):
-            one(item, flat)
-
-    return flatten
+    pointer.argtypes, pointer.restype = (ctypes.c_char_p,), ctypes.c_int
+    given = [f"x{i}" for i in range(len(signature.parameters))]
+    writer = _Writer()
+    for name, kind in zip(given, signature.parameters.values(), strict=True):
+        writer.read(name, kind)
+    layout = struct.Struct("".join((*writer.codes, *(CODES[kind] for kind in signature.results))))
+    names = {**writer.names, "pack": layout.pack, "pointer": pointer, "address": _address}
+    names |= {"BYTE": BYTE.from_buffer, "addressof": ctypes.addressof, "unpack": layout.unpack}
+    packed = ", ".join((*writer.values, *"0" * len(signature.results)))
+    lines = [*writer.lines, f"packed = pack({packed})", "if pointer(packed):"]
+    lines.append(f"    raise RuntimeError('{pointer.__name__} has failed')")
+    if signature.results:
+        found = f"unpack(packed)[{-len(signature.results)}:]"
+        lines.append(f"return {found}{'[0]' if signature.single else ''}")
+    body = "\n    ".join(lines)
+    exec(f"def call({', '.join(given)}):\n    {body}", names)
+    return names["call"]  # type: ignore[no-any-return]
 
 
-def _array_flattener(kind: ArrayType) -> Flatten:
-    dtype, ndim = kind
+class _Writer:
+    """The text that makes arguments numbers: its lines, the values to pack, and their codes."""
 
-    def flatten(value: Any, flat: list[Any]) -> None:
-        if value.dtype != dtype or value.ndim != ndim or not value.flags.c_contiguous:
-            raise TypeError(
-                f"a kernel takes contiguous arrays of {dtype} with {ndim} dimensions, not of "
-                f"{value.dtype} with {value.ndim}"
-            )
-        try:  # several times faster than what comes next
-            flat.append(ctypes.addressof(BYTE.from_buffer(value)))
-        except (TypeError, ValueError):  # read-only, or empty
-            flat.append(value.ctypes.data)
-        flat.extend(value.shape)
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+        self.values: list[str] = []
+        self.codes: list[str] = []
+        self.names: dict[str, Any] = {}
 
-    return flatten
+    def read(self, name: str, kind: Any) -> None:
+        """Add an argument, or an item of one."""
+        if isinstance(kind, Group):
+            parts = [f"{name}_{i}" for i in range(len(kind.kinds))]
+            self.lines.append(f"{', '.join(parts)}, = {name}")
+            for part, each in zip(parts, kind.kinds, strict=True):
+                self.read(part, each)
+        elif isinstance(kind, ArrayType):
+            shape = [f"{name}_n{i}" for i in range(kind.ndim)]
+            dtype = f"dtype_{kind.dtype.name}"
+            self.names[dtype] = kind.dtype
+            self.lines.append(f"{', '.join(shape)}, = {name}.shape")
+            quick = f"{name}.dtype is {dtype} and {name}.flags.carray and {' and '.join(shape)}"
+            self.values += [f"(addressof(BYTE({name})) if {quick} else address({name}, {dtype}))"]
+            self.values += shape
+            self.codes += "q" * (1 + kind.ndim)
+        else:
+            self.values.append(name)
+            self.codes.append(CODES[kind])
+
+
+def _address(array: Any, dtype: Any) -> int:
+    """Return where an array lies; slower, for those that are empty or cannot be written."""
+    if array.dtype != dtype or not array.flags.c_contiguous:
+        raise TypeError(f"a kernel takes contiguous arrays of {dtype}, not of {array.dtype}")
+    return int(array.ctypes.data)
