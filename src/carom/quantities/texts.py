@@ -4,14 +4,17 @@
     unit   = term {product term} [/ term],  term = name [power]
 
 Digits are ASCII, a sign is +, - or the minus U+2212, a product is a space, * or a raised dot, a
-power is ^2, **2 or raised digits. Whatever else stands in a text makes it unreadable, so that pint,
-which multiplies and drops what it does not understand, is asked for the names of units alone.
+power is ^2, **2 or raised digits, or -2 at the end of a name, as in the CF conventions. Whatever
+else stands in a text makes it unreadable, so that pint, which multiplies and drops what it does not
+understand, is asked for the names of units alone.
 """
 
 import re
 from functools import lru_cache
-from math import inf, log10
+from math import isinf, log10
 from typing import Any, NamedTuple
+
+import numpy as np
 
 LONGEST = 200  # characters of a text
 TERMS = 4  # of a unit expression
@@ -23,7 +26,9 @@ NUMBER = re.compile(rf"{SIGN}(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE]{SIGN}[0-9]+)?")
 LOWERED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹" + MINUS, "+-0123456789-")
 RAISED_DIGITS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 NAME = rf"[^\W\d{RAISED_DIGITS}]+|[%‰°]"
-POWER = rf"(?:\^|\*\*)({SIGN}[0-9])|([⁺⁻]?[{RAISED_DIGITS}])"
+SPACED = rf"[{BLANKS}]*(?:\^|\*\*)[{BLANKS}]*({SIGN}[0-9])"  # pint writes blanks around **
+CF = rf"(?<=[^\W\d_])([{MINUS}-][0-9])"
+POWER = rf"{SPACED}|([⁺⁻]?[{RAISED_DIGITS}])|{CF}"
 TERM = re.compile(rf"({NAME})(?:{POWER})?(?![0-9{RAISED_DIGITS}^])")
 PRODUCT = re.compile(rf"[{BLANKS}]*[*·⋅][{BLANKS}]*|[{BLANKS}]+")
 SLASH = re.compile(rf"[{BLANKS}]*/[{BLANKS}]*")
@@ -43,6 +48,9 @@ SPEEDS = "knot mile_per_hour kilometer_per_hour meter_per_second foot_per_second
 RATIOS = "percent permille ppm"
 KINDS = (LENGTHS, MASSES, TIMES, FORCES, PRESSURES, ANGLES, SPINS, SPEEDS, RATIOS)
 UNITS = frozenset(" ".join(KINDS).split())  # pint's whole names; constants of nature are none
+
+
+CANNOT_HOLD = "floating point cannot hold it"
 
 
 class Unreadable(ValueError):
@@ -66,12 +74,29 @@ class Factor(NamedTuple):
     over: float
 
     def apply(self, number: Any) -> Any:
-        """Return a number, or an array of them, in the other unit."""
-        return number * self.times / self.over
+        """Return a float, or an array of them, in the other unit; Unreadable if it overflows."""
+        if self == UNCHANGED:
+            return number
+        with np.errstate(over="ignore"):
+            found = number * self.times / self.over
+        if np.any(np.isinf(found)) and np.any(np.isinf(found) & np.isfinite(number)):
+            raise Unreadable(CANNOT_HOLD, enough=True)
+        return found
 
 
-def read_text(text: str, unit: str) -> float:
-    """Return the quantity in a text, in a unit of which a bare number is.
+UNCHANGED = Factor(1.0, 1.0)
+
+
+def as_factor(ratio: float) -> Factor:
+    """Return the factor that is this ratio; powers of ten are exact."""
+    decades = round(log10(ratio))
+    if abs(ratio - 10.0**decades) > 1e-12 * ratio:
+        return Factor(ratio, 1.0)
+    return Factor(10.0 ** max(decades, 0), 10.0 ** max(-decades, 0))
+
+
+def read_text(text: str, unit: str, bare: Factor = UNCHANGED) -> float:
+    """Return the quantity in a text, in a unit; `bare` is how a bare number comes to be in it.
 
     Raises Unreadable.
 
@@ -82,7 +107,7 @@ def read_text(text: str, unit: str) -> float:
     (-3.0, 0.2, 7.0)
     """
     value, expression = split(text)
-    return float(factor(expression, unit).apply(value)) if expression else value
+    return float((factor(expression, unit) if expression else bare).apply(value))
 
 
 def split(text: str) -> tuple[float, str]:
@@ -98,8 +123,8 @@ def split(text: str) -> tuple[float, str]:
         raise Unreadable() if plain else Unreadable("it is empty")
     digits = found[0].replace(MINUS, "-")
     value = float(digits)
-    if abs(value) == inf or (value == 0.0 and re.search("[1-9]", digits.lower().split("e")[0])):
-        raise Unreadable("floating point cannot hold it", enough=True)
+    if isinf(value) or (value == 0.0 and re.search("[1-9]", digits.lower().split("e")[0])):
+        raise Unreadable(CANNOT_HOLD, enough=True)
     rest = plain[found.end() :]
     if rest.startswith(","):
         raise Unreadable("numbers need a decimal point, not a comma", enough=True)
@@ -107,7 +132,7 @@ def split(text: str) -> tuple[float, str]:
 
 
 def factor(expression: str, unit: str) -> Factor:
-    """Return how numbers with one unit become those of another of the same kind.
+    """Return how numbers with one unit, empty for pure numbers, become those of another.
 
     Raises Unreadable if the expression is none, or of another kind; angles are a kind of their own.
     """
@@ -120,29 +145,25 @@ def factor(expression: str, unit: str) -> Factor:
 @lru_cache(maxsize=4096)
 def _factor(expression: str, unit: str) -> Factor | Unreadable:
     try:
-        given, wanted = _root(_terms(expression)), _root(() if unit == "1" else _terms(unit))
+        given, wanted = _root(_terms(expression)), _root(_terms("" if unit == "1" else unit))
     except Unreadable as error:
         return error
     if given[1] != wanted[1]:
         return Unreadable(
-            OTHER_KIND.get(unit, "that is not a value in {1}").format(expression, unit)
+            OTHER_KIND.get(unit, "that is not a value in {1}").format(expression or "1", unit)
         )
-    ratio = given[0] / wanted[0]
-    decades = round(log10(ratio))
-    if abs(ratio - 10.0**decades) > 1e-12 * ratio:
-        return Factor(ratio, 1.0)
-    return Factor(10.0 ** max(decades, 0), 10.0 ** max(-decades, 0))
+    return as_factor(given[0] / wanted[0])
 
 
 def _terms(expression: str) -> tuple[tuple[str, int], ...]:
     """Return names of units and their powers, or raise Unreadable."""
     terms: list[tuple[str, int]] = []
     place, sign = 0, 1
-    while True:
+    while expression != "":  # that of pure numbers
         found = TERM.match(expression, place)
         if found is None or len(terms) == TERMS:
             raise Unreadable(f"{expression!r} is no unit")
-        power = (found[2] or found[3] or "1").translate(LOWERED)
+        power = (found[2] or found[3] or found[4] or "1").translate(LOWERED)
         terms.append((found[1], sign * int(power)))
         place = found.end()
         if place == len(expression):
@@ -154,6 +175,7 @@ def _terms(expression: str) -> tuple[tuple[str, int], ...]:
         if sign < 0:  # what a second slash, or a product after one, divides is not sure
             raise Unreadable(f"{expression!r} is no unit: after '/' stands one unit, as in kg/m^3")
         place, sign = step.end(), -1 if slash else 1
+    return ()
 
 
 def _root(terms: tuple[tuple[str, int], ...]) -> tuple[float, Any]:
