@@ -234,9 +234,9 @@ def _column(name: str, given: Any, *, gaps: bool = False) -> Column:
 
 def _is_line(values: Any) -> bool:
     """Return whether this is an array of one dimension, or a list of what is neither."""
-    if isinstance(values, Sequence) and not isinstance(
-        values, str | bytes | bytearray | memoryview
-    ):
+    if isinstance(values, str | bytes | bytearray | memoryview):
+        return False
+    if isinstance(values, Sequence):
         return not any(isinstance(each, list | tuple) or _shape(each) for each in values)
     return len(_shape(values)) == 1
 
@@ -268,15 +268,12 @@ def _of_dataset(dataset: Any) -> Iterator[tuple[str, Column]]:
     Rows run along one dimension; one value is that of every row.
     """
     variables = [*dataset.data_vars.values(), *dataset.coords.values()]
-    rows = next((item.dims for item in variables if item.ndim == 1), ())
+    sizes = next(({item.dims[0]: item.size} for item in variables if item.ndim == 1), {})
     for key, item in dataset.variables.items():
-        name, whole = (
-            str(key),
-            item if item.dims else item.set_dims({row: dataset.sizes[row] for row in rows}),
-        )
-        if rows and whole.dims == rows:
+        name, whole = str(key), item if item.dims else item.set_dims(sizes)
+        if sizes and whole.dims == (*sizes,):
             yield name, _column(name, whole, gaps=True)
         else:
-            along, row = (" and ".join(map(str, dims)) for dims in (item.dims, rows))
-            fault = f"it runs along {along}, the rows along {row}; choose with .sel or .isel"
+            along, rows = (" and ".join(map(str, dims)) for dims in (item.dims, sizes))
+            fault = f"it runs along {along}, the rows along {rows}; choose with .sel or .isel"
             yield name, Column("", (), fault)

@@ -77,9 +77,14 @@ class Factor(NamedTuple):
         """Return a float, or an array of them, in the other unit; Unreadable if it overflows."""
         if self == UNCHANGED:
             return number
-        with np.errstate(over="ignore"):
-            found = number * self.times / self.over
-        if np.any(np.isinf(found)) and np.any(np.isinf(found) & np.isfinite(number)):
+        if isinstance(number, float):
+            found: Any = number * self.times / self.over
+            lost = isinf(found) and not isinf(number)
+        else:
+            with np.errstate(over="ignore"):
+                found = number * self.times / self.over
+            lost = bool(np.any(np.isinf(found) & np.isfinite(number)))
+        if lost:
             raise Unreadable(CANNOT_HOLD, enough=True)
         return found
 
