@@ -258,7 +258,14 @@ def test_a_mask_changes_nothing_but_what_it_hides(values):
     "column",
     [
         *([[1], [1, 2]], [[1], [2]], [np.array([0.5]), 1], np.ones((2, 1)), "12", b"12"),
-        *(memoryview(b"12"), {1: 2}, 5, None, xr.Dataset({"a": ("x", [1.0, 2.0])})),
+        *(
+            pd.Series([[1], 2]),
+            memoryview(b"12"),
+            {1: 2},
+            5,
+            None,
+            xr.Dataset({"a": ("x", [1.0, 2.0])}),
+        ),
     ],
     ids=str,
 )

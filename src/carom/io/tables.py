@@ -25,6 +25,7 @@ CASE = "# case:"  # begins a comment that holds the bodies as JSON
 KEPT = ("case", "doi")  # attributes of a dataset that are comments of a file
 HEAD = re.compile(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*")
 GAP = "-"  # a cell of what was not measured
+RAW = (str, bytes, bytearray, memoryview)  # sequences that are no lists
 SHOWN = 5  # rows that a message names
 
 
@@ -227,39 +228,39 @@ def _counted(what: str, columns: Iterable[tuple[str, Column]]) -> NDArray[np.int
 def _column(name: str, given: Any, *, gaps: bool = False) -> Column:
     """Return a column of a user's; a gap is what is masked, with `gaps` what is no number, too."""
     plain, told = told_unit(name, given)
-    if not _is_line(plain):
+    cells: Any = None
+    if isinstance(plain, Sequence) and not isinstance(plain, RAW):
+        cells = list(plain)
+    elif _depth(plain) == 1:
+        cells = _of_array(name, plain, gaps)
+    if cells is None or (isinstance(cells, list) and any(map(_depth, cells))):
         raise refusal(name, given, "a column must be a list of numbers")
-    return Column("" if told is None else told, _cells(name, plain, gaps=gaps))
+    return Column("" if told is None else told, cells)
 
 
-def _is_line(values: Any) -> bool:
-    """Return whether this is an array of one dimension, or a list of what is neither."""
-    if isinstance(values, str | bytes | bytearray | memoryview):
-        return False
-    if isinstance(values, Sequence):
-        return not any(isinstance(each, list | tuple) or _shape(each) for each in values)
-    return len(_shape(values)) == 1
+def _depth(value: Any) -> int:
+    """Return how many dimensions an array has, 1 for lists, 0 for anything else."""
+    shape = () if isinstance(value, RAW) else getattr(value, "shape", ())
+    return 1 if isinstance(value, list | tuple) else len(shape) if isinstance(shape, tuple) else 0
 
 
-def _shape(value: Any) -> tuple[Any, ...]:
-    shape = getattr(value, "shape", ())
-    return shape if isinstance(shape, tuple) else ()
-
-
-def _cells(name: str, values: Any, *, gaps: bool) -> Any:
+def _of_array(name: str, values: Any, gaps: bool) -> Any:
     """Return an array of numbers, or a list of whatever else there is; with gaps, a list."""
-    if isinstance(values, Sequence):
-        return list(values)
     real = getattr(getattr(values, "dtype", None), "kind", "") in REAL
     array = np.asanyarray(values)
     if real and array.dtype.kind not in REAL:  # with pandas' own sign of what is missing
         array = np.asarray(values, dtype=np.float64)
-    plain = np.ma.getdata(array)
-    missing = np.ma.getmaskarray(array) | (gaps and plain != plain)
-    cells = floats(name, plain) if real else list(plain)
-    if not missing.any():
+    cells = floats(name, np.ma.getdata(array)) if real else list(np.ma.getdata(array))
+    gone = np.ma.getmaskarray(array)
+    if gaps:
+        gone = gone | (np.isnan(cells) if real else [_is_nan(cell) for cell in cells])
+    if not gone.any():
         return cells
-    return [GAP if gone else cell for cell, gone in zip(cells, missing.tolist(), strict=True)]
+    return [GAP if empty else cell for cell, empty in zip(cells, gone.tolist(), strict=True)]
+
+
+def _is_nan(cell: Any) -> bool:
+    return isinstance(cell, float | np.datetime64 | np.timedelta64) and cell != cell
 
 
 def _of_dataset(dataset: Any) -> Iterator[tuple[str, Column]]:

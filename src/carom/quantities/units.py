@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from decimal import Decimal
 from numbers import Integral, Real
 from typing import Any
@@ -252,14 +253,12 @@ def _of_text(name: str, text: str, unit: str, bare: Factor) -> float:
 
 def _of_pint(own: Any, unit: str) -> Factor:
     """Return how numbers in a unit of pint's become those in another, or raise Unreadable."""
-    quantity = type(1 * own)
-    wanted = quantity(1, "" if unit == "1" else unit)
-    kinds = (dict(each.to_root_units().unit_items()) for each in (quantity(1, own), wanted))
-    try:
+    with suppress(Exception):  # pint raises what it likes at units with an offset
+        quantity = type(1 * own)
+        wanted = quantity(1, "" if unit == "1" else unit)
+        kinds = (dict(each.to_root_units().unit_items()) for each in (quantity(1, own), wanted))
         if next(kinds) == next(kinds):
             nothing, one = (quantity(n, own).to(wanted.units).magnitude for n in (0, 1))
             if nothing == 0:  # no offset, no logarithm
                 return as_factor(float(one))
-    except Exception:  # pint raises what it likes at units with an offset
-        pass
     raise Unreadable(f"that is no {'pure number' if unit == '1' else f'value in {unit}'}")
