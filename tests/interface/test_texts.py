@@ -136,6 +136,8 @@ REFUSED = [  # text, quantity, part of the message
     ("1e400 m", "radius", "floating point"),
     ("1e-400 m", "radius", "floating point"),
     ("1e305 GPa", "young", "floating point"),  # a rigid body
+    ("5 Qm^9 Qm^9 m^-9 m^-8", "radius", "floating point"),
+    ("5 qm^9 qm^9 m^-9 m^-8", "radius", "floating point"),
     ("5 mm-3", "radius", "not a value in m"),
     ("20 %-1", "friction", "no unit"),
     ("0.2 1", "friction", "no unit"),

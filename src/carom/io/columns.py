@@ -93,14 +93,15 @@ def in_units(
     columns = {name: np.full(len(table.rows), nan) for name in table.names}
     results = Results(columns, table.rows, table.word, faults or Faults())
     units = {name: str(column.unit) for name, column in table.columns.items()}
-    known = [name for name in columns if name in set(known)]
-    for name in known:
+    wanted = set(known)
+    read = [name for name in columns if name in wanted]
+    for name in read:
         try:
             _check_error_unit(name, units)
             columns[name] = _column(name, table, entry(name) in gaps)
         except InputError as error:
             results.faults.add(str(error))
-    for name in known:
+    for name in read:
         if name in GLOSSARY and GLOSSARY[name].unit == "rad":
             _check_angle(results, name, units[name])
     return results

@@ -11,13 +11,14 @@ understand, is asked for the names of units alone.
 
 import re
 from functools import lru_cache
-from math import isinf, log10
+from math import inf, isinf, log10
 from typing import Any, NamedTuple
 
 import numpy as np
 
 LONGEST = 200  # characters of a text
 TERMS = 4  # of a unit expression
+CANNOT_HOLD = "floating point cannot hold it"
 
 BLANKS = " \t\u00a0\u2009\u202f"  # no-break and thin spaces, too
 MINUS = "\u2212"
@@ -48,9 +49,6 @@ SPEEDS = "knot mile_per_hour kilometer_per_hour meter_per_second foot_per_second
 RATIOS = "percent permille ppm"
 KINDS = (LENGTHS, MASSES, TIMES, FORCES, PRESSURES, ANGLES, SPINS, SPEEDS, RATIOS)
 UNITS = frozenset(" ".join(KINDS).split())  # pint's whole names; constants of nature are none
-
-
-CANNOT_HOLD = "floating point cannot hold it"
 
 
 class Unreadable(ValueError):
@@ -93,7 +91,9 @@ UNCHANGED = Factor(1.0, 1.0)
 
 
 def as_factor(ratio: float) -> Factor:
-    """Return the factor that is this ratio; powers of ten are exact."""
+    """Return the factor that is this ratio, powers of ten exactly, or raise Unreadable."""
+    if not 0.0 < ratio < inf:
+        raise Unreadable(CANNOT_HOLD)
     decades = round(log10(ratio))
     if abs(ratio - 10.0**decades) > 1e-12 * ratio:
         return Factor(ratio, 1.0)
@@ -151,20 +151,23 @@ def factor(expression: str, unit: str) -> Factor:
 def _factor(expression: str, unit: str) -> Factor | Unreadable:
     try:
         given, wanted = _root(_terms(expression)), _root(_terms("" if unit == "1" else unit))
+        if given[1] == wanted[1]:
+            return as_factor(given[0] / wanted[0])
     except Unreadable as error:
         return error
-    if given[1] != wanted[1]:
-        return Unreadable(
-            OTHER_KIND.get(unit, "that is not a value in {1}").format(expression or "1", unit)
-        )
-    return as_factor(given[0] / wanted[0])
+    except ArithmeticError:
+        return Unreadable(CANNOT_HOLD)
+    words = OTHER_KIND.get(unit, "that is not a value in {1}")
+    return Unreadable(words.format(expression or "1", unit))
 
 
 def _terms(expression: str) -> tuple[tuple[str, int], ...]:
     """Return names of units and their powers, or raise Unreadable."""
+    if not expression:  # that of pure numbers
+        return ()
     terms: list[tuple[str, int]] = []
     place, sign = 0, 1
-    while expression != "":  # that of pure numbers
+    while True:
         found = TERM.match(expression, place)
         if found is None or len(terms) == TERMS:
             raise Unreadable(f"{expression!r} is no unit")
@@ -180,7 +183,6 @@ def _terms(expression: str) -> tuple[tuple[str, int], ...]:
         if sign < 0:  # what a second slash, or a product after one, divides is not sure
             raise Unreadable(f"{expression!r} is no unit: after '/' stands one unit, as in kg/m^3")
         place, sign = step.end(), -1 if slash else 1
-    return ()
 
 
 def _root(terms: tuple[tuple[str, int], ...]) -> tuple[float, Any]:
