@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.io.tables import GAP, Cells, Rows, spelled
-from carom.quantities.arrays import Array
+from carom.quantities.arrays import Array, in_unit
 from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, nearest
 from carom.quantities.symbols import meant
-from carom.quantities.texts import UNCHANGED, Factor, Unreadable
+from carom.quantities.texts import UNCHANGED, Factor
 from carom.quantities.units import PURE, factor_of, number
 
 Mask = NDArray[np.bool_]
@@ -216,9 +216,9 @@ def column_in_si(name: str, si: str, unit: Any, cells: Any) -> tuple[Array, str]
     array([0.005, 0.006, 0.007,   nan])
     """
     own = factor_of(name, unit, si) if str(unit) else UNCHANGED
-    with suppress(Unreadable):  # where a number overflows, it is sought
+    with suppress(InputError):  # where a number overflows, it is sought
         if isinstance(cells, np.ndarray):
-            return np.asarray(own.apply(cells)), ""
+            return in_unit(name, cells, own), ""
     values, reason = np.full(len(cells), nan), ""
     for i, cell in enumerate(cells):
         try:

@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, refusal
-from carom.quantities.texts import CANNOT_HOLD, Unreadable, split
-from carom.quantities.units import REAL, as_float, factor_of, is_real, number, scaled, told_unit
+from carom.quantities.texts import CANNOT_HOLD, UNCHANGED, Factor, Unreadable, split
+from carom.quantities.units import REAL, as_float, factor_of, is_real, number, told_unit
 
 Array = NDArray[np.float64]
 
@@ -86,6 +86,17 @@ def floats(name: str, values: NDArray[Any]) -> Array:
     return found
 
 
+def in_unit(name: str, values: Array, own: Factor) -> Array:
+    """Return numbers in another unit, or raise InputError if one overflows."""
+    if own == UNCHANGED:
+        return values
+    with np.errstate(over="ignore"):
+        found = values * own.times / own.over
+    if np.any(np.isinf(found) & np.isfinite(values)):
+        raise refusal(name, values, CANNOT_HOLD)
+    return found
+
+
 def _bare(given: Any, reading: _Reading) -> Any:
     """Return numbers in SI units: one, an array, or nested lists of them; None for anything else.
 
@@ -101,7 +112,7 @@ def _bare(given: Any, reading: _Reading) -> Any:
     if told is not None:  # what has a unit holds plain numbers
         own = factor_of(reading.name, told, reading.unit)
         held = _read(plain, reading._replace(unit="1", texts=False))
-        return scaled(reading.name, given, held, own)
+        return in_unit(reading.name, held, own)
     if isinstance(plain, str):
         return number(reading.name, plain, reading.unit) if reading.texts else None
     if is_real(plain):

@@ -14,8 +14,6 @@ from functools import lru_cache
 from math import inf, isinf, log10
 from typing import Any, NamedTuple
 
-import numpy as np
-
 LONGEST = 200  # characters of a text
 TERMS = 4  # of a unit expression
 CANNOT_HOLD = "floating point cannot hold it"
@@ -71,18 +69,10 @@ class Factor(NamedTuple):
     times: float
     over: float
 
-    def apply(self, number: Any) -> Any:
-        """Return a float, or an array of them, in the other unit; Unreadable if it overflows."""
-        if self == UNCHANGED:
-            return number
-        if isinstance(number, float):
-            found: Any = number * self.times / self.over
-            lost = isinf(found) and not isinf(number)
-        else:
-            with np.errstate(over="ignore"):
-                found = number * self.times / self.over
-            lost = bool(np.any(np.isinf(found) & np.isfinite(number)))
-        if lost:
+    def apply(self, number: float) -> float:
+        """Return a float in the other unit, or raise Unreadable if it overflows."""
+        found = number * self.times / self.over
+        if isinf(found) and not isinf(number):
             raise Unreadable(CANNOT_HOLD, enough=True)
         return found
 
@@ -112,7 +102,7 @@ def read_text(text: str, unit: str, bare: Factor = UNCHANGED) -> float:
     (-3.0, 0.2, 7.0)
     """
     value, expression = split(text)
-    return float((factor(expression, unit) if expression else bare).apply(value))
+    return (factor(expression, unit) if expression else bare).apply(value)
 
 
 def split(text: str) -> tuple[float, str]:

@@ -66,7 +66,7 @@ def number(name: str, value: Any, unit: str | None = None, bare: Factor = UNCHAN
     if math.isnan(result):
         raise refusal(name, value, _expected(unit))
     own = bare if told is None else factor_of(name, told, unit)
-    return float(scaled(name, value, result, own))
+    return _scaled(name, value, result, own)
 
 
 def pure_number(name: str, value: Any, allowed: str = "give one number") -> float:
@@ -78,7 +78,7 @@ def pure_number(name: str, value: Any, allowed: str = "give one number") -> floa
     if not is_real(plain):
         raise refusal(name, value, allowed)
     own = UNCHANGED if told is None else factor_of(name, told, "1")
-    return float(scaled(name, value, as_float(name, plain), own))
+    return _scaled(name, value, as_float(name, plain), own)
 
 
 def is_real(value: Any) -> bool:
@@ -154,14 +154,6 @@ def factor_of(name: str, own: Any, unit: str) -> Factor:
         return _of_pint(own, unit)
     except Unreadable as error:
         raise refusal(name, str(own), f"{error}; {_expected(unit)}") from None
-
-
-def scaled(name: str, given: Any, floats: Any, own: Factor) -> Any:
-    """Return a float, or an array of them, in another unit, or raise InputError if it overflows."""
-    try:
-        return own.apply(floats)
-    except Unreadable as error:
-        raise refusal(name, given, str(error)) from None
 
 
 def positive(name: str, value: Any, unit: str | None = None) -> float:
@@ -241,6 +233,13 @@ def _expected(unit: str) -> str:
     if unit == "1":
         return "give a number, e.g. 0.3 or '30 %'"
     return f"give a number in {unit}, or text with a unit such as {HINTS.get(unit, f'3 {unit}')!r}"
+
+
+def _scaled(name: str, given: Any, found: float, own: Factor) -> float:
+    try:
+        return own.apply(found)
+    except Unreadable as error:
+        raise refusal(name, given, str(error)) from None
 
 
 def _of_text(name: str, text: str, unit: str, bare: Factor) -> float:
