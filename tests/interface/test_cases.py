@@ -33,6 +33,15 @@ material = "glass"
 """
 
 
+@pytest.mark.parametrize("young", ["inf", "1e999", "nan", "-inf"])
+def test_a_number_of_a_file_is_finite(tmp_path, young):
+    """It would be a rigid body; that is said by the name of its material."""
+    path = tmp_path / "case.toml"
+    path.write_text(TOML.replace('"210 GPa"', young))
+    with pytest.raises(InputError, match=f"young: '{young}' cannot be used"):
+        pair_of(read_case(path))
+
+
 def test_a_file_makes_the_pair_that_it_describes(tmp_path):
     """Against the same pair made by hand; the second sphere takes the radius of the first."""
     path = tmp_path / "case.toml"

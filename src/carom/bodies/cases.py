@@ -14,7 +14,7 @@ from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.io.files import read_text
 from carom.quantities.faults import TOLD, Faults
 from carom.quantities.refusals import InputError, hint, refusal
-from carom.quantities.units import finite, not_negative, number, positive
+from carom.quantities.units import finite, finite_or_text, not_negative, number, positive
 
 if TYPE_CHECKING:
     from carom.bodies.losses import NormalLaw
@@ -54,7 +54,7 @@ def read_case(path: Path, *, losses: bool = False) -> Case:
         text = read_text("case file", path)
         if DEEP.search(text):  # which takes memory with the square of the depth
             raise RecursionError
-        case = tomllib.loads(text)
+        case = tomllib.loads(text, parse_float=finite_or_text)
     except UnicodeDecodeError:
         raise InputError(f"case file: {str(path)!r} is not text; give a TOML file") from None
     except InputError:

@@ -12,7 +12,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from carom.io.columns import column_in_si
-from carom.io.tables import name_and_unit, read_table
+from carom.io.tables import read_table
 from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError
@@ -90,10 +90,10 @@ def _read(
     inputs: dict[str, NDArray[Any]] = {}
     choices: dict[str, tuple[Choice, ...]] = {}
     with Faults() as faults:
-        for head, cells in table.cells.items():
-            name, unit = name_and_unit(head)
+        for name in table.names:
             try:
                 checked_names([name])
+                unit, cells = table.column(name)
                 if name in CHOSEN:
                     inputs[name], choices[name] = _chosen(name, cells)
                 else:
