@@ -17,12 +17,13 @@ from carom.cli.explore import explore_command
 from carom.cli.fit import fit_command
 from carom.cli.impact import impact_command
 from carom.cli.materials import materials_command
+from carom.cli.once import Commands
 from carom.cli.sweep import sweep_command
 from carom.cli.verify import app as verify_app
 from carom.quantities.refusals import InputError, nearest
 from carom.quantities.symbols import meant, remark
 
-app = typer.Typer(
+app = Commands(
     name="carom",
     help="How an elastic sphere leaves an oblique impact, and what happens inside the contact.",
     no_args_is_help=True,
