@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import carom
 from carom.bodies.cases import case_of
@@ -96,6 +97,35 @@ def test_bodies_may_stand_in_the_file(tmp_path):
     assert fit(path, **options).friction.value == pytest.approx(
         fit(GOOD, pair=PAIR, **options).friction.value, rel=1e-6
     )
+
+
+BODY = '"first": {"radius": 0.005, "material": "steel"}'
+
+
+@pytest.mark.parametrize(
+    ("case", "words"),
+    [
+        ('{"friktion": 0.2, %s}', "friktion: unknown key; did you mean 'friction'"),
+        ('{"secnd": {"kind": "sphere"}, %s}', "secnd: unknown key; did you mean 'second'"),
+        ('{"second": {"knid": "sphere"}, %s}', "knid: unknown key; did you mean 'kind'"),
+        ('{"friction": 0.2, "friction": 0.9, %s}', "friction: it is given twice"),
+        ('{%s, "second": {"kind": "cup", "kind": "sphere"}}', "kind: it is given twice"),
+        ('{"first": 5}', "first: 5 cannot be used; must be a table"),
+        ('{"first": [1]}', "first: .* must be a table"),
+        ('{"second": "sphere", %s}', "second: 'sphere' cannot be used; must be a table"),
+        ("[1]", "no JSON of the bodies"),
+    ],
+)
+def test_bodies_in_the_file_are_read_as_strictly_as_a_case_file(case, words, tmp_path):
+    """In fits as in scores; in a comment, and in the attribute of a dataset."""
+    text = case.replace("%s", BODY)
+    path = tmp_path / "rebounds.csv"
+    path.write_text(f"# case: {text}\nangle [deg],contact_beta\n10,0.1\n20,0.2\n")
+    dataset = xr.Dataset({name: ("row", values) for name, values in GOOD.items()})
+    for source in (path, dataset.assign_attrs(case=text)):
+        with pytest.raises(carom.InputError, match=words) as told:
+            fit(source)
+        assert "\n" not in str(told.value)
 
 
 def test_what_was_not_used_is_told():

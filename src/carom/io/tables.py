@@ -61,7 +61,9 @@ class Cells(Rows):
         if "case" not in self.comments:
             return None
         try:
-            return dict(json.loads(self.comments["case"]))
+            return dict(json.loads(self.comments["case"], object_pairs_hook=_given_once))
+        except InputError:
+            raise
         except (ValueError, TypeError, RecursionError):
             raise InputError(f"results: after '{CASE}' there is no JSON of the bodies") from None
 
@@ -121,6 +123,14 @@ def name_and_unit(head: str) -> tuple[str, str]:
     """Return name and unit of a column from its head, "spin [rpm]" or "spin (rpm)"."""
     name, unit = _parts(ALIASES.get(head.strip(), head))
     return ALIASES.get(name, name), "" if unit in PLAIN else unit
+
+
+def _given_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Return an object of JSON, which takes the last of keys that are alike; InputError for such."""
+    for name, count in Counter(name for name, _ in pairs).items():
+        if count > 1:
+            raise InputError(f"{name}: it is given twice after '{CASE}'; leave one of them out")
+    return dict(pairs)
 
 
 def spelled(name: str) -> str:
