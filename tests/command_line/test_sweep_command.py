@@ -138,6 +138,11 @@ def test_file_that_the_case_names_is_written(run):
         ('["rebound_angle", "spin_out"]', '"spin_out"', ("outputs", "list of names")),
         ("[sweep]", '[output]\nplot = "hit.png"\n[sweep]', ("plot", "a sweep draws none")),
         ("[sweep.axes]", "[sweep.axes.first]", ("first.angle",)),
+        (
+            "friction = [0.1, 0.3]",
+            '"first.radius" = [0.001]\nfirst.radius = [0.002]',
+            ("first.radius: it is given twice in [sweep.axes]",),
+        ),
     ],
 )
 def test_refuses_in_one_line(run, old, new, words):

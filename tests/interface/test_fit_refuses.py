@@ -64,12 +64,34 @@ def test_bad_columns(changes, words):
         ({"fixed": {"restitution": "2 m"}}, "it has a unit"),
         ({"fixed": 5}, "values by name"),
         ({"vary": ["friction"], "fixed": {"friction": 0.1}}, "both varied and fixed"),
+        ({"vary": 5}, "vary: 5 cannot be used; must be names of friction, kappa"),
+        ({"vary": [np.arange(2)]}, "vary: an array of shape"),
         ({"confidence": 95}, "between 0.5 and 1"),
+        ({"confidence": "0.9_5"}, "confidence: '0.9_5' cannot be used"),
+        ({"confidence": b"0.95"}, "confidence: b'0.95' cannot be used"),
+        ({"confidence": "０.９５"}, "confidence: .* cannot be used"),
+        ({"confidence": xr.DataArray(0.5, attrs={"units": "mm"})}, "confidence: 'mm' cannot be"),
+        ({"confidence": 10**400}, "confidence: .*floating point cannot hold it"),
+        ({"robust": "no"}, "robust: 'no' cannot be used; must be True or False"),
+        ({"robust": None}, "robust: None cannot be used"),
+        ({"robust": np.array([])}, "robust: an array of shape .* cannot be used"),
     ],
 )
 def test_bad_options(options, words):
     with pytest.raises(carom.InputError, match=words):
         fit(GOOD, **{"pair": PAIR, **options})
+
+
+def test_a_long_name_is_told_in_a_short_line():
+    with pytest.raises(carom.InputError, match="is no parameter") as told:
+        fit(GOOD, pair=PAIR, vary="x" * 5000)
+    assert len(str(told.value)) < 300
+
+
+def test_a_confidence_in_percent_is_the_ratio():
+    """As the commands read it."""
+    one, other = (fit(GOOD, pair=PAIR, confidence=level) for level in (0.9, "90 %"))
+    assert one.to_dict() == other.to_dict()
 
 
 def test_too_few_values_are_counted():

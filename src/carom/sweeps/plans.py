@@ -84,8 +84,9 @@ def _flat(axes: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     """Return axes by dotted names; first.radius without quotes is a table in a table for TOML."""
     flat: dict[str, Any] = {}
     for name, axis in axes.items():
-        if isinstance(axis, Mapping) and axis and not axis.keys() & {"from", "to", "points"}:
-            flat |= _flat(axis, f"{prefix}{name}.")
-        else:
-            flat[prefix + name] = axis
+        nested = isinstance(axis, Mapping) and axis and not axis.keys() & {"from", "to", "points"}
+        found = _flat(axis, f"{prefix}{name}.") if nested else {prefix + name: axis}
+        for twice in flat.keys() & found.keys():
+            raise InputError(f"{twice}: it is given twice in [sweep.axes]; leave one of them out")
+        flat |= found
     return flat
