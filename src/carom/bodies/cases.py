@@ -186,7 +186,7 @@ def read_loss(name: str, value: Any) -> float | None:
 
 def as_kind(kind: Any) -> str:
     """Return the kind of a second body, or raise InputError if there is none of that name."""
-    if kind not in KINDS:
+    if not isinstance(kind, str) or kind not in KINDS:
         raise refusal("kind", kind, f"must be {', '.join(KINDS[:-1])} or {KINDS[-1]}")
     return str(kind)
 

@@ -5,6 +5,7 @@ the rest of the package, for third-party packages that are heavy or optional.
 """
 
 import logging
+import os
 import sys
 import warnings
 
@@ -89,6 +90,7 @@ def _refuse(message: str) -> int:
 def run() -> None:
     """Run a command from the shell, in a process of its own."""
     cases.may_interpret = True
+    os.environ["MPLBACKEND"] = "agg"  # for files: no screen, and no backend that is not there
     _quieten()
     sys.exit(main())
 

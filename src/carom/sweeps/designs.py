@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.bodies.plausibility import doubts_of_values
 from carom.quantities.refusals import refusal
 from carom.quantities.units import counted
 from carom.sweeps.axes import Range, read_axis, read_range
@@ -18,6 +19,7 @@ from carom.sweeps.inputs import (
     Choices,
     checked_names,
     input_attributes,
+    leaf,
     read_choices,
     variable,
 )
@@ -67,6 +69,16 @@ class Design(ABC):
     @abstractmethod
     def description(self) -> dict[str, Any]:
         """Return what tells this design from others, as JSON can hold it."""
+
+    def doubts(self) -> tuple[str, ...]:
+        """Return what is hardly meant among the inputs, in words."""
+        numbers = [
+            (leaf(name), given[:2] if isinstance(given, Range) else given)
+            for name, given in self._given.items()
+            if name not in self.choices
+        ]
+        options = (choice for choices in self.choices.values() for choice in choices)
+        return doubts_of_values([*numbers, *(each for one in options for each in one.values.items())])
 
     def _described(self, describe: Callable[[Any], Any]) -> dict[str, Any]:
         """Return by input its choices, or what describes its values or range."""

@@ -110,7 +110,8 @@ def refuse_contradictions(names: Iterable[str]) -> None:
 
 def read_choices(name: str, given: Any) -> tuple[Choice, ...]:
     """Return the choices of an input that has names, or raise InputError."""
-    listed = given if isinstance(given, list | tuple | np.ndarray) else [given]
+    plain = np.atleast_1d(given).tolist() if isinstance(given, np.ndarray) else given
+    listed = plain if isinstance(plain, list | tuple) else [plain]
     return checked_choices(name, [read_choice(name, value) for value in listed])
 
 
