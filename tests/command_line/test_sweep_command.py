@@ -172,7 +172,7 @@ def test_what_is_hardly_meant_is_told_wherever_it_stands(run, design):
     """In axes, ranges and columns as outside of them."""
     Path("cases.csv").write_text(TABLE)
     stuff = 'second.material = "steel"\n' + ("" if "axes" in design else MATERIAL)
-    Path("case.toml").write_text(f'speed = 1\nfriction = 0.2\nfirst.radius = 1\n{stuff}{design}')
+    Path("case.toml").write_text(f"speed = 1\nfriction = 0.2\nfirst.radius = 1\n{stuff}{design}")
     code, _, err = run("case.toml")
     assert code == 0
     told = {"carom: a radius of 5 m; write '5 mm'?", "carom: a Young's modulus of 210 Pa"}

@@ -69,7 +69,7 @@ def test_bad_columns(changes, words):
         ({"confidence": 95}, "between 0.5 and 1"),
         ({"confidence": "0.9_5"}, "confidence: '0.9_5' cannot be used"),
         ({"confidence": b"0.95"}, "confidence: b'0.95' cannot be used"),
-        ({"confidence": "０.９５"}, "confidence: .* cannot be used"),
+        ({"confidence": "\u0660.\u0669"}, "confidence: .* cannot be used"),
         ({"confidence": xr.DataArray(0.5, attrs={"units": "mm"})}, "confidence: 'mm' cannot be"),
         ({"confidence": 10**400}, "confidence: .*floating point cannot hold it"),
         ({"robust": "no"}, "robust: 'no' cannot be used; must be True or False"),

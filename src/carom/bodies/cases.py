@@ -253,7 +253,9 @@ def _as_table(value: Any) -> Any:
     if isinstance(value, Mapping):
         for key in value:
             if key not in MATERIAL:
-                raise InputError(f"{clipped(str(key))}: unknown in a material; {hint(key, MATERIAL)}")
+                raise InputError(
+                    f"{clipped(str(key))}: unknown in a material; {hint(key, MATERIAL)}"
+                )
     return value
 
 

@@ -126,7 +126,7 @@ def name_and_unit(head: str) -> tuple[str, str]:
 
 
 def _given_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Return an object of JSON, which takes the last of keys that are alike; InputError for such."""
+    """Return an object of JSON, or raise InputError for keys that are alike: it takes the last."""
     for name, count in Counter(name for name, _ in pairs).items():
         if count > 1:
             raise InputError(f"{name}: it is given twice after '{CASE}'; leave one of them out")

@@ -3,6 +3,7 @@
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from itertools import chain
 from typing import Any, ClassVar
 
 import numpy as np
@@ -77,8 +78,9 @@ class Design(ABC):
             for name, given in self._given.items()
             if name not in self.choices
         ]
-        options = (choice for choices in self.choices.values() for choice in choices)
-        return doubts_of_values([*numbers, *(each for one in options for each in one.values.items())])
+        for choice in chain.from_iterable(self.choices.values()):
+            numbers += choice.values.items()
+        return doubts_of_values(numbers)
 
     def _described(self, describe: Callable[[Any], Any]) -> dict[str, Any]:
         """Return by input its choices, or what describes its values or range."""
