@@ -47,7 +47,9 @@ PLAIN = {
     "of another program": xr.Dataset({"a": ROW}, attrs={"source": "LAMMPS", "title": "mine"}),
     "names of CF": xr.Dataset({"speed": (*ROW, CF), "a": ("row", [1, 2, 3], CF)}, attrs=CF),
     "names": xr.Dataset({name: (("row", name), [[1.0], [2.0]], {name: 1}) for name in NAMES}),
-    "words": xr.Dataset({"a": ("row", ["", "a\nb", '"#,;\t', "\u2028\x85", "None", "nan"])}),
+    "words": xr.Dataset(
+        {"a": ("row", ["", "a\nb", "c\rd", "\r\n", '"#,;\t', "\u2028\x85", "None", "nan"])}
+    ),
     "words of pandas": xr.Dataset.from_dataframe(pd.DataFrame({"a": ["x", "yä"], "b": [1, 2]})),
     "no rows": xr.Dataset({"a": ("row", []), "b": ("row", np.array([], np.str_))}),
     "types": xr.Dataset({t: ("row", np.arange(3).astype(t)) for t in KINDS}),
@@ -71,7 +73,6 @@ REFUSED = {
     "mixed": changed(x=("row", np.array(["a", 1, 2.0], object))),
     "categories": changed(x=("row", pd.Categorical([*"aba"]))),
     "NUL": changed(x=("row", ["a", "a\0b", "c"])),
-    "carriage return": changed(x=("row", ["a", "a\rb", "c"])),
     "half a character": changed(x=("row", ["a", "\ud800", "c"])),
     "pint": changed(x=("row", pint.UnitRegistry().Quantity(np.ones(3), "mm"))),
     "multi-index": xr.Dataset(
@@ -133,7 +134,7 @@ def test_what_is_saved_is_not_changed(tmp_path):
 def test_random_datasets_are_alike_in_both_formats(seed, tmp_path):
     """Either both give it back, or both refuse it."""
     rng = np.random.default_rng(seed)
-    letters = [*'aµ \n#,"\t', "\0", "\r", "/"]
+    letters = [*"aµ \n#,\"\r", "\0", "\t", "/"]
     weights = np.array([8.0] * 8 + [0.3] * 3) / 64.9
 
     def text():

@@ -15,6 +15,7 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 from hashlib import sha256
 from io import StringIO
 from math import isfinite, prod
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -114,12 +115,13 @@ def _digest(text: str) -> str:
 
 def rows_of(columns: Mapping[Any, Sequence[Any]]) -> str:
     """Return columns as CSV: their names, and below them a line for each row."""
-    stream = StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
+    lines: list[str] = []
+    stream = SimpleNamespace(write=lambda line: lines.append(f"{line[:-2]}\n"))
+    writer = csv.writer(stream, lineterminator="\r\n")  # that it quotes either of them in a text
     if columns:
         writer.writerow(columns)
         writer.writerows(zip(*columns.values(), strict=True))
-    return stream.getvalue()
+    return "".join(lines)
 
 
 def _rebuilt(head: list[dict[str, Any]], rows: list[list[str]]) -> "xr.Dataset":

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 HELD = "CSV holds numbers, words and truth values; so does .nc, as Carom stores it"
 ATTRIBUTE = "an attribute is a text, a number, or a list of two or more texts or numbers"
-UNFIT = re.compile("[\0\r\ud800-\udfff]")  # in texts; the last are halves of a character
+UNFIT = re.compile("[\0\ud800-\udfff]")  # in texts: NUL, halves of a character
 UNFIT_NAME = re.compile("#|[.]$|.*[\0-\x1f\x7f/\ud800-\udfff]")
 NUMBERS = (int, float, np.integer, np.floating)
 WIDEST = 8  # bytes of a number
@@ -70,7 +70,7 @@ def _check_values(name: str, item: "xr.Variable") -> None:
 
 def _check_text(name: str, text: str) -> None:
     if UNFIT.search(text):
-        raise refusal(name, text, "a text to store has no NUL, no \\r, no half of a character")
+        raise refusal(name, text, "a text to store has no NUL and no half of a character")
 
 
 def _attributes(given: Mapping[Any, Any]) -> dict[Any, Any]:
