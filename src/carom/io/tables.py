@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from carom.io.csv_cells import MOST_COLUMNS, read_csv
 from carom.io.paths import checked_path
-from carom.quantities.refusals import InputError, nearest, refusal
+from carom.quantities.refusals import InputError, clipped, nearest, refusal
 from carom.quantities.texts import LONGEST
 
 ALIASES = {"psi_1": "psi_in", "psi_2": "psi_out", "angle_deg": "angle [deg]"}
@@ -129,7 +129,8 @@ def _given_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """Return an object of JSON, or raise InputError for keys that are alike: it takes the last."""
     for name, count in Counter(name for name, _ in pairs).items():
         if count > 1:
-            raise InputError(f"{name}: it is given twice after '{CASE}'; leave one of them out")
+            words = f"it is given twice after '{CASE}'; leave one of them out"
+            raise InputError(f"{clipped(name)}: {words}")
     return dict(pairs)
 
 

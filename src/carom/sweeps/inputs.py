@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.bodies import cases
 from carom.io.labels import attributes
-from carom.quantities.refusals import InputError, hint, refusal
+from carom.quantities.refusals import InputError, clipped, hint, refusal
 from carom.quantities.symbols import meant, remark
 
 CODE = np.int8
@@ -84,7 +84,7 @@ def checked_names(given: Iterable[Any]) -> tuple[str, ...]:
         raise InputError("design: no inputs; give at least one, e.g. 'angle'")
     for name in names:
         if name not in INPUTS:
-            raise InputError(f"{name}: not an input of an impact; {_hint(name)}")
+            raise InputError(f"{clipped(str(name))}: not an input of an impact; {_hint(name)}")
     refuse_contradictions(names)
     return names
 
