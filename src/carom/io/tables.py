@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from carom.io.csv_cells import MOST_COLUMNS, read_csv
 from carom.io.paths import checked_path
 from carom.quantities.arrays import floats
-from carom.quantities.refusals import InputError, nearest, refusal
+from carom.quantities.refusals import InputError, clipped, nearest, refusal
 from carom.quantities.texts import LONGEST, UNCHANGED
 from carom.quantities.units import REAL, factor_of, finite_or_text, told_unit, two_units
 
@@ -82,7 +82,12 @@ class Cells(Rows):
         if "case" not in self.comments:
             return None
         try:
-            return dict(json.loads(self.comments["case"], parse_float=finite_or_text))
+            read = json.loads(
+                self.comments["case"], parse_float=finite_or_text, object_pairs_hook=_given_once
+            )
+            return dict(read)
+        except InputError:
+            raise
         except (ValueError, TypeError, RecursionError):
             raise InputError(f"results: after '{CASE}' there is no JSON of the bodies") from None
 
@@ -147,6 +152,15 @@ def name_and_unit(head: str) -> tuple[str, str]:
     """Return name and unit of a column from its head, "spin [rpm]" or "spin (rpm)"."""
     name, unit = _parts(ALIASES.get(head.strip(), head))
     return ALIASES.get(name, name), unit
+
+
+def _given_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Return an object of JSON, or raise InputError for keys that are alike: it takes the last."""
+    for name, count in Counter(name for name, _ in pairs).items():
+        if count > 1:
+            words = f"it is given twice after '{CASE}'; leave one of them out"
+            raise InputError(f"{clipped(name)}: {words}")
+    return dict(pairs)
 
 
 def spelled(name: str) -> str:
