@@ -3,6 +3,7 @@ integrated by scipy."""
 
 import re
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from math import gamma, log, pi, sqrt
 
 import numpy as np
@@ -186,6 +187,12 @@ def test_recipes_hold_the_stiffnesses(name, e):
         assert printed == pytest.approx(expected[code], rel=1e-4, abs=1e-5), code
         assert not any(n.startswith("-") for n in numbers), code
     assert ("coeff_restitution" in found["LAMMPS Hertz"]) == (e != 1.0)
+
+
+@pytest.mark.parametrize("wanted", ["90 %", "0.9", Fraction(9, 10), np.float64(0.9)])
+def test_a_wanted_restitution_is_read_as_any_number(wanted):
+    pair = PAIRS["steel on steel"]
+    assert recipes(pair, SPEED, wanted) == recipes(pair, SPEED, 0.9)
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from carom import InputError
+from carom import InputError, sweep
 from carom.sweeps.designs import Grid, LatinHypercube
 from carom.sweeps.tables import Table
 
@@ -181,12 +181,25 @@ CUBE = {"friction": (0.1, 0.2)}
         (lambda: Table({"angle [kg]": [1]}), "angle: .*kg"),
         (lambda: Table({"angle": [1], "angle [deg]": [1]}), "two columns"),
         (lambda: Table(5), "table: 5"),
+        (lambda: LatinHypercube({"angle": np.array(0.5)}, samples=2), "angle: .*must be a range"),
+        (lambda: Grid({"second.kind": [np.array(["cup", "cup"])]}), "kind: an array of shape"),
+        (lambda: Table({"first.material": [{"young": 1e9}]}), "first.material: .*holds texts"),
+        (lambda: sweep({}, object()), "design: .*must be a Grid"),
+        (lambda: sweep({}, Grid), "design: .*must be a Grid"),
+        (lambda: sweep({"second": {"kind": np.array(["cup"])}}, Grid(CUBE)), "kind: an array"),
     ],
 )
 def test_what_is_no_design_is_refused_in_a_line(make, message):
     with pytest.raises(InputError, match=message) as refused:
         make()
     assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("given", ["glass", np.array("glass"), np.array(["glass"])])
+def test_one_name_is_an_axis_of_one(given):
+    """However it is given; its label is a plain text."""
+    (label,) = Grid({"second.material": given}).coords()["second_material"][1]
+    assert (type(label), label) == (str, "glass")
 
 
 @pytest.mark.parametrize("text", ["", "angle,friction\n1,2,3\n", "angle\n1\n2,3\n", "angle\n"])

@@ -1,6 +1,7 @@
 """The commands, as a user would type them."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -207,6 +208,16 @@ def test_an_existing_file_survives_a_failed_write(run, monkeypatch):
     assert "disk full" in err
     assert Path("keep.csv").read_text() == "precious"
     assert [path.name for path in Path().iterdir()] == ["keep.csv"]
+
+
+def test_figures_need_no_screen(tmp_path):
+    """Whatever backend of matplotlib is set, be there one or not."""
+    command = [*BALL, *SPEED, "--plot", str(tmp_path / "hit.png")]
+    program = f"import sys; sys.argv[1:] = {command!r}; from carom.cli import run; run()"
+    environment = {**os.environ, "MPLBACKEND": "bogus"}
+    done = subprocess.run([sys.executable, "-c", program], env=environment, check=False)
+    assert done.returncode == 0
+    assert (tmp_path / "hit.png").read_bytes().startswith(b"\x89PNG")
 
 
 def loaded_by(program):

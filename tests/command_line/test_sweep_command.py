@@ -138,6 +138,11 @@ def test_file_that_the_case_names_is_written(run):
         ('["rebound_angle", "spin_out"]', '"spin_out"', ("outputs", "list of names")),
         ("[sweep]", '[output]\nplot = "hit.png"\n[sweep]', ("plot", "a sweep draws none")),
         ("[sweep.axes]", "[sweep.axes.first]", ("first.angle",)),
+        (
+            "friction = [0.1, 0.3]",
+            '"first.radius" = [0.001]\nfirst.radius = [0.002]',
+            ("first.radius: it is given twice in [sweep.axes]",),
+        ),
     ],
 )
 def test_refuses_in_one_line(run, old, new, words):
@@ -145,6 +150,41 @@ def test_refuses_in_one_line(run, old, new, words):
     code, out, err = run("case.toml")
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert [word for word in words if word not in err] == [], err
+
+
+AXES = """\
+[sweep.axes]
+"first.radius" = [0.005, 5]
+first.material.young = [210, "200 GPa"]
+first.material.poisson = [0.3, 0.2]
+first.material.density = [7850, 7800]
+"""
+MATERIAL = "first.material = {poisson = 0.3, density = 7850}\n"
+TABLE = "first.radius,first.material.young\n0.005,200 GPa\n,nan\n5,210\n"
+
+
+@pytest.mark.parametrize(
+    "design",
+    [AXES, f"[sweep]\nsamples = 3\n{AXES}", '[sweep]\ntable = "cases.csv"\n'],
+    ids=["grid", "samples", "table"],
+)
+def test_what_is_hardly_meant_is_told_wherever_it_stands(run, design):
+    """In axes, ranges and columns as outside of them."""
+    Path("cases.csv").write_text(TABLE)
+    stuff = 'second.material = "steel"\n' + ("" if "axes" in design else MATERIAL)
+    Path("case.toml").write_text(f"speed = 1\nfriction = 0.2\nfirst.radius = 1\n{stuff}{design}")
+    code, _, err = run("case.toml")
+    assert code == 0
+    told = {"carom: a radius of 5 m; write '5 mm'?", "carom: a Young's modulus of 210 Pa"}
+    assert {line.partition("; write '210")[0] for line in err.splitlines()[:2]} == told
+
+
+def test_a_single_impact_tells_that_it_leaves_the_sweep_out(capsys, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    Path("case.toml").write_text(CASE)
+    for arguments in (["impact", "case.toml"], ["verify", "tune", "case.toml"]):
+        assert main(arguments) == 0
+        assert "[sweep] is left out; carom sweep computes" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

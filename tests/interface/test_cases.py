@@ -1,6 +1,7 @@
 """Cases as mappings: what they say is what the bodies and speeds then are."""
 
 import math
+import time
 
 import pytest
 
@@ -31,6 +32,15 @@ material = {young = "210 GPa", poisson = 0.3, density = 7850}
 kind = "sphere"
 material = "glass"
 """
+
+
+@pytest.mark.parametrize("young", ["inf", "1e999", "nan", "-inf"])
+def test_a_number_of_a_file_is_finite(tmp_path, young):
+    """It would be a rigid body; that is said by the name of its material."""
+    path = tmp_path / "case.toml"
+    path.write_text(TOML.replace('"210 GPa"', young))
+    with pytest.raises(InputError, match=f"young: '{young}' cannot be used"):
+        pair_of(read_case(path))
 
 
 def test_a_file_makes_the_pair_that_it_describes(tmp_path):
@@ -93,3 +103,38 @@ def test_all_unknown_keys_are_counted_and_the_first_are_told(tmp_path):
     assert message.startswith("30 faults: (1) k0: unknown key in ")
     assert message.endswith("; and 18 more")
     assert message.count("unknown key") == 12
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (" " * 150_000 + "\nfriktion = 0.2\n", "friktion: unknown key in .*, line 2; did you mean"),
+        ("\t" * 150_000 + "[first]\nradios = 1\n", "radios: unknown key in .*, line 2; did you"),
+        ("k" * 150_000 + " = 1\n", "kkk[.]{3}: unknown key in .*, line 1; known are"),
+    ],
+    ids=["blanks", "tabs", "key"],
+)
+def test_long_lines_are_read_at_once(text, told, tmp_path):
+    """In time that grows as they do, with an error that does not."""
+    path = tmp_path / "case.toml"
+    path.write_text(text)
+    begin = time.monotonic()
+    with pytest.raises(InputError, match=told) as found:
+        carom.read(path)
+    assert time.monotonic() - begin < 5.0
+    assert len(str(found.value)) < 600
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (",".join(f"{i}=1" for i in range(120_000)), "0: unknown in a material"),
+        (f"{'young=1,' * 100_000}young=2", "young: .* it is given twice"),
+    ],
+    ids=["unknown", "twice"],
+)
+def test_a_long_material_is_read_at_once(text, told):
+    begin = time.monotonic()
+    with pytest.raises(InputError, match=told):
+        read_material(text)
+    assert time.monotonic() - begin < 5.0

@@ -1,17 +1,22 @@
 """Columns of users: separators, line ends, units, gaps; and one clear line for what is wrong."""
 
 import math
+from decimal import Decimal
+from fractions import Fraction
 
 import numpy as np
+import pandas as pd
+import pint
 import pytest
 import xarray as xr
 
 import carom
-from carom.io.columns import in_units, others, with_errors
+from carom.io.columns import column_in_si, in_units, others, with_errors
 from carom.io.tables import read_table
 from carom.quantities.refusals import InputError
 from carom.quantities.units import number
 
+QUANTITY = pint.UnitRegistry().Quantity
 KNOWN = with_errors(("angle", "speed", "spin_out", "tangential_restitution", "rebound_angle"))
 GAPS = ("spin_out", "tangential_restitution", "rebound_angle")
 TEXT = "angle [deg],spin_out [rpm]\n30,-60\n45,-120\n"
@@ -43,6 +48,9 @@ def read(source):
         TEXT.encode("utf-8-sig"),
         TEXT.replace("\n", "\r\n").replace(",", ";").encode("utf-8-sig"),
         TEXT.replace(",", " , ").replace("[", "(").replace("]", ")"),
+        TEXT.replace("[", "[ ").replace("]", " ]"),
+        "sep=,\n" + TEXT,
+        "sep=;\r\n" + TEXT.replace(",", ";"),
         TEXT.rstrip("\n"),
         '"angle [deg]","spin_out [rpm]"\n"30","-60"\n\n# remark, of no account; none\n45,-120\n',
         "angle,spin_out\n30 deg,-60 rpm\n45 deg,-120 rpm\n",
@@ -106,6 +114,165 @@ def test_a_labelled_dataset_is_a_table():
     assert read_table(data).case == {"friction": 0.3}
     with pytest.raises(InputError, match="angle: not a number in row 1"):
         read(data.assign(angle=("point", [np.nan, 20.0], {"units": "deg"})))
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"spin_out": (("point", "ball"), np.ones((2, 2)))}, "spin_out: it runs along point and b"),
+        ({"spin_out": ("ball", [1.0, 2.0])}, "spin_out: it runs along ball, the rows along point"),
+    ],
+)
+def test_variables_of_a_dataset_along_other_dimensions_are_no_columns(changes, words):
+    """Refused where they would be used; of other names they are told among those not used."""
+    data = xr.Dataset({"angle": ("point", [0.1, 0.2])})
+    with pytest.raises(InputError, match=words):
+        read(data.assign(changes))
+    renamed = data.assign({f"of_a_{name}": value for name, value in changes.items()})
+    assert read(renamed)["angle"].tolist() == [0.1, 0.2]
+    assert "of_a_spin_out" in others(read_table(renamed), KNOWN)
+
+
+def test_one_value_of_a_dataset_is_that_of_every_row():
+    """What .sel and .isel leave behind."""
+    data = xr.Dataset({"angle": ("point", [0.1, 0.2])}, coords={"speed": 3.0, "lab": "north"})
+    assert read(data)["speed"].tolist() == [3.0, 3.0]
+    assert others(read_table(data), KNOWN) == ("lab",)
+
+
+def test_a_data_frame_and_the_dataset_of_it_are_one_table():
+    frame = pd.DataFrame({"angle [deg]": [30.0, 45.0], "spin_out [rpm]": [-60.0, np.nan]})
+    given = read(frame.to_xarray())
+    np.testing.assert_allclose(given["angle"], RADIANS, rtol=1e-14)
+    np.testing.assert_allclose(given["spin_out"], [SPINS[0], np.nan], rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    "cell",
+    [5, 5.0, "5", Decimal(5), Fraction(5), np.int8(5), np.float32(5), np.array(5), xr.DataArray(5)],
+    ids=repr,
+)
+def test_a_bare_cell_has_the_unit_of_its_column(cell):
+    assert column_in_si("radius", "m", "mm", [cell])[0] == 0.005
+    assert column_in_si("radius", "m", "", [cell])[0] == 5.0
+
+
+@pytest.mark.parametrize(
+    "cell", ["5 cm", QUANTITY(5, "cm"), xr.DataArray(5, attrs={"units": "cm"})], ids=repr
+)
+def test_a_cell_may_have_its_own_unit(cell):
+    assert column_in_si("radius", "m", "mm", [cell])[0] == 0.05
+
+
+def test_a_number_that_overflows_is_none():
+    """Of a list and of an array alike, with what is wrong; the others are read."""
+    for cells in ([1e305, 210], np.array([1e305, 210.0])):
+        values, reason = column_in_si("young", "Pa", "GPa", cells)
+        assert np.array_equal(values, [np.nan, 210e9], equal_nan=True)
+        assert "floating point cannot hold it" in reason
+
+
+RPM = np.array([-60.0, -120.0])
+
+
+@pytest.mark.parametrize(
+    "column",
+    [
+        QUANTITY(RPM, "rpm"),
+        [QUANTITY(-60.0, "rpm"), QUANTITY(-4 * math.pi, "rad/s")],
+        xr.DataArray(RPM, attrs={"units": "rpm"}),
+        xr.DataArray(RPM * math.pi / 30, attrs={"units": "rad s-1"}),
+        xr.DataArray(QUANTITY(RPM, "rpm")),
+        xr.DataArray(np.array([Decimal(-60), "-2 rev/s"], dtype=object), attrs={"units": "rpm"}),
+        QUANTITY(np.ma.array(RPM), "rpm"),
+    ],
+    ids=lambda column: type(column).__name__,
+)
+def test_columns_tell_their_unit(column):
+    angle = {"angle": RADIANS}
+    np.testing.assert_allclose(read({"spin_out": column, **angle})["spin_out"], SPINS, rtol=1e-14)
+    if not isinstance(column, list):
+        held = column if isinstance(column, xr.DataArray) else ("row", column)
+        found = read(xr.Dataset({"spin_out": held}))["spin_out"]
+        np.testing.assert_allclose(found, SPINS, rtol=1e-14)
+
+
+def test_units_of_pint_that_no_text_has_are_read():
+    table = carom.Table({"first.material.density": QUANTITY(np.array([7.85]), "g/cm^3")})
+    assert table.inputs((slice(0, 1),))["first.material.density"] == pytest.approx([7850.0])
+    force = QUANTITY(np.array([210.0]), "kilonewton * meter / meter / millimeter / millimeter")
+    table = carom.Table({"first.material.young": force})
+    assert table.inputs((slice(0, 1),))["first.material.young"] == pytest.approx([210e9])
+
+
+@pytest.mark.parametrize(
+    ("data", "columns"),
+    [
+        ({"w": QUANTITY(RPM, "rad/s")}, {"w": "spin_out [rpm]"}),
+        ({"w": xr.DataArray(RPM, attrs={"units": "rad/s"})}, {"w": "spin_out [rpm]"}),
+        ({"w [rad/s]": RPM}, {"w": "spin_out [rpm]"}),
+        ({"spin_out [rpm]": QUANTITY(RPM, "rad/s")}, None),
+        ({"spin_out [rpm]": xr.DataArray(RPM, attrs={"units": "m"})}, None),
+        ({"spin_out": xr.DataArray(QUANTITY(RPM, "rad/s"), attrs={"units": "rpm"})}, None),
+    ],
+)
+def test_a_column_of_two_units_is_refused(data, columns):
+    with pytest.raises(InputError, match=r"it has two units, .*; leave one out"):
+        read_table({"angle": RADIANS, **data}, columns)
+
+
+def test_one_unit_may_be_told_twice():
+    for own in (QUANTITY(RPM, "rpm"), xr.DataArray(RPM, attrs={"units": "rpm"})):
+        table = read_table({"w [rpm]": own, "angle": RADIANS}, {"w": "spin_out [rpm]"})
+        np.testing.assert_allclose(in_units(table, KNOWN)["spin_out"], SPINS, rtol=1e-14)
+
+
+def test_errors_need_the_unit_that_the_data_tell():
+    data = {"spin_out": QUANTITY(RPM, "rpm"), "spin_out_error": [1.0, 1.0]}
+    with pytest.raises(InputError, match="spin_out_error: no unit, but spin_out is in rev"):
+        read(data)
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        *(["1_000", "2"], ["5 cm/s", "2"], [1 + 2j, 1j], [True, False], [1.5, 2.5], [1, 2]),
+        np.array(["2020-01-01", "2021-01-01"], "M8[D]"),
+        [Decimal(1), None],
+    ],
+    ids=str,
+)
+def test_a_mask_changes_nothing_but_what_it_hides(values):
+    """Masked arrays are read as arrays are, NaN where they are masked: a gap in a fit."""
+    plain = np.array(values)
+    told = carom.Table({"speed [mm/s]": plain}).inputs((slice(0, 2),))["speed"]
+    for mask in ([0, 0], [0, 1]):
+        column = {"speed [mm/s]": np.ma.array(plain, mask=mask)}
+        found = carom.Table(column).inputs((slice(0, 2),))["speed"]
+        np.testing.assert_array_equal(found, np.where(mask, np.nan, told))
+    given = {"angle": RADIANS, "spin_out": np.ma.array(SPINS, mask=[0, 1])}
+    np.testing.assert_array_equal(read(given)["spin_out"], [SPINS[0], np.nan])
+
+
+@pytest.mark.parametrize(
+    "column",
+    [
+        *([[1], [1, 2]], [[1], [2]], [np.array([0.5]), 1], np.ones((2, 1)), "12", b"12"),
+        *(
+            pd.Series([[1], 2]),
+            memoryview(b"12"),
+            {1: 2},
+            5,
+            None,
+            xr.Dataset({"a": ("x", [1.0, 2.0])}),
+        ),
+    ],
+    ids=str,
+)
+def test_what_is_no_list_of_cells_is_no_column(column):
+    for call in (carom.Table, carom.verify.score, read_table):
+        with pytest.raises(InputError, match=r"speed: .* a column must be a list"):
+            call({"speed": column, "angle": RADIANS})
 
 
 @pytest.mark.parametrize(

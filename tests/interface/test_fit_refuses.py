@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import carom
 from carom.bodies.cases import case_of
@@ -63,12 +64,34 @@ def test_bad_columns(changes, words):
         ({"fixed": {"restitution": "2 m"}}, "it has a unit"),
         ({"fixed": 5}, "values by name"),
         ({"vary": ["friction"], "fixed": {"friction": 0.1}}, "both varied and fixed"),
+        ({"vary": 5}, "vary: 5 cannot be used; must be names of friction, kappa"),
+        ({"vary": [np.arange(2)]}, "vary: an array of shape"),
         ({"confidence": 95}, "between 0.5 and 1"),
+        ({"confidence": "0.9_5"}, "confidence: '0.9_5' cannot be used"),
+        ({"confidence": b"0.95"}, "confidence: b'0.95' cannot be used"),
+        ({"confidence": "\u0660.\u0669"}, "confidence: .* cannot be used"),
+        ({"confidence": xr.DataArray(0.5, attrs={"units": "mm"})}, "confidence: 'mm' cannot be"),
+        ({"confidence": 10**400}, "confidence: .*floating point cannot hold it"),
+        ({"robust": "no"}, "robust: 'no' cannot be used; must be True or False"),
+        ({"robust": None}, "robust: None cannot be used"),
+        ({"robust": np.array([])}, "robust: an array of shape .* cannot be used"),
     ],
 )
 def test_bad_options(options, words):
     with pytest.raises(carom.InputError, match=words):
         fit(GOOD, **{"pair": PAIR, **options})
+
+
+def test_a_long_name_is_told_in_a_short_line():
+    with pytest.raises(carom.InputError, match="is no parameter") as told:
+        fit(GOOD, pair=PAIR, vary="x" * 5000)
+    assert len(str(told.value)) < 300
+
+
+def test_a_confidence_in_percent_is_the_ratio():
+    """As the commands read it."""
+    one, other = (fit(GOOD, pair=PAIR, confidence=level) for level in (0.9, "90 %"))
+    assert one.to_dict() == other.to_dict()
 
 
 def test_too_few_values_are_counted():
@@ -96,6 +119,35 @@ def test_bodies_may_stand_in_the_file(tmp_path):
     assert fit(path, **options).friction.value == pytest.approx(
         fit(GOOD, pair=PAIR, **options).friction.value, rel=1e-6
     )
+
+
+BODY = '"first": {"radius": 0.005, "material": "steel"}'
+
+
+@pytest.mark.parametrize(
+    ("case", "words"),
+    [
+        ('{"friktion": 0.2, %s}', "friktion: unknown key; did you mean 'friction'"),
+        ('{"secnd": {"kind": "sphere"}, %s}', "secnd: unknown key; did you mean 'second'"),
+        ('{"second": {"knid": "sphere"}, %s}', "knid: unknown key; did you mean 'kind'"),
+        ('{"friction": 0.2, "friction": 0.9, %s}', "friction: it is given twice"),
+        ('{%s, "second": {"kind": "cup", "kind": "sphere"}}', "kind: it is given twice"),
+        ('{"first": 5}', "first: 5 cannot be used; must be a table"),
+        ('{"first": [1]}', "first: .* must be a table"),
+        ('{"second": "sphere", %s}', "second: 'sphere' cannot be used; must be a table"),
+        ("[1]", "no JSON of the bodies"),
+    ],
+)
+def test_bodies_in_the_file_are_read_as_strictly_as_a_case_file(case, words, tmp_path):
+    """In fits as in scores; in a comment, and in the attribute of a dataset."""
+    text = case.replace("%s", BODY)
+    path = tmp_path / "rebounds.csv"
+    path.write_text(f"# case: {text}\nangle [deg],contact_beta\n10,0.1\n20,0.2\n")
+    dataset = xr.Dataset({name: ("row", values) for name, values in GOOD.items()})
+    for source in (path, dataset.assign_attrs(case=text)):
+        with pytest.raises(carom.InputError, match=words) as told:
+            fit(source)
+        assert "\n" not in str(told.value)
 
 
 def test_what_was_not_used_is_told():

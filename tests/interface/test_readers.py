@@ -70,6 +70,62 @@ def test_units_of_arrays_are_heeded():
     assert given[0] == pytest.approx(given[1], rel=1e-12)
 
 
+@pytest.mark.parametrize("unit", ["1", "", "dimensionless", "%"])
+def test_a_friction_may_be_told_to_be_a_pure_number(unit):
+    """A length may not, but for the attribute that is empty."""
+    told = xr.DataArray(0.2, attrs={"units": unit})
+    pair = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=told)
+    assert pair.friction == pytest.approx(0.002 if unit == "%" else 0.2, rel=1e-15)
+    if unit:
+        refused(lambda: carom.Sphere(radius=told, material="steel"), "radius: ", "not a value in m")
+
+
+@pytest.mark.parametrize("kind", [np.float16, np.float32, np.int8, float])
+def test_a_unit_is_applied_in_double_precision(kind):
+    for radius in (
+        UNITS.Quantity(kind(5), "mm"),
+        UNITS.Quantity(np.array(5, dtype=kind), "mm"),
+        xr.DataArray(kind(5), attrs={"units": "mm"}),
+    ):
+        assert carom.Sphere(radius=radius, material="steel").radius == 0.005
+        assert carom.Grid({"first.radius": [radius]}).coords()["first_radius"][1] == [0.005]
+
+
+@pytest.mark.parametrize(
+    "values", [["5"], [True], np.array(["2020-01-01"], "M8[D]"), [5j], [b"5"], [None]], ids=str
+)
+def test_what_has_a_unit_holds_numbers(values):
+    told = xr.DataArray(np.array(values), attrs={"units": "%"})
+    refused(lambda: carom.rebound(told, 1.44), "psi: ")
+    refused(lambda: carom.load_path(PAIR, normal_force=told, tangential_force=0.0), "normal_force:")
+    refused(lambda: carom.Sphere(radius=told[0].assign_attrs(units="mm"), material="steel"), "rad")
+
+
+@pytest.mark.parametrize(
+    "young",
+    [
+        *("1e305 GPa", Decimal("1e400"), Decimal("Infinity"), np.longdouble("1e4000"), 10**400),
+        *(UNITS.Quantity(1e305, "GPa"), UNITS.Quantity(np.inf, "Pa")),
+        xr.DataArray(1e305, attrs={"units": "GPa"}),
+    ],
+    ids=repr,
+)
+def test_a_modulus_that_overflows_is_not_rigid(young):
+    refused(lambda: carom.Material(young=young, poisson=0.3), "young: ", "cannot be used")
+    assert carom.Material(young=np.inf, poisson=0.3).is_rigid
+
+
+def test_an_array_that_overflows_is_refused():
+    for psi in (np.array([np.longdouble("1e4000")]), UNITS.Quantity([1e305], "km/mm")):
+        refused(lambda psi=psi: carom.rebound(psi, 1.44), "psi: ", "floating point cannot hold it")
+
+
+def test_units_of_two_kinds_at_once_are_refused():
+    both = xr.DataArray(UNITS.Quantity([5.0], "mm"), attrs={"units": "m"})
+    refused(lambda: carom.Grid({"first.radius": both}), "radius: it has two units")
+    refused(lambda: carom.rebound(UNITS.Quantity(-7.0, "dB"), 1.44), "psi: ", "no pure number")
+
+
 PURE = {
     "rebound": lambda psi: carom.rebound(psi, 1.44),
     "law": carom.ReboundLaw(1.44),

@@ -49,6 +49,10 @@ READ = [  # text, quantity, value in SI units
     ("2 m*s**-1", "speed", 2.0),
     ("2 m s^−1", "speed", 2.0),
     ("2 m / s", "speed", 2.0),
+    ("2 m s-1", "speed", 2.0),
+    ("2 m s−1", "speed", 2.0),
+    ("7850 kg m-3", "density", 7850.0),
+    ("7850 kilogram / meter ** 3", "density", 7850.0),
     ("7.2 km/h", "speed", 2.0),
     ("7.2 kph", "speed", 2.0),
     ("30 deg", "angle", 30 * DEGREE),
@@ -131,6 +135,13 @@ REFUSED = [  # text, quantity, part of the message
     ("infinity", "young", "give a number"),
     ("1e400 m", "radius", "floating point"),
     ("1e-400 m", "radius", "floating point"),
+    ("1e305 GPa", "young", "floating point"),  # a rigid body
+    ("5 Qm^9 Qm^9 m^-9 m^-8", "radius", "floating point"),
+    ("5 qm^9 qm^9 m^-9 m^-8", "radius", "floating point"),
+    ("5 mm-3", "radius", "not a value in m"),
+    ("20 %-1", "friction", "no unit"),
+    ("0.2 1", "friction", "no unit"),
+    ("0.2 -", "friction", "no unit"),
     ("0x10", "radius", "no unit"),
     ("1e", "radius", "'e' is not known"),
     ("1e5.5", "radius", "no unit"),
@@ -201,6 +212,7 @@ def test_all_else_is_refused_in_one_line(text, name, words):
 
 
 UNITS = {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "km": 1e3, "": 1.0}
+LETTERS = {"m": 1.0, "µ": 1e-6, "μ": 1e-6, "Å": 1e-10, "\u212b": 1e-10}  # all lengths of one
 PLAIN = st.from_regex(
     r"[+-]?([0-9]{1,8}(\.[0-9]{0,8})?|\.[0-9]{1,8})([eE][+-]?[0-9]{1,2})?", fullmatch=True
 )
@@ -226,9 +238,8 @@ def test_a_stray_character_never_changes_a_number_without_a_word(text, stray, pl
     except Unreadable:
         return
     plain = changed.replace("\u2212", "-").strip(" \t\u00a0\u2009\u202f")
-    if plain and plain[-1] == "m":
-        plain = plain[:-1]
-    assert read == float(plain)
+    size = LETTERS.get(plain[-1:])
+    assert read == (float(plain) if size is None else pytest.approx(size * float(plain[:-1])))
 
 
 @settings(max_examples=300, deadline=None, derandomize=True)

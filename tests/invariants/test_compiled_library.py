@@ -100,7 +100,7 @@ def laws(rng):
         velocity = rng.normal(size=(700, 3)).astype(kind)
         normal = rng.normal(size=(700, 3))
         normal = (normal / np.linalg.norm(normal, axis=1, keepdims=True)).astype(kind)
-        for law in (None, carom.WaltonLaw(friction=0.2, restitution=0.9, tangential_restitution=0.4)):
+        for law in (None, carom.RoughLaw(restitution=0.9)):
             carom.collide(PAIR, velocity1=velocity, normal=normal, law=law, threads=1)
     places = np.arange(50, dtype=np.uint64)
     permutation.fractions(places, 1000, permutation.secrets(1, 1)[0])

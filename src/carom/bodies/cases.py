@@ -2,6 +2,7 @@
 
 import re
 import tomllib
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from pathlib import Path
@@ -13,8 +14,8 @@ from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.io.files import read_text
 from carom.quantities.faults import TOLD, Faults
-from carom.quantities.refusals import InputError, hint, refusal
-from carom.quantities.units import finite, not_negative, number, positive
+from carom.quantities.refusals import InputError, clipped, hint, refusal
+from carom.quantities.units import finite, finite_or_text, not_negative, number, positive
 
 if TYPE_CHECKING:
     from carom.bodies.losses import NormalLaw
@@ -54,7 +55,7 @@ def read_case(path: Path, *, losses: bool = False) -> Case:
         text = read_text("case file", path)
         if DEEP.search(text):  # which takes memory with the square of the depth
             raise RecursionError
-        case = tomllib.loads(text)
+        case = tomllib.loads(text, parse_float=finite_or_text)
     except UnicodeDecodeError:
         raise InputError(f"case file: {str(path)!r} is not text; give a TOML file") from None
     except InputError:
@@ -82,7 +83,7 @@ def check_case(
     def check(table: Mapping[str, Any], allowed: Iterable[str], name: str) -> None:
         unknown = [key for key in table if key not in allowed]
         for key in unknown[:TOLD]:
-            faults.add(f"{key}: unknown key{place(key, name)}; {hint(key, allowed)}")
+            faults.add(f"{clipped(str(key))}: unknown key{place(key, name)}; {hint(key, allowed)}")
         for key in unknown[TOLD:]:  # which are counted, not told
             faults.add(f"{key}: unknown key")
 
@@ -110,8 +111,8 @@ def _place(path: Path, text: str, key: str, table: str) -> str:
 def line_of(key: str, text: str, table: str) -> int:
     """Return the line of a key, searched from the header of its table on."""
     word = re.escape(key)
-    pattern = re.compile(rf"^\s*\[?\s*[\"']?{word}[\"']?\s*[=\].]|[{{,]\s*{word}\s*=")
-    header = re.compile(rf"^\s*\[?\s*{table}\b") if table else re.compile("")
+    pattern = re.compile(rf"^\s*+\[?+\s*+[\"']?{word}[\"']?\s*[=\].]|[{{,]\s*{word}\s*=")
+    header = re.compile(rf"^\s*+\[?+\s*+{table}\b") if table else re.compile("")
     inside = False
     for row, line in enumerate(text.splitlines(), 1):
         inside = inside or bool(header.match(line))
@@ -185,7 +186,7 @@ def read_loss(name: str, value: Any) -> float | None:
 
 def as_kind(kind: Any) -> str:
     """Return the kind of a second body, or raise InputError if there is none of that name."""
-    if kind not in KINDS:
+    if not isinstance(kind, str) or kind not in KINDS:
         raise refusal("kind", kind, f"must be {', '.join(KINDS[:-1])} or {KINDS[-1]}")
     return str(kind)
 
@@ -245,14 +246,16 @@ def _as_table(value: Any) -> Any:
     if isinstance(value, str) and "=" in value:
         entries = [_entry(part) for part in value.split(",")]
         value = dict(entries)
-        for key in value:
-            given = [text for name, text in entries if name == key]
-            if len(given) > 1:
+        for key, count in Counter(name for name, _ in entries).items():
+            if count > 1:
+                given = (text for name, text in entries if name == key)
                 raise refusal(key, " and ".join(given), TWICE)
     if isinstance(value, Mapping):
         for key in value:
             if key not in MATERIAL:
-                raise InputError(f"{key}: unknown in a material; {hint(key, MATERIAL)}")
+                raise InputError(
+                    f"{clipped(str(key))}: unknown in a material; {hint(key, MATERIAL)}"
+                )
     return value
 
 

@@ -103,8 +103,8 @@ class Material:
 
 def _stiffness(young: Any) -> float:
     """Return a positive modulus, infinite for what does not deform, or raise InputError."""
-    found = number("young", young)
-    return found if found == math.inf else positive("young", young)
+    rigid = isinstance(young, float) and young == math.inf
+    return math.inf if rigid else positive("young", young)
 
 
 def _text_or_none(name: Any) -> str | None:

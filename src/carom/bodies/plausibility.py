@@ -1,8 +1,11 @@
 """Values that no body has, but that a forgotten unit gives: a radius of 5 m for 5 mm."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from carom.bodies.cases import material_values
 from carom.bodies.materials import VALUES
@@ -62,6 +65,24 @@ def doubts_of_case(case: Mapping[str, Any]) -> tuple[str, ...]:
     ("a Young's modulus of 210 Pa; write '210 GPa'?",)
     """
     found = [_doubt(name, value) for name, value in _values(case)]
+    return tuple(dict.fromkeys(each.verdict for each in found if each))
+
+
+def doubts_of_values(given: Iterable[tuple[str, ArrayLike]]) -> tuple[str, ...]:
+    """Return what is hardly meant among numbers in SI units by name, in words: of each the ends.
+
+    Examples
+    --------
+    >>> from carom.bodies.plausibility import doubts_of_values
+    >>> doubts_of_values([("radius", [0.005, 2.0, 5.0]), ("young", 2.1e11)])
+    ("a radius of 5 m; write '5 mm'?",)
+    """
+    found = []
+    for name, values in given:
+        numbers = np.ravel(values)
+        usable = numbers[(numbers > 0.0) & (numbers < np.inf)]
+        ends = (usable.min(), usable.max()) if usable.size else ()
+        found += [_doubt(name, float(end)) for end in ends]
     return tuple(dict.fromkeys(each.verdict for each in found if each))
 
 

@@ -5,6 +5,7 @@ the rest of the package, for third-party packages that are heavy or optional.
 """
 
 import logging
+import os
 import sys
 import warnings
 
@@ -16,12 +17,13 @@ from carom.cli.explore import explore_command
 from carom.cli.fit import fit_command
 from carom.cli.impact import impact_command
 from carom.cli.materials import materials_command
+from carom.cli.once import Commands
 from carom.cli.sweep import sweep_command
 from carom.cli.verify import app as verify_app
 from carom.quantities.refusals import InputError, nearest
 from carom.quantities.symbols import meant, remark
 
-app = typer.Typer(
+app = Commands(
     name="carom",
     help="How an elastic sphere leaves an oblique impact, and what happens inside the contact.",
     no_args_is_help=True,
@@ -86,6 +88,7 @@ def _refuse(message: str) -> int:
 
 def run() -> None:
     """Run a command from the shell, in a process of its own."""
+    os.environ["MPLBACKEND"] = "agg"  # for files: no screen, and no backend that is not there
     _quieten()
     sys.exit(main())
 

@@ -1,7 +1,7 @@
-"""What commands share: flags over a case file, files that are asked for, interpreted kernels."""
+"""What commands share: flags over a case file, files that are asked for."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
@@ -85,14 +85,30 @@ def merged(case: "Case", flags: Mapping[str, Any]) -> "Case":
     return result
 
 
-def told_case(path: Path, *, losses: bool = False) -> "Case":
-    """Return the content of a case file; what is hardly meant in it is told on stderr."""
+def tell(doubts: Iterable[str]) -> None:
+    """Tell on stderr what is hardly meant, or left out."""
+    for doubt in doubts:
+        typer.echo(f"carom: {doubt}", err=True)
+
+
+def tell_sweep(case: "Case") -> None:
+    """Tell that the table [sweep] of a case is left out, if there is one."""
+    if "sweep" in case:
+        tell(["[sweep] is left out; carom sweep computes the impacts that it describes"])
+
+
+def told_case(path: Path, *, losses: bool = False, swept: bool = False) -> "Case":
+    """Return the content of a case file; what is hardly meant in it is told on stderr.
+
+    So is a table [sweep] that a command leaves out, unless the case is `swept`.
+    """
     from carom.bodies.cases import read_case
     from carom.bodies.plausibility import doubts_of_case
 
     case = read_case(path, losses=losses)
-    for doubt in doubts_of_case(case):
-        typer.echo(f"carom: {doubt}", err=True)
+    tell(doubts_of_case(case))
+    if not swept:
+        tell_sweep(case)
     return case
 
 

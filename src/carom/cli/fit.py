@@ -23,7 +23,7 @@ from carom.cli.cases import (
     whole_option,
 )
 from carom.quantities.refusals import InputError, refusal
-from carom.quantities.units import number, whole
+from carom.quantities.units import whole
 
 if TYPE_CHECKING:
     from carom.bodies.pairs import Pair
@@ -100,7 +100,7 @@ def fit_command(
         vary=None if vary is None else [name.strip() for name in vary.split(",")],
         fixed=named_values("fix", fix, "restitution=0.98"),
         robust=not squares,
-        confidence=number("confidence", confidence, "1"),
+        confidence=confidence,
         columns=named_values("column", column, "omega=spin_out"),
     )
     advised = None if count is None else found.advice(count, about)

@@ -17,6 +17,7 @@ from carom.cli.cases import (
     merged,
     outputs,
     stored,
+    tell_sweep,
     whole_option,
 )
 from carom.quantities.glossary import GLOSSARY
@@ -120,6 +121,7 @@ def impact_command(
         **{"restitution": restitution, "loss_time": loss_time, "yield_velocity": yield_velocity},
     }
     content = merged(read_case(case, losses=True) if case else {}, flags)
+    tell_sweep(content)
     files = outputs(content)
     normal = normal_of(content)
     _check_outputs(files, elastic=normal is None)

@@ -18,6 +18,7 @@ from carom.cli.cases import (
     named_values,
     outputs,
     stored,
+    tell,
     told_case,
     whole_option,
 )
@@ -60,10 +61,11 @@ def sweep_command(
     from carom.sweeps.plans import plan
     from carom.sweeps.summaries import summary
 
-    content = told_case(case, losses=True)
+    content = told_case(case, losses=True, swept=True)
     file = _file(content) if output is None else output
     check_outputs((file, TABLES))
     design, chosen = plan(content, case, named_values("column", column, "omega=spin"))
+    tell(design.doubts())
     with _stopping():
         threads = None if workers is None else whole("workers", workers, 1)
         how: dict[str, Any] = {"scheduler": scheduler, "workers": threads, "progress": progress}

@@ -15,6 +15,8 @@ from carom.fitting.options import check_count, checked_confidence, read_options
 from carom.fitting.reading import read_problem
 from carom.fitting.result import Fit
 from carom.quantities.keywords import known_keywords
+from carom.quantities.refusals import flag
+from carom.quantities.units import Value
 
 __all__ = ["Estimate", "Fit", "fit"]
 
@@ -27,7 +29,7 @@ def fit(
     vary: Collection[str] | str | None = None,
     fixed: Mapping[str, Any] | None = None,
     robust: bool = True,
-    confidence: float = 0.95,
+    confidence: Value = 0.95,
     columns: Mapping[str, str] | None = None,
 ) -> Fit:
     """Return friction, stiffness ratio and restitution from measured rebounds, with intervals.
@@ -57,8 +59,8 @@ def fit(
         Values of parameters that are not varied, e.g. {"restitution": 0.98}.
     robust : bool
         Whether outliers count less: loss 2 c^2 (sqrt(1 + (r/c)^2) - 1), c = 2, instead of r^2.
-    confidence : float
-        Of the intervals.
+    confidence : float or str
+        Of the intervals, e.g. 0.95 or "95 %".
     columns : mapping, optional
         What heads of the data stand for, {"omega": "spin_out"}, or {"w": "spin_out [rpm]"}.
 
@@ -88,11 +90,11 @@ def fit(
     >>> round(found.friction.value, 3), round(found.chi.value, 2)
     (0.2, 1.44)
     """
+    level, limited = checked_confidence(confidence), flag("robust", robust)
     problem = read_problem(data, pair, columns)
     options = read_options(problem, vary, fixed)
-    level = checked_confidence(confidence)
     check_count(problem, options.free)
     model = Model(EXACT, problem, (), options.start).freeing(options.free)
-    loss = RobustLoss(2.0 if robust else inf)
+    loss = RobustLoss(2.0 if limited else inf)
     settled = settle(model, loss, options.start)
     return assembled(settled, level)

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 from carom.fitting.laws import EXACT, OFFSET, half_ratio, ranged
 from carom.fitting.model import offset_parameter
 from carom.fitting.problem import FitProblem
-from carom.quantities.refusals import InputError, nearest, refusal
+from carom.quantities.refusals import InputError, clipped, nearest, refusal
 from carom.quantities.units import number
 
 NAMES = ("friction", "kappa", "chi", "restitution", OFFSET)
@@ -45,10 +45,7 @@ def read_options(
 
 def checked_confidence(value: Any) -> float:
     """Return a confidence, or raise InputError if it is out of range."""
-    try:
-        confidence = float(value)
-    except (TypeError, ValueError):
-        confidence = 0.0
+    confidence = number("confidence", value, "1")
     if not 0.5 <= confidence < 1.0:
         raise refusal("confidence", value, "must lie between 0.5 and 1, e.g. 0.95")
     return confidence
@@ -67,7 +64,10 @@ def check_count(problem: FitProblem, free: Sequence[str]) -> None:
 
 
 def _varied(vary: Collection[str] | str) -> list[str]:
-    names = [vary] if isinstance(vary, str) else list(vary)
+    try:
+        names = [vary] if isinstance(vary, str) else list(vary)
+    except TypeError:
+        raise refusal("vary", vary, f"must be names of {', '.join(NAMES)}") from None
     for name in names:
         _check_name("vary", name)
     plain = ["kappa" if name == "chi" else name for name in names]
@@ -94,6 +94,9 @@ def _fixed(problem: FitProblem, fixed: Mapping[str, Any]) -> dict[str, float]:
 
 
 def _check_name(where: str, name: Any) -> None:
+    known = f"parameters are {', '.join(NAMES)}"
+    if not isinstance(name, str):
+        raise refusal(where, name, known)
     if name not in NAMES:
-        hint = nearest(str(name), NAMES) or f"parameters are {', '.join(NAMES)}"
-        raise InputError(f"{where}: {str(name)!r} is no parameter; {hint}")
+        shown = clipped(name)
+        raise InputError(f"{where}: {shown!r} is no parameter; {nearest(shown, NAMES) or known}")

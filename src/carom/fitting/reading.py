@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.bodies.cases import pair_of
+from carom.bodies.cases import check_case, pair_of
 from carom.bodies.kinematics import Tangential
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import BEFORE, FASTEST, INCIDENCE, OBSERVABLES, SCALED, SLOWEST
@@ -81,6 +81,7 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> Pair:
             raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
         bodies = pair
     elif case is not None:
+        check_case(case)
         bodies = pair_of({"friction": START, **case})
     else:
         raise InputError(

@@ -1,28 +1,29 @@
 """Reading a user's results in SI units: from a CSV file, a mapping of columns or a data frame."""
 
 from collections.abc import Collection, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from math import nan, pi
-from numbers import Real
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.io.tables import GAP, Cells, Rows, name_and_unit, spelled
-from carom.quantities.arrays import Array
+from carom.io.tables import GAP, Cells, Rows, spelled
+from carom.quantities.arrays import Array, in_unit
 from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, nearest
 from carom.quantities.symbols import meant
-from carom.quantities.texts import Factor, split
-from carom.quantities.units import factor_of, number
+from carom.quantities.texts import UNCHANGED, Factor
+from carom.quantities.units import PURE, factor_of, number
 
 Mask = NDArray[np.bool_]
 
 ERROR = "_error"  # ends the name of a column of standard deviations
 DELETE = "correct or delete what is there"
+EMPTY = ("", "nan")
 NEAR = 0.8  # similarity of names from which a column is taken for a misspelt one
 UNITS = {"_deg": "deg", "_rad_s": "rad/s", "_rad": "rad", "_rpm": "rpm", "_m_s": "m/s"}  # in names
 
@@ -89,20 +90,20 @@ def in_units(
     >>> given["angle"].round(4), given["spin_out"].round(2)
     (array([0.    , 1.0472]), array([   nan, -62.83]))
     """
-    units = dict(name_and_unit(head) for head in table.cells)
-    columns = {name: np.full(len(table.rows), nan) for name in units}
+    columns = {name: np.full(len(table.rows), nan) for name in table.names}
     results = Results(columns, table.rows, table.word, faults or Faults())
-    known = set(known)
-    for name, cells in zip(units, table.cells.values(), strict=True):
-        if name in known:
-            try:
-                _check_error_unit(name, units)
-                columns[name] = _column(name, units[name], cells, table, entry(name) in gaps)
-            except InputError as error:
-                results.faults.add(str(error))
-    for name, unit in units.items():
-        if name in known and name in GLOSSARY and GLOSSARY[name].unit == "rad":
-            _check_angle(results, name, unit)
+    units = {name: str(column.unit) for name, column in table.columns.items()}
+    wanted = set(known)
+    read = [name for name in columns if name in wanted]
+    for name in read:
+        try:
+            _check_error_unit(name, units)
+            columns[name] = _column(name, table, entry(name) in gaps)
+        except InputError as error:
+            results.faults.add(str(error))
+    for name in read:
+        if name in GLOSSARY and GLOSSARY[name].unit == "rad":
+            _check_angle(results, name, units[name])
     return results
 
 
@@ -169,7 +170,7 @@ def _likely(name: str, known: list[str]) -> str:
 def _check_error_unit(name: str, units: Mapping[str, str]) -> None:
     """Raise InputError for an error whose unit can only be guessed."""
     whole = entry(name)
-    if name != whole and units.get(whole) and not units[name]:
+    if name != whole and units.get(whole, "") not in ("", *PURE) and not units[name]:
         raise InputError(
             f"{name}: no unit, but {whole} is in {units[whole]}; write '{name} [{units[whole]}]'"
         )
@@ -185,8 +186,9 @@ def _check_angle(results: Results, name: str, unit: str) -> None:
     results.refuse(name, np.abs(results[name]) >= 0.5 * pi, allowed)
 
 
-def _column(name: str, unit: str, cells: Any, table: Cells, open_ended: bool) -> Array:
+def _column(name: str, table: Cells, open_ended: bool) -> Array:
     """Return a column in SI units, or raise InputError for what is not a number in it."""
+    unit, cells = table.column(name)
     gap = np.zeros(len(cells), dtype=bool)
     if open_ended and isinstance(cells, list):
         gap[:] = [isinstance(cell, str) and cell.strip() == GAP for cell in cells]
@@ -200,12 +202,12 @@ def _column(name: str, unit: str, cells: Any, table: Cells, open_ended: bool) ->
     return values
 
 
-def column_in_si(name: str, si: str, unit: str, cells: Any) -> tuple[Array, str]:
+def column_in_si(name: str, si: str, unit: Any, cells: Any) -> tuple[Array, str]:
     """Return a column in SI units, NaN where there is no number, and what is wrong there first.
 
-    A bare number is in the unit of the head, SI if that is empty; a text may have its own.
+    A bare number is in the unit of the column, SI if that is empty; a cell may have its own.
 
-    Raises InputError if the unit of the head does not fit.
+    Raises InputError if the unit of the column does not fit.
 
     Examples
     --------
@@ -213,9 +215,10 @@ def column_in_si(name: str, si: str, unit: str, cells: Any) -> tuple[Array, str]
     >>> column_in_si("radius", "m", "mm", [5, "6", "0.7 cm", ""])[0]
     array([0.005, 0.006, 0.007,   nan])
     """
-    own = factor_of(name, unit, si) if unit else Factor(1.0, 1.0)
-    if isinstance(cells, np.ndarray):
-        return np.asarray(own.apply(cells)), ""
+    own = factor_of(name, unit, si) if str(unit) else UNCHANGED
+    with suppress(InputError):  # where a number overflows, it is sought
+        if isinstance(cells, np.ndarray):
+            return in_unit(name, cells, own), ""
     values, reason = np.full(len(cells), nan), ""
     for i, cell in enumerate(cells):
         try:
@@ -227,8 +230,6 @@ def column_in_si(name: str, si: str, unit: str, cells: Any) -> tuple[Array, str]
 
 def _cell(name: str, si: str, own: Factor, cell: Any) -> float:
     """Return one number in SI units, NaN for an empty cell."""
-    if cell is None or str(cell).strip().lower() in ("", "nan"):
+    if cell is None or (isinstance(cell, str | float) and str(cell).strip().lower() in EMPTY):
         return nan
-    value = number(name, cell, si)
-    bare = isinstance(cell, Real) or (isinstance(cell, str) and not split(cell)[1])
-    return float(own.apply(value)) if bare else value
+    return number(name, cell, si, own)

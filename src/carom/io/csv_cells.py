@@ -19,6 +19,7 @@ from carom.quantities.refusals import InputError, refusal
 
 COMMENT = re.compile(r"#\s*([A-Za-z]\w*)\s*:\s*(.*)")
 SEPARATORS = ",;\t"
+TOLD = re.compile(rf"sep=([{SEPARATORS}])\s*", re.IGNORECASE)  # with which Excel begins a file
 BLOCK = 1 << 22  # characters that are texts at a time, before their numbers are
 PLAIN = {mark: re.compile(rf"[0-9.+\-eE \n{mark}]*") for mark in SEPARATORS}
 TINY = re.compile(r"[eE]-[0-9]{3}|[0-9.]{200}")
@@ -47,15 +48,19 @@ class _File:
     path: Path
     text: TextIO
     line: int = 0
+    separator: str = ""
     lines: "array[int]" = field(default_factory=lambda: array("q"))
     comments: dict[str, str] = field(default_factory=dict)
 
     def head(self) -> str:
-        """Return the first line that is neither empty nor a comment."""
+        """Return the first line that has cells; find what separates them."""
         while line := self.text.readline(LONGEST_LINE + 1):
             self.line += 1
             self.check(line)
-            if self.has_cells(line):
+            if self.line == 1 and (told := TOLD.fullmatch(line)):
+                self.separator = told[1]
+            elif self.has_cells(line):
+                self.separator = self.separator or max(SEPARATORS, key=line.count)
                 return line
         raise self.refusal("it is empty; there must be a header and numbers")
 
@@ -109,7 +114,7 @@ def read_csv(what: str, path: Path, fewest: int = 2) -> CsvCells:
 
 def _read(file: _File, fewest: int) -> CsvCells:
     first = file.head()
-    separator = max(SEPARATORS, key=first.count)
+    separator = file.separator
     heads = [text.strip() for text in _cells(file, [first], separator)[0]]
     if len(heads) < fewest:
         fewer = "" if fewest == 1 else f", at least {fewest}"

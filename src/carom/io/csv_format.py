@@ -15,12 +15,13 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 from hashlib import sha256
 from io import StringIO
 from math import isfinite, prod
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -41,10 +42,7 @@ READ: dict[str, Reader] = {"f": float, "i": int, "u": int, "U": str, "b": lambda
 
 
 def as_csv(dataset: "xr.Dataset") -> str:
-    """Return a dataset as CSV, for `from_csv` and for `pandas.read_csv(path, comment="#")`.
-
-    Raises InputError for a variable that holds neither numbers, words nor truth values.
-    """
+    """Return a dataset that is `storable` as CSV, for `from_csv` and for pandas."""
     import xarray as xr
 
     table = max((tuple(item.dims) for item in dataset.data_vars.values()), key=len, default=())
@@ -58,7 +56,7 @@ def as_csv(dataset: "xr.Dataset") -> str:
     coords = sorted(dataset.coords, key=lambda name: [*table, name].index(name))
     for name in [*coords, *dataset.data_vars]:
         item = dataset.variables[name]
-        values = _plain(str(name), item.values)
+        values = _plain(item.values)
         kind = "coordinate" if name in dataset.coords else "variable"
         line = {kind: name, "dims": item.dims, "type": _type(values)}
         # the table holds what runs along all of it, and coordinates, which repeat
@@ -117,12 +115,13 @@ def _digest(text: str) -> str:
 
 def rows_of(columns: Mapping[Any, Sequence[Any]]) -> str:
     """Return columns as CSV: their names, and below them a line for each row."""
-    stream = StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
+    lines: list[str] = []
+    stream = SimpleNamespace(write=lambda line: lines.append(f"{line[:-2]}\n"))
+    writer = csv.writer(stream, lineterminator="\r\n")  # that it quotes either of them in a text
     if columns:
         writer.writerow(columns)
         writer.writerows(zip(*columns.values(), strict=True))
-    return stream.getvalue()
+    return "".join(lines)
 
 
 def _rebuilt(head: list[dict[str, Any]], rows: list[list[str]]) -> "xr.Dataset":
@@ -167,14 +166,9 @@ def _gathered(whole: "xr.Variable", dims: Sequence[Hashable]) -> Values:
     return np.asarray(first.values)
 
 
-def _plain(name: str, values: Values) -> Values:
-    """Return values of a kind that text can hold, words as words of fixed width."""
-    kind = values.dtype.kind
-    if kind in "OT" and all(isinstance(value, str) for value in values.ravel()):
-        return values.astype(np.str_)
-    if kind not in "biufU" or (kind == "f" and values.dtype.itemsize > 8):
-        raise refusal(name, str(values.dtype), "CSV holds numbers, words and truth values")
-    return values
+def _plain(values: Values) -> Values:
+    """Return values with words as words of fixed width."""
+    return values.astype(np.str_) if values.dtype.kind in "OT" else values
 
 
 def _type(values: Values) -> str:
@@ -208,13 +202,17 @@ def _packed(value: Any) -> Any:
         value = value.item()
     if isinstance(value, str | int) or (isinstance(value, float) and isfinite(value)):
         return value
-    values = _plain("attribute", np.asarray(value))
+    values = np.asarray(value)
     return {"type": _type(values), "values": _jsonable(values)}
 
 
 def _unpacked_all(attributes: Mapping[str, Any]) -> dict[str, Any]:
     """Return attributes as they were before `_packed`."""
-    return {
-        name: _array(value["values"], value["type"]) if isinstance(value, dict) else value
-        for name, value in attributes.items()
-    }
+    return {name: _unpacked(value) for name, value in attributes.items()}
+
+
+def _unpacked(value: Any) -> Any:
+    if not isinstance(value, dict):
+        return value
+    values = _array(value["values"], value["type"])
+    return values.tolist() if value["type"] == TEXT else values[()]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 from carom.io.csv_format import as_csv, from_csv
 from carom.io.netcdf_format import read_netcdf, write_netcdf
 from carom.io.paths import checked_output, checked_path, ending_of, replace_whole
+from carom.io.storable import storable
 from carom.io.stores import read_store
 from carom.quantities.refusals import InputError, refusal
 
@@ -49,7 +50,9 @@ def save(result: "xr.Dataset | Storable", path: str | Path) -> Path:
     Raises
     ------
     InputError
-        If the name ends otherwise, the file cannot be written, or there is no dataset to store.
+        If the name ends otherwise, the file cannot be written, there is no dataset to store, or
+        something in it would not come back as it was, whatever the format: dates, names that are
+        no texts, attributes that are neither texts nor numbers.
 
     Examples
     --------
@@ -59,7 +62,7 @@ def save(result: "xr.Dataset | Storable", path: str | Path) -> Path:
     ...     carom.save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.csv").name
     'curve.csv'
     """
-    target, dataset = checked_output(path, TABLES), _dataset(result)
+    target, dataset = checked_output(path, TABLES), storable(_dataset(result))
     ending = ending_of(target, TABLES)
 
     def write(where: Path) -> None:
@@ -76,8 +79,10 @@ def _dataset(result: "xr.Dataset | Storable") -> "xr.Dataset":
 
     if isinstance(result, xr.Dataset):
         return result
-    if not hasattr(result, "to_dataset"):
+    if isinstance(result, type) or not hasattr(result, "to_dataset"):
         raise refusal("result", result, "must be a dataset, an impact or a load path")
+    if isinstance(result, xr.DataArray) and result.name in (None, *result.coords):
+        raise refusal("result", result, "it needs a name of its own; write .rename('speed')")
     return result.to_dataset()
 
 

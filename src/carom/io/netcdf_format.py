@@ -28,6 +28,7 @@ SHORTEST = 52  # bytes of such a head
 SEAL = "\n# carom sha256 {}\n"
 SEALED = re.compile(SEAL.format("([0-9a-f]{64})").encode())
 OVERHEAD = 200_000  # bytes of a NetCDF file besides its values
+AS_STORED = {"decode_times": False, "mask_and_scale": False}  # whatever attributes may say
 DAMAGED = "it is damaged, or not NetCDF-4"
 
 
@@ -51,13 +52,13 @@ def read_netcdf(path: Path) -> "xr.Dataset":
     import h5py
     import xarray as xr
 
-    _check(path)
+    sealed = _is_sealed(path)
     try:
         with h5py.File(path) as file:  # in silence, where h5netcdf would complain when deleted
             source = file.attrs.get("source")
-        if not is_ours(source):
+        if not (sealed or is_ours(source)):
             raise InputError("it was not stored by Carom")
-        dataset = xr.load_dataset(path, engine="h5netcdf", decode_times=False)
+        dataset = xr.load_dataset(path, engine="h5netcdf", **AS_STORED)
     except (PermissionError, InputError):
         raise
     except Exception:  # h5py and xarray raise what they like at a damaged file
@@ -69,8 +70,8 @@ def read_netcdf(path: Path) -> "xr.Dataset":
     return dataset.drop_encoding()
 
 
-def _check(path: Path) -> None:
-    """Raise InputError for what is no HDF5 file, or not as its checksum says."""
+def _is_sealed(path: Path) -> bool:
+    """Tell whether there is a checksum; InputError for what is no HDF5 file, or not as it says."""
     if path.stat().st_size < SHORTEST:
         raise InputError(DAMAGED)
     with path.open("rb") as file, mmap(file.fileno(), 0, access=ACCESS_READ) as content:
@@ -78,11 +79,12 @@ def _check(path: Path) -> None:
             raise InputError(DAMAGED)
         (end,) = struct.unpack_from("<Q", content, END[content[8]])
         if end >= len(content):  # stored without a checksum, or cut
-            return
+            return False
         seal = SEALED.fullmatch(content[end:])
         with memoryview(content) as view, view[:end] as stored:
             if seal is None or sha256(stored).hexdigest().encode() != seal[1]:
                 raise InputError("it is damaged; it has changed since it was stored")
+    return True
 
 
 def _require_room(where: Path, size: int) -> None:

@@ -3,26 +3,29 @@
 import json
 import re
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carom.io.csv_cells import MOST_COLUMNS, read_csv
 from carom.io.paths import checked_path
-from carom.quantities.refusals import InputError, nearest, refusal
-from carom.quantities.texts import LONGEST
+from carom.quantities.arrays import floats
+from carom.quantities.refusals import InputError, clipped, nearest, refusal
+from carom.quantities.texts import LONGEST, UNCHANGED
+from carom.quantities.units import REAL, factor_of, finite_or_text, told_unit, two_units
 
 ALIASES = {"psi_1": "psi_in", "psi_2": "psi_out", "angle_deg": "angle [deg]"}
 SPELLINGS = {name: alias for alias, name in ALIASES.items()}
 CASE = "# case:"  # begins a comment that holds the bodies as JSON
 KEPT = ("case", "doi")  # attributes of a dataset that are comments of a file
 HEAD = re.compile(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*")
-PLAIN = ("", "-", "1")  # units of what has none
 GAP = "-"  # a cell of what was not measured
+RAW = (str, bytes, bytearray, memoryview)  # sequences that are no lists
 SHOWN = 5  # rows that a message names
 
 
@@ -41,11 +44,22 @@ class Rows:
         return named(self.word, self.rows[index : index + 1])
 
 
+class Column(NamedTuple):
+    """Cells as given, an array of numbers or a list, and their unit: a text, empty, or pint's.
+
+    If there is a fault, it is no column; that is told to whoever asks for it.
+    """
+
+    unit: Any
+    cells: Any
+    fault: str = ""
+
+
 @dataclass(frozen=True, eq=False)
 class Cells(Rows):
-    """Cells as given, by head of column, what the rows are called, and the comments by key."""
+    """Columns as given, by name, what the rows are called, and the comments by key."""
 
-    cells: Mapping[str, Any]
+    columns: Mapping[str, Column]
     rows: NDArray[np.int64]
     word: str
     comments: Mapping[str, str]
@@ -53,7 +67,14 @@ class Cells(Rows):
     @property
     def names(self) -> tuple[str, ...]:
         """The names of the columns, without units."""
-        return tuple(name_and_unit(head)[0] for head in self.cells)
+        return tuple(self.columns)
+
+    def column(self, name: str) -> tuple[Any, Any]:
+        """Return unit and cells of a column, or raise InputError if it is none."""
+        unit, cells, fault = self.columns[name]
+        if fault:
+            raise InputError(f"{spelled(name)}: {fault}")
+        return unit, cells
 
     @property
     def case(self) -> Mapping[str, Any] | None:
@@ -61,7 +82,12 @@ class Cells(Rows):
         if "case" not in self.comments:
             return None
         try:
-            return dict(json.loads(self.comments["case"]))
+            read = json.loads(
+                self.comments["case"], parse_float=finite_or_text, object_pairs_hook=_given_once
+            )
+            return dict(read)
+        except InputError:
+            raise
         except (ValueError, TypeError, RecursionError):
             raise InputError(f"results: after '{CASE}' there is no JSON of the bodies") from None
 
@@ -86,27 +112,32 @@ def read_table(
     """
     if isinstance(source, str | Path):
         found = read_csv(what, checked_path(what, source), fewest)
-        heads, cells = found.heads, found.columns
+        given = [(head, Column("", cells)) for head, cells in zip(*found[:2], strict=True)]
         table = Cells({}, found.lines, "line", found.comments)
     else:
-        table = _counted(what, *_columns_of(what, source))
-        heads, cells = list(table.cells), list(table.cells.values())
-    heads = _renamed(heads, _checked_columns(columns), what)
-    _check_names(what, [name_and_unit(head)[0] for head in heads])
+        given, comments = _columns_of(what, source)
+        table = Cells({}, _counted(what, given), "row", comments)
+    named = _renamed([head for head, _ in given], _checked_columns(columns), what)
+    _check_names(what, [name for name, _ in named])
     if not len(table.rows):
         raise InputError(f"{what}: no rows; there must be names of columns, and numbers below them")
-    return replace(table, cells=dict(zip(heads, cells, strict=True)))
+    read = {
+        name: column._replace(unit=_one_unit(name, unit, column.unit))
+        for (name, unit), (_, column) in zip(named, given, strict=True)
+    }
+    return replace(table, columns=read)
 
 
-def _columns_of(what: str, source: Any) -> tuple[Any, dict[str, str]]:
-    """Return the columns of what is no file, and its comments."""
+def _columns_of(what: str, source: Any) -> tuple[list[tuple[str, Column]], dict[str, str]]:
+    """Return the heads and the columns of what is no file, and its comments."""
     if hasattr(source, "data_vars"):
-        return _of_dataset(source), {n: source.attrs[n] for n in KEPT if n in source.attrs}
+        comments = {name: source.attrs[name] for name in KEPT if name in source.attrs}
+        return list(_of_dataset(source)), comments
     if not hasattr(source, "items"):  # which a data frame has, too
         raise refusal(what, source, "must be the name of a CSV file, or columns by name")
     if len(source.keys()) > MOST_COLUMNS:
         raise refusal(what, f"{len(source.keys())} columns", f"{MOST_COLUMNS} are read at most")
-    return source, {}
+    return [(str(name), _column(str(name), values)) for name, values in source.items()], {}
 
 
 def _checked_columns(columns: Any) -> Mapping[str, str]:
@@ -120,7 +151,16 @@ def _checked_columns(columns: Any) -> Mapping[str, str]:
 def name_and_unit(head: str) -> tuple[str, str]:
     """Return name and unit of a column from its head, "spin [rpm]" or "spin (rpm)"."""
     name, unit = _parts(ALIASES.get(head.strip(), head))
-    return ALIASES.get(name, name), "" if unit in PLAIN else unit
+    return ALIASES.get(name, name), unit
+
+
+def _given_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Return an object of JSON, or raise InputError for keys that are alike: it takes the last."""
+    for name, count in Counter(name for name, _ in pairs).items():
+        if count > 1:
+            words = f"it is given twice after '{CASE}'; leave one of them out"
+            raise InputError(f"{clipped(name)}: {words}")
+    return dict(pairs)
 
 
 def spelled(name: str) -> str:
@@ -157,17 +197,17 @@ def _check_names(what: str, names: Sequence[str]) -> None:
         raise InputError(f"{listed}: two columns of this name; leave one of them out")
 
 
-def _renamed(heads: Iterable[str], columns: Mapping[str, str], what: str) -> list[str]:
-    """Return heads in which users' names are replaced by Carom's; a unit stays unless it is told.
+def _renamed(heads: Iterable[str], columns: Mapping[str, str], what: str) -> list[tuple[str, str]]:
+    """Return names and units of heads, users' names replaced by Carom's.
 
-    Raises InputError for a name that no column has.
+    Raises InputError for a name that no column has, and for a unit that is told otherwise.
     """
     heads, left, new = list(heads), dict(columns), []
     for head in heads:
-        name, unit = _parts(head)
-        wanted = left.pop(head, None) or left.pop(name, None)
-        own = unit and wanted and not _parts(wanted)[1]
-        new.append(head if wanted is None else f"{wanted} [{unit}]" if own else wanted)
+        own, unit = _parts(head)
+        wanted = left.pop(head, None) or left.pop(own, None)
+        name, told = name_and_unit(head if wanted is None else wanted)
+        new.append((name, told if wanted is None else _one_unit(own, unit, told)))
     for name in left:
         hint = nearest(name, heads) or f"found are {', '.join(heads)}"
         raise refusal("columns", name, f"{what} has no column of that name; {hint}")
@@ -177,55 +217,78 @@ def _renamed(heads: Iterable[str], columns: Mapping[str, str], what: str) -> lis
 def _parts(head: str) -> tuple[str, str]:
     """Return what stands before and in the brackets of a head."""
     match = HEAD.fullmatch(head) if len(head) <= LONGEST else None
-    return (match[1], match[2] or match[3] or "") if match else (head, "")
+    return (match[1], (match[2] or match[3] or "").strip()) if match else (head, "")
 
 
-def _counted(what: str, source: Any, comments: Mapping[str, str]) -> Cells:
-    """Return columns as cells whose rows are counted from 1."""
-    cells = dict(_with_unit(str(name), values) for name, values in source.items())
-    require_equal_lengths(what, cells)
-    rows = np.arange(1, 1 + len(next(iter(cells.values()), [])))
-    return Cells(cells, rows, "row", comments)
+def _one_unit(name: str, one: Any, other: Any) -> Any:
+    """Return the unit that is told in one way or in two, or raise InputError if they differ."""
+    if "" in (str(one), str(other)) or str(one) == str(other):
+        return one if str(one) else other
+    with suppress(InputError):
+        if factor_of(name, other, str(one)) == UNCHANGED:
+            return other
+    raise two_units(name, one, other)
 
 
-def _with_unit(name: str, values: Any) -> tuple[str, Any]:
-    """Return head and cells of a column; pint's quantities and xarray's arrays tell their unit."""
-    unit = ""
-    if hasattr(values, "to_root_units"):
-        values, unit = values.magnitude, str(values.units)
-    elif isinstance(getattr(values, "attrs", None), Mapping):
-        unit = str(values.attrs.get("units", ""))
-    if unit in (*PLAIN, "dimensionless"):
-        return name, _line(name, values)
-    if _parts(name)[1]:
-        allowed = f"it has two units, {_parts(name)[1]} in its head and {unit}; leave one out"
-        raise refusal(name, values, allowed)
-    return f"{name} [{unit}]", _line(name, values)
-
-
-def require_equal_lengths(what: str, columns: Mapping[str, Any]) -> None:
-    """Raise InputError for columns that differ in length."""
-    lengths = {name: len(values) for name, values in columns.items()}
-    if len(set(lengths.values())) > 1:
-        listed = ", ".join(f"{name} {length}" for name, length in lengths.items())
+def _counted(what: str, columns: Iterable[tuple[str, Column]]) -> NDArray[np.int64]:
+    """Return the numbers of rows, from 1, or raise InputError for columns that differ in length."""
+    lengths = [(head, len(column.cells)) for head, column in columns if not column.fault]
+    if len({length for _, length in lengths}) > 1:
+        listed = ", ".join(f"{head} {length}" for head, length in lengths)
         raise InputError(f"{what}: columns must be equally long; rows are {listed}")
+    return np.arange(1, 1 + (lengths[0][1] if lengths else 0))
 
 
-def _line(name: str, values: Any) -> Any:
-    """Return a column: an array of numbers, or a list of whatever else it holds."""
-    if isinstance(values, np.ma.MaskedArray):
-        values = np.ma.filled(values.astype(np.float64), np.nan)
-    if isinstance(values, str | bytes) or np.ndim(values) != 1:
-        raise refusal(name, values, "a column must be a list of numbers")
-    kind = getattr(getattr(values, "dtype", None), "kind", "O")
-    return np.asarray(values, dtype=np.float64) if kind in "iuf" else list(values)
+def _column(name: str, given: Any, *, gaps: bool = False) -> Column:
+    """Return a column of a user's; a gap is what is masked, with `gaps` what is no number, too."""
+    plain, told = told_unit(name, given)
+    cells: Any = None
+    if isinstance(plain, Sequence) and not isinstance(plain, RAW):
+        cells = list(plain)
+    elif _depth(plain) == 1:
+        cells = _of_array(name, plain, gaps)
+    if cells is None or (isinstance(cells, list) and any(map(_depth, cells))):
+        raise refusal(name, given, "a column must be a list of numbers")
+    return Column("" if told is None else told, cells)
 
 
-def _of_dataset(dataset: Any) -> dict[str, list[Any]]:
-    """Return the columns of an xarray dataset; what is missing there was not measured."""
-    cells = {}
-    for name, item in dataset.variables.items():
-        if item.ndim == 1:
-            head = f"{name} [{item.attrs.get('units', '1')}]"
-            cells[head] = [GAP if value != value else value for value in item.values.tolist()]
-    return cells
+def _depth(value: Any) -> int:
+    """Return how many dimensions an array has, 1 for lists, 0 for anything else."""
+    shape = () if isinstance(value, RAW) else getattr(value, "shape", ())
+    return 1 if isinstance(value, list | tuple) else len(shape) if isinstance(shape, tuple) else 0
+
+
+def _of_array(name: str, values: Any, gaps: bool) -> Any:
+    """Return an array of numbers, or a list of whatever else there is; with gaps, a list."""
+    real = getattr(getattr(values, "dtype", None), "kind", "") in REAL
+    array = np.asanyarray(values)
+    if real and array.dtype.kind not in REAL:  # with pandas' own sign of what is missing
+        array = np.asarray(values, dtype=np.float64)
+    cells = floats(name, np.ma.getdata(array)) if real else list(np.ma.getdata(array))
+    gone = np.ma.getmaskarray(array)
+    if gaps:
+        gone = gone | (np.isnan(cells) if real else [_is_nan(cell) for cell in cells])
+    if not gone.any():
+        return cells
+    return [GAP if empty else cell for cell, empty in zip(cells, gone.tolist(), strict=True)]
+
+
+def _is_nan(cell: Any) -> bool:
+    return isinstance(cell, float | np.datetime64 | np.timedelta64) and cell != cell
+
+
+def _of_dataset(dataset: Any) -> Iterator[tuple[str, Column]]:
+    """Return the columns of an xarray dataset; what is missing there was not measured.
+
+    Rows run along one dimension; one value is that of every row.
+    """
+    variables = [*dataset.data_vars.values(), *dataset.coords.values()]
+    sizes = next(({item.dims[0]: item.size} for item in variables if item.ndim == 1), {})
+    for key, item in dataset.variables.items():
+        name, whole = str(key), item if item.dims else item.set_dims(sizes)
+        if sizes and whole.dims == (*sizes,):
+            yield name, _column(name, whole, gaps=True)
+        else:
+            along, rows = (" and ".join(map(str, dims)) for dims in (item.dims, sizes))
+            fault = f"it runs along {along}, the rows along {rows}; choose with .sel or .isel"
+            yield name, Column("", (), fault)

@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, refusal
-from carom.quantities.texts import Unreadable, split
-from carom.quantities.units import REAL, as_float, in_si, is_real, number
+from carom.quantities.texts import CANNOT_HOLD, UNCHANGED, Factor, Unreadable, split
+from carom.quantities.units import REAL, as_float, factor_of, is_real, number, told_unit
 
 Array = NDArray[np.float64]
 
@@ -74,8 +74,27 @@ def _read(given: Any, reading: _Reading) -> Array:
         values = np.asarray(None)
     if values.dtype.kind not in REAL and values.size:
         raise refusal(reading.name, given, reading.allowed)
+    return floats(reading.name, values)
+
+
+def floats(name: str, values: NDArray[Any]) -> Array:
+    """Return a copy of real numbers in double precision, or raise InputError if it overflows."""
     with np.errstate(all="ignore"):
-        return values.astype(np.float64)
+        found = values.astype(np.float64)
+    if values.dtype.itemsize > found.itemsize and np.any(np.isinf(found) & np.isfinite(values)):
+        raise refusal(name, values, CANNOT_HOLD)
+    return found
+
+
+def in_unit(name: str, values: Array, own: Factor) -> Array:
+    """Return numbers in another unit, or raise InputError if one overflows."""
+    if own == UNCHANGED:
+        return values
+    with np.errstate(over="ignore"):
+        found = values * own.times / own.over
+    if np.any(np.isinf(found) & np.isfinite(values)):
+        raise refusal(name, values, CANNOT_HOLD)
+    return found
 
 
 def _bare(given: Any, reading: _Reading) -> Any:
@@ -89,7 +108,11 @@ def _bare(given: Any, reading: _Reading) -> Any:
         return [_bare(each, reading) for each in given]
     if isinstance(given, bytes | bytearray | memoryview):
         return None
-    plain = in_si(reading.name, given, reading.unit)
+    plain, told = told_unit(reading.name, given, reading.unit)
+    if told is not None:  # what has a unit holds plain numbers
+        own = factor_of(reading.name, told, reading.unit)
+        held = _read(plain, reading._replace(unit="1", texts=False))
+        return in_unit(reading.name, held, own)
     if isinstance(plain, str):
         return number(reading.name, plain, reading.unit) if reading.texts else None
     if is_real(plain):

@@ -65,10 +65,10 @@ def flag(name: str, value: Any) -> bool:
 
 
 def _shown(value: Any) -> str:
-    shape = getattr(value, "shape", ())
-    if shape and isinstance(shape, tuple):
-        return f"an array of shape {shape}"
     try:
+        shape = getattr(value, "shape", ())
+        if shape and isinstance(shape, tuple):
+            return f"an array of shape {shape}"
         return clipped(_short.repr(value) if isinstance(value, Iterable | int) else repr(value))
     except Exception:  # of an integer with too many digits, of a class of users
         return f"this {type(value).__name__}"

@@ -4,17 +4,19 @@
     unit   = term {product term} [/ term],  term = name [power]
 
 Digits are ASCII, a sign is +, - or the minus U+2212, a product is a space, * or a raised dot, a
-power is ^2, **2 or raised digits. Whatever else stands in a text makes it unreadable, so that pint,
-which multiplies and drops what it does not understand, is asked for the names of units alone.
+power is ^2, **2 or raised digits, or -2 at the end of a name, as in the CF conventions. Whatever
+else stands in a text makes it unreadable, so that pint, which multiplies and drops what it does not
+understand, is asked for the names of units alone.
 """
 
 import re
 from functools import lru_cache
-from math import inf, log10
+from math import inf, isinf, log10
 from typing import Any, NamedTuple
 
 LONGEST = 200  # characters of a text
 TERMS = 4  # of a unit expression
+CANNOT_HOLD = "floating point cannot hold it"
 
 BLANKS = " \t\u00a0\u2009\u202f"  # no-break and thin spaces, too
 MINUS = "\u2212"
@@ -23,7 +25,9 @@ NUMBER = re.compile(rf"{SIGN}(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE]{SIGN}[0-9]+)?")
 LOWERED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹" + MINUS, "+-0123456789-")
 RAISED_DIGITS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 NAME = rf"[^\W\d{RAISED_DIGITS}]+|[%‰°]"
-POWER = rf"(?:\^|\*\*)({SIGN}[0-9])|([⁺⁻]?[{RAISED_DIGITS}])"
+SPACED = rf"[{BLANKS}]*(?:\^|\*\*)[{BLANKS}]*({SIGN}[0-9])"  # pint writes blanks around **
+CF = rf"(?<=[^\W\d_])([{MINUS}-][0-9])"
+POWER = rf"{SPACED}|([⁺⁻]?[{RAISED_DIGITS}])|{CF}"
 TERM = re.compile(rf"({NAME})(?:{POWER})?(?![0-9{RAISED_DIGITS}^])")
 PRODUCT = re.compile(rf"[{BLANKS}]*[*·⋅][{BLANKS}]*|[{BLANKS}]+")
 SLASH = re.compile(rf"[{BLANKS}]*/[{BLANKS}]*")
@@ -65,13 +69,29 @@ class Factor(NamedTuple):
     times: float
     over: float
 
-    def apply(self, number: Any) -> Any:
-        """Return a number, or an array of them, in the other unit."""
-        return number * self.times / self.over
+    def apply(self, number: float) -> float:
+        """Return a float in the other unit, or raise Unreadable if it overflows."""
+        found = number * self.times / self.over
+        if isinf(found) and not isinf(number):
+            raise Unreadable(CANNOT_HOLD, enough=True)
+        return found
 
 
-def read_text(text: str, unit: str) -> float:
-    """Return the quantity in a text, in a unit of which a bare number is.
+UNCHANGED = Factor(1.0, 1.0)
+
+
+def as_factor(ratio: float) -> Factor:
+    """Return the factor that is this ratio, powers of ten exactly, or raise Unreadable."""
+    if not 0.0 < ratio < inf:
+        raise Unreadable(CANNOT_HOLD)
+    decades = round(log10(ratio))
+    if abs(ratio - 10.0**decades) > 1e-12 * ratio:
+        return Factor(ratio, 1.0)
+    return Factor(10.0 ** max(decades, 0), 10.0 ** max(-decades, 0))
+
+
+def read_text(text: str, unit: str, bare: Factor = UNCHANGED) -> float:
+    """Return the quantity in a text, in a unit; `bare` is how a bare number comes to be in it.
 
     Raises Unreadable.
 
@@ -82,7 +102,7 @@ def read_text(text: str, unit: str) -> float:
     (-3.0, 0.2, 7.0)
     """
     value, expression = split(text)
-    return float(factor(expression, unit).apply(value)) if expression else value
+    return (factor(expression, unit) if expression else bare).apply(value)
 
 
 def split(text: str) -> tuple[float, str]:
@@ -98,8 +118,8 @@ def split(text: str) -> tuple[float, str]:
         raise Unreadable() if plain else Unreadable("it is empty")
     digits = found[0].replace(MINUS, "-")
     value = float(digits)
-    if abs(value) == inf or (value == 0.0 and re.search("[1-9]", digits.lower().split("e")[0])):
-        raise Unreadable("floating point cannot hold it", enough=True)
+    if isinf(value) or (value == 0.0 and re.search("[1-9]", digits.lower().split("e")[0])):
+        raise Unreadable(CANNOT_HOLD, enough=True)
     rest = plain[found.end() :]
     if rest.startswith(","):
         raise Unreadable("numbers need a decimal point, not a comma", enough=True)
@@ -107,7 +127,7 @@ def split(text: str) -> tuple[float, str]:
 
 
 def factor(expression: str, unit: str) -> Factor:
-    """Return how numbers with one unit become those of another of the same kind.
+    """Return how numbers with one unit, empty for pure numbers, become those of another.
 
     Raises Unreadable if the expression is none, or of another kind; angles are a kind of their own.
     """
@@ -120,29 +140,28 @@ def factor(expression: str, unit: str) -> Factor:
 @lru_cache(maxsize=4096)
 def _factor(expression: str, unit: str) -> Factor | Unreadable:
     try:
-        given, wanted = _root(_terms(expression)), _root(() if unit == "1" else _terms(unit))
+        given, wanted = _root(_terms(expression)), _root(_terms("" if unit == "1" else unit))
+        if given[1] == wanted[1]:
+            return as_factor(given[0] / wanted[0])
     except Unreadable as error:
         return error
-    if given[1] != wanted[1]:
-        return Unreadable(
-            OTHER_KIND.get(unit, "that is not a value in {1}").format(expression, unit)
-        )
-    ratio = given[0] / wanted[0]
-    decades = round(log10(ratio))
-    if abs(ratio - 10.0**decades) > 1e-12 * ratio:
-        return Factor(ratio, 1.0)
-    return Factor(10.0 ** max(decades, 0), 10.0 ** max(-decades, 0))
+    except ArithmeticError:
+        return Unreadable(CANNOT_HOLD)
+    words = OTHER_KIND.get(unit, "that is not a value in {1}")
+    return Unreadable(words.format(expression or "1", unit))
 
 
 def _terms(expression: str) -> tuple[tuple[str, int], ...]:
     """Return names of units and their powers, or raise Unreadable."""
+    if not expression:  # that of pure numbers
+        return ()
     terms: list[tuple[str, int]] = []
     place, sign = 0, 1
     while True:
         found = TERM.match(expression, place)
         if found is None or len(terms) == TERMS:
             raise Unreadable(f"{expression!r} is no unit")
-        power = (found[2] or found[3] or "1").translate(LOWERED)
+        power = (found[2] or found[3] or found[4] or "1").translate(LOWERED)
         terms.append((found[1], sign * int(power)))
         place = found.end()
         if place == len(expression):

@@ -3,13 +3,22 @@
 import math
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from decimal import Decimal
 from numbers import Integral, Real
 from typing import Any
 
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import refusal
-from carom.quantities.texts import Factor, Unreadable, factor, read_text
+from carom.quantities.refusals import InputError, clipped, refusal
+from carom.quantities.texts import (
+    CANNOT_HOLD,
+    UNCHANGED,
+    Factor,
+    Unreadable,
+    as_factor,
+    factor,
+    read_text,
+)
 
 Value = float | str  # a number in SI units, or text with a unit
 
@@ -18,6 +27,7 @@ MOST = 1_000_000  # of what is counted, where nothing else is said
 MOST_THREADS = 1024
 WHOLE = re.compile(r"[+-]?[0-9]{1,40}")
 REAL = "iuf"  # kinds of NumPy's types
+PURE = ("1", "-", "dimensionless")  # how tables and attributes call the unit of pure numbers
 
 HINTS = {
     "m": "5 mm",
@@ -32,8 +42,10 @@ HINTS = {
 }
 
 
-def number(name: str, value: Any, unit: str | None = None) -> float:
+def number(name: str, value: Any, unit: str | None = None, bare: Factor = UNCHANGED) -> float:
     """Return a value in SI units: a number, or text with a unit such as "5 mm".
+
+    `bare` is how a number without a unit comes to be in SI units.
 
     Raises InputError for anything else, for an unknown unit and for a unit of another kind.
 
@@ -47,15 +59,14 @@ def number(name: str, value: Any, unit: str | None = None) -> float:
     True
     """
     unit = unit or GLOSSARY[name].unit
-    plain = in_si(name, value, unit)
+    plain, told = told_unit(name, value, unit)
     if isinstance(plain, str):
-        return _of_text(name, plain, unit)
-    if not is_real(plain):
-        raise refusal(name, value, _expected(unit))
-    result = as_float(name, plain)
+        return _of_text(name, plain, unit, bare)
+    result = as_float(name, plain) if is_real(plain) else math.nan
     if math.isnan(result):
         raise refusal(name, value, _expected(unit))
-    return result
+    own = bare if told is None else factor_of(name, told, unit)
+    return _scaled(name, value, result, own)
 
 
 def pure_number(name: str, value: Any, allowed: str = "give one number") -> float:
@@ -63,10 +74,11 @@ def pure_number(name: str, value: Any, allowed: str = "give one number") -> floa
 
     Raises InputError for anything else.
     """
-    plain = in_si(name, value, "1")
+    plain, told = told_unit(name, value, "1")
     if not is_real(plain):
         raise refusal(name, value, allowed)
-    return as_float(name, plain)
+    own = UNCHANGED if told is None else factor_of(name, told, "1")
+    return _scaled(name, value, as_float(name, plain), own)
 
 
 def is_real(value: Any) -> bool:
@@ -80,39 +92,68 @@ def is_real(value: Any) -> bool:
 def as_float(name: str, value: Any) -> float:
     """Return one real number as a float, or raise InputError."""
     try:
-        return float(value)
+        found = float(value)
+        held = math.isfinite(found) or bool(value != value or value == found)
     except OverflowError:
-        raise refusal(name, value, "floating point cannot hold it") from None
+        held = False
     except Exception:  # whatever other libraries raise, and Decimal("sNaN")
         raise refusal(name, value, "give one real number") from None
+    if not held:
+        raise refusal(name, value, CANNOT_HOLD)
+    return found
 
 
-def in_si(name: str, given: Any, unit: str) -> Any:
-    """Return what is given as it is, or without its unit: pint's quantities, xarray's arrays.
+def finite_or_text(text: str) -> float | str:
+    """Return a number of TOML or JSON, as a text if it is not finite, which no quantity is then.
 
-    Raises InputError for a unit of another kind, and for quantities of other libraries.
+    Examples
+    --------
+    >>> from carom.quantities.units import finite_or_text
+    >>> finite_or_text("1e99"), finite_or_text("1e999"), finite_or_text("inf")
+    (1e+99, '1e999', 'inf')
+    """
+    return float(text) if math.isfinite(float(text)) else text
+
+
+def told_unit(name: str, given: Any, unit: str = "") -> tuple[Any, Any]:
+    """Return what is given without its unit, and that unit, None where it tells none.
+
+    Quantities of pint's and arrays of xarray's tell theirs, as an object of pint's or as a text.
+    Raises InputError for quantities of other libraries; `unit` is the one that is wanted.
     """
     if hasattr(given, "to_root_units"):
-        return _of_pint(name, given, unit)
+        return given.magnitude, given.units
     attributes = getattr(given, "attrs", None)
     if isinstance(attributes, Mapping):
-        within = getattr(given, "data", None)
-        if hasattr(within, "to_root_units"):
-            return _of_pint(name, within, unit)
-        own = attributes.get("units", unit)
-        return given if own == unit else factor_of(name, str(own), unit).apply(given)
+        within: Any = getattr(given, "data", None)
+        own, inner = attributes.get("units"), hasattr(within, "to_root_units")
+        if own is None or own == "":
+            return (within.magnitude, within.units) if inner else (given, None)
+        if inner:
+            raise two_units(name, own, within.units)
+        return given.values, str(own)
     if hasattr(given, "unit") or hasattr(given, "units"):
-        plain = "plain numbers" if unit == "1" else f"plain numbers in {unit}"
+        plain = f"plain numbers in {unit}" if unit not in ("", "1") else "plain numbers"
         raise refusal(name, given, f"give {plain}, or a quantity of pint's")
-    return given
+    return given, None
 
 
-def factor_of(name: str, expression: str, unit: str) -> Factor:
-    """Return how numbers with one unit become those of another, or raise InputError."""
+def two_units(name: str, one: Any, other: Any) -> InputError:
+    """Return the error that refuses what has two units."""
+    return InputError(f"{clipped(name)}: it has two units, {one} and {other}; leave one out")
+
+
+def factor_of(name: str, own: Any, unit: str) -> Factor:
+    """Return how numbers in a unit, a text or one of pint's, become those in another.
+
+    Raises InputError if it is none, or of another kind.
+    """
     try:
-        return factor(expression, unit)
+        if isinstance(own, str):
+            return factor("" if own in PURE else own, unit)
+        return _of_pint(own, unit)
     except Unreadable as error:
-        raise refusal(name, expression, f"{error}; {_expected(unit)}") from None
+        raise refusal(name, str(own), f"{error}; {_expected(unit)}") from None
 
 
 def positive(name: str, value: Any, unit: str | None = None) -> float:
@@ -194,22 +235,29 @@ def _expected(unit: str) -> str:
     return f"give a number in {unit}, or text with a unit such as {HINTS.get(unit, f'3 {unit}')!r}"
 
 
-def _of_text(name: str, text: str, unit: str) -> float:
+def _scaled(name: str, given: Any, found: float, own: Factor) -> float:
     try:
-        return read_text(text, unit)
+        return own.apply(found)
+    except Unreadable as error:
+        raise refusal(name, given, str(error)) from None
+
+
+def _of_text(name: str, text: str, unit: str, bare: Factor) -> float:
+    try:
+        return read_text(text, unit, bare)
     except Unreadable as error:
         expected = () if error.enough else (_expected(unit),)
         raise refusal(name, text, "; ".join(filter(None, (str(error), *expected)))) from None
 
 
-def _of_pint(name: str, quantity: Any, unit: str) -> Any:
-    """Return the magnitude of a quantity of pint's in a unit, or raise InputError."""
-    wanted = type(quantity)(1.0, "" if unit == "1" else unit)
-    kinds = (dict(each.to_root_units().unit_items()) for each in (quantity, wanted))
-    try:
+def _of_pint(own: Any, unit: str) -> Factor:
+    """Return how numbers in a unit of pint's become those in another, or raise Unreadable."""
+    with suppress(Exception):  # pint raises what it likes at units with an offset
+        quantity = type(1 * own)
+        wanted = quantity(1, "" if unit == "1" else unit)
+        kinds = (dict(each.to_root_units().unit_items()) for each in (quantity(1, own), wanted))
         if next(kinds) == next(kinds):
-            return quantity.to(wanted.units).magnitude
-    except Exception:  # pint raises what it likes at units with an offset
-        pass
-    kind = "pure number" if unit == "1" else f"value in {unit}"
-    raise refusal(name, quantity, f"that is no {kind}; {_expected(unit)}") from None
+            nothing, one = (quantity(n, own).to(wanted.units).magnitude for n in (0, 1))
+            if nothing == 0:  # no offset, no logarithm
+                return as_factor(float(one))
+    raise Unreadable(f"that is no {'pure number' if unit == '1' else f'value in {unit}'}")

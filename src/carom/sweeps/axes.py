@@ -80,8 +80,9 @@ def read_range(name: str, given: Any, *, apart: bool = True) -> Range:
 
 
 def _as_table(name: str, given: Any) -> Mapping[str, Any]:
-    if isinstance(given, list | tuple | np.ndarray) and len(given) == 2:
-        return dict(zip(RANGE, given, strict=False))
+    ends = np.atleast_1d(given).tolist() if isinstance(given, np.ndarray) else given
+    if isinstance(ends, list | tuple) and len(ends) == 2:
+        return dict(zip(RANGE, ends, strict=False))
     if not isinstance(given, Mapping):
         raise refusal(name, given, "must be a range: (first, last), or {from, to, spacing}")
     for key in given:

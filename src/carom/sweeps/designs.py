@@ -3,11 +3,13 @@
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from itertools import chain
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.bodies.plausibility import doubts_of_values
 from carom.dimensionless.numerics.permutation import fractions, secrets
 from carom.quantities.refusals import refusal
 from carom.quantities.units import counted
@@ -19,6 +21,7 @@ from carom.sweeps.inputs import (
     Choices,
     checked_names,
     input_attributes,
+    leaf,
     read_choices,
     variable,
 )
@@ -67,6 +70,17 @@ class Design(ABC):
     @abstractmethod
     def description(self) -> dict[str, Any]:
         """Return what tells this design from others, as JSON can hold it."""
+
+    def doubts(self) -> tuple[str, ...]:
+        """Return what is hardly meant among the inputs, in words."""
+        numbers = [
+            (leaf(name), given[:2] if isinstance(given, Range) else given)
+            for name, given in self._given.items()
+            if name not in self.choices
+        ]
+        for choice in chain.from_iterable(self.choices.values()):
+            numbers += choice.values.items()
+        return doubts_of_values(numbers)
 
     def _described(self, describe: Callable[[Any], Any]) -> dict[str, Any]:
         """Return by input its choices, or what describes its values or range."""

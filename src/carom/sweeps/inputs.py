@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.bodies import cases
 from carom.io.labels import attributes
-from carom.quantities.refusals import InputError, hint, refusal
+from carom.quantities.refusals import InputError, clipped, hint, refusal
 from carom.quantities.symbols import meant, remark
 
 CODE = np.int8
@@ -84,7 +84,7 @@ def checked_names(given: Iterable[Any]) -> tuple[str, ...]:
         raise InputError("design: no inputs; give at least one, e.g. 'angle'")
     for name in names:
         if name not in INPUTS:
-            raise InputError(f"{name}: not an input of an impact; {_hint(name)}")
+            raise InputError(f"{clipped(str(name))}: not an input of an impact; {_hint(name)}")
     refuse_contradictions(names)
     return names
 
@@ -110,7 +110,8 @@ def refuse_contradictions(names: Iterable[str]) -> None:
 
 def read_choices(name: str, given: Any) -> tuple[Choice, ...]:
     """Return the choices of an input that has names, or raise InputError."""
-    listed = given if isinstance(given, list | tuple | np.ndarray) else [given]
+    plain = np.atleast_1d(given).tolist() if isinstance(given, np.ndarray) else given
+    listed = plain if isinstance(plain, list | tuple) else [plain]
     return checked_choices(name, [read_choice(name, value) for value in listed])
 
 

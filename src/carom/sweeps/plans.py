@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from carom.bodies.cases import SWEEP, Case, line_of
-from carom.quantities.refusals import InputError, hint, refusal
+from carom.quantities.refusals import InputError, clipped, hint, refusal
 from carom.sweeps.designs import Design, Grid, LatinHypercube
 from carom.sweeps.tables import Table
 
@@ -84,8 +84,10 @@ def _flat(axes: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     """Return axes by dotted names; first.radius without quotes is a table in a table for TOML."""
     flat: dict[str, Any] = {}
     for name, axis in axes.items():
-        if isinstance(axis, Mapping) and axis and not axis.keys() & {"from", "to", "points"}:
-            flat |= _flat(axis, f"{prefix}{name}.")
-        else:
-            flat[prefix + name] = axis
+        nested = isinstance(axis, Mapping) and axis and not axis.keys() & {"from", "to", "points"}
+        found = _flat(axis, f"{prefix}{name}.") if nested else {prefix + name: axis}
+        for twice in flat.keys() & found.keys():
+            words = "it is given twice in [sweep.axes]; leave one of them out"
+            raise InputError(f"{clipped(twice)}: {words}")
+        flat |= found
     return flat

@@ -89,7 +89,7 @@ class SweepProblem:
     def __init__(
         self, case: Mapping[str, Any], design: Design, outputs: Sequence[str] | None = None
     ) -> None:
-        if isinstance(design, type) or not hasattr(design, "inputs"):
+        if not isinstance(design, Design):
             raise refusal("design", design, "must be a Grid, LatinHypercube or Table")
         if not isinstance(case, Mapping):
             raise refusal("case", case, "must be a mapping like a case file, {'friction': 0.2}")

@@ -1,7 +1,7 @@
 """Tables of cases: columns of numbers with units, or of names, from a CSV file or a mapping."""
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,10 +12,10 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from carom.io.columns import column_in_si
-from carom.io.tables import name_and_unit, read_table
+from carom.io.tables import read_table
 from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError
+from carom.quantities.refusals import InputError, refusal
 from carom.sweeps.blocks import Box
 from carom.sweeps.designs import Design
 from carom.sweeps.inputs import (
@@ -90,10 +90,10 @@ def _read(
     inputs: dict[str, NDArray[Any]] = {}
     choices: dict[str, tuple[Choice, ...]] = {}
     with Faults() as faults:
-        for head, cells in table.cells.items():
-            name, unit = name_and_unit(head)
+        for name in table.names:
             try:
                 checked_names([name])
+                unit, cells = table.column(name)
                 if name in CHOSEN:
                     inputs[name], choices[name] = _chosen(name, cells)
                 else:
@@ -107,7 +107,12 @@ def _read(
 
 def _chosen(name: str, cells: Any) -> tuple[NDArray[Any], tuple[Choice, ...]]:
     """Return the codes of a column of names, and what they stand for."""
-    codes, values = pd.factorize(np.array([*cells, None], dtype=object)[:-1])
+    listed = np.fromiter(cells, dtype=object, count=len(cells))
+    try:
+        codes, values = pd.factorize(listed)
+    except TypeError:
+        strange = next((cell for cell in cells if not isinstance(cell, Hashable)), cells)
+        raise refusal(name, strange, "a column of names holds texts, or materials") from None
     read: dict[int, Choice] = {}
     for i, value in enumerate(values):
         with suppress(InputError):

@@ -18,7 +18,7 @@ from carom.laws.dem.damping import (
     tsuji_damping,
 )
 from carom.quantities.refusals import one_of, refusal
-from carom.quantities.units import not_negative, positive
+from carom.quantities.units import Value, not_negative, positive
 
 SPRING, MINDLIN = dem.LinearSpring(), dem.LammpsMindlin("mindlin_rescale/force")
 
@@ -211,7 +211,7 @@ def _rule(convention: str) -> Callable[[float], float]:
 def recipes(
     pair: Pair,
     normal_speed: float,
-    wanted: float = 1.0,
+    wanted: Value = 1.0,
     *,
     spring: dem.LinearSpring = SPRING,
     mindlin: dem.LammpsMindlin = MINDLIN,
@@ -224,7 +224,7 @@ def recipes(
         The bodies and their friction.
     normal_speed : float
         Of the impact for which linear springs are made, in m/s.
-    wanted : float
+    wanted : float or str
         Normal restitution.
     spring, mindlin : LinearSpring, LammpsMindlin
         Tangential stiffnesses, e.g. those that `tune` has found; by default those of the bodies.
@@ -253,11 +253,12 @@ def recipes(
     ):
         if not isinstance(law, kind):
             raise refusal(name, law, f"must be a {kind.__name__}, e.g. carom.{kind.__name__}()")
-    k, mu, zeta = stiffnesses(pair, normal_speed), pair.friction, damping(wanted)
+    e = damped_restitution("restitution", wanted)
+    k, mu, zeta = stiffnesses(pair, normal_speed), pair.friction, damping(e)
     ratio = k.ratio if spring.stiffness_ratio is None else spring.stiffness_ratio
     k_n, k_t, dashpot = k.normal, ratio * k.normal, 2.0 * zeta * sqrt(k.normal * pair.normal_mass)
-    loss, rule = (0.0, "velocity") if wanted == 1.0 else (wanted, "coeff_restitution")
-    beta = damping(wanted, "thornton")
+    loss, rule = (0.0, "velocity") if e == 1.0 else (e, "coeff_restitution")
+    beta = damping(e, "thornton")
     return {
         "LAMMPS Hertz": f"hertz {k.hertz:.4e} {loss:g} tangential {mindlin.variant}"
         f" {mindlin.stiffness * k.mindlin:.4e} 0 {mu:g} damping {rule}",
@@ -265,12 +266,12 @@ def recipes(
         f" {k_t:.4e} 0 {mu:g} damping velocity",
         "LIGGGHTS hooke/stiffness": f"kn {k_n:.4e} kt {k_t:.4e}"
         f" gamman {dashpot / pair.normal_mass:.4e} gammat 0",
-        "LIGGGHTS hertz, EDEM": f"E, nu of the bodies, coefficientRestitution {wanted:g}",
+        "LIGGGHTS hertz, EDEM": f"E, nu of the bodies, coefficientRestitution {e:g}",
         "YADE CundallStrack": f"kn {k_n:.4e} ks {k_t:.4e}"
-        + ("" if wanted == 1.0 else " (has no damping)"),
+        + ("" if e == 1.0 else " (has no damping)"),
         "YADE Mindlin": f"betan {beta:.5f} betas 0",
         "Kratos": f"DAMPING_GAMMA {beta:.5f}",
         "MercuryDPM linear": f"stiffness {k_n:.4e} dissipation {dashpot:.4e}"
         f" slidingStiffness {k_t:.4e}",
-        "MFiX linear": f"KN {k_n:.4e} KT_FAC {ratio:.4f} DES_EN_INPUT {wanted:g}",
+        "MFiX linear": f"KN {k_n:.4e} KT_FAC {ratio:.4f} DES_EN_INPUT {e:g}",
     }

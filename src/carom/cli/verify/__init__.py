@@ -1,14 +1,13 @@
 """`carom verify`: contact laws and DEM codes against the exact impact."""
 
-import typer
-
+from carom.cli.once import Commands
 from carom.cli.verify.engines import COMMANDS, engine_command
 from carom.cli.verify.laws import laws_command
 from carom.cli.verify.pack import pack_command
 from carom.cli.verify.score import score_command
 from carom.cli.verify.tune import tune_command
 
-app = typer.Typer(
+app = Commands(
     name="verify",
     help="Put contact laws and DEM codes to the test against the exact impact.\n\n"
     "Example: carom verify laws",

@@ -216,6 +216,6 @@ def follow_path(depths: Array, targets: Array, by_force: NDArray[np.bool_]) -> P
     """
     results = np.full((depths.size, RESULTS), np.nan)
     stack = memory.new_stack(depths.size)
-    given = map(np.ascontiguousarray, (depths, targets, by_force))
-    top, refused = follow(stack, *given, results)
+    depths, targets = np.ascontiguousarray(depths), np.ascontiguousarray(targets)
+    top, refused = follow(stack, depths, targets, np.ascontiguousarray(by_force), results)
     return Path(results, stack[: top + 1].copy(), refused)
