@@ -10,7 +10,7 @@ from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-BUILDING = "carom.dimensionless.numerics.building"
+BUILDING = "carom.native.building"
 LEVELS = "CAROM_LEVELS"  # of the environment: levels of x86-64 for a wheel to publish, e.g. "1 3"
 
 

@@ -12,6 +12,7 @@ from typing import Any, Generic, ParamSpec, TypeVar, cast
 
 from carom.dimensionless.numerics import library
 from carom.dimensionless.numerics.signatures import Signature, signature_of
+from carom.quantities.refusals import one_of
 
 VARIABLE = "CAROM_KERNELS"  # of the environment: library, numba or python
 WAYS = ("library", "numba", "python")
@@ -20,13 +21,8 @@ Found = TypeVar("Found")
 
 
 def way() -> str:
-    """Return how kernels are to be run, or raise ValueError."""
-    told = os.environ.get(VARIABLE, "library")
-    if told not in WAYS:
-        raise ValueError(
-            f"{VARIABLE}: {told!r} cannot be used; it must be one of {', '.join(WAYS)}"
-        )
-    return told
+    """Return how kernels are to be run, or raise InputError."""
+    return one_of(VARIABLE, os.environ.get(VARIABLE, "library"), WAYS)
 
 
 class Kernel(Generic[Given, Found]):

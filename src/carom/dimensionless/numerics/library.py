@@ -27,8 +27,48 @@ class Opened(NamedTuple):
     signatures: dict[str, str]
 
 
-class Unusable(Exception):
+class Unusable(RuntimeError):
     """There is no library that can be used; the message says why."""
+
+
+def get_include() -> str:
+    """Return the folder of carom.h, the header of the functions for C and other languages.
+
+    Returns
+    -------
+    str
+        A folder, to be given to a compiler with -I.
+
+    Examples
+    --------
+    >>> import carom
+    >>> from pathlib import Path
+    >>> Path(carom.get_include(), "carom.h").is_file()
+    True
+    """
+    return str(PACKAGE / "include")
+
+
+def get_library() -> str:
+    """Return the shared library of the functions in carom.h, to be linked or loaded.
+
+    Returns
+    -------
+    str
+        The path of the library that was made for this processor.
+
+    Raises
+    ------
+    RuntimeError
+        If there is none, with the reason: Carom was installed without a C compiler, or as editable.
+
+    Examples
+    --------
+    >>> import carom, ctypes
+    >>> def level():
+    ...     return ctypes.CDLL(carom.get_library()).carom_processor_level()
+    """
+    return str(opened().path)
 
 
 def function(
@@ -72,38 +112,30 @@ def reason() -> str:
 @cache
 def opened() -> Opened:
     """Return the best of the libraries, opened, or raise Unusable."""
-    contents = _contents()
-    if not _is_made_from(contents):
-        raise Unusable("the compiled library was made from other sources")
-    trouble = "no compiled library is for this processor"
-    for each in contents["libraries"]:  # the best first
+    try:
+        contents = json.loads((FOLDER / CONTENTS).read_text(encoding="utf-8"))
+        if digest(PACKAGE / name for name in contents["files"]) != contents["sources"]:
+            raise Unusable("the compiled library was made from other sources")
+        return _best(contents)
+    except FileNotFoundError:
+        raise Unusable("carom was installed without its compiled library") from None
+    except (OSError, ValueError, KeyError, TypeError):
+        raise Unusable("the compiled library is damaged; install carom again") from None
+
+
+def _best(contents: Any) -> Opened:
+    """Return the first library, of which the best comes first, that this processor can run."""
+    for each in contents["libraries"]:
         path = FOLDER / each["file"]
+        if sha256(path.read_bytes()).hexdigest() != each["sha256"]:
+            raise ValueError
         try:
-            if sha256(path.read_bytes()).hexdigest() != each["sha256"]:
-                raise Unusable("the compiled library is damaged; install carom again")
             handle = ctypes.CDLL(str(path))
         except OSError as error:
-            trouble = f"the compiled library cannot be opened: {error}"
-            continue
+            raise Unusable(f"the compiled library cannot be opened: {error}") from None
         if handle.carom_processor_level() >= each["level"]:
             return Opened(path, handle, contents["signatures"])
-    raise Unusable(trouble)
-
-
-def _is_made_from(contents: Any) -> bool:
-    try:
-        return bool(digest(PACKAGE / name for name in contents["files"]) == contents["sources"])
-    except OSError:
-        return False
-
-
-def _contents() -> Any:
-    try:
-        return json.loads((FOLDER / CONTENTS).read_text(encoding="utf-8"))
-    except OSError:
-        raise Unusable("carom was installed without its compiled library") from None
-    except ValueError:
-        raise Unusable("the compiled library is damaged; install carom again") from None
+    raise Unusable("no compiled library is for this processor")
 
 
 def digest(files: Iterable[Path]) -> str:

@@ -1,6 +1,6 @@
 """Building the shared library of compiled kernels, when the package is built.
 
-    python -m carom.dimensionless.numerics.building FOLDER [LEVEL ...]
+    python -m carom.native.building FOLDER [LEVEL ...]
 
 Groups of kernels become object files side by side, and the C compiler links them with the functions
 for other languages. Levels are those of x86-64, 1 to 4; without one it is that of this processor.
@@ -25,10 +25,14 @@ from typing import Any
 
 from carom.dimensionless.numerics.kernels import ENTRIES, VARIABLE
 from carom.dimensionless.numerics.library import CONTENTS, PACKAGE, digest
+from carom.native.c_header import kernels_h
 
-C_SOURCES = tuple(sorted((PACKAGE / "include").glob("*.c")))
+HERE = Path(__file__).parent
+INCLUDE = PACKAGE / "include"
+PROCESSOR = HERE / "processor.c"
+C_FILES = (*sorted(HERE.glob("*.[ch]")), INCLUDE / "carom.h")
 COMPILERS = ("cc", "gcc", "clang")
-FLAGS = ("-O2", "-fPIC", "-shared", "-fvisibility=hidden")
+FLAGS = ("-O2", "-std=c11", "-fPIC", "-shared", "-fvisibility=hidden")
 ENDINGS = {"darwin": ".dylib", "win32": ".dll"}
 GENERIC = {0: "generic", 1: "x86-64", 2: "x86-64-v2", 3: "x86-64-v3", 4: "x86-64-v4"}
 CACHE = "CAROM_BUILD_CACHE"  # of the environment: a folder
@@ -88,18 +92,19 @@ def _own_modules() -> list[Any]:
 def processor_level(scratch: Path) -> int:
     """Return which level of x86-64 this processor has, 0 if it is another one."""
     path = scratch / f"processor{_ending()}"
-    _link(path, ())
+    _link(path, [PROCESSOR])
     return int(ctypes.CDLL(str(path)).carom_processor_level())
 
 
 def _kept(known: str, modules: Sequence[str], level: int, scratch: Path) -> Path:
     """Return the library for a level, built now or before."""
-    recipe = [known, digest(C_SOURCES), str(level), version("numba"), version("llvmlite")]
+    recipe = [known, digest(C_FILES), str(level), version("numba"), version("llvmlite")]
     name = f"libcarom{'' if level == 0 else f'-{level}'}{_ending()}"
     folder = _cache() / sha256(" ".join(recipe).encode()).hexdigest()[:16]
     if (folder / name).is_file():
         return folder / name
-    _link(scratch / name, _objects(modules, level, scratch))
+    (scratch / "kernels.h").write_text(kernels_h(), encoding="utf-8")
+    _link(scratch / name, [PROCESSOR, HERE / "rebound.c", *_objects(modules, level, scratch)])
     with suppress(OSError):  # it is made again then
         folder.mkdir(parents=True, exist_ok=True)
         _put(scratch / name, folder)
@@ -127,7 +132,7 @@ def _objects(modules: Sequence[str], level: int, scratch: Path) -> list[Path]:
     environment["PYTHONPATH"] = os.pathsep.join([str(PACKAGE.parent), *sys.path])
 
     def emit(path: Path, group: Sequence[str]) -> None:
-        command = [sys.executable, "-m", "carom.dimensionless.numerics.emission", path, *group]
+        command = [sys.executable, "-m", "carom.native.emission", path, *group]
         _run([str(each) for each in command], environment)
 
     with ThreadPoolExecutor(len(groups)) as pool:
@@ -160,12 +165,14 @@ def _size(names: Sequence[str]) -> int:
     )
 
 
-def _link(target: Path, objects: Sequence[Path]) -> None:
+def _link(target: Path, parts: Sequence[Path]) -> None:
+    """Make a shared library of files in C and object files, with headers beside the target."""
     own = os.environ.get("CC", "").split()
     compiler = own or [found for name in COMPILERS if (found := shutil.which(name))][:1]
     if not compiler:
         raise NotBuilt("there is no C compiler")
-    _run([*compiler, *FLAGS, "-o", *map(str, (target, *C_SOURCES, *objects)), "-lm"], os.environ)
+    folders = [f"-I{folder}" for folder in (INCLUDE, target.parent)]
+    _run([*compiler, *FLAGS, *folders, "-o", *map(str, (target, *parts)), "-lm"], os.environ)
 
 
 def _run(command: Sequence[str], environment: Any) -> None:

@@ -1,10 +1,6 @@
 /* Which machine code this processor can run: the levels of x86-64, or 0 if it is another one. */
 
-#if defined(_WIN32)
-#define CAROM_API __declspec(dllexport)
-#else
-#define CAROM_API __attribute__((visibility("default")))
-#endif
+#include "export.h"
 
 CAROM_API int carom_processor_level(void)
 {

@@ -1,0 +1,39 @@
+"""What the functions in C must know of the kernels, as a header: shapes of scratch arrays, codes."""
+
+from collections.abc import Iterable
+from typing import Any
+
+from carom.dimensionless.elastic import phases, record as elastic
+from carom.dimensionless.lossy import record as lossy, work
+from carom.dimensionless.lossy.normal import Loss
+from carom.dimensionless.lossy.rebounds import NEARLY_ELASTIC
+
+ELASTIC = "carom_dimensionless_elastic_batch_fill"
+LOSSY = "carom_dimensionless_lossy_rebounds_fill"
+
+
+def kernels_h() -> str:
+    """Return the header."""
+    defined = {
+        "CAROM_ELASTIC": ELASTIC,
+        "CAROM_LOSSY": LOSSY,
+        "CAROM_ELASTIC_SCRATCH": _shapes((*phases.new_work(), *elastic.new_record(False))),
+        "CAROM_LOSSY_SCRATCH": _shapes((*work.new_work(), *lossy.new_record(False))),
+        "CAROM_NUMBERS": lossy.NUMBERS,
+        "CAROM_PSI_OUT": lossy.PSI_OUT,
+        "CAROM_RESTITUTION": lossy.RESTITUTION,
+        "CAROM_VISCOUS": Loss.VISCOUS.value,
+        "CAROM_NEARLY_ELASTIC": NEARLY_ELASTIC,
+        "CAROM_MESSAGES": _braces(f'"{status.message}"' for status in phases.Status),
+    }
+    lines = (f"#define {name} {value}" for name, value in defined.items())
+    declared = (f"int {name}(const int64_t *words);" for name in (ELASTIC, LOSSY))
+    return "\n".join(("#include <stdint.h>", "", *lines, "", *declared, ""))
+
+
+def _shapes(arrays: Iterable[Any]) -> str:
+    return _braces(f"{{{each.ndim}, {_braces(map(str, each.shape))}}}" for each in arrays)
+
+
+def _braces(texts: Iterable[str]) -> str:
+    return f"{{{', '.join(texts)}}}"

@@ -1,0 +1,138 @@
+"""A compiled library that cannot be used is never used: the reason is told, numba does the work."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+import carom
+from carom.dimensionless.numerics import library
+from carom.dimensionless.numerics.library import CONTENTS
+
+needs_library = pytest.mark.skipif(bool(library.reason()), reason=library.reason())
+FIRST = "import carom, sys; print(carom.rebound(0.5, 1.44), 'numba' in sys.modules)"
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """A copy of the library that is there, in use from now on."""
+    copy = tmp_path / "lib"
+    shutil.copytree(library.FOLDER, copy)
+    monkeypatch.setattr(library, "FOLDER", copy)
+    library.opened.cache_clear()
+    yield copy
+    library.opened.cache_clear()
+
+
+def changed(folder, **values):
+    """Write other values for every library into the table of contents."""
+    contents = json.loads((folder / CONTENTS).read_text())
+    for each in contents["libraries"]:
+        each.update(values)
+    (folder / CONTENTS).write_text(json.dumps(contents))
+
+
+@needs_library
+def test_a_copy_is_as_good(folder):
+    assert library.reason() == ""
+    assert carom.get_library().startswith(str(folder))
+
+
+@needs_library
+def test_for_another_processor(folder):
+    changed(folder, level=9)
+    assert library.reason() == "no compiled library is for this processor"
+
+
+@needs_library
+@pytest.mark.parametrize("size", [0, 100, 60_000, -1])
+def test_cut_off(folder, size):
+    for path in folder.glob("libcarom*"):
+        path.write_bytes(path.read_bytes()[:size])
+    assert library.reason() == "the compiled library is damaged; install carom again"
+
+
+@needs_library
+def test_a_bit_turned(folder):
+    for path in folder.glob("libcarom*"):
+        content = bytearray(path.read_bytes())
+        content[len(content) // 2] ^= 1
+        path.write_bytes(content)
+    assert library.reason() == "the compiled library is damaged; install carom again"
+
+
+@needs_library
+def test_gone(folder):
+    for path in folder.glob("libcarom*"):
+        path.unlink()
+    assert library.reason() == "carom was installed without its compiled library"
+
+
+@needs_library
+@pytest.mark.parametrize("text", ["", "{", "[]", "{}", '{"files": 5}', "\0"])
+def test_its_contents_damaged(folder, text):
+    (folder / CONTENTS).write_text(text)
+    assert library.reason() == "the compiled library is damaged; install carom again"
+
+
+@needs_library
+def test_made_from_other_sources(folder):
+    contents = json.loads((folder / CONTENTS).read_text())
+    (folder / CONTENTS).write_text(json.dumps(contents | {"sources": "0" * 64}))
+    assert library.reason() == "the compiled library was made from other sources"
+
+
+def test_none_at_all(tmp_path, monkeypatch):
+    monkeypatch.setattr(library, "FOLDER", tmp_path)
+    library.opened.cache_clear()
+    assert library.reason() == "carom was installed without its compiled library"
+    with pytest.raises(RuntimeError, match="without its compiled library"):
+        carom.get_library()
+    library.opened.cache_clear()
+
+
+@needs_library
+def test_numba_is_not_even_loaded():
+    """Nor is anything else that takes long, for an impact in numbers."""
+    run = subprocess.run([sys.executable, "-c", FIRST], capture_output=True, text=True, check=True)
+    value, loaded = run.stdout.split()
+    assert (float(value), loaded) == (carom.rebound(0.5, 1.44), "False")
+
+
+def test_the_environment_chooses():
+    """Numba on demand; a word that is none of the three is refused."""
+    for way in ("numba", "python", "gpu"):
+        environment = {**os.environ, "CAROM_KERNELS": way}
+        command = [sys.executable, "-c", FIRST]
+        run = subprocess.run(command, capture_output=True, text=True, env=environment)
+        if way == "gpu":
+            assert "CAROM_KERNELS: 'gpu' cannot be used; must be one of" in run.stderr
+        else:
+            value, loaded = run.stdout.split()
+            assert float(value) == pytest.approx(carom.rebound(0.5, 1.44), abs=1e-14)
+            assert loaded == str(way == "numba")
+
+
+@pytest.mark.parametrize(
+    ("compiler", "words"),
+    [
+        ("/nowhere/cc", "cc has failed"),
+        ("false", "false has failed"),
+        (None, "there is no C compiler"),
+    ],
+)
+def test_no_library_is_built_without_a_compiler(compiler, words, tmp_path):
+    """In one line, and nothing is left behind."""
+    environment = {**os.environ, "PATH": str(tmp_path), "CC": compiler or ""}
+    if compiler == "false":
+        environment["CC"] = shutil.which("false")
+    command = [sys.executable, "-m", "carom.native.building", str(tmp_path / "lib")]
+    run = subprocess.run(command, capture_output=True, text=True, env=environment)
+    assert run.returncode == 1
+    assert run.stderr.startswith("carom: no compiled library: ")
+    assert words in run.stderr
+    assert run.stderr.count("\n") == 1
+    assert not list(tmp_path.rglob("libcarom*"))
