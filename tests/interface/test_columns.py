@@ -267,7 +267,7 @@ def test_a_mask_changes_nothing_but_what_it_hides(values):
             xr.Dataset({"a": ("x", [1.0, 2.0])}),
         ),
     ],
-    ids=str,
+    ids=lambda column: type(column).__name__,
 )
 def test_what_is_no_list_of_cells_is_no_column(column):
     for call in (carom.Table, carom.verify.score, read_table):

@@ -32,10 +32,10 @@ def explore_command(
     from carom.explorer import explorer
 
     page = explorer(host=host, port=whole("port", port, 0, 65535))
-    typer.echo(json.dumps({"url": page.url}) if as_json else f"{page.url}  (Ctrl-C ends it)")
-    if open_browser:
-        webbrowser.open(page.url)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends like Ctrl-C
     with suppress(KeyboardInterrupt):
+        typer.echo(json.dumps({"url": page.url}) if as_json else f"{page.url}  (Ctrl-C ends it)")
+        if open_browser:
+            webbrowser.open(page.url)
         page.serve()
     os._exit(0)  # without waiting for threads that are at work
