@@ -1,5 +1,5 @@
-"""Compiled kernels are cached under a key of their sources: numba does not see an edit in a
-callee.
+"""What numba compiles is cached under a key of all sources: it does not see an edit in a callee, or
+of a constant in another module.
 """
 
 import hashlib
@@ -11,8 +11,7 @@ from pathlib import Path
 import pytest
 
 SOURCES = sorted(Path(find_spec("carom").submodule_search_locations[0]).rglob("*.py"))
-KERNELS = [text for text in (path.read_bytes() for path in SOURCES) if b"@kernel" in text]
-KEY = hashlib.sha256(b"".join(KERNELS)).hexdigest()[:16]
+KEY = hashlib.sha256(b"".join(path.read_bytes() for path in SOURCES)).hexdigest()[:16]
 
 os.environ["NUMBA_CACHE_DIR"] = str(Path(tempfile.gettempdir()) / f"carom-kernels-{KEY}")
 
