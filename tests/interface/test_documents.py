@@ -61,12 +61,12 @@ def test_paths_in_the_architecture_are_there():
 
 
 def test_short_paths_in_the_architecture_are_there():
-    """Those below src/carom; two are announced, not yet there."""
+    """Those below src/carom; one is announced, not yet there, one made by the build."""
     paths = set(re.findall(r"`([a-z_]+/[\w./]*)`", ARCHITECTURE))
     here = {
         path for path in paths if (ROOT / "src/carom" / path).exists() or (ROOT / path).exists()
     }
-    assert paths - here == {"laws/memory/", "include/"}
+    assert paths - here <= {"laws/memory/", "lib/"}
 
 
 def test_ten_files_to_read_are_there():
