@@ -1,1 +1,1 @@
-"""The compiled library: built from the kernels together with the package, and its functions in C."""
+"""The compiled library: built from the kernels with the package, and its functions in C."""

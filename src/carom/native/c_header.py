@@ -1,4 +1,4 @@
-"""What the functions in C must know of the kernels, as a header: shapes of scratch arrays, codes."""
+"""What the functions in C must know of the kernels: shapes of scratch arrays, codes."""
 
 from collections.abc import Iterable
 from typing import Any
