@@ -30,7 +30,7 @@ from carom.native.c_header import kernels_h
 HERE = Path(__file__).parent
 INCLUDE = PACKAGE / "include"
 PROCESSOR = HERE / "processor.c"
-C_FILES = (*sorted(HERE.glob("*.[ch]")), INCLUDE / "carom.h")
+OWN_FILES = (*sorted(HERE.glob("*.*")), INCLUDE / "carom.h")
 COMPILERS = ("cc", "gcc", "clang")
 FLAGS = ("-O2", "-std=c11", "-fPIC", "-shared", "-fvisibility=hidden")
 ENDINGS = {"darwin": ".dylib", "win32": ".dll"}
@@ -68,7 +68,7 @@ def build(folder: Path, levels: Sequence[int] = ()) -> None:
 
 
 def entry_modules() -> list[str]:
-    """Return the modules with entry points, imported, those that take longest first."""
+    """Return the modules with entry points, imported."""
     paths = [path for path in PACKAGE.rglob("*.py") if b"\n@entry_point(" in path.read_bytes()]
     names = [
         ".".join(("carom", *path.relative_to(PACKAGE).with_suffix("").parts)) for path in paths
@@ -98,7 +98,7 @@ def processor_level(scratch: Path) -> int:
 
 def _kept(known: str, modules: Sequence[str], level: int, scratch: Path) -> Path:
     """Return the library for a level, built now or before."""
-    recipe = [known, digest(C_FILES), str(level), version("numba"), version("llvmlite")]
+    recipe = [known, digest(OWN_FILES), str(level), version("numba"), version("llvmlite")]
     name = f"libcarom{'' if level == 0 else f'-{level}'}{_ending()}"
     folder = _cache() / sha256(" ".join(recipe).encode()).hexdigest()[:16]
     if (folder / name).is_file():
