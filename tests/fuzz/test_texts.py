@@ -1,5 +1,7 @@
 """The reader of quantities, against pint where it reads a text."""
 
+import re
+
 import pint
 import pytest
 
@@ -52,6 +54,9 @@ def twin(text, unit, registry):
     rest = text[end:].strip(" \t").replace("°", "degree").replace("rev", "turn")
     if not rest:
         return value
+    rest = re.sub(
+        r"(?<=[^\W\d_])([+-][0-9])", r"**\1", rest
+    )  # "s-1" of CF
     return registry.Quantity(value, rest).to("" if unit == "1" else unit).magnitude
 
 

@@ -13,6 +13,7 @@ from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import Value, not_negative
 
 Counterbody = Sphere | HalfSpace | Cup
+SAME = 1e-6  # part by which numbers of the same bodies may differ: they are written in few digits
 
 
 @dataclass(frozen=True)
@@ -56,6 +57,13 @@ def checked_scales(pair: "Pair", normal_speed: float, contact_velocity: float = 
             "that floating point cannot hold; check the units"
         )
     return scales
+
+
+def alike(one: "Pair", other: "Pair", *, friction: bool = False) -> bool:
+    """Tell whether impacts of two pairs are the same, but for the friction unless that counts."""
+    names = ("chi", "kappa", "effective_radius", "normal_mass", *(["friction"] * friction))
+    values = ((getattr(one, name), getattr(other, name)) for name in names)
+    return all(abs(a - b) <= SAME * abs(b) for a, b in values)
 
 
 def _representable(pair: "Pair") -> bool:

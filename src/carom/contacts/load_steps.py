@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom.bodies.pairs import ContactScales, Pair
-from carom.quantities.arrays import Array, numbers
+from carom.quantities.arrays import Array, along_the_same, numbers
 from carom.quantities.refusals import InputError, refusal
 
 Given = ArrayLike | str | None
@@ -39,6 +39,9 @@ class Steps(NamedTuple):
 
 def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved: Given) -> Steps:
     """Return the steps that the four controls describe, or raise InputError."""
+    along_the_same(
+        normal_force=normal, penetration=depth, tangential_force=tangential, displacement=moved
+    )
     across = _one_of(normal_force=normal, penetration=depth)
     along = _one_of(tangential_force=tangential, displacement=moved)
     sizes = {values.size for _, values in (across, along) if values.ndim}

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from carom.bodies.kinematics import Rebound, Tangential, components, inertia
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
-from carom.quantities.arrays import Array, numbers, together
+from carom.quantities.arrays import Array, along_the_same, numbers, together
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError, clipped, hint, refusal
 
@@ -106,6 +106,7 @@ def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     if not isinstance(known, Mapping):
         raise refusal("known", known, "must be values by name, e.g. {'speed': 2.0, 'angle': 0.5}")
     given = {name: _values(name, value) for name, value in known.items()}
+    along_the_same(**{str(name): value for name, value in known.items()})
     _check_name("wanted", wanted)
     _check_bodies(pair, {*given, wanted})
     shape = together(given)

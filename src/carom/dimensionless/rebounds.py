@@ -14,7 +14,7 @@ from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.normal import NormalLoss, scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.arrays import Array
-from carom.quantities.arrays import pure_numbers, together
+from carom.quantities.arrays import along_the_same, pure_numbers, together
 from carom.quantities.refusals import flag
 from carom.quantities.units import threads_or_none
 
@@ -93,6 +93,7 @@ def rebound(
     array([-0.000683,  0.529468])
     """
     threads, return_status = threads_or_none(threads), flag("return_status", return_status)
+    along_the_same(psi=psi, chi=chi)
     given = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
     shape = together(given)
     flat_psi, flat_chi = (np.array(np.broadcast_to(x, shape)).ravel() for x in given.values())

@@ -84,6 +84,8 @@ def _fixed(problem: FitProblem, fixed: Mapping[str, Any]) -> dict[str, float]:
         _check_name("fixed", name)
         found = number(name, value, "rad/s" if name == OFFSET else "1")
         if name == "chi":
+            if "kappa" in fixed:
+                raise InputError("kappa and chi: each tells the other; fix one of them")
             name, found = "kappa", found / half_ratio(problem.pair)
         parameter = ranges.get(name) or offset_parameter(problem)
         if not parameter.low <= found <= parameter.high:

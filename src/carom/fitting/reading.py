@@ -7,7 +7,7 @@ import numpy as np
 
 from carom.bodies.cases import check_case, pair_of
 from carom.bodies.kinematics import Tangential
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, alike
 from carom.datasets.observables import BEFORE, FASTEST, INCIDENCE, OBSERVABLES, SCALED, SLOWEST
 from carom.dimensionless.interpolation import LEAST_CHI, MOST_CHI
 from carom.fitting.laws import IncomingMotion
@@ -76,13 +76,15 @@ def _problem(table: Cells, pair: Pair | None, faults: Faults) -> FitProblem:
 
 
 def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> Pair:
+    own = None if case is None else _bodies_of(case)
     if pair is not None:
         if not isinstance(pair, Pair):
             raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+        if own is not None and not alike(pair, own):
+            raise InputError("pair: its bodies are not those of the data; leave it, or --case, out")
         bodies = pair
-    elif case is not None:
-        check_case(case)
-        bodies = pair_of({"friction": START, **case})
+    elif own is not None:
+        bodies = own
     else:
         raise InputError(
             "pair: missing, and the data hold no case; give pair=carom.Pair(...) in Python or "
@@ -95,6 +97,11 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> Pair:
             f"{LEAST_CHI:.2g} to {MOST_CHI:.2g}; check radii and gyration_radius"
         )
     return bodies if bodies.friction > 0.0 else Pair(bodies.first, bodies.second, START)
+
+
+def _bodies_of(case: Mapping[str, Any]) -> Pair:
+    check_case(case)
+    return pair_of({"friction": START, **case})
 
 
 def _errors(rows: Results, name: str) -> Array:

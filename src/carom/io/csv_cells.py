@@ -18,6 +18,7 @@ from carom.quantities.arrays import plain_numbers
 from carom.quantities.refusals import InputError, refusal
 
 COMMENT = re.compile(r"#\s*([A-Za-z]\w*)\s*:\s*(.*)")
+SPREADSHEET_ERRORS = ("#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#NULL!")
 SEPARATORS = ",;\t"
 TOLD = re.compile(rf"sep=([{SEPARATORS}])\s*", re.IGNORECASE)  # with which Excel begins a file
 BLOCK = 1 << 22  # characters that are texts at a time, before their numbers are
@@ -81,7 +82,7 @@ class _File:
         text = line.strip()
         if match := COMMENT.fullmatch(text):
             self.comments.setdefault(match[1].lower(), match[2].strip())
-        return bool(text) and not text.startswith("#")
+        return bool(text) and (not text.startswith("#") or text.startswith(SPREADSHEET_ERRORS))
 
     def check(self, line: str) -> None:
         """Raise InputError for a line that is too long, or no text."""

@@ -133,6 +133,8 @@ def _columns_of(what: str, source: Any) -> tuple[list[tuple[str, Column]], dict[
     if hasattr(source, "data_vars"):
         comments = {name: source.attrs[name] for name in KEPT if name in source.attrs}
         return list(_of_dataset(source)), comments
+    if any(name is not None for name in getattr(getattr(source, "index", None), "names", ())):
+        source = _with_index(what, source)
     if not hasattr(source, "items"):  # which a data frame has, too
         raise refusal(what, source, "must be the name of a CSV file, or columns by name")
     if len(source.keys()) > MOST_COLUMNS:
@@ -140,12 +142,23 @@ def _columns_of(what: str, source: Any) -> tuple[list[tuple[str, Column]], dict[
     return [(str(name), _column(str(name), values)) for name, values in source.items()], {}
 
 
+def _with_index(what: str, frame: Any) -> Any:
+    """Return a data frame whose index, which has a name, is a column."""
+    try:
+        return frame.reset_index()
+    except ValueError:
+        words = f"{what}: its index has the name of a column; leave one of them out"
+        raise InputError(words) from None
+
+
 def _checked_columns(columns: Any) -> Mapping[str, str]:
     names = {} if columns is None else columns
-    if not isinstance(names, Mapping) or not all(isinstance(n, str) for n in names.values()):
+    if not isinstance(names, Mapping) or not all(
+        isinstance(name, str) and name.strip() for name in names.values()
+    ):
         example = "{'omega': 'spin_out'}"
         raise refusal("columns", columns, f"must tell what names stand for, e.g. {example}")
-    return names
+    return {str(head): name for head, name in names.items()}
 
 
 def name_and_unit(head: str) -> tuple[str, str]:

@@ -13,7 +13,7 @@ from carom.dimensionless.numerics.chebyshev_2d import Patches, fitted_patches, v
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.dimensionless.rebounds import warn_of_unsolved
 from carom.io.progress import advancing
-from carom.quantities.arrays import Array, pure_numbers, together
+from carom.quantities.arrays import Array, along_the_same, pure_numbers, together
 from carom.quantities.refusals import flag, refusal
 from carom.quantities.units import positive
 
@@ -90,6 +90,7 @@ class MixtureLaw:
         With `return_status` also a `Status` for each; without it a warning tells of what is NaN.
         """
         return_status = flag("return_status", return_status)
+        along_the_same(psi=psi, chi=chi)
         given = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
         shape = together(given)
         flat_psi, flat_chi = (np.broadcast_to(each, shape).flatten() for each in given.values())

@@ -141,7 +141,7 @@ def together(given: Mapping[str, Array], most: int = AT_ONCE) -> tuple[int, ...]
     names, shapes = ", ".join(given), [values.shape for values in given.values()]
     try:
         shape = np.broadcast_shapes(*shapes)
-    except ValueError:
+    except (ValueError, RuntimeError):  # RuntimeError: of more than 32 dimensions
         words = " and ".join(map(str, shapes))
         raise InputError(
             f"{names}: arrays of shapes {words} cannot be used together; give one number for each, "
@@ -151,6 +151,26 @@ def together(given: Mapping[str, Array], most: int = AT_ONCE) -> tuple[int, ...]
         allowed = f"{prod(shape):,} points are too many at once, the most are {most:,}"
         raise InputError(f"{names}: {allowed}; give them in parts")
     return shape
+
+
+def along_the_same(**given: Any) -> None:
+    """Raise InputError for arrays of xarray's whose dimensions have different names.
+
+    Examples
+    --------
+    >>> import xarray as xr
+    >>> from carom.quantities.arrays import along_the_same
+    >>> psi, chi = (xr.DataArray([1.0, 2.0], dims=name) for name in "ab")
+    >>> along_the_same(psi=psi, chi=chi)
+    Traceback (most recent call last):
+    carom.InputError: psi, chi: their dimensions are a and b; give arrays along the same ones
+    """
+    named = {name: getattr(value, "dims", ()) for name, value in given.items()}
+    found = {name: tuple(map(str, dims)) for name, dims in named.items() if dims}
+    if len(set(found.values())) > 1:
+        words = " and ".join(dict.fromkeys(", ".join(dims) for dims in found.values()))
+        allowed = f"their dimensions are {words}; give arrays along the same ones"
+        raise InputError(f"{', '.join(found)}: {allowed}")
 
 
 def plain_numbers(texts: Sequence[str]) -> Array | None:

@@ -61,6 +61,9 @@ def number(name: str, value: Any, unit: str | None = None, bare: Factor = UNCHAN
     unit = unit or GLOSSARY[name].unit
     plain, told = told_unit(name, value, unit)
     if isinstance(plain, str):
+        if told is not None:
+            allowed = f"it is a text with the unit {told} besides; {_expected(unit)}"
+            raise refusal(name, plain, allowed)
         return _of_text(name, plain, unit, bare)
     result = as_float(name, plain) if is_real(plain) else math.nan
     if math.isnan(result):

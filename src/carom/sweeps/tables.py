@@ -107,7 +107,8 @@ def _read(
 
 def _chosen(name: str, cells: Any) -> tuple[NDArray[Any], tuple[Choice, ...]]:
     """Return the codes of a column of names, and what they stand for."""
-    listed = np.fromiter(cells, dtype=object, count=len(cells))
+    plain = (cell.strip() if isinstance(cell, str) else cell for cell in cells)
+    listed = np.fromiter(plain, dtype=object, count=len(cells))
     try:
         codes, values = pd.factorize(listed)
     except TypeError:
@@ -116,7 +117,7 @@ def _chosen(name: str, cells: Any) -> tuple[NDArray[Any], tuple[Choice, ...]]:
     read: dict[int, Choice] = {}
     for i, value in enumerate(values):
         with suppress(InputError):
-            read[i] = read_choice(name, value.strip() if isinstance(value, str) else value)
+            read[i] = read_choice(name, value)
     choices = checked_choices(name, list(read.values())) if read else ()
     place = np.full(len(values) + 1, UNREADABLE, dtype=CODE)
     place[list(read)] = np.arange(len(choices))

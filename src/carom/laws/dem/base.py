@@ -15,7 +15,7 @@ from carom.laws.dem.coefficients import Coefficients
 from carom.laws.dem.damping import damped_restitution
 from carom.laws.dem.status import Codes, LawStatus, status_of
 from carom.laws.dem.stepping import HISTORY, PATIENCE, REMEMBERED, stepped, stepped_rebounds
-from carom.quantities.arrays import Array, pure_numbers, together
+from carom.quantities.arrays import Array, along_the_same, pure_numbers, together
 from carom.quantities.refusals import flag, refusal
 from carom.quantities.units import counted, finite, not_negative, positive, threads_or_none
 
@@ -100,6 +100,7 @@ class Law(ABC):
         if steps is not None:
             steps = counted("steps", steps, FEWEST_STEPS, MOST_STEPS)
         threads, return_status = threads_or_none(threads), flag("return_status", return_status)
+        along_the_same(psi=psi, chi=chi, kappa=kappa)
         given = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
         given["kappa"] = SOLID * given["chi"] if kappa is None else pure_numbers("kappa", kappa)
         shape = together(given)

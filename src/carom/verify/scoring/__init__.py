@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from carom.bodies.cases import check_case, motion_of, pair_of, read_case
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, alike
 from carom.bodies.shapes import describe
 from carom.impacts.exact import Impact
 from carom.impacts.solve import impact
-from carom.io.columns import Results, in_units
+from carom.io.columns import Results, in_units, others
 from carom.io.tables import read_table
 from carom.quantities.arrays import Array
 from carom.quantities.faults import Faults
@@ -35,7 +36,7 @@ __all__ = ["TOLERANCE", "Score", "score"]
 
 TOLERANCE = 0.01  # in psi_2: a hundredth of the largest psi_1 that sticks from the first touch
 FEWEST = 3  # points
-BODIES, SAME = ("friction", "chi", "kappa", "effective_radius", "normal_mass"), 1e-6
+ROUNDED = 0.01  # part of chi by which a number that is told may be rounded
 DIMENSIONLESS = ("psi_in", "psi_out", "chi")
 
 
@@ -111,18 +112,24 @@ def score(
         raise refusal("chi", chi, "it follows from the case; leave it out")
     scored = {"psi": _score_psi, "velocities": _score_velocities, "history": _score_history}
     with Faults() as faults:
+        unused = others(table, known, faults)
         given = in_units(table, known, faults=faults)
         faults.settle()
-        return scored[kind](given, _case(case, chi, table.case), chi, limit)
+        found = scored[kind](given, _case(case, chi, table.case), chi, limit)
+    told = (f"columns that were not used: {', '.join(unused)}",) if unused else ()
+    return replace(found, notes=(*found.notes, *told))
 
 
 def _case(case: Any, chi: Any, own: Any) -> Any:
     """Return what was given as a case, or what the file holds; both must have the same bodies."""
-    if own is None or chi is not None:
+    if own is None:
         return case
-    if case is not None and any(
-        abs(getattr(_pair(case), name) / getattr(_pair(own), name) - 1.0) > SAME for name in BODIES
-    ):
+    if chi is not None:
+        if abs(positive("chi", chi) / _pair(own).chi - 1.0) > ROUNDED:
+            allowed = f"the bodies of the results have {_pair(own).chi:.4g}; leave it out"
+            raise refusal("chi", chi, allowed)
+        return case
+    if case is not None and not alike(_pair(case), _pair(own), friction=True):
         raise InputError("case: its bodies are not those of the results; leave it out")
     return own if case is None else case
 
@@ -188,6 +195,7 @@ def _score_history(results: Results, case: Any, _: Any, limit: float) -> Score:
 
 def _pair(case: Any) -> Pair:
     """Return the bodies of whatever is given as a case."""
+    _check_elastic(case)
     if isinstance(case, Pair | Impact):
         pair = case.pair if isinstance(case, Impact) else case
     else:
@@ -199,6 +207,7 @@ def _pair(case: Any) -> Pair:
 
 def _impact(case: Any) -> Impact:
     """Return the impact that a case describes."""
+    _check_elastic(case)
     if isinstance(case, Impact):
         return case
     if isinstance(case, Pair):
@@ -206,6 +215,11 @@ def _impact(case: Any) -> Impact:
     content = _content(case)
     hit: Impact = impact(_pair(content), **motion_of(content))
     return hit
+
+
+def _check_elastic(case: Any) -> None:
+    if isinstance(case, Impact) and case.normal is not None:
+        raise refusal("case", case, "it has losses; scores are against elastic impacts")
 
 
 def _content(case: Any) -> Mapping[str, Any]:

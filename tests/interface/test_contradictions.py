@@ -1,0 +1,111 @@
+"""What says two things at once is refused or told: never is one of them taken without a word."""
+
+import json
+
+import numpy as np
+import pandas as pd
+import pint
+import pytest
+import xarray as xr
+
+import carom
+
+Q = pint.UnitRegistry().Quantity
+BALL = carom.Sphere(radius=0.005, material="steel")
+PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
+SPIN = [-230.0, -660.0, -680.0, -640.0]
+ROWS = {"angle [deg]": [10.0, 30.0, 50.0, 70.0], "spin_out [rpm]": SPIN, "speed": [1.0] * 4}
+CASE = {"first": {"radius": 0.05, "material": "steel"}, "second": {"material": "steel"}}
+
+
+def refused(match, function, *args, **kwargs):
+    with pytest.raises(carom.InputError, match=match):
+        function(*args, **kwargs)
+
+
+@pytest.mark.parametrize("unit", ["mm", "kg"])
+def test_a_text_of_pint_has_no_second_unit(unit):
+    match = f"radius: '5' cannot be used; it is a text with the unit .*{unit[0]}.* besides"
+    refused(match, carom.Sphere, radius=Q("5", unit), material="steel")
+
+
+def test_arrays_along_different_dimensions():
+    one, other = (xr.DataArray([0.5, 1.0], dims=name) for name in "ab")
+    match = "their dimensions are a and b; give arrays along the same ones"
+    refused(f"psi, chi: {match}", carom.rebound, one, other)
+    refused(match, carom.LinearSpring().rebound, one, other)
+    refused(match, carom.convert, PAIR, known={"speed": one, "angle": other}, wanted="psi_in")
+    forces = {"normal_force": one, "tangential_force": other}
+    refused(match, carom.load_path, PAIR, **forces)
+    assert carom.rebound(one, one).shape == (2,)
+
+
+def test_an_index_with_a_name_is_a_column():
+    frame = pd.DataFrame(ROWS)
+    whole = carom.fit(frame.assign(**{"spin [rpm]": 100.0 + frame.index}), pair=PAIR)
+    index = pd.Index(100.0 + frame.index, name="spin [rpm]")
+    by_index = carom.fit(frame.set_index(index), pair=PAIR)
+    assert by_index.friction.value == whole.friction.value
+    twice = frame.set_index(pd.Index(SPIN, name="speed"))
+    refused("its index has the name of a column", carom.fit, twice, pair=PAIR)
+
+
+def test_columns_by_number_and_without_a_name():
+    frame = pd.DataFrame(np.transpose(list(ROWS.values())))
+    named = carom.fit(frame, pair=PAIR, columns=dict(enumerate(ROWS)))
+    assert named.friction.value == carom.fit(ROWS, pair=PAIR).friction.value
+    refused("columns: .* must tell what names stand for", carom.fit, ROWS, columns={"speed": ""})
+
+
+def test_one_parameter_by_two_names():
+    fixed = {"restitution": 1.0, "kappa": 0.8, "chi": 0.6}
+    refused("kappa and chi: each tells the other", carom.fit, ROWS, pair=PAIR, fixed=fixed)
+
+
+def test_bodies_of_the_data_and_others(tmp_path):
+    table = tmp_path / "rows.csv"
+    lines = [",".join(map(str, row)) for row in zip(*ROWS.values(), strict=True)]
+    body = "\n".join([",".join(ROWS), *lines])
+    table.write_text(f"# case: {json.dumps(CASE)}\n{body}\n")
+    refused("pair: its bodies are not those of the data", carom.fit, table, pair=PAIR)
+    table.write_text(f"# case: {json.dumps({'frist': {}, **CASE})}\n{body}\n")
+    refused("frist: unknown key", carom.fit, table, pair=PAIR)
+
+
+def test_results_with_columns_that_the_scorer_does_not_use():
+    hits = [carom.impact(PAIR, speed=1.0, angle=a, spin=50.0) for a in (0.1, 0.5, 1.0, 1.3)]
+    results = {"speed": [1.0] * 4, "angle": [0.1, 0.5, 1.0, 1.3], "spin": [50.0] * 4}
+    for name in ("tangential_speed_out", "spin_out"):
+        results[name] = [getattr(hit, name) for hit in hits]
+    assert carom.verify.score(results, case=PAIR).passed
+    told = carom.verify.score({**results, "run": [1, 2, 3, 4], "friction": [0.2] * 4}, case=PAIR)
+    assert told.notes[-1] == "columns that were not used: run, friction"
+    results["Spin"] = results.pop("spin")
+    refused("Spin: unknown column; did you mean 'spin'", carom.verify.score, results, case=PAIR)
+
+
+def test_a_chi_and_the_bodies_of_the_results(tmp_path):
+    psi = [0.5, 1.0, 2.0]
+    chi = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2).chi
+    rows = "\n".join(f"{a},{b}" for a, b in zip(psi, carom.rebound(psi, chi), strict=True))
+    table = tmp_path / "points.csv"
+    table.write_text(f"# case: {json.dumps({**CASE, 'friction': 0.2})}\npsi_1,psi_2\n{rows}\n")
+    assert carom.verify.score(table, chi=round(chi, 2)).passed
+    refused(f"chi: 5 .*the bodies of the results have {chi:.4g}", carom.verify.score, table, chi=5)
+
+
+def test_a_score_is_against_an_elastic_impact():
+    hit = carom.impact(PAIR, speed=1.0, angle=0.5, normal=carom.KelvinVoigt(restitution=0.6))
+    refused("case: .* it has losses", carom.verify.score, hit.history(200), case=hit)
+
+
+def test_an_error_of_a_spreadsheet_is_no_comment(tmp_path):
+    table = tmp_path / "rows.csv"
+    table.write_text("angle [deg],speed,spin_out [rpm]\n#N/A,1,-230\n30,1,-660\n50,1,-680\n")
+    refused("angle: not a number in line 2", carom.fit, table, pair=PAIR)
+
+
+def test_names_with_blanks_are_one_name():
+    table = carom.Table({"first.material": ["steel ", "steel", " glass"], "speed": [1.0, 2.0, 3.0]})
+    codes = table.inputs((slice(0, 3),))["first.material"]
+    assert codes[0] == codes[1] != codes[2]
