@@ -128,7 +128,7 @@ BAD = {
     "psi_1,psi_2\n0.1,0.2\n0.3\n": "line 3 has 1 values, the header has 2 names",
     'psi_1,psi_2\n"0.1,0.2\n': "not CSV",
     "psi_1,psi_1,psi_2\n1,1,1\n": "'psi_1': two columns",
-    "psi_1,psi2\n0.1,0.2\n": "psi_2: column missing; did you mean 'psi2'?",
+    "psi_1,psi2\n0.1,0.2\n": "psi2: unknown column; did you mean 'psi_2'?",
     "omega,angel\n1,2\n": "no column of omega, angel is known; did you mean 'angle'?",
     "psi_1,psi_2\n1,1\n2,2\n3,3\n": "chi: missing; give a column chi, --chi",
     "psi_1,psi_2,chi\n1,1,1\n2,2,-1\n3,3,1\n": "chi: -1 in line 3",
@@ -139,7 +139,7 @@ BAD = {
     SPEEDS + "1,0,0,0\n" * 3: "case: missing; give the bodies, --case",
 }
 BAD_WITH_CASE = {
-    "normal_speed,tangential_speed,tangential_speed_out,spinout\n": "did you mean 'spinout'",
+    "normal_speed,tangential_speed,tangential_speed_out,spinout\n": "spinout: unknown column; did you mean 'spin_out'?",
     SPEEDS + "1,1,1,0\n1,0,0,0\n0,1,1,0\n": "normal_speed: 0 in line 4",
     SPEEDS.replace("spin_out", "spin_out [Hz]") + "1,0,0,0\n": "a spin is not in Hz",
     "speed,angle,tangential_speed_out,spin_out\n1,30,0,0\n1,1,0,0\n1,1,0,0\n": "'angle [deg]'",

@@ -54,9 +54,7 @@ def twin(text, unit, registry):
     rest = text[end:].strip(" \t").replace("°", "degree").replace("rev", "turn")
     if not rest:
         return value
-    rest = re.sub(
-        r"(?<=[^\W\d_])([+-][0-9])", r"**\1", rest
-    )  # "s-1" of CF
+    rest = re.sub(r"(?<=[^\W\d_])([+-][0-9])", r"**\1", rest)  # "s-1" of CF
     return registry.Quantity(value, rest).to("" if unit == "1" else unit).magnitude
 
 
