@@ -139,7 +139,7 @@ BAD = {
     SPEEDS + "1,0,0,0\n" * 3: "case: missing; give the bodies, --case",
 }
 BAD_WITH_CASE = {
-    "normal_speed,tangential_speed,tangential_speed_out,spinout\n": "spinout: unknown column; did you mean 'spin_out'?",
+    "normal_speed,tangential_speed,tangential_speed_out,spinout\n": "did you mean 'spin_out'",
     SPEEDS + "1,1,1,0\n1,0,0,0\n0,1,1,0\n": "normal_speed: 0 in line 4",
     SPEEDS.replace("spin_out", "spin_out [Hz]") + "1,0,0,0\n": "a spin is not in Hz",
     "speed,angle,tangential_speed_out,spin_out\n1,30,0,0\n1,1,0,0\n1,1,0,0\n": "'angle [deg]'",
