@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 
 import carom
-from carom.dimensionless.numerics import library
+from carom.dimensionless.numerics import shared_library
 from carom.dimensionless.numerics.kernels import ENTRIES
 
 SEED = 20
@@ -42,7 +42,7 @@ def works(count: int) -> dict[str, Callable[[], object]]:
 def use(by_library: bool) -> None:
     """Let all kernels run in one way from now on."""
     for kernel in ENTRIES:
-        found = library.function(kernel.signatures(), kernel.floats) if by_library else None
+        found = shared_library.function(kernel.signatures(), kernel.floats) if by_library else None
         kernel.__dict__["compiled"] = found or kernel.dispatcher
 
 
@@ -58,8 +58,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--smoke", action="store_true", help="few impacts, once")
     count, repeats = (400, 1) if parser.parse_args().smoke else (20_000, 9)
-    if library.reason():
-        print(f"nothing to compare: {library.reason()}")
+    if shared_library.reason():
+        print(f"nothing to compare: {shared_library.reason()}")
         return
     for name, work in works(count).items():
         pairs = [(seconds(work, True), seconds(work, False)) for _ in range(repeats + 1)][1:]

@@ -17,7 +17,10 @@ from .collisions import (
 from .contacts.load_paths import LoadPath as LoadPath, load_path as load_path
 from .datasets.observables import convert as convert
 from .dimensionless.elastic.phases import Status as Status
-from .dimensionless.numerics.library import get_include as get_include, get_library as get_library
+from .dimensionless.numerics.shared_library import (
+    get_include as get_include,
+    get_library as get_library,
+)
 from .dimensionless.rebounds import rebound as rebound
 from .dimensionless.solution import Solution as Solution, solve as solve
 from .fitting import Fit as Fit, fit as fit

@@ -8,7 +8,7 @@ import sys
 import pytest
 
 import carom
-from carom.dimensionless.numerics import library
+from carom.dimensionless.numerics import shared_library
 
 BALL = ["--radius", "5 mm", "--material", "steel", "--friction", "0.2", "--speed", "2"]
 LOSS = {"elastic": [], "viscous": ["--restitution", "0.9"]}
@@ -43,7 +43,7 @@ def python(program, **environment):
     return subprocess.run(command, env=more, capture_output=True, text=True, check=True)
 
 
-@pytest.mark.skipif(bool(library.reason()), reason=library.reason())
+@pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
 @pytest.mark.parametrize("first", FIRST)
 def test_with_the_library_no_compiler_is_loaded(first):
     if first == "page":
@@ -69,8 +69,9 @@ def test_the_command_gives_the_number_of_python(loss):
 def test_who_waits_for_compilers_is_told_once_and_why(tmp_path):
     """On a terminal; nothing is written where nobody watches."""
     script = (
-        "from carom.dimensionless.numerics import jit, library; jit.is_watched = lambda: True; "
-        "jit.PATIENCE = 0.0; library.reason = lambda: 'no compiler'; "
+        "from carom.dimensionless.numerics import jit, shared_library; "
+        "jit.is_watched = lambda: True; jit.PATIENCE = 0.0; "
+        "shared_library.reason = lambda: 'no compiler'; "
         "from carom.dimensionless.numerics import hertz as h; "
         "print(*h.penetration_and_speed(h.HALF))"
     )

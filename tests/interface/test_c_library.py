@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.numerics import library
+from carom.dimensionless.numerics import shared_library
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "c"
-pytestmark = pytest.mark.skipif(bool(library.reason()), reason=f"no library: {library.reason()}")
+pytestmark = pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
 COMPILERS = {"rebound.c": ("cc", "-std=c99"), "rebound.f90": ("gfortran",)}
 STRICT = ("-Wall", "-Wextra", "-pedantic", "-Werror")
 DOUBLES, CODES = (np.ctypeslib.ndpointer(kind, flags="C") for kind in (np.float64, np.int8))

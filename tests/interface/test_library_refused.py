@@ -9,10 +9,10 @@ import sys
 import pytest
 
 import carom
-from carom.dimensionless.numerics import library
-from carom.dimensionless.numerics.library import CONTENTS
+from carom.dimensionless.numerics import shared_library
+from carom.dimensionless.numerics.shared_library import CONTENTS
 
-needs_library = pytest.mark.skipif(bool(library.reason()), reason=library.reason())
+needs_library = pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
 FIRST = "import carom, sys; print(carom.rebound(0.5, 1.44), 'numba' in sys.modules)"
 
 
@@ -20,11 +20,11 @@ FIRST = "import carom, sys; print(carom.rebound(0.5, 1.44), 'numba' in sys.modul
 def folder(tmp_path, monkeypatch):
     """A copy of the library that is there, in use from now on."""
     copy = tmp_path / "lib"
-    shutil.copytree(library.FOLDER, copy)
-    monkeypatch.setattr(library, "FOLDER", copy)
-    library.opened.cache_clear()
+    shutil.copytree(shared_library.FOLDER, copy)
+    monkeypatch.setattr(shared_library, "FOLDER", copy)
+    shared_library.opened.cache_clear()
     yield copy
-    library.opened.cache_clear()
+    shared_library.opened.cache_clear()
 
 
 def changed(folder, **values):
@@ -37,14 +37,14 @@ def changed(folder, **values):
 
 @needs_library
 def test_a_copy_is_as_good(folder):
-    assert library.reason() == ""
+    assert shared_library.reason() == ""
     assert carom.get_library().startswith(str(folder))
 
 
 @needs_library
 def test_for_another_processor(folder):
     changed(folder, level=9)
-    assert library.reason() == "no compiled library is for this processor"
+    assert shared_library.reason() == "no compiled library is for this processor"
 
 
 @needs_library
@@ -52,7 +52,7 @@ def test_for_another_processor(folder):
 def test_cut_off(folder, size):
     for path in folder.glob("libcarom*"):
         path.write_bytes(path.read_bytes()[:size])
-    assert library.reason() == "the compiled library is damaged; install carom again"
+    assert shared_library.reason() == "the compiled library is damaged; install carom again"
 
 
 @needs_library
@@ -61,37 +61,37 @@ def test_a_bit_turned(folder):
         content = bytearray(path.read_bytes())
         content[len(content) // 2] ^= 1
         path.write_bytes(content)
-    assert library.reason() == "the compiled library is damaged; install carom again"
+    assert shared_library.reason() == "the compiled library is damaged; install carom again"
 
 
 @needs_library
 def test_gone(folder):
     for path in folder.glob("libcarom*"):
         path.unlink()
-    assert library.reason() == "carom was installed without its compiled library"
+    assert shared_library.reason() == "carom was installed without its compiled library"
 
 
 @needs_library
 @pytest.mark.parametrize("text", ["", "{", "[]", "{}", '{"files": 5}', "\0"])
 def test_its_contents_damaged(folder, text):
     (folder / CONTENTS).write_text(text)
-    assert library.reason() == "the compiled library is damaged; install carom again"
+    assert shared_library.reason() == "the compiled library is damaged; install carom again"
 
 
 @needs_library
 def test_made_from_other_sources(folder):
     contents = json.loads((folder / CONTENTS).read_text())
     (folder / CONTENTS).write_text(json.dumps(contents | {"sources": "0" * 64}))
-    assert library.reason() == "the compiled library was made from other sources"
+    assert shared_library.reason() == "the compiled library was made from other sources"
 
 
 def test_none_at_all(tmp_path, monkeypatch):
-    monkeypatch.setattr(library, "FOLDER", tmp_path)
-    library.opened.cache_clear()
-    assert library.reason() == "carom was installed without its compiled library"
+    monkeypatch.setattr(shared_library, "FOLDER", tmp_path)
+    shared_library.opened.cache_clear()
+    assert shared_library.reason() == "carom was installed without its compiled library"
     with pytest.raises(RuntimeError, match="without its compiled library"):
         carom.get_library()
-    library.opened.cache_clear()
+    shared_library.opened.cache_clear()
 
 
 @needs_library

@@ -7,10 +7,10 @@ import pytest
 
 import carom
 from carom.dimensionless import interpolation
-from carom.dimensionless.numerics import chebyshev, hertz, library, permutation
+from carom.dimensionless.numerics import chebyshev, hertz, permutation, shared_library
 from carom.dimensionless.numerics.kernels import ENTRIES
 
-pytestmark = pytest.mark.skipif(bool(library.reason()), reason=f"no library: {library.reason()}")
+pytestmark = pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
 STEEL = carom.material("steel")
 BALL = carom.Sphere(radius=0.005, material=STEEL)
 PAIR = carom.Pair(BALL, carom.HalfSpace(material=STEEL), friction=0.2)
@@ -31,7 +31,7 @@ def calls(monkeypatch):
     counts = {kernel.__name__ + "@" + kernel.__module__: 0 for kernel in ENTRIES}
 
     def checked(kernel):
-        by_library = library.function(kernel.signatures(), kernel.floats)
+        by_library = shared_library.function(kernel.signatures(), kernel.floats)
         assert by_library is not None
 
         def call(*given):

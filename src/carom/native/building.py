@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from carom.dimensionless.numerics.kernels import ENTRIES, VARIABLE
-from carom.dimensionless.numerics.library import CONTENTS, PACKAGE, digest
+from carom.dimensionless.numerics.shared_library import CONTENTS, PACKAGE, digest
 from carom.native.c_header import kernels_h
 
 HERE = Path(__file__).parent

@@ -10,6 +10,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from importlib import import_module
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 from unittest.mock import patch
@@ -30,6 +31,7 @@ from carom.dimensionless.numerics.kernels import ENTRIES, Kernel
 from carom.dimensionless.numerics.signatures import ArrayType, Group, Signature
 
 Library = codegen.CPUCodeLibrary
+CODE = attrgetter("library")  # of what numba has compiled
 NUMBERS = {float: types.float64, int: types.int64, bool: types.int64}
 C_LIBRARY = """
     memcpy memset memmove sqrt cbrt pow exp log log1p expm1 hypot sin cos tan asin acos atan atan2
@@ -133,7 +135,7 @@ def _module(name: str, compiled: Any, signature: Signature) -> Any:
     wrapper = numba.njit(**OPTIONS)(_wrapper(compiled, signature))
     wrapper.compile(arguments)
     found = wrapper.overloads[arguments]
-    module = found.library._get_module_for_linking().clone()
+    module = CODE(found)._get_module_for_linking().clone()
     module.link_in(_c_function(name, found, arguments))
     return module
 
@@ -142,7 +144,7 @@ def _c_function(name: str, found: Any, arguments: tuple[Any, ...]) -> Any:
     """Return the module of a C function of a block of arguments; not 0 if the kernel has raised."""
     kind = found.target_context.call_conv.get_function_type(types.none, arguments)
     module = ir.Module(name)
-    module.data_layout = found.library._codegen._data_layout
+    module.data_layout = CODE(found)._codegen._data_layout
     inner = ir.Function(module, kind, found.fndesc.llvm_func_name)
     word = ir.IntType(64)
     outer = ir.Function(module, ir.FunctionType(ir.IntType(32), [word.as_pointer()]), name)

@@ -9,7 +9,7 @@ from typing import Any
 import numba
 from numba.core import event
 
-from carom.dimensionless.numerics import library
+from carom.dimensionless.numerics import shared_library
 
 PATIENCE = 2.0  # seconds before it is said
 OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy"}
@@ -25,7 +25,7 @@ def dispatcher(function: Callable[..., Any]) -> Any:
 
 def message() -> str:
     """Return what to say to users who wait, and why they do."""
-    why = f" ({library.reason()})" if library.reason() else ""
+    why = f" ({shared_library.reason()})" if shared_library.reason() else ""
     return f"carom: compiling its kernels, once; this takes up to a minute{why} ..."
 
 

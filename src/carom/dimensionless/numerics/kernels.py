@@ -10,7 +10,7 @@ from collections.abc import Callable
 from functools import cached_property, update_wrapper
 from typing import Any, Generic, ParamSpec, TypeVar, cast
 
-from carom.dimensionless.numerics import library
+from carom.dimensionless.numerics import shared_library
 from carom.dimensionless.numerics.signatures import Signature, signature_of
 from carom.quantities.refusals import one_of
 
@@ -41,7 +41,7 @@ class Kernel(Generic[Given, Found]):
     def compiled(self) -> Callable[Given, Found]:
         """The machine code: that of the library, or numba's."""
         if way() == "library" and self.floats:
-            found = library.function(self.signatures(), self.floats)
+            found = shared_library.function(self.signatures(), self.floats)
             if found is not None:
                 return cast(Callable[Given, Found], found)
         return cast(Callable[Given, Found], self.dispatcher)
