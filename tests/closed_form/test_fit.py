@@ -7,6 +7,7 @@ from scipy.stats import norm, t
 
 import carom
 from carom.fitting import fit
+from carom.fitting.errors import RobustLoss, scatter
 
 MU, E = 0.15, 1.0
 BALL = carom.Sphere(radius="5 mm", material="steel")
@@ -88,6 +89,36 @@ def test_outliers_count_less():
     assert found.friction.value == pytest.approx(brentq(influences, 0.05, 0.5), rel=1e-5)
     plain = fit(data, pair=PAIR, fixed={"restitution": 1.0}, vary="friction", robust=False)
     assert plain.friction.value == pytest.approx(values.mean(), rel=1e-5)
+
+
+def test_the_robust_loss_is_that_of_charbonnier():
+    """2 c^2 (sqrt(1 + (r/c)^2) - 1); influence and slope are half its first two derivatives."""
+    loss, r, h = RobustLoss(2.0), np.linspace(-30.0, 30.0, 601), 1e-4
+    assert loss.root(r) ** 2 == pytest.approx(8.0 * (np.sqrt(1.0 + (r / 2.0) ** 2) - 1.0), abs=1e-12)
+    assert np.array_equal(np.sign(loss.root(r)), np.sign(r))
+    first = (loss.root(r + h) ** 2 - loss.root(r - h) ** 2) / (4.0 * h)
+    assert loss.influence(r) == pytest.approx(first, abs=1e-7)
+    second = (loss.influence(r + h) - loss.influence(r - h)) / (2.0 * h)
+    assert loss.slope(r) == pytest.approx(second, abs=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("used", "free"), [(0.0, 1.0), (5.0, 0.75), (19.0, 0.05), (20.0, 0.05), (30.0, 0.05)]
+)
+def test_scatter_of_squares_is_chi_squared_by_degrees_of_freedom(used, free):
+    """sqrt(sum r^2/(n - k)); of no fewer degrees than n/20 however many parameters there are."""
+    residuals = np.random.default_rng(4).normal(0.0, 3.0, (20, 1))
+    there = np.ones((20, 1), bool)
+    found = scatter(residuals, there, np.array([used]), RobustLoss(1e8))
+    assert found == pytest.approx([np.sqrt((residuals**2).mean() / free)], rel=1e-6)
+
+
+def test_scatter_without_outliers_is_that_of_robust_and_squares_alike():
+    """Huber's proposal 2 is consistent: both tell the standard deviation of Gaussian errors."""
+    residuals = np.random.default_rng(5).normal(0.0, 3.0, (200_000, 1))
+    there, used = np.ones(residuals.shape, bool), np.zeros(1)
+    for c in (1.0, 2.0, 1e8):
+        assert scatter(residuals, there, used, RobustLoss(c)) == pytest.approx([3.0], rel=0.01)
 
 
 def test_restitution_is_the_weighted_mean_of_what_was_measured():

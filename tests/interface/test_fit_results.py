@@ -50,6 +50,20 @@ def test_posterior_agrees_with_the_profile(data):
     assert samples.attrs["converged"] == 1
 
 
+def test_posterior_of_a_robust_fit_agrees_with_the_profile():
+    """One parameter, many values, three of them wild: its likelihood has the scale of the loss."""
+    random = np.random.default_rng(12)
+    ratios = np.append(random.normal(0.15, 0.01, 60), [0.3, 0.35, 0.02])
+    data = {"angle [deg]": np.full(63, 75.0), "impulse_ratio": ratios}
+    for errors in ({}, {"impulse_ratio_error": np.full(63, 0.01)}):
+        found = fit(data | errors, pair=PAIR, fixed={"restitution": 1.0}, vary="friction")
+        samples = found.posterior(steps=1500, seed=4).friction.values
+        low, high = np.quantile(samples, [0.025, 0.975])
+        width = found.friction.high - found.friction.low
+        assert low == pytest.approx(found.friction.low, abs=0.04 * width)
+        assert high == pytest.approx(found.friction.high, abs=0.04 * width)
+
+
 def test_posterior_depends_on_its_seed_alone(found):
     one, same, other = (found.posterior(steps=100, seed=seed) for seed in (5, 5, 6))
     np.testing.assert_array_equal(one.friction.values, same.friction.values)

@@ -1,5 +1,6 @@
 """A store holds one sweep of one version, of one process, and nothing else is ever touched."""
 
+import errno
 import json
 import os
 import subprocess
@@ -12,12 +13,15 @@ import pytest
 import xarray as xr
 import zarr
 
+import carom
 from carom.io.stores import FROZEN
 from carom.quantities.refusals import InputError
 from carom.sweeps import sweep
 from carom.sweeps.blocks import boxes, chunk_shape, points_in
 from carom.sweeps.designs import Grid, LatinHypercube
+from carom.sweeps.points import PointStatus
 from carom.sweeps.problem import SweepProblem
+from carom.sweeps.records import SweepStopped
 from carom.sweeps.stores import codecs, write_chunk
 from carom.sweeps.tables import Table
 
@@ -141,6 +145,31 @@ def killed_at(instant: int):
         return None
 
     return doomed
+
+
+@pytest.mark.parametrize("fails", range(12))
+def test_a_write_that_fails_leaves_no_status_without_its_values(tmp_path, monkeypatch, fails):
+    """Whichever file does not get on the disk: a reader is told of no point that is not there."""
+    monkeypatch.setattr("carom.sweeps.blocks.FEWEST", 6)
+    outputs, path = ["rebound_angle", "spin_out"], tmp_path / "sweep.zarr"
+    replace, calls = os.replace, count()
+
+    def full(partial, target):
+        if Path(target).parent.parent.name == "c" and next(calls) == fails:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        return replace(partial, target)
+
+    with monkeypatch.context() as doomed:
+        doomed.setattr("carom.sweeps.stores.os.replace", full)
+        with pytest.raises(SweepStopped, match=f"free space; {fails // 3} of 4 blocks are safe"):
+            sweep(CASE, GRID, outputs=outputs, store=path)
+    there = carom.read(path)
+    told = there.status.values != PointStatus.NOT_RUN
+    assert told.any() == (fails >= 3)
+    for name in outputs:
+        assert np.all(np.isfinite(there[name].values[told]))
+    truth = sweep(CASE, GRID, outputs=outputs)
+    assert truth.identical(sweep(CASE, GRID, outputs=outputs, store=path, resume=True).load())
 
 
 class Logged:

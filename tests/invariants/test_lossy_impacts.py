@@ -113,6 +113,15 @@ def test_opposite_approach_rebounds_oppositely(loss: Loss) -> None:
 
 
 @pytest.mark.parametrize("loss", LOSSES)
+@pytest.mark.parametrize("psi", [0.7, 2.0, 3.4, 6.0])
+def test_opposite_approach_slips_oppositely(loss: Loss, psi: float) -> None:
+    """The same phases at the same times, every slip the other way."""
+    forth, back = (solve_with_losses(p, 1.44, loss, 0.3).phases for p in (psi, -psi))
+    assert {phase.sign for phase in forth} & {-1, 1}
+    assert [phase._replace(sign=-phase.sign) for phase in forth] == list(back)
+
+
+@pytest.mark.parametrize("loss", LOSSES)
 def test_impacts_come_no_further_apart(loss: Loss) -> None:
     """A jump in psi_1, wherever the structure changes, would break the contraction."""
     for chi, parameter in ((1.44, 0.2), (0.5, 0.35), (2.8, 0.05)):
