@@ -115,6 +115,7 @@ def numbers(rng):
     interpolation.psi_out(rng.uniform(-5, 5, (4, 9)), np.full(4, 1.3), np.full(4, 0.9))
 
 
+@pytest.mark.slow
 def test_the_library_gives_the_bits_of_numba(calls):
     rng = np.random.default_rng(20)
     for work in (rebounds, impacts, contacts, laws, numbers):
