@@ -32,8 +32,6 @@ SEED = 20261122
 EDITS = 60
 RELATED = 15  # test files that are run first
 LIMIT = 1500  # s that the tests of one edit may take
-COPIED = ("src", "tests", "docs", "examples", "benchmarks", "studies", "README.md", "LICENSE")
-TOP = ("pyproject.toml", "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff", "hatch_build.py")
 SWAPS = {
     **{ast.Add: ("+", "-"), ast.Sub: ("-", "+"), ast.Mult: ("*", "/"), ast.Div: ("/", "*")},
     **{ast.Lt: ("<", ">="), ast.LtE: ("<=", ">"), ast.Gt: (">", "<="), ast.GtE: (">=", "<")},
@@ -146,8 +144,7 @@ def caught(edit: Edit, shown: bool = False) -> str:
     """Return the test that notices the edit, empty if none does."""
     with tempfile.TemporaryDirectory() as folder:
         tree = Path(folder)
-        for name in (*COPIED, *TOP):
-            _copy(ROOT / name, tree / name)
+        _copy_to(tree)
         path = tree / edit.file
         text = path.read_text(encoding="utf-8")
         path.write_text(text[: edit.start] + edit.new + text[edit.end :], encoding="utf-8")
@@ -175,12 +172,12 @@ def caught(edit: Edit, shown: bool = False) -> str:
     return ""
 
 
-def _copy(old: Path, new: Path) -> None:
-    if old.is_dir():
-        left = shutil.ignore_patterns("__pycache__", "lib", "gallery", "api")
-        shutil.copytree(old, new, ignore=left)
-    elif old.exists():
-        shutil.copy(old, new)
+def _copy_to(tree: Path) -> None:
+    listed = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    names = subprocess.run(listed, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    for name in filter(None, names.split("\0")):
+        (tree / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, tree / name)
 
 
 def main() -> None:

@@ -1,6 +1,9 @@
-"""The page in a real browser: one server and one Chromium for all tests, a fresh visitor for each.
+"""The page in a real browser: one server and one Chromium for all tests, mostly one tab.
 
-Every visit ends with the console free of errors and warnings and no other host asked.
+Loading the page takes seconds, nearly all of them in plotly and dash. So a visit opens its link in
+a tab that another visit has left, as the browser's buttons for back and forward do, unless it asks
+to load the page. Every visit ends with the console free of errors and warnings and no other host
+asked.
 """
 
 import json
@@ -9,6 +12,7 @@ import shutil
 import subprocess
 import sys
 import time
+from collections import defaultdict
 from urllib.parse import urlsplit
 
 import pytest
@@ -17,22 +21,57 @@ BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 COMMAND = [sys.executable, "-c", "from carom.cli import run; run()", "explore"]
 PATIENCE = 8.0  # s
 READY = "document.querySelector('#results table') && window.Carom && Carom.scene.data()"
+KEPT_BY_PAGE = ("time", "pace", "theme")  # parts of a link that are read while the page loads
+BETWEEN = "?angle=1.5&friction=0.05"  # no test begins here
+LEAVE = """() => {
+  document.activeElement.blur();
+  scrollTo(0, 0);
+  Carom.clock.pause();
+  Carom.clock.set(Carom.clock.START);
+  document.getElementById("pace").value = String(Carom.clock.PACE);
+  while (Carom.theme.choice() !== "auto") Carom.theme.next();
+}"""
+TRAVEL = """query => {
+  window.left = Carom.scene.data();
+  history.pushState({}, "", query);
+  dispatchEvent(new Event("popstate"));
+}"""
 
 
 class Visit:
-    """A page of the explorer in a browser of its own."""
+    """A page of the explorer in a tab of a browser."""
 
-    def __init__(self, context, address, query, ready):
+    def __init__(self, context, address):
         self.address = address
         self.trouble = []
         self.page = context.new_page()
         self.page.on("console", self._heard)
         self.page.on("pageerror", lambda error: self.trouble.append(f"page error: {error}"))
         self.page.on("request", self._asked)
-        self.response = self.page.goto(f"{address}{query}")
+
+    def load(self, query, ready):
+        """Load the page."""
+        self.response = self.page.goto(f"{self.address}{query}")
         if ready:
             self.page.wait_for_function(READY, timeout=30_000)
             self.until(lambda: self.traces("rebounds"))
+
+    def travel(self, query):
+        """Go to a link within the page, by way of another, and wait for its charts."""
+        self.page.evaluate(LEAVE)
+        for where in (BETWEEN, query or "?"):
+            self.page.evaluate(TRAVEL, where)
+            self.page.wait_for_function("Carom.scene.data() !== window.left", timeout=10_000)
+        self.until(self._drawn)
+
+    def _drawn(self):
+        """Tell whether the chart shows the impact of the table."""
+        told = [text.replace("\N{MINUS SIGN}", "-") for text in self.cells()]
+        return f"{self.traces('rebounds')['this impact', 'markers']['x'][0]:.6g}" in told
+
+    def cells(self):
+        """Return the words of the results."""
+        return self.page.locator("#results td").all_inner_texts()
 
     def _heard(self, message):
         if message.type in ("error", "warning"):
@@ -142,17 +181,39 @@ def contexts(chromium):
     return context
 
 
-@pytest.fixture
-def visit(address, contexts):
-    """Open the page with a query; fresh: in a browser that was never here."""
-    visits = []
+@pytest.fixture(scope="session")
+def tabs():
+    """Visits that are over, by width and scheme."""
+    return defaultdict(list)
 
-    def open_page(query="", *, width=1280, scheme="light", fresh=False, ready=True):
-        visits.append(Visit(contexts(width, scheme, fresh), address, query, ready))
-        return visits[-1]
+
+@pytest.fixture
+def visit(address, contexts, tabs):
+    """Open a link; loading the page, or even fresh, in a browser that was never here."""
+    over, left = [], []
+
+    def open_page(
+        query="", *, width=1280, scheme="light", loading=False, fresh=False, ready=True
+    ):
+        kind = width, scheme
+        loading = loading or fresh or not ready or any(f"{part}=" in query for part in KEPT_BY_PAGE)
+        if tabs[kind] and not loading:
+            seen = tabs[kind].pop()
+            seen.travel(query)
+        else:
+            seen = Visit(contexts(*kind, fresh), address)
+            seen.load(query, ready)
+        over.append(seen)
+        if not loading:
+            left.append((kind, seen))
+        return seen
 
     yield open_page
-    trouble = [line for each in visits for line in each.trouble]
-    for each in visits:
-        each.page.close()
+    trouble = [line for each in over for line in each.trouble]
+    for kind, seen in left:
+        if not seen.trouble:
+            tabs[kind].append(seen)
+    for seen in over:
+        if not any(seen in each for each in tabs.values()):
+            seen.page.close()
     assert trouble == []

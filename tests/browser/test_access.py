@@ -37,7 +37,7 @@ CONTRASTS = """() => {
 
 
 def test_every_control_is_reached_by_tab_and_seen(visit):
-    seen, reached = visit(), {}
+    seen, reached = visit(loading=True), {}
     for _ in range(150):
         seen.page.keyboard.press("Tab")
         at = seen.page.evaluate(FOCUSED)
@@ -114,7 +114,7 @@ def test_a_small_screen_can_be_used(visit):
 
 
 def test_the_header_forbids_other_hosts(visit):
-    policy = visit().response.headers["content-security-policy"]
+    policy = visit(loading=True).response.headers["content-security-policy"]
     assert "default-src 'self'" in policy
     assert "*" not in policy
     assert "http" not in policy

@@ -26,7 +26,7 @@ def shows(seen, hit):
 
 
 def test_the_page_as_it_opens(visit):
-    seen, chi = visit(), steel().pair.chi
+    seen, chi = visit(loading=True), steel().pair.chi
     assert shows(seen, steel())
     assert seen.link() == ""
     assert seen.notice() == ""

@@ -101,7 +101,7 @@ def test_the_link_that_is_told_opens_the_same_page(visit):
 
 def test_back_and_forward(visit):
     """Each link visited in turn is restored when the browser goes back, and forward again."""
-    seen = visit("?angle=20")
+    seen = visit("?angle=20", loading=True)
     seen.page.goto(f"{seen.address}?angle=70")
     for going, angle in (("go_back", 20.0), ("go_forward", 70.0)):
         getattr(seen.page, going)()
@@ -133,7 +133,7 @@ def told(seen, beginning):
 
 def test_nonsense_in_a_link(visit):
     for query in ("angle=ninety", "%ff%00=%fe&&=&=3"):
-        seen = visit(f"?{query}")
+        seen = visit(f"?{query}", loading=True)
         assert told(seen, NONSENSE.get(query, ""))
         seen.page.wait_for_timeout(500)
         assert told(seen, NONSENSE.get(query, ""))  # and it stays

@@ -11,8 +11,9 @@ from carom.bodies.cases import motion_of, pair_of, read_case
 from carom.bodies.kinematics import approach, slope
 from carom.bodies.pairs import Pair
 from carom.dimensionless.numerics.hertz import DURATION
+from carom.laws.dem.damping import damped_restitution
 from carom.quantities.refusals import InputError, refusal
-from carom.quantities.units import finite, number, positive
+from carom.quantities.units import finite, positive
 
 POINTS = 61
 SPEEDS = ("speed", "angle", "normal_speed", "tangential_speed")
@@ -45,7 +46,7 @@ def setting_of(
     """
     if case is None and chi is None:
         raise InputError("case: missing; give a case file, or --chi, e.g. --chi 1.44")
-    wanted = number("restitution", restitution)
+    wanted = damped_restitution("restitution", restitution)
     if case is None:
         if wanted != 1.0:
             raise refusal("restitution", restitution, "needs a case file: dampings are of bodies")
