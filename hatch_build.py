@@ -23,11 +23,10 @@ class CompiledKernels(BuildHookInterface):
             return
         self.folder = tempfile.TemporaryDirectory()
         folder = Path(self.folder.name)
-        sources = str(Path(self.root, "src"))
-        paths = os.pathsep.join([sources, *sys.path])
+        sources = Path(self.root, "src")  # as working folder it comes first, whatever is installed
         levels = os.environ.get(LEVELS, "").split()
         command = [sys.executable, "-m", BUILDING, str(folder), *levels]
-        if subprocess.run(command, env={**os.environ, "PYTHONPATH": paths}).returncode:
+        if subprocess.run(command, cwd=sources).returncode:
             return
         for path in folder.iterdir():
             build_data["force_include"][str(path)] = f"carom/lib/{path.name}"

@@ -51,6 +51,12 @@ def test_with_the_library_no_compiler_is_loaded(first):
     python(f"{BODIES}{FIRST[first]}{COMPILERS}")
 
 
+def test_common_units_do_not_wait_for_pint():
+    program = BODIES.replace("0.005", "'5 mm'").replace("=0.5", "='20 deg'").replace("2.0", "'2 m/s'")
+    assert program.count("'") == 6
+    python(f"{program}assert 'pint' not in sys.modules")
+
+
 @pytest.mark.parametrize("loss", LOSS)
 def test_the_command_gives_the_number_of_python(loss):
     flags = [*BALL, "--angle", "30 deg", "--json", *LOSS[loss]]

@@ -13,6 +13,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from carom.io.columns import column_in_si
+from carom.quantities import texts
 from carom.quantities.arrays import numbers, plain_numbers
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError
@@ -263,3 +264,12 @@ def test_the_time_of_a_refusal_is_bounded(text):
         with pytest.raises(InputError):
             number("radius", text)
     assert time.perf_counter() - begun < 10.0
+
+
+@pytest.mark.parametrize("unit", texts.COMMON)
+def test_common_units_are_those_of_pint(unit, monkeypatch):
+    """The table that spares loading pint, against pint, to the last bit."""
+    for expression, ratio in texts.COMMON[unit].items():
+        with monkeypatch.context() as without:
+            without.setattr(texts, "COMMON", {})
+            assert texts._factor.__wrapped__(expression, unit) == texts.as_factor(ratio), expression

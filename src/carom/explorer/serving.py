@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from errno import EADDRNOTAVAIL
 
 from carom import datasets
+from carom.dimensionless.numerics import shared_library
 from carom.explorer.app import new_app
 from carom.explorer.connections import Server
 from carom.explorer.fits import fit_of
@@ -77,7 +78,8 @@ def explorer(*, host: str = LOOPBACK, port: int = PORT) -> Explorer:
     if not host:
         raise refusal("host", host, "must be an address, e.g. 127.0.0.1; 0.0.0.0 is every one")
     with _bound(host, port) as listening:
-        warm_up()
+        if shared_library.reason():
+            warm_up()
         worker = Worker()
         app = new_app(worker, OWN_NAMES if host in OWN_NAMES else None).server
         server = Server(host, listening.getsockname()[1], app, listening.fileno())
@@ -108,7 +110,7 @@ def _bound(host: str, port: int) -> socket.socket:
 
 
 def warm_up() -> None:
-    """Answer once what can be asked: bodies, numbers, laws, fields, a fit."""
+    """Answer once what can be asked, which compiles it: bodies, numbers, laws, fields, a fit."""
     for view in (View(law=LAWS), View(given=NUMBERS)):
         scene = scene_of(view)
         exact_curve(scene)

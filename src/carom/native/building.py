@@ -129,7 +129,6 @@ def _objects(modules: Sequence[str], level: int, scratch: Path) -> list[Path]:
     paths = [scratch / f"kernels{level}-{i}.o" for i in range(len(groups))]
     environment = {**os.environ, VARIABLE: "numba", "NUMBA_CPU_NAME": GENERIC[level]}
     environment["NUMBA_CPU_FEATURES"] = ""
-    environment["PYTHONPATH"] = os.pathsep.join([str(PACKAGE.parent), *sys.path])
 
     def emit(path: Path, group: Sequence[str]) -> None:
         command = [sys.executable, "-m", "carom.native.emission", path, *group]
@@ -177,7 +176,9 @@ def _link(target: Path, parts: Sequence[Path]) -> None:
 
 def _run(command: Sequence[str], environment: Any) -> None:
     try:
-        subprocess.run(command, env=environment, check=True, capture_output=True, text=True)
+        subprocess.run(
+            command, env=environment, cwd=PACKAGE.parent, check=True, capture_output=True, text=True
+        )
     except (OSError, subprocess.CalledProcessError) as error:
         told = str(getattr(error, "stderr", "") or error).strip().splitlines()
         raise NotBuilt(

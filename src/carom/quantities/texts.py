@@ -11,7 +11,7 @@ understand, is asked for the names of units alone.
 
 import re
 from functools import lru_cache
-from math import inf, isinf, log10
+from math import inf, isinf, log10, pi
 from typing import Any, NamedTuple
 
 LONGEST = 200  # characters of a text
@@ -47,6 +47,17 @@ SPEEDS = "knot mile_per_hour kilometer_per_hour meter_per_second foot_per_second
 RATIOS = "percent permille ppm"
 KINDS = (LENGTHS, MASSES, TIMES, FORCES, PRESSURES, ANGLES, SPINS, SPEEDS, RATIOS)
 UNITS = frozenset(" ".join(KINDS).split())  # pint's whole names; constants of nature are none
+COMMON = {  # the units of most texts, for which pint, which takes a quarter of a second, is not loaded
+    "m": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "nm": 1e-9},
+    "m/s": {"m/s": 1.0, "cm/s": 1e-2, "mm/s": 1e-3},
+    "rad": {"rad": 1.0, "deg": pi / 180.0, "°": pi / 180.0},
+    "rad/s": {"rad/s": 1.0, "rpm": pi / 30.0},
+    "s": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6},
+    "N": {"N": 1.0, "mN": 1e-3, "kN": 1e3},
+    "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9},
+    "kg/m^3": {"kg/m^3": 1.0, "g/cm^3": 1e3},
+    "1": {"%": 1e-2},
+}
 
 
 class Unreadable(ValueError):
@@ -139,6 +150,9 @@ def factor(expression: str, unit: str) -> Factor:
 
 @lru_cache(maxsize=4096)
 def _factor(expression: str, unit: str) -> Factor | Unreadable:
+    known = COMMON.get(unit, {}).get(expression)
+    if known is not None:
+        return as_factor(known)
     try:
         given, wanted = _root(_terms(expression)), _root(_terms("" if unit == "1" else unit))
         if given[1] == wanted[1]:
