@@ -35,7 +35,12 @@ LIMIT = 1500  # s that the tests of one edit may take
 SWAPS = {
     **{ast.Add: ("+", "-"), ast.Sub: ("-", "+"), ast.Mult: ("*", "/"), ast.Div: ("/", "*")},
     **{ast.Lt: ("<", ">="), ast.LtE: ("<=", ">"), ast.Gt: (">", "<="), ast.GtE: (">=", "<")},
-    **{ast.Eq: ("==", "!="), ast.NotEq: ("!=", "=="), ast.And: ("and", "or"), ast.Or: ("or", "and")},
+    **{
+        ast.Eq: ("==", "!="),
+        ast.NotEq: ("!=", "=="),
+        ast.And: ("and", "or"),
+        ast.Or: ("or", "and"),
+    },
 }
 GUARDS = ("strict", "frozen", "eq", "slots", "kw_only", "compare", "repr")
 NAMES = {"min": "max", "max": "min", "minimum": "maximum", "maximum": "minimum"} | {
@@ -94,7 +99,9 @@ def edits_of(file: str, text: str) -> Iterator[Edit]:
                 yield Edit(file, begin(node), begin(operand), "")
             case ast.Constant(value=bool() | int() | float() as value):
                 yield Edit(file, begin(node), end(node), _other(value))
-            case ast.Call(func=ast.Name(id=name) | ast.Attribute(attr=name) as func) if name in NAMES:
+            case ast.Call(func=ast.Name(id=name) | ast.Attribute(attr=name) as func) if (
+                name in NAMES
+            ):
                 yield Edit(file, end(func) - len(name), end(func), NAMES[name])
             case ast.Expr(value=ast.Call()) | ast.AugAssign() | ast.Raise():
                 yield Edit(file, begin(node), end(node), "pass")

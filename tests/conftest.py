@@ -13,6 +13,9 @@ import pytest
 SOURCES = sorted(Path(find_spec("carom").submodule_search_locations[0]).rglob("*.py"))
 KEY = hashlib.sha256(b"".join(path.read_bytes() for path in SOURCES)).hexdigest()[:16]
 
+# jax is here to agree, not to be quick: a third of the time of its tests
+XLA = "--xla_backend_optimization_level=0 --xla_llvm_disable_expensive_passes=true"
+os.environ.setdefault("XLA_FLAGS", XLA)
 os.environ["NUMBA_CACHE_DIR"] = str(Path(tempfile.gettempdir()) / f"carom-kernels-{KEY}")
 
 

@@ -192,9 +192,7 @@ def visit(address, contexts, tabs):
     """Open a link; loading the page, or even fresh, in a browser that was never here."""
     over, left = [], []
 
-    def open_page(
-        query="", *, width=1280, scheme="light", loading=False, fresh=False, ready=True
-    ):
+    def open_page(query="", *, width=1280, scheme="light", loading=False, fresh=False, ready=True):
         kind = width, scheme
         loading = loading or fresh or not ready or any(f"{part}=" in query for part in KEPT_BY_PAGE)
         if tabs[kind] and not loading:

@@ -162,6 +162,7 @@ BAD = {
 }
 
 
+@pytest.mark.slow
 def test_uploads_are_fitted_or_refused_in_a_line(visit):
     seen = visit(loading=True)
     for name, content in BAD.items():
@@ -183,6 +184,7 @@ def test_uploads_are_fitted_or_refused_in_a_line(visit):
     assert seen.notice() == ""
 
 
+@pytest.mark.slow
 def test_the_last_of_file_and_data_set_counts(visit):
     seen, name = visit(loading=True), carom.datasets.names()[0]
     for _ in range(2):  # the same file can be sent again

@@ -131,6 +131,7 @@ def told(seen, beginning):
     return True
 
 
+@pytest.mark.slow
 def test_nonsense_in_a_link(visit):
     for query in ("angle=ninety", "%ff%00=%fe&&=&=3"):
         seen = visit(f"?{query}", loading=True)

@@ -94,7 +94,9 @@ def test_outliers_count_less():
 def test_the_robust_loss_is_that_of_charbonnier():
     """2 c^2 (sqrt(1 + (r/c)^2) - 1); influence and slope are half its first two derivatives."""
     loss, r, h = RobustLoss(2.0), np.linspace(-30.0, 30.0, 601), 1e-4
-    assert loss.root(r) ** 2 == pytest.approx(8.0 * (np.sqrt(1.0 + (r / 2.0) ** 2) - 1.0), abs=1e-12)
+    assert loss.root(r) ** 2 == pytest.approx(
+        8.0 * (np.sqrt(1.0 + (r / 2.0) ** 2) - 1.0), abs=1e-12
+    )
     assert np.array_equal(np.sign(loss.root(r)), np.sign(r))
     first = (loss.root(r + h) ** 2 - loss.root(r - h) ** 2) / (4.0 * h)
     assert loss.influence(r) == pytest.approx(first, abs=1e-7)

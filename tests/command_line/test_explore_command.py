@@ -93,6 +93,7 @@ def test_an_unknown_path_is_told_in_a_line(page):
             assert answer.read() == b"carom: 404: Not Found\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("end", ["SIGINT", "SIGTERM", "SIGKILL"])
 def test_it_leaves_no_process_behind(end):
     """The one that fits uploads goes, too, even if nobody is left to end it."""

@@ -34,11 +34,13 @@ def errors():
     )
 
 
+@pytest.mark.slow
 def test_agrees_with_the_theory(errors):
     """Within 1.2e-3 on 32 elements and 150 steps, the half of what is asked for."""
     assert np.abs(errors[:, 2]).max() <= 1.2e-3, errors
 
 
+@pytest.mark.slow
 def test_order(errors):
     """Grid and steps refined together: of second order, as a root mean square over the cases."""
     means = np.sqrt(np.mean(errors**2, axis=0))
@@ -47,6 +49,7 @@ def test_order(errors):
     assert np.all(orders > 1.4), (means, orders)
 
 
+@pytest.mark.slow
 def test_extrapolated(errors):
     """The last two grids extrapolated with order 2: within 1e-3, 5e-4 as a root mean square."""
     extrapolated = errors[:, 2] + (errors[:, 2] - errors[:, 1]) / 3.0

@@ -57,6 +57,7 @@ def test_error_of_solid_spheres_is_of_second_order_and_small() -> None:
     assert np.max(scaled) < 1.0
 
 
+@pytest.mark.slow
 def test_extrapolation_agrees_with_the_exact_rebound() -> None:
     psi, chi = random_impacts(38, 300)
     found = [extrapolated(*impact) for impact in zip(psi, chi, strict=True)]

@@ -36,7 +36,10 @@ NAN = float("nan")
         ({"tangential_speed": [1.0] * 5}, "tangential_speed and angle say the same twice"),
         ({"normal_restitution": [98.0] * 5}, "0.98 for 98 percent"),
         ({**SPEEDS, "normal_speed_out": [30.0] * 5}, "normal_speed_out: 30 in every row"),
-        ({**SPEEDS, "normal_speed_out": [1.0, 1.0, -1.0, 1.0, 1.0]}, "normal_speed_out: -1 in row 3"),
+        (
+            {**SPEEDS, "normal_speed_out": [1.0, 1.0, -1.0, 1.0, 1.0]},
+            "normal_speed_out: -1 in row 3",
+        ),
         ({"normal_restitution": [0.9, -0.9, 0.9, 0.9, 0.9]}, "normal_restitution: -0.9 in row 2"),
         ({"contact_beta_error": [0.1, 0.0, 0.1, 0.1, 0.1]}, "0 in row 2.*positive"),
         ({"angle_error": [0.1] * 5}, r"angle_error \[deg\]"),

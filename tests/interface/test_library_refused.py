@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -45,6 +46,20 @@ def test_a_copy_is_as_good(folder):
 def test_for_another_processor(folder):
     changed(folder, level=9)
     assert shared_library.reason() == "no compiled library is for this processor"
+
+
+@needs_library
+def test_the_best_for_this_processor_is_used(folder):
+    """Of libraries for several levels, in whatever order: the highest that is not too high."""
+    contents = json.loads((folder / CONTENTS).read_text())
+    (path,) = folder.glob("libcarom*")
+    one = contents["libraries"][0]
+    names = {level: f"{level}-{path.name}" for level in (0, one["level"], 9)}
+    for name in names.values():
+        shutil.copy(path, folder / name)
+    contents["libraries"] = [one | {"file": name, "level": level} for level, name in names.items()]
+    (folder / CONTENTS).write_text(json.dumps(contents))
+    assert carom.get_library() == str(folder / names[one["level"]])
 
 
 @needs_library
@@ -102,18 +117,22 @@ def test_numba_is_not_even_loaded():
     assert (float(value), loaded) == (carom.rebound(0.5, 1.44), "False")
 
 
-def test_the_environment_chooses():
-    """Numba on demand; a word that is none of the three is refused."""
-    for way in ("numba", "python", "gpu"):
-        environment = {**os.environ, "CAROM_KERNELS": way}
-        command = [sys.executable, "-c", FIRST]
-        run = subprocess.run(command, capture_output=True, text=True, env=environment)
-        if way == "gpu":
-            assert "CAROM_KERNELS: 'gpu' cannot be used; must be one of" in run.stderr
-        else:
-            value, loaded = run.stdout.split()
-            assert float(value) == pytest.approx(carom.rebound(0.5, 1.44), abs=1e-14)
-            assert loaded == str(way == "numba")
+def first_by(way):
+    """The first number of a process whose environment says by what kernels are run."""
+    environment = {**os.environ, "CAROM_KERNELS": way}
+    command = [sys.executable, "-c", FIRST]
+    return subprocess.run(command, capture_output=True, text=True, env=environment)
+
+
+@pytest.mark.parametrize("way", ["python", pytest.param("numba", marks=pytest.mark.slow)])
+def test_the_environment_chooses(way):
+    value, loaded = first_by(way).stdout.split()
+    assert float(value) == pytest.approx(carom.rebound(0.5, 1.44), abs=1e-14)
+    assert loaded == str(way == "numba")
+
+
+def test_a_word_that_is_no_way_is_refused():
+    assert "CAROM_KERNELS: 'gpu' cannot be used; must be one of" in first_by("gpu").stderr
 
 
 @pytest.mark.parametrize(
@@ -136,3 +155,55 @@ def test_no_library_is_built_without_a_compiler(compiler, words, tmp_path):
     assert words in run.stderr
     assert run.stderr.count("\n") == 1
     assert not list(tmp_path.rglob("libcarom*"))
+
+
+LOCKED = 'mount --bind "$0" "$0" && mount -o remount,bind,ro "$0" && exec "$@"'
+
+
+@pytest.fixture
+def read_only(tmp_path):
+    """How to run Python where nobody can write into the package, without a home."""
+    package = shutil.copytree(shared_library.PACKAGE, tmp_path / "carom")
+    locked = []
+    if os.geteuid() == 0:  # for whom permissions are nothing: a place mounted to be read
+        locked = ["unshare", "--mount", "sh", "-c", LOCKED, str(package)]
+        if shutil.which("unshare") is None or subprocess.run([*locked, "true"]).returncode:
+            pytest.skip("root can write everywhere, and can mount nothing here")
+    for path in (*package.rglob("*"), package):
+        path.chmod(0o555 if path.is_dir() else 0o444)
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path), "HOME": "/nowhere"}
+    environment.pop("NUMBA_CACHE_DIR")
+    before = sorted(package.rglob("*"))
+
+    def python(program, **more):
+        command = [*locked, sys.executable, "-c", program]
+        told = {"env": environment | more, "capture_output": True, "text": True}
+        return subprocess.run(command, **told)
+
+    yield python
+    assert sorted(package.rglob("*")) == before
+    for path in (package, *package.rglob("*")):
+        path.chmod(0o755)
+
+
+WRITES = "import carom; open(carom.__file__, 'a')"
+IMPACT = "import carom; print(carom.__file__, carom.rebound(0.5, 1.44))"
+HERTZ = (
+    "from carom.dimensionless.numerics import hertz as h; print(*h.penetration_and_speed(h.HALF))"
+)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="permissions are others there")
+@pytest.mark.parametrize("way", ["library", "numba"])
+def test_a_read_only_installation(read_only, way):
+    """Numbers as ever and no word, by the library and by numba, which then keeps nothing."""
+    assert "Error: [Errno" in read_only(WRITES).stderr
+    work = IMPACT if way == "library" else HERTZ
+    run = read_only(work, CAROM_KERNELS=way)
+    assert (run.returncode, run.stderr) == (0, "")
+    if way == "library":
+        file, value = run.stdout.split()
+        assert Path(file) != Path(carom.__file__)
+        assert float(value) == carom.rebound(0.5, 1.44)
+    else:
+        assert [float(text) for text in run.stdout.split()] == [1.0, 0.0]

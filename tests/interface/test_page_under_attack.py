@@ -19,6 +19,7 @@ from explorer_attack import attacked, served
 PATIENCE = 30.0  # s, of each answer: nothing hangs, on a machine that is busy as well
 
 
+@pytest.mark.slow
 def test_a_page_under_attack_answers():
     with served() as url:
         known = Page(url).known

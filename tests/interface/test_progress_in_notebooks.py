@@ -8,7 +8,10 @@ nbformat = pytest.importorskip("nbformat")
 nbclient = pytest.importorskip("nbclient")
 pytest.importorskip("ipykernel")
 
-pytestmark = pytest.mark.filterwarnings("ignore::DeprecationWarning:jupyter_client")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.filterwarnings("ignore::DeprecationWarning:jupyter_client"),
+]
 
 SOON = "import time, carom.io.progress\ncarom.io.progress.PATIENCE = 0.2"
 WORK = """

@@ -103,6 +103,7 @@ def runs(log: Counter[str], chunks: tuple[int, ...]) -> Counter[str]:
     return counts
 
 
+@pytest.mark.slow
 def test_killed_at_random_instants_it_repeats_nothing_and_ends_in_the_same_bits(tmp_path, truth):
     rng = random.Random(SEED)
     path = tmp_path / "sweep.zarr"

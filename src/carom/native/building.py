@@ -50,7 +50,7 @@ def build(folder: Path, levels: Sequence[int] = ()) -> None:
     libraries = []
     folder.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as scratch:
-        for level in sorted(levels or (processor_level(Path(scratch)),), reverse=True):
+        for level in levels or [processor_level(Path(scratch))]:
             path = _kept(known, modules, level, Path(scratch))
             checksum = sha256(path.read_bytes()).hexdigest()
             libraries.append({"file": path.name, "level": level, "sha256": checksum})

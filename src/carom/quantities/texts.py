@@ -47,7 +47,7 @@ SPEEDS = "knot mile_per_hour kilometer_per_hour meter_per_second foot_per_second
 RATIOS = "percent permille ppm"
 KINDS = (LENGTHS, MASSES, TIMES, FORCES, PRESSURES, ANGLES, SPINS, SPEEDS, RATIOS)
 UNITS = frozenset(" ".join(KINDS).split())  # pint's whole names; constants of nature are none
-COMMON = {  # the units of most texts, for which pint, which takes a quarter of a second, is not loaded
+COMMON = {  # of most texts: for these pint, which takes a quarter of a second, is not loaded
     "m": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "nm": 1e-9},
     "m/s": {"m/s": 1.0, "cm/s": 1e-2, "mm/s": 1e-3},
     "rad": {"rad": 1.0, "deg": pi / 180.0, "°": pi / 180.0},

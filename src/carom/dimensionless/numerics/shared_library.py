@@ -9,6 +9,7 @@ import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache
 from hashlib import sha256
+from operator import itemgetter
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -124,8 +125,8 @@ def opened() -> Opened:
 
 
 def _best(contents: Any) -> Opened:
-    """Return the first library, of which the best comes first, that this processor can run."""
-    for each in contents["libraries"]:
+    """Return the library of the highest level that this processor can run."""
+    for each in sorted(contents["libraries"], key=itemgetter("level"), reverse=True):
         path = FOLDER / each["file"]
         if sha256(path.read_bytes()).hexdigest() != each["sha256"]:
             raise ValueError
