@@ -1,6 +1,6 @@
 """Do the tests notice a careless edit? Small faults put into the source at random, one at a time.
 
-python studies/careless_edits.py             60 edits, an hour on two cores; careless_edits.csv
+python studies/careless_edits.py             60 edits, two hours on two cores; careless_edits.csv
 python studies/careless_edits.py --list      the edits alone
 python studies/careless_edits.py --only 7    one of them, with what the tests say; 0: no edit at all
 
@@ -203,13 +203,25 @@ def main() -> None:
         nothing = edits[0]._replace(end=edits[0].start, new="")
         print(caught([nothing, *edits][given.only], shown=True) or "not caught")
         return
-    with TABLE.open("w", encoding="utf-8", newline="") as file:
+    run_all(edits, told)
+
+
+def run_all(edits: list[Edit], told: list[tuple[int, str, str]]) -> None:
+    """Run the tests on every edit that is not in the table yet, and add who caught it."""
+    known = set()
+    if TABLE.exists():
+        rows = csv.DictReader(TABLE.read_text(encoding="utf-8").splitlines())
+        known = {(row["file"], row["before"], row["after"]) for row in rows}
+    with TABLE.open("a", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["file", "line", "before", "after", "caught_by", "seconds"])
-        for edit, what in zip(track(edits), told, strict=False):
+        if not known:
+            writer.writerow(["file", "line", "before", "after", "caught_by", "seconds"])
+        for edit, (line, old, new) in zip(track(edits), told, strict=False):
+            if (edit.file, old, new) in known:
+                continue
             begun = time.monotonic()
             who = caught(edit)
-            writer.writerow([edit.file, *what, who, round(time.monotonic() - begun)])
+            writer.writerow([edit.file, line, old, new, who, round(time.monotonic() - begun)])
             file.flush()
 
 
