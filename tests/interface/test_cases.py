@@ -118,10 +118,10 @@ def test_long_lines_are_read_at_once(text, told, tmp_path):
     """In time that grows as they do, with an error that does not."""
     path = tmp_path / "case.toml"
     path.write_text(text)
-    begin = time.monotonic()
+    begin = time.process_time()
     with pytest.raises(InputError, match=told) as found:
         carom.read(path)
-    assert time.monotonic() - begin < 5.0
+    assert time.process_time() - begin < 5.0
     assert len(str(found.value)) < 600
 
 
@@ -134,7 +134,7 @@ def test_long_lines_are_read_at_once(text, told, tmp_path):
     ids=["unknown", "twice"],
 )
 def test_a_long_material_is_read_at_once(text, told):
-    begin = time.monotonic()
+    begin = time.process_time()
     with pytest.raises(InputError, match=told):
         read_material(text)
-    assert time.monotonic() - begin < 5.0
+    assert time.process_time() - begin < 5.0

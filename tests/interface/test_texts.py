@@ -259,11 +259,11 @@ def test_the_time_of_a_refusal_is_bounded(text):
 
     Benchmarks measure; this only tells an end from none.
     """
-    begun = time.perf_counter()
+    begun = time.process_time()
     for _ in range(10):
         with pytest.raises(InputError):
             number("radius", text)
-    assert time.perf_counter() - begun < 10.0
+    assert time.process_time() - begun < 10.0
 
 
 @pytest.mark.parametrize("unit", texts.COMMON)

@@ -245,9 +245,9 @@ def test_bad_input_is_told_and_takes_no_time() -> None:
     for loss in LOSSES:
         for status, cases in [*wrong.items(), (None, extreme)]:
             for psi, chi, parameter in cases:
-                begun = time.perf_counter()
+                begun = time.process_time()
                 found = lossy_rebounds(*np.array([[psi], [chi]]), loss.value, np.array([parameter]))
-                assert time.perf_counter() - begun < 10.0
+                assert time.process_time() - begun < 10.0
                 assert status is None or found.status[0] == status
                 rest = np.array([column[0] for column in found[:-1]])
                 assert np.all(np.isfinite(rest) == (found.status[0] == Status.SOLVED))
