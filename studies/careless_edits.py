@@ -13,7 +13,6 @@ import argparse
 import ast
 import csv
 import os
-import random
 import re
 import shutil
 import subprocess
@@ -21,6 +20,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
+from hashlib import sha256
 from pathlib import Path
 from typing import NamedTuple
 
@@ -30,6 +30,7 @@ ROOT = Path(__file__).parents[1]
 TABLE = Path(__file__).with_suffix(".csv")
 SEED = 20261122
 EDITS = 60
+NEAR = 40  # characters around an edit
 RELATED = 15  # test files that are run first
 LIMIT = 1500  # s that the tests of one edit may take
 SWAPS = {
@@ -127,11 +128,17 @@ def _stripped(tree: ast.Module) -> ast.Module:
 
 
 def sampled(count: int) -> list[Edit]:
-    """Return edits drawn at random from all that the package admits."""
-    found: list[Edit] = []
+    """Return edits drawn at random from all that the package admits.
+
+    Each draws its own lot from its words, so that a change elsewhere leaves the sample as it is.
+    """
+    lots: dict[str, Edit] = {}
     for path in sorted((ROOT / "src/carom").rglob("*.py")):
-        found += edits_of(str(path.relative_to(ROOT)), path.read_text(encoding="utf-8"))
-    return random.Random(SEED).sample(found, count)
+        file, text = str(path.relative_to(ROOT)), path.read_text(encoding="utf-8")
+        for edit in edits_of(file, text):
+            words = text[max(edit.start - NEAR, 0) : edit.end + NEAR]
+            lots[sha256(f"{SEED} {file} {words} {edit.new}".encode()).hexdigest()] = edit
+    return [lots[lot] for lot in sorted(lots)[:count]]
 
 
 def test_files(edit: Edit) -> tuple[list[str], list[str]]:
