@@ -128,6 +128,15 @@ class Visit:
         )
         return {(t["name"], t["mode"]): t for t in self.page.evaluate(words, chart)}
 
+    def laid_over(self, *laws, chart="rebounds"):
+        """Return the traces of a chart once these laws, which follow the answer, are among them."""
+
+        def found():
+            traces = self.traces(chart)
+            return traces if set(laws) <= {name for name, _ in traces} else None
+
+        return self.until(found)
+
     def choose(self, name, option):
         """Choose from a list as a mouse does."""
         control = self.page.locator(f"#{name}")

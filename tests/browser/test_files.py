@@ -92,7 +92,7 @@ def test_laws_laid_over(visit):
     """The curve of a law, its point and its words in the table are the law's own."""
     laws = ("mindlin", "Walton & Braun")
     seen = visit(f"?{urlencode({**QUERY, 'law': laws}, doseq=True)}")
-    chart = seen.traces("rebounds")
+    chart = seen.laid_over(*laws)
     for label in laws:
         law = named(label)[0].law
         line, point = chart[label, "lines"], chart[label, "markers"]
@@ -105,7 +105,7 @@ def test_laws_laid_over(visit):
         told = seen.result(f"ψ₂ by {label}")
         off = at - HIT.psi_out  # laws are solved to 1e-8
         assert told == f"{at:.6g}, " + (f"off by {off:+.3g}" if abs(off) > 1e-6 else "exact")
-        assert (label, "lines") in seen.traces("forces")
+    assert {(label, "lines") for label in laws} <= set(seen.laid_over(*laws, chart="forces"))
 
 
 def test_laws_that_take_long_follow_the_answer(visit):

@@ -62,7 +62,7 @@ def test_a_link_restores_everything_in_a_fresh_browser(visit):
     assert seen.page.input_value("#pace") == "10"
     moment = 0.25 * hit.duration * 1e6
     assert float(seen.page.inner_text("#clock").split()[0]) == pytest.approx(moment, abs=0.051)
-    chart = seen.traces("rebounds")
+    chart = seen.laid_over(*LAWS)
     assert {name for name, _ in chart} == {"exact", "this impact", *LAWS}
     seen.until(lambda: "friction" in seen.page.inner_text("#fit"))
     assert sorted(parse_qsl(seen.link())) == sorted(parse_qsl(query))
@@ -77,7 +77,7 @@ def test_a_link_of_numbers(visit):
     assert seen.page.input_value("#chi") == "1.2"
     assert seen.page.is_hidden("#radius")
     assert seen.page.is_checked("#given input[value=numbers]")
-    point = seen.traces("rebounds")["mindlin", "markers"]
+    point = seen.laid_over("mindlin")["mindlin", "markers"]
     law = named("mindlin")[0].law.rebound(-3.5, 1.2, kappa=2.0 / 7.0 * 1.2)
     assert point["y"] == pytest.approx([float(law)], rel=1e-9)
 
