@@ -21,17 +21,10 @@ BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 COMMAND = [sys.executable, "-c", "from carom.cli import run; run()", "explore"]
 PATIENCE = 8.0  # s
 READY = "document.querySelector('#results table') && window.Carom && Carom.scene.data()"
-KEPT_BY_PAGE = ("time", "pace", "theme")  # parts of a link that are read while the page loads
 BETWEEN = "?angle=1.5&friction=0.05"  # no test begins here
-LEAVE = """() => {
+TRAVEL = """query => {
   document.activeElement.blur();
   scrollTo(0, 0);
-  Carom.clock.pause();
-  Carom.clock.set(Carom.clock.START);
-  document.getElementById("pace").value = String(Carom.clock.PACE);
-  while (Carom.theme.choice() !== "auto") Carom.theme.next();
-}"""
-TRAVEL = """query => {
   window.left = Carom.scene.data();
   history.pushState({}, "", query);
   dispatchEvent(new Event("popstate"));
@@ -58,7 +51,6 @@ class Visit:
 
     def travel(self, query):
         """Go to a link within the page, by way of another, and wait for its charts."""
-        self.page.evaluate(LEAVE)
         for where in (BETWEEN, query or "?"):
             self.page.evaluate(TRAVEL, where)
             self.page.wait_for_function("Carom.scene.data() !== window.left", timeout=10_000)
@@ -203,7 +195,7 @@ def visit(address, contexts, tabs):
 
     def open_page(query="", *, width=1280, scheme="light", loading=False, fresh=False, ready=True):
         kind = width, scheme
-        loading = loading or fresh or not ready or any(f"{part}=" in query for part in KEPT_BY_PAGE)
+        loading = loading or fresh or not ready
         if tabs[kind] and not loading:
             seen = tabs[kind].pop()
             seen.travel(query)

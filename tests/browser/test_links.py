@@ -109,6 +109,24 @@ def test_back_and_forward(visit):
         seen.linked(f"angle={angle:g}")
 
 
+def test_back_and_forward_restore_the_film_and_the_theme(visit):
+    first, second = ("0.25", "5", "dark"), ("0.8", "10", "light")
+    seen = visit("?angle=20&time=0.25&theme=dark")
+    words = "query => { history.pushState({}, '', query); dispatchEvent(new Event('popstate')); }"
+
+    def shown():
+        theme = seen.page.evaluate("document.documentElement.dataset.theme")
+        return seen.page.input_value("#time"), seen.page.input_value("#pace"), theme
+
+    assert shown() == first
+    seen.page.evaluate(words, "?angle=20&time=0.8&pace=10")
+    seen.linked("pace=10")
+    assert shown() == second
+    for going, wanted in (("go_back", first), ("go_forward", second)):
+        getattr(seen.page, going)()
+        seen.until(lambda wanted=wanted: shown() == wanted)
+
+
 NONSENSE = {
     "angle=ninety": "angle: ",
     "radius=-5": "radius: ",

@@ -4,14 +4,16 @@ window.Carom = window.Carom || {};
 Carom.link = (() => {
   const DOWNLOADS = "a.carom-download, .carom-downloads a";
   const WAIT = 300; // ms between two changes: browsers refuse floods
-  const opened = new URLSearchParams(window.location.search);
+  let opened = new URLSearchParams(window.location.search);
   let query = null; // what Dash says; null until it has
   let paused = Carom.clock.START; // where the time last stood still
   let waiting = 0;
 
-  // A number in the link that the page was opened with.
+  // A part of the link that was opened, by loading the page or by going back and forward.
+  const part = (name) => opened.get(name);
+
   function asked(name) {
-    const text = opened.get(name);
+    const text = part(name);
     return text === null || text.trim() === "" ? NaN : Number(text);
   }
 
@@ -73,5 +75,7 @@ Carom.link = (() => {
     window.setTimeout(() => place.textContent === text && (place.textContent = ""), 4000);
   }
 
-  return { whole, DOWNLOADS, asked, put, refresh, write, copy };
+  window.addEventListener("popstate", () => (opened = new URLSearchParams(window.location.search)));
+
+  return { whole, DOWNLOADS, part, asked, put, refresh, write, copy };
 })();

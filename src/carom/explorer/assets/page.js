@@ -60,14 +60,27 @@ Carom.page = (() => {
       canvas.setAttribute("role", "img");
       sizes.observe(canvas);
     }
-    const select = byId("pace");
-    if (select && !paced) {
-      select.value = String(Carom.link.asked("pace"));
-      if (!select.value) select.value = String(Carom.clock.PACE);
+    if (byId("pace") && !paced) {
+      setPace();
       paced = true;
     }
     const output = byId("clock");
     if (output) output.setAttribute("aria-live", "off"); // it would talk without end
+  }
+
+  function setPace() {
+    const select = byId("pace");
+    select.value = String(Carom.link.asked("pace"));
+    if (!select.value) select.value = String(Carom.clock.PACE);
+  }
+
+  // What a link that is gone back to says of the film and the theme; Dash restores all else.
+  function restore() {
+    const time = Carom.link.asked("time");
+    Carom.clock.pause();
+    Carom.clock.set(Number.isNaN(time) ? Carom.clock.START : time);
+    setPace();
+    Carom.theme.choose(Carom.link.part("theme"));
   }
 
   function draw() {
@@ -157,6 +170,7 @@ Carom.page = (() => {
     Carom.clock.hear(draw);
     Carom.clock.hear(() => Carom.link.refresh());
     Carom.theme.hear(() => (draw(), Carom.link.refresh()));
+    window.addEventListener("popstate", restore);
     Carom.clock.set(Carom.link.asked("time"));
   }
 

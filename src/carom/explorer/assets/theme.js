@@ -4,12 +4,16 @@ window.Carom = window.Carom || {};
 Carom.theme = (() => {
   const CHOICES = ["auto", "light", "dark"];
   const system = window.matchMedia("(prefers-color-scheme: dark)");
-  const asked = new URLSearchParams(window.location.search).get("theme");
   const heard = [];
-  let choice = CHOICES.includes(asked) ? asked : "auto";
+  let choice = "auto";
   let colors = null;
 
   const shown = () => (choice === "auto" ? (system.matches ? "dark" : "light") : choice);
+
+  function choose(name) {
+    choice = CHOICES.includes(name) ? name : "auto";
+    apply();
+  }
 
   function apply() {
     document.documentElement.dataset.theme = shown();
@@ -32,13 +36,11 @@ Carom.theme = (() => {
   }
 
   system.addEventListener("change", apply);
-  apply();
+  choose(new URLSearchParams(window.location.search).get("theme"));
 
   return {
-    next: () => {
-      choice = CHOICES[(CHOICES.indexOf(choice) + 1) % CHOICES.length];
-      apply();
-    },
+    choose,
+    next: () => choose(CHOICES[(CHOICES.indexOf(choice) + 1) % CHOICES.length]),
     choice: () => choice,
     forget: () => (colors = null),
     hear: (listener) => heard.push(listener),
