@@ -67,8 +67,7 @@ def test_the_lines_of_python_give_the_same_rebound(visit, folder, capsys):
     law = "mindlin"
     seen = visit(f"?{urlencode({**QUERY, 'law': law, 'time': 0.3})}")
     file = taken(seen, "#view-py", folder)
-    shown = seen.until(lambda: seen.page.inner_text("#code"))
-    assert shown.strip() == file.read_text().strip()
+    seen.until(lambda: seen.page.inner_text("#code").strip() == file.read_text().strip())
     runpy.run_path(str(file))
     first, second = capsys.readouterr().out.splitlines()
     assert [float(part) for part in first.split()[:2]] == [HIT.psi_in, HIT.psi_out]
