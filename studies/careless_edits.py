@@ -181,7 +181,7 @@ def caught(edit: Edit, shown: bool = False) -> str:
             if shown:
                 print(run.stdout)
             if run.returncode:
-                failed = re.findall(r"^(?:FAILED|ERROR) (\S+)", run.stdout, re.MULTILINE)
+                failed = re.findall(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", run.stdout, re.MULTILINE)
                 return failed[0] if failed else "pytest does not start"
     return ""
 

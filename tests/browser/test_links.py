@@ -23,6 +23,7 @@ BODIES = {
     "spin": "-240",
 }
 DATA = carom.datasets.names()[0]
+GO = "query => { history.pushState({}, '', query); dispatchEvent(new Event('popstate')); }"
 
 
 def hit_of(given):
@@ -112,14 +113,13 @@ def test_back_and_forward(visit):
 def test_back_and_forward_restore_the_film_and_the_theme(visit):
     first, second = ("0.25", "5", "dark"), ("0.8", "10", "light")
     seen = visit("?angle=20&time=0.25&theme=dark")
-    words = "query => { history.pushState({}, '', query); dispatchEvent(new Event('popstate')); }"
 
     def shown():
         theme = seen.page.evaluate("document.documentElement.dataset.theme")
         return seen.page.input_value("#time"), seen.page.input_value("#pace"), theme
 
     assert shown() == first
-    seen.page.evaluate(words, "?angle=20&time=0.8&pace=10")
+    seen.page.evaluate(GO, "?angle=20&time=0.8&pace=10")
     seen.linked("pace=10")
     assert shown() == second
     for going, wanted in (("go_back", first), ("go_forward", second)):
@@ -157,10 +157,7 @@ def test_nonsense_in_a_link(visit):
         seen.page.wait_for_timeout(500)
         assert told(seen, NONSENSE.get(query, ""))  # and it stays
     for query, beginning in NONSENSE.items():
-        words = (
-            "query => { history.pushState({}, '', query); dispatchEvent(new Event('popstate')); }"
-        )
-        seen.page.evaluate(words, f"?{query}")
+        seen.page.evaluate(GO, f"?{query}")
         seen.until(lambda beginning=beginning: told(seen, beginning))
 
 

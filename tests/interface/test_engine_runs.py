@@ -134,7 +134,7 @@ def test_hanging_engine_is_killed_with_its_children(tmp_path):
     start = time.monotonic()
     message = failure(Shell(script, tmp_path / "note"), time_limit=0.4)
     assert message == "Shell was killed at its time limit of 0.4 s; its last words: step 5"
-    assert time.monotonic() - start >= 0.4
+    assert 0.4 <= time.monotonic() - start < 1000.0  # nobody waits for those who sleep
 
 
 def test_flood_of_words_is_stopped(tmp_path):

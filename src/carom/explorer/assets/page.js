@@ -70,6 +70,7 @@ Carom.page = (() => {
 
   function setPace() {
     const select = byId("pace");
+    if (!select) return; // Dash has not made it yet
     select.value = String(Carom.link.asked("pace"));
     if (!select.value) select.value = String(Carom.clock.PACE);
   }
