@@ -2,6 +2,7 @@
 of a constant in another module.
 """
 
+import gc
 import hashlib
 import os
 import tempfile
@@ -9,6 +10,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
+from xdist.scheduler import LoadFileScheduling
 
 SOURCES = sorted(Path(find_spec("carom").submodule_search_locations[0]).rglob("*.py"))
 KEY = hashlib.sha256(b"".join(path.read_bytes() for path in SOURCES)).hexdigest()[:16]
@@ -16,7 +18,30 @@ KEY = hashlib.sha256(b"".join(path.read_bytes() for path in SOURCES)).hexdigest(
 # jax is here to agree, not to be quick: a third of the time of its tests
 XLA = "--xla_backend_optimization_level=0 --xla_llvm_disable_expensive_passes=true"
 os.environ.setdefault("XLA_FLAGS", XLA)
-os.environ["NUMBA_CACHE_DIR"] = str(Path(tempfile.gettempdir()) / f"carom-kernels-{KEY}")
+own = Path(tempfile.gettempdir()) / f"carom-kernels-{KEY}"
+os.environ.setdefault("NUMBA_CACHE_DIR", str(own))
+
+# these share what takes long to begin with: a browser, what jax has compiled
+TOGETHER = ("tests/browser/", "portable", "collision_results")
+
+
+class ByFile(LoadFileScheduling):
+    """The tests of a file, or of files that share something, go to one worker."""
+
+    def _split_scope(self, nodeid):
+        shared = (word for word in TOGETHER if word in nodeid.split("::")[0])
+        return next(shared, None) or super()._split_scope(nodeid)
+
+
+def pytest_xdist_make_scheduler(config, log):
+    return ByFile(config, log)
+
+
+def pytest_collection_finish():
+    """Leave the modules of so many libraries, a tenth of the time, to no collection of garbage."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(100_000, 50, 1000)
 
 
 def pytest_addoption(parser):

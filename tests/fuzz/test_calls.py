@@ -26,7 +26,7 @@ from carom import classical, verify
 SECONDS = 5.0  # of a call
 TOLD = ("give NaN", "left alone")  # in warnings that say what became of some points
 LINE = re.compile(r"[^\n:]{1,300}: [^\n]+")
-UNITS = pint.UnitRegistry()
+UNITS = pint.get_application_registry()
 NAN, INF = float("nan"), float("inf")
 
 SCALARS = (

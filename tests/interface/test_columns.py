@@ -16,7 +16,7 @@ from carom.io.tables import read_table
 from carom.quantities.refusals import InputError
 from carom.quantities.units import number
 
-QUANTITY = pint.UnitRegistry().Quantity
+QUANTITY = pint.Quantity
 KNOWN = with_errors(("angle", "speed", "spin_out", "tangential_restitution", "rebound_angle"))
 GAPS = ("spin_out", "tangential_restitution", "rebound_angle")
 TEXT = "angle [deg],spin_out [rpm]\n30,-60\n45,-120\n"

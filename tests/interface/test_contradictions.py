@@ -10,7 +10,7 @@ import xarray as xr
 
 import carom
 
-Q = pint.UnitRegistry().Quantity
+Q = pint.Quantity
 BALL = carom.Sphere(radius=0.005, material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 SPIN = [-230.0, -660.0, -680.0, -640.0]

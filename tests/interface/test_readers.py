@@ -14,7 +14,7 @@ from carom.laws.dem import LawStatus
 from carom.quantities.refusals import flag, one_of
 from carom.quantities.units import counted, whole
 
-UNITS = pint.UnitRegistry()
+UNITS = pint.get_application_registry()
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 LAWS = (carom.LinearSpring(), carom.LammpsMindlin(), carom.HardSphere(0.4))

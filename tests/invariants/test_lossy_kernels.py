@@ -10,9 +10,14 @@ import numpy as np
 import pytest
 
 import carom
+from carom.dimensionless.lossy.collocation import INTEGRALS, NODES
+from carom.dimensionless.lossy.memory import RADIUS
 from carom.dimensionless.lossy.normal import Loss
+from carom.dimensionless.lossy.panels import Panel, back_substitute, factorise
 from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds
 from carom.dimensionless.lossy.solution import solve_with_losses
+from carom.dimensionless.lossy.work import new_work
+from carom.dimensionless.numerics.kernels import plain
 
 IMPACTS = (
     (0.4, 1.44, Loss.VISCOUS, 0.1),
@@ -53,6 +58,18 @@ def test_compiled_kernels_do_what_python_does() -> None:
     plain, compiled = results(CAROM_KERNELS="python"), results()
     assert np.all(np.isfinite(plain))
     assert np.max(np.abs(plain - compiled)) < 1e-12
+
+
+@pytest.mark.parametrize("clock", range(len(INTEGRALS)))
+def test_a_step_solves_the_linearised_equations(clock: int) -> None:
+    """Less than a step would converge, too, but slowly: the system, against NumPy's solution."""
+    work, rng, h = new_work(), np.random.default_rng(clock), 0.3
+    work.values[RADIUS], work.rates[:] = rng.uniform(0.1, 1.0, NODES), rng.normal(size=(3, NODES))
+    s, b, stuck, right = INTEGRALS[clock], work.values[RADIUS], work.rates[2], work.rates[0].copy()
+    wanted = np.linalg.solve(np.eye(NODES) - h**2 * (s * stuck) @ s * (2.0 * b), right)
+    plain(factorise)(work, Panel(number=0, clock=clock, length=h, pieces=0))
+    plain(back_substitute)(work)
+    np.testing.assert_allclose(work.rates[0], wanted, rtol=1e-12)
 
 
 def many(seed: int, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
