@@ -38,6 +38,10 @@ def hit():
         (lambda hit: plots.plot_profiles(hit.fields(MICROSLIP, [0, 1e-4], [1e-4])), "y = 0"),
         (lambda hit: plots.plot_stress(hit.stress(MICROSLIP), "stress"), "von_mises"),
         (lambda hit: plots.plot_stress(hit.fields(MICROSLIP)), "grid of z and x"),
+        (
+            lambda hit: plots.plot_stress(hit.stress(MICROSLIP, points=[[0, 0, 1e-5]])),
+            "grid of z and x",
+        ),
     ],
 )
 def test_what_cannot_be_drawn_is_refused_in_one_line(hit, draw, said):
