@@ -13,6 +13,7 @@ import carom
 
 pytest.importorskip("dash")
 
+from carom.explorer.charts import rebounds
 from carom.explorer.downloads import curve_figure, script
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import impact_of, scene_of
@@ -197,6 +198,12 @@ def test_curves_of_laws_that_take_long_follow():
         law = next(e for e in carom.verify.CATALOGUE if e.label == curve.label).law
         meant = law.rebound(curve.psi_in, scene.chi, kappa=scene.kappa)
         np.testing.assert_allclose(curve.psi_out, meant, atol=1e-9, err_msg=curve.label)
+
+
+def test_the_chart_of_rebounds_shows_the_whole_curve():
+    scene = scene_of(View(given=NUMBERS, psi=1.0, chi=1.44))
+    psi, _ = curve = exact_curve(scene)
+    assert rebounds(scene, curve)["layout"]["xaxis"]["range"] == [psi[0], psi[-1]]
 
 
 def test_the_figure_of_the_curve_holds_laws_and_the_impact():
