@@ -187,6 +187,7 @@ def test_recipes_hold_the_stiffnesses(name, e):
         assert printed == pytest.approx(expected[code], rel=1e-4, abs=1e-5), code
         assert not any(n.startswith("-") for n in numbers), code
     assert ("coeff_restitution" in found["LAMMPS Hertz"]) == (e != 1.0)
+    assert ("has no damping" in found["YADE CundallStrack"]) == (e != 1.0)
 
 
 @pytest.mark.parametrize("wanted", ["90 %", "0.9", Fraction(9, 10), np.float64(0.9)])

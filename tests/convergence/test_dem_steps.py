@@ -2,14 +2,23 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import RK45
 
 import carom
+from carom.laws.dem.adaptive import ERROR, NODES
 
 CHI = 1.4412
 PSI = np.array([0.3, 0.55, 0.8, 1.2, 1.6, 2.2, 3.0, 3.7])
 STEPS = (2_000, 8_000, 32_000)
 FORCE = "mindlin/force"
 RESCALED = "mindlin_rescale/force"
+
+
+def test_adaptive_steps_are_those_of_dormand_and_prince():
+    """Their order 5(4), and the error that chooses the step (1980, J. Comput. Appl. Math. 6:19)."""
+    np.testing.assert_allclose(NODES[:5, :5], RK45.A[1:], rtol=1e-15)
+    np.testing.assert_allclose(NODES[5], RK45.B, rtol=1e-15)
+    np.testing.assert_allclose(ERROR, -RK45.E, rtol=1e-14)
 
 
 def errors(law, psi=PSI):

@@ -12,6 +12,7 @@ import pytest
 import carom
 from carom.dimensionless.numerics import shared_library
 from carom.dimensionless.numerics.shared_library import CONTENTS
+from carom.native import building
 
 needs_library = pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
 FIRST = "import carom, sys; print(carom.rebound(0.5, 1.44), 'numba' in sys.modules)"
@@ -155,6 +156,14 @@ def test_no_library_is_built_without_a_compiler(compiler, words, tmp_path):
     assert words in run.stderr
     assert run.stderr.count("\n") == 1
     assert not list(tmp_path.rglob("libcarom*"))
+
+
+def test_libraries_are_kept_in_the_home_unless_told_otherwise(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.delenv(building.CACHE, raising=False)
+    assert building.kept_in() == tmp_path / ".cache/carom/build"
+    monkeypatch.setenv(building.CACHE, str(tmp_path))
+    assert building.kept_in() == tmp_path
 
 
 LOCKED = 'mount --bind "$0" "$0" && mount -o remount,bind,ro "$0" && exec "$@"'

@@ -100,7 +100,7 @@ def _kept(known: str, modules: Sequence[str], level: int, scratch: Path) -> Path
     """Return the library for a level, built now or before."""
     recipe = [known, digest(OWN_FILES), str(level), version("numba"), version("llvmlite")]
     name = f"libcarom{'' if level == 0 else f'-{level}'}{_ending()}"
-    folder = _cache() / sha256(" ".join(recipe).encode()).hexdigest()[:16]
+    folder = kept_in() / sha256(" ".join(recipe).encode()).hexdigest()[:16]
     if (folder / name).is_file():
         return folder / name
     (scratch / "kernels.h").write_text(kernels_h(), encoding="utf-8")
@@ -118,7 +118,8 @@ def _put(path: Path, folder: Path) -> None:
     partial.replace(folder / path.name)
 
 
-def _cache() -> Path:
+def kept_in() -> Path:
+    """Return the folder in which libraries are kept, from one build to the next."""
     told = os.environ.get(CACHE)
     return Path(told) if told else Path.home() / ".cache" / "carom" / "build"
 
