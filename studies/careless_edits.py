@@ -1,6 +1,6 @@
 """Do the tests notice a careless edit? Small faults put into the source at random, one at a time.
 
-python studies/careless_edits.py             60 edits, two hours on two cores; careless_edits.csv
+python studies/careless_edits.py             60 edits, three hours on two cores
 python studies/careless_edits.py --list      the edits alone
 python studies/careless_edits.py --only 7    one of them, with what the tests say; 0: no edit at all
 

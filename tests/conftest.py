@@ -1,5 +1,5 @@
-"""What numba compiles is cached under a key of all sources: it does not see an edit in a callee, or
-of a constant in another module.
+"""What numba compiles is cached under a key of all sources, unless another place is told: it does
+not see an edit in a callee, or of a constant in another module.
 """
 
 import gc
@@ -18,8 +18,7 @@ KEY = hashlib.sha256(b"".join(path.read_bytes() for path in SOURCES)).hexdigest(
 # jax is here to agree, not to be quick: a third of the time of its tests
 XLA = "--xla_backend_optimization_level=0 --xla_llvm_disable_expensive_passes=true"
 os.environ.setdefault("XLA_FLAGS", XLA)
-own = Path(tempfile.gettempdir()) / f"carom-kernels-{KEY}"
-os.environ.setdefault("NUMBA_CACHE_DIR", str(own))
+os.environ.setdefault("NUMBA_CACHE_DIR", f"{tempfile.gettempdir()}/carom-kernels-{KEY}")
 
 # these share what takes long to begin with: a browser, what jax has compiled
 TOGETHER = ("tests/browser/", "portable", "collision_results")
