@@ -44,7 +44,7 @@ class Visit:
 
     def load(self, query, ready):
         """Load the page."""
-        self.response = self.page.goto(f"{self.address}{query}")
+        self.page.goto(f"{self.address}{query}")
         if ready:
             self.page.wait_for_function(READY, timeout=30_000)
             self.until(lambda: self.traces("rebounds"))
@@ -170,21 +170,20 @@ def chromium():
 
 @pytest.fixture(scope="session")
 def contexts(chromium):
-    """Browsers' memories by width and scheme: what one visit has loaded, the next has."""
+    """Browsers' memories by width: what one visit has loaded, the next has."""
     known = {}
 
-    def context(width, scheme, fresh):
-        if fresh or (width, scheme) not in known:
-            size = {"width": width, "height": 900}
-            known[width, scheme] = chromium.new_context(viewport=size, color_scheme=scheme)
-        return known[width, scheme]
+    def context(width, fresh):
+        if fresh or width not in known:
+            known[width] = chromium.new_context(viewport={"width": width, "height": 900})
+        return known[width]
 
     return context
 
 
 @pytest.fixture(scope="session")
 def tabs():
-    """Visits that are over, by width and scheme."""
+    """Visits that are over, by width."""
     return defaultdict(list)
 
 
@@ -193,25 +192,23 @@ def visit(address, contexts, tabs):
     """Open a link; loading the page, or even fresh, in a browser that was never here."""
     over, left = [], []
 
-    def open_page(query="", *, width=1280, scheme="light", loading=False, fresh=False, ready=True):
-        kind = width, scheme
-        loading = loading or fresh or not ready
-        if tabs[kind] and not loading:
-            seen = tabs[kind].pop()
+    def open_page(query="", *, width=1280, loading=False, fresh=False, ready=True):
+        if tabs[width] and ready and not (loading or fresh):
+            seen = tabs[width].pop()
             seen.travel(query)
         else:
-            seen = Visit(contexts(*kind, fresh), address)
+            seen = Visit(contexts(width, fresh), address)
             seen.load(query, ready)
         over.append(seen)
-        if not loading:
-            left.append((kind, seen))
+        if not fresh:
+            left.append((width, seen))
         return seen
 
     yield open_page
     trouble = [line for each in over for line in each.trouble]
-    for kind, seen in left:
+    for width, seen in left:
         if not seen.trouble:
-            tabs[kind].append(seen)
+            tabs[width].append(seen)
     for seen in over:
         if not any(seen in each for each in tabs.values()):
             seen.page.close()

@@ -163,7 +163,7 @@ BAD = {
 
 @pytest.mark.slow
 def test_uploads_are_fitted_or_refused_in_a_line(visit):
-    seen = visit(loading=True)
+    seen = visit(fresh=True)
     for name, content in BAD.items():
         upload(seen, content, name)
         short = name.rpartition("/")[2]
@@ -185,7 +185,7 @@ def test_uploads_are_fitted_or_refused_in_a_line(visit):
 
 @pytest.mark.slow
 def test_the_last_of_file_and_data_set_counts(visit):
-    seen, name = visit(loading=True), carom.datasets.names()[0]
+    seen, name = visit(fresh=True), carom.datasets.names()[0]
     for _ in range(2):  # the same file can be sent again
         upload(seen, measured(FRICTION), "own.csv")
         seen.until(lambda: "own.csv: fitted" in seen.page.inner_text("#fit-notice"))

@@ -102,7 +102,7 @@ def test_the_link_that_is_told_opens_the_same_page(visit):
 
 def test_back_and_forward(visit):
     """Each link visited in turn is restored when the browser goes back, and forward again."""
-    seen = visit("?angle=20", loading=True)
+    seen = visit("?angle=20")
     seen.page.goto(f"{seen.address}?angle=70")
     for going, angle in (("go_back", 20.0), ("go_forward", 70.0)):
         getattr(seen.page, going)()

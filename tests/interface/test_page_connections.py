@@ -49,7 +49,7 @@ def port(slow, seconds, monkeypatch):
 
     with socket.create_server(("127.0.0.1", 0)) as listening:
         server = Server("127.0.0.1", listening.getsockname()[1], app, listening.fileno())
-    serving = threading.Thread(target=server.serve_forever)
+    serving = threading.Thread(target=server.serve_forever, args=(0.01,))
     serving.start()
     yield server.port
     server.shutdown()

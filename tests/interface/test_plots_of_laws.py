@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 import carom
 from carom.plots.laws import plot_error_map, plot_laws
+from carom.plots.regimes import draw_borders
 from carom.verify import CATALOGUE, error_map, rank
 
 ROOT = Path(__file__).parents[2]
@@ -131,6 +133,20 @@ def test_map_draws_the_borders_of_the_regimes(errors):
         lines, (lambda c: 0 * c + 1, lambda c: 2 * c, lambda c: 4 * c - 1), strict=True
     ):
         np.testing.assert_allclose(line.get_xdata(), border(line.get_ydata()), rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("limits", "named"),
+    [
+        ((0.0, 7.0), [r"1", r"2\chi", r"4\chi-1"]),
+        ((0.0, 2.0), [r"1"]),
+        ((1.5, 7.0), [r"2\chi", r"4\chi-1"]),
+    ],
+)
+def test_borders_are_named_where_they_are_seen(limits, named):
+    axis = Figure().add_subplot(xlim=limits, ylim=(1.2, 1.75))
+    draw_borders(axis)
+    assert [text.get_text() for text in axis.texts] == [rf"$\psi_1 = $${name}$" for name in named]
 
 
 def test_map_where_a_law_has_no_answer_is_grey(errors):
