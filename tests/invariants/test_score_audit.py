@@ -140,6 +140,15 @@ def test_turned_spins_are_suspected(columns):
     assert "by the same factor -1; spin has the opposite sign?" in verdict
 
 
+def test_factors_that_differ_are_no_matter_of_units(columns):
+    grown = 1.0 + 0.1 * np.arange(len(columns["spin"]))
+    for name in ("spin", "spin_out"):
+        columns[name] = -grown * columns[name]
+    verdict = finding(score(columns, case=PAIR), "angular momentum").verdict
+    assert "different impulses" in verdict
+    assert "factor" not in verdict
+
+
 @pytest.mark.parametrize(
     ("kind", "factor", "unit"),
     [
