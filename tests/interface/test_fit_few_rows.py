@@ -65,6 +65,13 @@ def test_five_equal_rows_at_one_angle(name, angle):
     assert not any("one incidence" in note for note in held.notes)
 
 
+@pytest.mark.parametrize(("apart", "one"), [(0.0995, True), (0.1005, False)])
+def test_incidences_within_a_tenth_of_a_degree_are_one(apart, one):
+    data = impacts((25.0, 25.0, 25.0, 25.0 + apart), "spin_out")
+    notes = fit(data, pair=START, fixed={"restitution": 1.0}).notes
+    assert any(note.startswith("one incidence") for note in notes) == one
+
+
 def test_one_row_with_errors_tells_one_parameter():
     data = impacts([60], "spin_out", spin_out_error=[1.0])
     found = whole(fit(data, pair=START, vary="friction"))

@@ -280,7 +280,7 @@ from carom.sweeps.designs import LatinHypercube
 
 # gross slip: points that cost little
 case = {"first": {"radius": "5 mm", "material": "steel"}, "friction": 0.01, "speed": "2 m/s"}
-for number, samples in enumerate((20_000, 20_000, 400_000)):
+for number, samples in enumerate((200_000, 800_000)):
     design = LatinHypercube({"angle": ("40 deg", "80 deg")}, samples=samples)
     sweep(case, design, store=f"{sys.argv[1]}/{number}.zarr")
     words = Path("/proc/self/status").read_text().split()
@@ -290,9 +290,9 @@ for number, samples in enumerate((20_000, 20_000, 400_000)):
 
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="tells peak memory on Linux")
 def test_memory_does_not_grow_with_the_points(tmp_path):
-    """The results of the largest sweep take 55 MB."""
+    """The results of the larger sweep take 110 MB, four times those of the smaller."""
     command = [sys.executable, "-c", MEMORY, str(tmp_path)]
     out = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    _, few, many = map(float, out.split())
-    assert many - few < 16.0
+    few, many = map(float, out.split())
+    assert many - few < 25.0
     assert many < 500.0
