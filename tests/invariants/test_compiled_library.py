@@ -9,6 +9,7 @@ import carom
 from carom.dimensionless import interpolation
 from carom.dimensionless.numerics import chebyshev, hertz, permutation, shared_library
 from carom.dimensionless.numerics.kernels import ENTRIES
+from carom.dimensionless.viscoelastic.impacts import viscoelastic_rebounds
 
 pytestmark = pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
 STEEL = carom.material("steel")
@@ -61,6 +62,8 @@ def rebounds(rng):
         some = slice(0, 60)
         normal = carom.KelvinVoigt(restitution=e)
         carom.rebound(psi[some], chi[40:100], normal=normal, threads=1, return_status=True)
+    for _ in range(5):
+        viscoelastic_rebounds(psi[20:300], chi[20:300], rng.uniform(1e-4, 2.0, 280))
 
 
 def impacts(rng):

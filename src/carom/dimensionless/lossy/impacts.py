@@ -34,23 +34,26 @@ SAFETY, STEEPEST, GROWTH = 0.8, 0.2, 4.0
 
 
 class Plan(NamedTuple):
-    """How a panel is to be solved: its length, its clock, and what lies at either end of it."""
+    """How a panel is to be solved: its length, its clock, and what lies at either end of it.
+
+    `change` is what happens at its end, 0 if nothing does.
+    """
 
     length: float
     clock: int
     natural: float  # length that accuracy alone would allow
     from_change: bool
-    to_change: bool
+    change: int
     to_stage_end: bool
     flat_is_worse: bool
     error: float  # with an even clock
 
 
 @kernel
-def with_length(plan: Plan, h: float, natural: float, to_change: bool, to_end: bool) -> Plan:
+def with_length(plan: Plan, h: float, natural: float, change: int, to_end: bool) -> Plan:
     """Return a plan with another length and end."""
     return Plan(
-        h, plan.clock, natural, plan.from_change, to_change, to_end, plan.flat_is_worse, plan.error
+        h, plan.clock, natural, plan.from_change, change, to_end, plan.flat_is_worse, plan.error
     )
 
 
@@ -62,7 +65,7 @@ def with_clock(plan: Plan, kind: int, flat_is_worse: bool, error: float) -> Plan
         kind,
         plan.natural,
         plan.from_change,
-        plan.to_change,
+        plan.change,
         plan.to_stage_end,
         flat_is_worse,
         error,
@@ -72,9 +75,9 @@ def with_clock(plan: Plan, kind: int, flat_is_worse: bool, error: float) -> Plan
 @kernel
 def revised(plan: Plan, error: float, tolerance: float) -> Plan:
     """Return how to try again after too large an error: with a flat clock once, or shorter."""
-    rooted = plan.from_change or plan.to_change
+    rooted = plan.from_change or plan.change != 0
     if plan.clock == EVEN and rooted and not plan.flat_is_worse:
-        kind = (FLAT_START if plan.from_change else 0) + (FLAT_END if plan.to_change else 0)
+        kind = (FLAT_START if plan.from_change else 0) + (FLAT_END if plan.change != 0 else 0)
         return with_clock(plan, kind, False, error)
     if plan.clock != EVEN and error > plan.error:
         error = plan.error
@@ -82,7 +85,7 @@ def revised(plan: Plan, error: float, tolerance: float) -> Plan:
     elif plan.clock == FLAT_END or plan.clock == FLAT_ENDS:
         plan = with_clock(plan, plan.clock - FLAT_END, plan.flat_is_worse, error)
     h = plan.length * max(STEEPEST, SAFETY * (tolerance / error) ** (1.0 / ORDER))
-    return with_length(plan, h, h, False, False)
+    return with_length(plan, h, h, 0, False)
 
 
 @kernel
@@ -109,7 +112,7 @@ def run(
     motion = Motion(loss, Stage.LOADING.value, parameter, 1.0, chi)
     pieces, natural, from_change = 0, FIRST, False
     for number in range(MAX_PANELS):
-        plan = Plan(natural, EVEN, natural, from_change, False, False, False, 0.0)
+        plan = Plan(natural, EVEN, natural, from_change, 0, False, False, 0.0)
         plan, error = solved_panel(work, motion, number, pieces, plan, tolerance * (1.0 + abs(psi)))
         if error < 0.0:
             return Status.UNRESOLVED.value, number
@@ -120,10 +123,10 @@ def run(
             work.values[row, 0] = work.values[row, NODES - 1]
         if plan.to_stage_end and motion.stage == Stage.UNLOADING.value:
             return Status.SOLVED.value, number + 1
-        from_change, natural = plan.to_change or plan.to_stage_end, plan.natural
+        from_change, natural = plan.change != 0 or plan.to_stage_end, plan.natural
         if plan.to_stage_end:
             motion = next_stage(work, motion)
-        elif not plan.to_change:
+        elif plan.change == 0:
             growth = SAFETY * (tolerance / (error + 1e-18)) ** (1.0 / ORDER)
             natural = min(LONGEST, plan.length * min(GROWTH, growth))
     return Status.UNRESOLVED.value, MAX_PANELS
@@ -140,11 +143,11 @@ def solved_panel(
     series, before = work.series[number], Panel(number, EVEN, 0.0, pieces)
     for _ in range(TRIALS):
         h, ends = cut_to_stage(work, motion, plan.clock, plan.length)
-        plan = with_length(plan, h, plan.natural, plan.to_change, ends)
+        plan = with_length(plan, h, plan.natural, plan.change, ends)
         panel = Panel(number, plan.clock, plan.length, pieces)
         if not solve_panel(work, motion, panel, before):
             half = 0.5 * plan.length
-            plan = with_length(plan, half, half, False, False)
+            plan = with_length(plan, half, half, 0, False)
             before = Panel(number, EVEN, 0.0, pieces)
             continue
         before = panel
@@ -152,7 +155,7 @@ def solved_panel(
         near = NEAR if plan.clock == EVEN else NEAR_FLAT
         part = clock(plan.clock, change) if change < 1.0 else 1.0
         if part < 1.0 - near and plan.length > SHORTEST:
-            plan = with_length(plan, plan.length * part, plan.natural, True, False)
+            plan = with_length(plan, plan.length * part, plan.natural, 1, False)
             continue
         error = max(tail(series[PSI]), tail(series[MOVED]))
         error = max(error, NORMAL_WEIGHT * tail(series[SPEED]) * (1.0 + abs(series[PSI, 0])))

@@ -38,6 +38,7 @@ from carom.dimensionless.lossy.memory import (
 )
 from carom.dimensionless.lossy.normal import Motion, Stage
 from carom.dimensionless.lossy.work import PSI, SPEED, Arrays
+from carom.dimensionless.numerics.arrays import Matrix
 from carom.dimensionless.numerics.kernels import kernel
 
 MAX_ITERATIONS = 30
@@ -223,6 +224,12 @@ def factorise(work: Arrays, panel: Panel) -> None:
                 total += s[i, k] * work.rates[2, k] * s[k, j]
             matrix[i, j] = -h * h * total * 2.0 * b[j]
         matrix[i, i] += 1.0
+    decompose(matrix)
+
+
+@kernel
+def decompose(matrix: Matrix) -> None:
+    """Write a matrix as L R over itself."""
     for k in range(NODES):
         for i in range(k + 1, NODES):
             matrix[i, k] /= matrix[k, k]

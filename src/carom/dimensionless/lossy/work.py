@@ -7,10 +7,13 @@ import numpy as np
 from carom.dimensionless.lossy import memory
 from carom.dimensionless.lossy.collocation import NODES
 from carom.dimensionless.lossy.memory import MAX_PIECES, PARTS
-from carom.dimensionless.numerics.arrays import Counts, Cube, Matrix
+from carom.dimensionless.numerics.arrays import Counts, Cube, Matrix, Vector
 
 MAX_PANELS = 600
-SPEED, PSI, VALUES = 6, 7, 8  # rows beyond those of the memory: v, psi
+PASSED_COLUMNS, RING_NUMBERS = 7, 4
+# Rows beyond those of the memory: v, psi; then, of viscoelastic impacts alone, the radius at which
+# the memory is laid, time, the front of slip.
+SPEED, PSI, LAID_RADIUS, TIME, FRONT, VALUES = range(6, 12)
 
 
 class Arrays(NamedTuple):
@@ -24,6 +27,8 @@ class Arrays(NamedTuple):
     spare: Matrix
     parts: Matrix
     zones: Counts  # (NODES,)
+    passed: Matrix  # what slip has passed, of viscoelastic impacts
+    ring: Vector  # their ring of slip
 
 
 def new_work() -> Arrays:
@@ -37,4 +42,6 @@ def new_work() -> Arrays:
         spare=np.zeros((MAX_PIECES, memory.COLUMNS)),
         parts=np.zeros((PARTS, memory.COLUMNS)),
         zones=np.zeros(NODES, dtype=np.int64),
+        passed=np.zeros((MAX_PANELS, PASSED_COLUMNS)),
+        ring=np.zeros(RING_NUMBERS),
     )

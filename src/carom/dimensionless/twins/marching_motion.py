@@ -3,7 +3,8 @@
 A normal motion is an array with a row for each end of a step: a parameter, time, d(time)/d(that),
 radius b of the edge of the contact, Coulomb's limit D at its centre, dD/dt of the step that begins.
 d(time)/d(that) is continuous. A spring at x is in contact while x < b, and its limit is D - x^2.
-Rows up to the largest b are loading, on which new springs are met. Lengths in d_max, b in
+Rows up to the largest b are loading, on which new springs are met. Kelvin & Voigt's rows go on with
+d and its rate v. Lengths in d_max, b in
 sqrt(R d_max), time in d_max/V_1, as of the elastic impact.
 """
 
@@ -93,10 +94,10 @@ def kelvin_voigt(alpha: float, steps: int) -> Array:
     b^2 = d, b' = v, v' = -(5/2) b^2 (b^2 + (3/2) alpha v); then b^2 = D = d + alpha v,
     b' = v - (5/4) alpha b^3, v' = -(5/2) b^4.
     """
-    rows = np.empty((steps + 1, 6))
+    rows = np.empty((steps + 1, 8))
     b, v, t, clock = 0.0, 1.0, 0.0, 0.0
     half = steps // 2
-    rows[0] = clock, t, 0.0, b, alpha, v
+    rows[0] = clock, t, 0.0, b, alpha, v, 0.0, v
     for unloading in range(2):
         drag, recession = (0.0, 1.25 * alpha) if unloading else (1.5 * alpha, 0.0)
         h = _clock_until_zero(1 - unloading, b, v, drag, recession) / half
@@ -109,5 +110,6 @@ def kelvin_voigt(alpha: float, steps: int) -> Array:
             clock += h
             limit = b * b + alpha * max(v, 0.0)
             growth = v - 1.25 * alpha * b * (b * b + drag * v)
-            rows[unloading * half + i + 1] = clock, t, 2.0 * b, b, limit, growth
+            depth = b * b - unloading * alpha * v
+            rows[unloading * half + i + 1] = clock, t, 2.0 * b, b, limit, growth, depth, v
     return rows

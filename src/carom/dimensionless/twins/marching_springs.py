@@ -23,7 +23,7 @@ OUTSIDE = 2  # in a map of slip: no contact
 
 
 @kernel
-def _share(near: float, far: float) -> float:
+def share(near: float, far: float) -> float:
     """Return the weight at `near` of the integral to `far` of a q linear in x^2."""
     return abs(far - near) * (2.0 * far + near) / (3.0 * (far + near))
 
@@ -36,7 +36,7 @@ def places(motion: Array, stride: int) -> Array:
 
 
 @kernel
-def _weigh(x: Array) -> tuple[Array, Array]:
+def weigh(x: Array) -> tuple[Array, Array]:
     """Return weights of the springs, and what the last one in contact loses of its weight.
 
     The weights integrate a q that is linear in x^2 between the springs and zero at the edge.
@@ -44,8 +44,8 @@ def _weigh(x: Array) -> tuple[Array, Array]:
     outer = np.empty(x.size - 1)
     weights = np.zeros(x.size - 1)
     for j in range(x.size - 1):
-        outer[j] = _share(x[j], x[j + 1])
-        weights[j] = outer[j] + (_share(x[j], x[j - 1]) if j > 0 else 0.0)
+        outer[j] = share(x[j], x[j + 1])
+        weights[j] = outer[j] + (share(x[j], x[j - 1]) if j > 0 else 0.0)
     return weights, outer
 
 
@@ -100,12 +100,12 @@ def integrate(
     """Return psi after contact, kick-drift-kick; fill `slips` and `ledger` unless empty."""
     x = places(motion, stride)
     s = x * x
-    weights, outer = _weigh(x)
+    weights, outer = weigh(x)
     q = np.zeros(outer.size)
     u, force, lost = 0.0, 0.0, 0.0
     for i in range(motion.shape[0] - 1):
-        at, t, clock, _, limit, growth = motion[i]
-        at_end, t_end, clock_end, edge_end, limit_end, _ = motion[i + 1]
+        at, t, clock, _, limit, growth = motion[i, :6]
+        at_end, t_end, clock_end, edge_end, limit_end, _ = motion[i + 1, :6]
         dt, kick, old = t_end - t, 0.5 * (at_end - at) * 3.75 * chi, psi
         psi -= kick * clock * force
         step = psi * dt
@@ -116,7 +116,7 @@ def integrate(
         inner, last = q[:touching], max(touching - 1, 0)
         before = inner.copy() if ledger.size > 0 else inner
         whole = weights[last]
-        weights[last] += _share(x[last], edge_end) - outer[last]
+        weights[last] += share(x[last], edge_end) - outer[last]
         force = _stretch(inner, s, weights, step, u + to_upper, to_lower - u)
         psi -= kick * clock_end * force
         if ledger.size > 0:

@@ -1,0 +1,49 @@
+"""What is known of impacts of Kelvin-Voigt solids: what slides throughout, and small losses."""
+
+import numpy as np
+import pytest
+
+import carom
+from carom.dimensionless.lossy.stages import viscous_loss
+from carom.dimensionless.viscoelastic.impacts import viscoelastic_rebounds
+
+
+def psi_out(psi, chi, e):
+    psi, chi, e = np.broadcast_arrays(*map(np.atleast_1d, (psi, chi, e)))
+    alpha = np.array([viscous_loss(each) for each in e])
+    return viscoelastic_rebounds(psi.astype(float), chi.astype(float), alpha)[0]
+
+
+@pytest.mark.parametrize("e", [0.1, 0.3, 0.6, 0.9, 0.99])
+def test_sliding_throughout(e):
+    """psi_2 = psi_1 - 2 chi (1 + e) for psi_1 >= 2 chi (1 + e) - e, or 1 if chi <= 1/2, only."""
+    for chi in (0.2, 0.5, 0.8, 1.44, 3.0):
+        border = 2.0 * chi * (1.0 + e) - e if chi > 0.5 else 1.0
+        slides = border + np.array([1e-6, 0.3, 4.0])
+        np.testing.assert_allclose(
+            psi_out(slides, chi, e), slides - 2.0 * chi * (1.0 + e), atol=1e-9
+        )
+        stops = border - 0.05
+        assert psi_out(stops, chi, e)[0] > stops - 2.0 * chi * (1.0 + e) + 1e-6
+
+
+@pytest.mark.parametrize("e", [0.05, 0.3, 0.9, 0.999])
+def test_chi_of_one_half(e):
+    """psi stays in proportion to v: all sticks, and psi_2 = -e psi_1; close to it, nearly so."""
+    psi = np.array([1e-3, 0.2, 0.95, 1.0])
+    np.testing.assert_allclose(psi_out(psi, 0.5, e), -e * psi, atol=1e-9)
+    for beside in 10.0 ** -np.arange(5.0, 15.0):
+        for chi in (0.5 - beside, 0.5 + beside):
+            np.testing.assert_allclose(psi_out(psi, chi, e), -e * psi, atol=4.0 * beside + 1e-8)
+
+
+@pytest.mark.parametrize(
+    ("psi", "chi"), [(0.5, 1.44), (1.5, 1.44), (3.0, 1.2), (0.7, 0.4), (2.0, 3.0)]
+)
+def test_small_losses_are_linear_in_alpha(psi, chi):
+    elastic = carom.rebound(psi, chi)
+    alpha = np.array([2e-3, 1e-3, 5e-4])
+    found, _ = viscoelastic_rebounds(np.full(3, psi), np.full(3, chi), alpha)
+    slopes = (found - elastic) / alpha
+    assert abs(slopes[2] - slopes[1]) < 0.6 * abs(slopes[1] - slopes[0]) + 1e-3
+    assert abs(2.0 * found[2] - found[1] - elastic) < 1e-4
