@@ -1,7 +1,8 @@
-"""Impacts of Kelvin-Voigt solids against the march over springs, which shares nothing with them.
+"""Impacts of Kelvin-Voigt solids against two methods that share nothing with them, nor with each
+other: springs, and rings of traction with Coulomb's law in each of them.
 
-Over 60 impacts with chi from 0.1 to 5 and e from 0.3 to 0.95 the two differed by at most 2e-7,
-half of what the march changed by from 500 to 1000 springs, in the median by 1e-9.
+Over 60 impacts with chi from 0.1 to 5 and e from 0.3 to 0.95 psi_2 differed from the springs' by at
+most 2e-7, half of what that changed by from 500 to 1000 springs, in the median by 1e-9.
 """
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.stages import viscous_loss
+from carom.dimensionless.twins import rings
 from carom.dimensionless.twins.marching_solid import extrapolated, march
 from carom.dimensionless.viscoelastic.impacts import viscoelastic_rebounds
 
@@ -62,3 +64,17 @@ def test_march_is_of_second_order():
     assert errors[-1] < 1e-5
     assert 3.0 < errors[0] / errors[1] < 5.0
     assert 3.0 < errors[1] / errors[2] < 5.0
+
+
+@pytest.mark.parametrize("e", [0.9, 0.7, 0.5, 0.3])
+def test_coulombs_law_in_every_ring(e):
+    """Five impacts each agree to 1e-4; with twice the rings their errors are half as large."""
+    alpha, errors = viscous_loss(e), []
+    for psi, chi in ((0.5, 1.44), (1.5, 1.44), (3.0, 1.44), (1.2, 0.8), (2.5, 2.2)):
+        exact = psi_out(psi, chi, alpha)[0]
+        assert rings.extrapolated(psi, chi, alpha) == pytest.approx(exact, abs=1e-4), (psi, chi)
+        errors.append([rings.march_rings(psi, chi, alpha, n) - exact for n in (50, 100, 200)])
+    coarse, middle, fine = np.abs(errors).mean(axis=0)
+    assert fine < 4e-3
+    assert coarse / middle == pytest.approx(2.0, abs=0.15)
+    assert middle / fine == pytest.approx(2.0, abs=0.15)

@@ -56,7 +56,7 @@ def _least(slope: float, end: float) -> float:
     """Return the least value on [0, 1] of a parabola that begins at 0."""
     curvature = end - slope
     if slope < 0.0 and -slope < 2.0 * curvature:
-        return -slope * slope / (4.0 * curvature)
+        return float(-slope * slope / (4.0 * curvature))
     return min(0.0, end)
 
 
@@ -71,9 +71,9 @@ def _moved(
     forth = w_end + (u - w) * decay - du - u  # slip +, less stick
     back = w_end - (u + w) * decay + du + u  # slip -, less stick, mirrored
     if alpha < RESOLVED * dt:
-        return u + du + min(0.0, forth) - min(0.0, back)
+        return float(u + du + min(0.0, forth) - min(0.0, back))
     slope_forth, slope_back = v - (u - w) / alpha - psi, v + (u + w) / alpha + psi
-    return u + du + _least(slope_forth * dt, forth) - _least(slope_back * dt, back)
+    return float(u + du + _least(slope_forth * dt, forth) - _least(slope_back * dt, back))
 
 
 @kernel
