@@ -21,18 +21,18 @@ print(json.dumps(viscoelastic_rebounds(*np.array(json.load(sys.stdin)))[0].tolis
 
 
 def impacts(count, seed):
-    """Return psi, chi, alpha with chi from 0.1 to 5, e from 0.05 to 0.9999."""
+    """Return psi, chi, alpha and e with chi from 0.1 to 5, e from 0.05 to 0.9999."""
     rng = np.random.default_rng(seed)
     e = rng.choice(LOSSES, count)
     alphas = {each: viscous_loss(each) for each in LOSSES}
     chi = 0.1 * 50.0 ** rng.uniform(0.0, 1.0, count)
     psi = rng.uniform(1e-3, 1.0, count) * (2.0 * chi * (1.0 + e) + 1.0)
-    return psi, chi, np.array([alphas[each] for each in e])
+    return psi, chi, np.array([alphas[each] for each in e]), e
 
 
 def test_impacts_are_solved_to_what_is_promised():
     """1e-8 max(1, psi_1): smaller panels change them by less; 5e-10 was the largest of 4000."""
-    psi, chi, alpha = impacts(1500, 1)
+    psi, chi, alpha, _ = impacts(1500, 1)
     found, status = viscoelastic_rebounds(psi, chi, alpha)
     assert np.all(status == Status.SOLVED)
     finer, status = viscoelastic_rebounds(psi, chi, alpha, tolerance=1e-10)
@@ -41,17 +41,16 @@ def test_impacts_are_solved_to_what_is_promised():
 
 
 def test_mirror_images():
-    psi, chi, alpha = impacts(200, 2)
+    psi, chi, alpha, _ = impacts(200, 2)
     found, mirrored = (viscoelastic_rebounds(s * psi, chi, alpha)[0] for s in (1.0, -1.0))
     np.testing.assert_array_equal(mirrored, -found)
 
 
 def test_no_impact_gains_energy():
     """|psi_2| <= |psi_1|, and Coulomb's impulse is not exceeded: psi_1 - psi_2 <= 2 chi (1 + e)."""
-    psi, chi, alpha = impacts(1500, 3)
+    psi, chi, alpha, e = impacts(1500, 3)
     found, _ = viscoelastic_rebounds(psi, chi, alpha)
     assert np.all(np.abs(found) <= psi)
-    e = np.array([{viscous_loss(each): each for each in LOSSES}[each] for each in alpha])
     assert np.all(psi - found <= 2.0 * chi * (1.0 + e) + 1e-8)
 
 

@@ -37,7 +37,11 @@ def extrapolated(psi: float, chi: float, alpha: float, rings: int = 200) -> floa
     >>> round(extrapolated(1.5, 1.44, 0.0576035799), 3)  # e = 0.9
     -0.367
     """
-    coarse, middle, fine = (march_rings(psi, chi, alpha, rings // part) for part in (4, 2, 1))
+    return richardson(*(march_rings(psi, chi, alpha, rings // part) for part in (4, 2, 1)))
+
+
+def richardson(coarse: float, middle: float, fine: float) -> float:
+    """Return the limit of what is of first order, from three numbers of rings, each doubled."""
     return (8.0 * fine - 6.0 * middle + coarse) / 3.0
 
 
