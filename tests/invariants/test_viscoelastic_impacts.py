@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import numpy as np
+import pytest
 
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.stages import viscous_loss
@@ -38,6 +39,18 @@ def test_impacts_are_solved_to_what_is_promised():
     finer, status = viscoelastic_rebounds(psi, chi, alpha, tolerance=1e-10)
     assert np.all(status == Status.SOLVED)
     assert np.max(np.abs(found - finer) / np.maximum(1.0, psi)) < 1e-8
+
+
+@pytest.mark.parametrize(
+    ("psi", "chi"),
+    [(1.545093648994644, 1.146545076114865), (0.518235231650099, 1.1852816945556663)],
+)
+def test_panels_that_end_with_the_loading(psi, chi):
+    """To rounding, by chance."""
+    given = np.array([psi * (1.0 - 1e-9), psi, psi * (1.0 + 1e-9)]), np.full(3, chi)
+    found, status = viscoelastic_rebounds(*given, np.full(3, viscous_loss(0.3)))
+    assert np.all(status == Status.SOLVED)
+    assert np.ptp(found) < 1e-8
 
 
 def test_mirror_images():

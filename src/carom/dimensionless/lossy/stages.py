@@ -12,6 +12,7 @@ from carom.dimensionless.numerics.kernels import entry_point, kernel
 MAX_ITERATIONS = 40
 SETTLED = 1e-15
 CORRECTIONS = 8
+AT_END = 1e-13  # a panel that ends so near to the end of its stage ends with it
 FARTHEST = 2.0  # times the way to the end of a stage, to first order
 SLOPE = 1.89171  # of 1 - e in alpha where it is small, (3/2) B(3/5, 3/2)
 NEARLY_ELASTIC, LARGEST = 1.0 - 1e-12, 100.0
@@ -91,7 +92,7 @@ def cut_to_stage(work: Arrays, motion: Motion, kind: int, h: float) -> tuple[flo
     if ahead > 0.0:  # far beyond the end of a stage its equations mean nothing
         h = min(h, FARTHEST * ahead)
     solve_normal(work, motion, EVEN, h)
-    if beyond_stage(motion, b[last], v[last]) < 0.0:
+    if beyond_stage(motion, b[last], v[last]) < -AT_END:
         if kind != EVEN:
             solve_normal(work, motion, kind, h)
         return h, False

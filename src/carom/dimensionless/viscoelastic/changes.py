@@ -165,7 +165,5 @@ def give_back(work: Arrays, motion: Motion, count: int, now: State, time: float)
         outer = min(row[passed.R_OUTER], now.radius)
         lay_flat(work.pieces, count, ring.sign, row[passed.R_INNER], outer, level)
         count += 1
-        if row[passed.R_OUTER] >= now.radius:
-            return begin(work, motion, count, -ring.sign, now, time)
     set_ring(work, STANDS if count > 0 else SLIPS, ring.sign, 0)
     return count
