@@ -60,14 +60,16 @@ def test_compiled_kernels_do_what_python_does() -> None:
     assert np.max(np.abs(plain - compiled)) < 1e-12
 
 
+@pytest.mark.parametrize("alpha", [0.0, 0.3])
 @pytest.mark.parametrize("clock", range(len(INTEGRALS)))
-def test_a_step_solves_the_linearised_equations(clock: int) -> None:
+def test_a_step_solves_the_linearised_equations(clock: int, alpha: float) -> None:
     """Less than a step would converge, too, but slowly: the system, against NumPy's solution."""
     work, rng, h = new_work(), np.random.default_rng(clock), 0.3
     work.values[RADIUS], work.rates[:] = rng.uniform(0.1, 1.0, NODES), rng.normal(size=(3, NODES))
     s, b, stuck, right = INTEGRALS[clock], work.values[RADIUS], work.rates[2], work.rates[0].copy()
-    wanted = np.linalg.solve(np.eye(NODES) - h**2 * (s * stuck) @ s * (2.0 * b), right)
-    plain(factorise)(work, Panel(number=0, clock=clock, length=h, pieces=0))
+    unit = np.eye(NODES)
+    wanted = np.linalg.solve(unit - h * (s * stuck) @ (h * s * (2.0 * b) + alpha * unit), right)
+    plain(factorise)(work, Panel(number=0, clock=clock, length=h, pieces=0), alpha)
     plain(back_substitute)(work)
     np.testing.assert_allclose(work.rates[0], wanted, rtol=1e-12)
 

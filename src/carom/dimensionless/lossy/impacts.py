@@ -89,6 +89,16 @@ def revised(plan: Plan, error: float, tolerance: float) -> Plan:
 
 
 @kernel
+def why_not(psi: float, chi: float) -> int:
+    """Return the status of an impact that cannot be run, SOLVED if it can."""
+    if not np.isfinite(psi):
+        return Status.PSI_NOT_FINITE.value
+    if not (0.0 < chi < np.inf):
+        return Status.CHI_NOT_POSITIVE.value
+    return Status.TOO_MANY_PHASES.value if chi > LARGEST_CHI else Status.SOLVED.value
+
+
+@kernel
 def run(
     psi: float,
     chi: float,
@@ -100,12 +110,9 @@ def run(
     record: Trace,
 ) -> tuple[int, int]:
     """Run a whole impact, psi_1 of either sign; return its status and the number of panels."""
-    if not np.isfinite(psi):
-        return Status.PSI_NOT_FINITE.value, 0
-    if not (0.0 < chi < np.inf):
-        return Status.CHI_NOT_POSITIVE.value, 0
-    if chi > LARGEST_CHI:
-        return Status.TOO_MANY_PHASES.value, 0
+    refused = why_not(psi, chi)
+    if refused != Status.SOLVED.value:
+        return refused, 0
     numbers[:] = 0.0
     work.values[:, 0] = 0.0
     work.values[SPEED, 0], work.values[PSI, 0] = 1.0, psi

@@ -38,7 +38,6 @@ from carom.dimensionless.lossy.memory import (
 )
 from carom.dimensionless.lossy.normal import Motion, Stage
 from carom.dimensionless.lossy.work import PSI, SPEED, Arrays
-from carom.dimensionless.numerics.arrays import Matrix
 from carom.dimensionless.numerics.kernels import kernel
 
 MAX_ITERATIONS = 30
@@ -160,16 +159,8 @@ def solve_panel(work: Arrays, motion: Motion, panel: Panel, before: Panel) -> bo
             rates[1, j] = -7.5 * motion.chi * b[j] * cut.force
             rates[2, j] = -7.5 * motion.chi * b[j] * cut.stuck
         if iteration == 0:
-            factorise(work, panel)
-        integrate(panel.clock, psi0, h, rates[1], rates[0])
-        for j in range(NODES):
-            rates[0, j] -= psi[j]
-        back_substitute(work)
-        change = 0.0
-        for j in range(NODES):
-            psi[j] += rates[0, j]
-            change = max(change, abs(rates[0, j]))
-        psi[0] = psi0
+            factorise(work, panel, 0.0)
+        change = correct(work, panel, psi0)
         if change <= SETTLED * (1.0 + abs(psi0)):
             follow(work, motion, panel, u0)
             expand(psi, series[PSI])
@@ -214,22 +205,35 @@ def follow(work: Arrays, motion: Motion, panel: Panel, u0: float) -> None:
 
 
 @kernel
-def factorise(work: Arrays, panel: Panel) -> None:
-    """Write I - h^2 S diag(-(15/2) chi b X) S diag(2 b) as L R, S being the integral."""
+def correct(work: Arrays, panel: Panel, psi0: float) -> float:
+    """Do a step of Newton's method, from the rates of psi; return by how much psi has changed."""
+    rates, psi, change = work.rates, work.values[PSI], 0.0
+    integrate(panel.clock, psi0, panel.length, rates[1], rates[0])
+    for j in range(NODES):
+        rates[0, j] -= psi[j]
+    back_substitute(work)
+    for j in range(NODES):
+        psi[j] += rates[0, j]
+        change = max(change, abs(rates[0, j]))
+    psi[0] = psi0
+    return change
+
+
+@kernel
+def factorise(work: Arrays, panel: Panel, alpha: float) -> None:
+    """Write I - h S diag(-(15/2) chi b X) (h S diag(2 b) + alpha) as L R, S being the integral.
+
+    alpha is the retardation time in shear.
+    """
     s, h, b, matrix = INTEGRALS[panel.clock], panel.length, work.values[RADIUS], work.matrix
     for i in range(NODES):
         for j in range(NODES):
             total = 0.0
             for k in range(NODES):
                 total += s[i, k] * work.rates[2, k] * s[k, j]
-            matrix[i, j] = -h * h * total * 2.0 * b[j]
+            direct = h * s[i, j] * work.rates[2, j] * alpha
+            matrix[i, j] = -h * h * total * 2.0 * b[j] - direct
         matrix[i, i] += 1.0
-    decompose(matrix)
-
-
-@kernel
-def decompose(matrix: Matrix) -> None:
-    """Write a matrix as L R over itself."""
     for k in range(NODES):
         for i in range(k + 1, NODES):
             matrix[i, k] /= matrix[k, k]

@@ -8,7 +8,6 @@ from carom.dimensionless.lossy.collocation import EVEN, NODES, clock, tail
 from carom.dimensionless.lossy.impacts import (
     FIRST,
     GROWTH,
-    LARGEST_CHI,
     LONGEST,
     NEAR,
     NEAR_FLAT,
@@ -19,6 +18,7 @@ from carom.dimensionless.lossy.impacts import (
     TRIALS,
     Plan,
     revised,
+    why_not,
     with_length,
 )
 from carom.dimensionless.lossy.memory import LAID, MAX_PIECES, MOVED
@@ -70,12 +70,9 @@ def run(psi: float, chi: float, alpha: float, tolerance: float, work: Arrays) ->
 
     At the end psi_2 is in the first column of the values.
     """
-    if not np.isfinite(psi):
-        return Status.PSI_NOT_FINITE.value, 0
-    if not (0.0 < chi < np.inf):
-        return Status.CHI_NOT_POSITIVE.value, 0
-    if chi > LARGEST_CHI:
-        return Status.TOO_MANY_PHASES.value, 0
+    refused = why_not(psi, chi)
+    if refused != Status.SOLVED.value:
+        return refused, 0
     work.values[:, 0] = 0.0
     work.values[SPEED, 0], work.values[PSI, 0] = 1.0, psi
     slips = psi > 1.0 or (psi == 1.0 and chi <= 0.5)

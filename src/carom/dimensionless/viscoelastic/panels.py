@@ -3,23 +3,15 @@
 import numpy as np
 
 from carom.dimensionless.lossy import normal
-from carom.dimensionless.lossy.collocation import (
-    EVEN,
-    INTEGRALS,
-    NODES,
-    PLACES,
-    TO_SERIES,
-    expand,
-    integrate,
-)
+from carom.dimensionless.lossy.collocation import EVEN, NODES, PLACES, TO_SERIES, expand, integrate
 from carom.dimensionless.lossy.memory import LAID, LAID_A, LAID_B, MOVED, RADIUS
 from carom.dimensionless.lossy.normal import Motion
 from carom.dimensionless.lossy.panels import (
     MAX_ITERATIONS,
     SETTLED,
     Panel,
-    back_substitute,
-    decompose,
+    correct,
+    factorise,
     guess,
     state_at_node,
 )
@@ -57,7 +49,7 @@ def solve_panel(work: Arrays, motion: Motion, panel: Panel, before: Panel) -> bo
     the first iterate gives dQ/dT.
     """
     values, rates, series = work.values, work.rates, work.series[panel.number]
-    b, psi, h = values[RADIUS], values[PSI], panel.length
+    b, psi = values[RADIUS], values[PSI]
     psi0, u0 = psi[0], values[MOVED, 0]
     follow_normal(work, panel)
     add_up(work, panel)
@@ -72,16 +64,8 @@ def solve_panel(work: Arrays, motion: Motion, panel: Panel, before: Panel) -> bo
             rates[1, j] = -7.5 * motion.chi * b[j] * force(work, motion, panel, PLACES[j], now, at)
             rates[2, j] = -7.5 * motion.chi * b[j] * at.radius
         if iteration == 0:
-            factorise(work, motion, panel)
-        integrate(panel.clock, psi0, h, rates[1], rates[0])
-        for j in range(NODES):
-            rates[0, j] -= psi[j]
-        back_substitute(work)
-        change = 0.0
-        for j in range(NODES):
-            psi[j] += rates[0, j]
-            change = max(change, abs(rates[0, j]))
-        psi[0] = psi0
+            factorise(work, panel, motion.parameter)
+        change = correct(work, panel, psi0)
         if change <= SETTLED * (1.0 + abs(psi0)):
             follow(work, motion, panel, u0)
             expand(psi, series[PSI])
@@ -151,18 +135,3 @@ def lay_at_front(work: Arrays, motion: Motion, panel: Panel) -> None:
             slope += SLOPES[j, k] * levels[k]
         rates[0, j] = values[LAID_RADIUS, j] * slope
     integrate(EVEN, 0.0, 1.0, rates[0], values[LAID])
-
-
-@kernel
-def factorise(work: Arrays, motion: Motion, panel: Panel) -> None:
-    """Write I - h S diag(-(15/2) chi b a) (h S diag(2 b) + alpha) as L R, S being the integral."""
-    s, h, b, matrix = INTEGRALS[panel.clock], panel.length, work.values[RADIUS], work.matrix
-    for i in range(NODES):
-        for j in range(NODES):
-            total = 0.0
-            for k in range(NODES):
-                total += s[i, k] * work.rates[2, k] * s[k, j]
-            direct = s[i, j] * work.rates[2, j] * motion.parameter
-            matrix[i, j] = -h * (h * total * 2.0 * b[j] + direct)
-        matrix[i, i] += 1.0
-    decompose(matrix)

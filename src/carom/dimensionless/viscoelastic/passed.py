@@ -15,7 +15,7 @@ from carom.dimensionless.numerics.kernels import kernel
 # in an instant, which has no panel, the time and excess then.
 PANEL, X_OUTER, X_INNER, R_OUTER, R_INNER, INSTANT, EXCESS = range(7)
 AT_ONCE = -1.0
-MAX_STEPS = 80
+HALVINGS = 36  # errors of the front count in second order
 
 
 @kernel
@@ -58,31 +58,18 @@ def left(work: Arrays, top: int, outer: bool, sign: int, alpha: float, time: flo
 def returned(
     work: Arrays, top: int, sign: int, alpha: float, time: float, excess: float
 ) -> tuple[float, float]:
-    """Return where in an entry h is the excess, as radius and place (Illinois method)."""
+    """Return where in an entry h is the excess, as radius and place."""
     n, low, high = (
         int(work.passed[top, PANEL]),
         work.passed[top, X_OUTER],
         work.passed[top, X_INNER],
     )
-    f_low = left_at(work, n, sign, alpha, low, time) - excess
-    f_high = left_at(work, n, sign, alpha, high, time) - excess
-    x, side = high, 0
-    if f_low >= 0.0:
-        x = low
-    elif f_high > 0.0:
-        for _ in range(MAX_STEPS):
-            x = high - f_high * (high - low) / (f_high - f_low)
-            f = left_at(work, n, sign, alpha, x, time) - excess
-            if abs(f) <= 1e-16 or abs(high - low) <= 1e-15:
-                break
-            if f > 0.0:
-                high, f_high = x, f
-                if side == 1:
-                    f_low *= 0.5
-                side = 1
-            else:
-                low, f_low = x, f
-                if side == -1:
-                    f_high *= 0.5
-                side = -1
-    return evaluate(work.series, n, FRONT, x), x
+    if left_at(work, n, sign, alpha, high, time) <= excess:
+        low = high
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if left_at(work, n, sign, alpha, middle, time) < excess:
+            low = middle
+        else:
+            high = middle
+    return evaluate(work.series, n, FRONT, high), high
