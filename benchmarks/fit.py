@@ -26,7 +26,7 @@ def measured(rows: int) -> dict[str, np.ndarray]:
     random = np.random.default_rng(SEED)
     angles = np.radians(np.linspace(3.0, 70.0, rows))
     law = carom.KelvinVoigt(restitution=1.0 - LOSS)
-    hits = [carom.impact(PAIR, speed=3.9, angle=float(angle), normal=law) for angle in angles]
+    hits = [carom.impact(PAIR, speed=3.9, angle=float(angle), losses=law) for angle in angles]
     exact = {name: np.array([getattr(hit, name) for hit in hits]) for name in SIGMA}
     noisy = {n: values + random.normal(0.0, SIGMA[n], rows) for n, values in exact.items()}
     return {"angle": angles, "speed": np.full(rows, 3.9), **noisy}
@@ -56,7 +56,7 @@ def main() -> None:
         whole = best_of(repeats, lambda data=data: fit(data, pair=PAIR, vary=NAMES))
         found = fit(data, pair=PAIR, vary=NAMES)
         rivals = best_of(1, lambda found=found: found.comparison)
-        solving = best_of(repeats, lambda psi=psi: carom.rebound(psi, PAIR.chi, normal=law))
+        solving = best_of(repeats, lambda psi=psi: carom.rebound(psi, PAIR.chi, losses=law))
         print(
             f"{rows:5d} rows, {len(NAMES)} parameters: {whole:6.3f} s with intervals,"
             f" {rivals:6.3f} s more for two rival laws;"

@@ -30,7 +30,7 @@ def works(count: int) -> dict[str, Callable[[], object]]:
     law, one = carom.LammpsMindlin(), {"velocity1": velocity[:1], "normal": normal[:1]}
     return {
         "impacts": lambda: carom.rebound(psi, chi, threads=1),
-        "impacts with losses": lambda: carom.rebound(psi[few], chi[few], normal=lossy, threads=1),
+        "impacts with losses": lambda: carom.rebound(psi[few], chi[few], losses=lossy, threads=1),
         "collisions": lambda: carom.collide(pair, velocity1=velocity, normal=normal, threads=1),
         "a contact law of a DEM code": lambda: law.rebound(psi[few], 1.44, threads=1),
         "one rebound": lambda: [carom.rebound(1.5, 1.44) for _ in range(count // 100)],

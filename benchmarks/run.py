@@ -53,7 +53,7 @@ def measure_impacts(many: int, few: int, repeats: int) -> float:
     cores = seconds(lambda: carom.rebound(psi, chi), repeats) / many
     print(f"exact on all cores                        {cores * 1e6:8.1f} us per impact")
     law = carom.KelvinVoigt(restitution=0.9)
-    lossy = partial(carom.rebound, psi[:few], chi[:few], threads=1, normal=law)
+    lossy = partial(carom.rebound, psi[:few], chi[:few], threads=1, losses=law)
     each = seconds(lossy, repeats) / few
     print(
         f"with losses, e = 0.9                      {each * 1e6:8.1f} us per impact,"

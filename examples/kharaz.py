@@ -95,7 +95,7 @@ def main(folder: str | Path = ".") -> str:
     np.testing.assert_allclose(kappa.value, found.pair.kappa, rtol=0.05)
 
     chi = 0.5 * kappa.value / SPHERE
-    exact = lambda psi: carom.rebound(psi, chi, normal=carom.KelvinVoigt(restitution=e.value))  # noqa: E731
+    exact = lambda psi: carom.rebound(psi, chi, losses=carom.KelvinVoigt(restitution=e.value))  # noqa: E731
     line = np.radians(np.linspace(0.5, 65.0, 130))
     curves = {OWN: (line, restitution(line, mu.value, kappa.value, exact), BLACK)}
     misfits = {OWN: misfit(data, mu.value, kappa.value, exact)}

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 import carom
-from carom.dimensionless.lossy.stages import viscous_loss
+from carom.dimensionless.lossy.panels.stages import viscous_loss
 from carom.dimensionless.twins.marching import extrapolated
 from carom.plots.style import (
     BLACK,
@@ -38,12 +38,12 @@ CROSSES = (0.75, 2.0, 3.5, 5.0)
 
 def rebounds(psi, e):
     """Return psi_2 of a sphere of this restitution."""
-    return carom.rebound(psi, CHI, normal=carom.KelvinVoigt(restitution=e))
+    return carom.rebound(psi, CHI, losses=carom.KelvinVoigt(restitution=e))
 
 
 def restitutions(pair, speeds, law):
     """Return e at each normal speed."""
-    hits = [carom.impact(pair, normal_speed=v, tangential_speed=0.0, normal=law) for v in speeds]
+    hits = [carom.impact(pair, normal_speed=v, tangential_speed=0.0, losses=law) for v in speeds]
     return np.array([hit.normal_restitution for hit in hits])
 
 

@@ -62,7 +62,7 @@ def truth(design: Design) -> dict[str, Array]:
     """Return what would be measured without noise."""
     normal = carom.KelvinVoigt(restitution=RESTITUTION)
     hits = [
-        carom.impact(PAIR, speed=SPEED, angle=f"{angle} deg", spin=SPIN, normal=normal)
+        carom.impact(PAIR, speed=SPEED, angle=f"{angle} deg", spin=SPIN, losses=normal)
         for angle in design.angles
     ]
     return {name: np.array([getattr(hit, name) for hit in hits]) for name in SIGMA}

@@ -24,7 +24,7 @@ def curves(chi: NDArray[np.float64], restitution: float) -> NDArray[np.float64]:
     """Return the curves of one e, one a row."""
     psi = nodes(chi, restitution)
     law = None if restitution == 1.0 else carom.KelvinVoigt(restitution=restitution)
-    outgoing = carom.rebound(psi, chi[:, np.newaxis, np.newaxis], normal=law)
+    outgoing = carom.rebound(psi, chi[:, np.newaxis, np.newaxis], losses=law)
     return tabulated(psi, outgoing, chi, restitution).reshape(chi.size, -1)
 
 

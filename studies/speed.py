@@ -100,7 +100,7 @@ def methods() -> list[Method]:
         Method("rebound", "exact", many, lambda psi: carom.rebound(psi, chi, threads=1)),
         Method("impact, with units", "exact", some, each(one_impact)),
         Method("sweep", "exact", many, swept),
-        Method("rebound, e = 0.9", "exact", some, lambda p: carom.rebound(p, chi, normal=weak)),
+        Method("rebound, e = 0.9", "exact", some, lambda p: carom.rebound(p, chi, losses=weak)),
         Method("collide", "tables", most, lambda psi: collided(psi, None)),
         Method("collide, Walton", "contact law", most, lambda p: collided(p, walton())),
         Method("ReboundLaw", "tables", most, law),

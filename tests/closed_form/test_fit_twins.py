@@ -108,7 +108,7 @@ def test_interpolated_curves_are_those_of_the_solver(chi, e, error):
     psi[:2] = 1e-3, 30.0 * psi[1]
     found = curves.psi_out(psi[np.newaxis], np.array([chi]), np.array([e]))[0]
     law = None if e == 1.0 else carom.KelvinVoigt(restitution=e)
-    assert np.abs(found - carom.rebound(psi, chi, normal=law)).max() < error
+    assert np.abs(found - carom.rebound(psi, chi, losses=law)).max() < error
 
 
 @pytest.mark.parametrize("chi", [0.3, 1.4412])

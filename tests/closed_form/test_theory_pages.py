@@ -20,7 +20,7 @@ from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import flat, stacked
 from carom.dimensionless.fields.subsurface import stresses
 from carom.dimensionless.load_paths import paths
-from carom.dimensionless.lossy.stages import viscous_loss
+from carom.dimensionless.lossy.panels.stages import viscous_loss
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.twins.stick import Stick
 from carom.halfspace.compliance import Materials
@@ -250,16 +250,16 @@ def test_11_losses():
     slope = 1.5 * beta(0.6, 1.5)
     assert viscous_loss(1 - 1e-6) * slope == pytest.approx(1e-6, rel=1e-4)  # (11.3)
     law, psi, alpha = carom.KelvinVoigt(restitution=0.7), 3000.0, viscous_loss(0.7)
-    history = carom.solve(psi, 1.0, normal=law).history(1001)
+    history = carom.solve(psi, 1.0, losses=law).history(1001)
     loading = history.speed > 0.0
     belt = np.trapezoid(history.speed[loading] ** 2, history.contact_radius[loading])
-    excess = carom.rebound(psi, 1.0, normal=law) - (psi - 3.4)
+    excess = carom.rebound(psi, 1.0, losses=law) - (psi - 3.4)
     assert excess * psi == pytest.approx(15 / 8 * alpha**2 * belt, rel=3e-3)  # (11.6)
     y = 1e-3**0.4
     turn = brentq(lambda f: y**5 + 2.5 * (y**3 * f + 0.75 * y * f * f) - 1, 0, 99)  # (11.9)
     e = (y**3 + 1.5 * y * turn) / (turn + y * y) ** 0.25  # (11.8)
     pair = carom.Pair(carom.Sphere(radius=0.005, material=STEEL), SPHERES.first, friction=0.2)
-    hit = carom.impact(pair, normal_speed=1.0, normal=carom.ElasticPlastic(yield_velocity=1e-3))
+    hit = carom.impact(pair, normal_speed=1.0, losses=carom.ElasticPlastic(yield_velocity=1e-3))
     assert hit.normal_restitution == pytest.approx(e, rel=1e-10)
     assert e == pytest.approx(1.185 * 1e-3**0.25, rel=1e-3)
 

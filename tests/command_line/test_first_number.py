@@ -22,7 +22,7 @@ hit = carom.impact(pair, speed=2.0, angle=0.5)
 COMPILERS = {"numba", "llvmlite"}
 FIRST = {
     "impact": "hit.psi_out",
-    "losses": "carom.impact(pair, speed=2.0, normal=carom.KelvinVoigt(restitution=0.9), angle=0.5)",
+    "losses": "carom.impact(pair, speed=2.0, losses=carom.KelvinVoigt(restitution=0.9), angle=0.5)",
     "history": "hit.history(20)",
     "fields": "hit.fields(0.5 * hit.duration)",
     "stress": "hit.stress(0.5 * hit.duration)",
@@ -72,7 +72,7 @@ def test_the_command_gives_the_number_of_python(loss):
     ball = carom.Sphere(radius="5 mm", material="steel")
     pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     normal = carom.KelvinVoigt(restitution=0.9) if loss == "viscous" else None
-    hit = carom.impact(pair, speed=2.0, angle="30 deg", normal=normal)
+    hit = carom.impact(pair, speed=2.0, angle="30 deg", losses=normal)
     result = json.loads(ran.stdout)["result"]
     for name, value in hit.scalars().items():
         assert result[name] == value, name

@@ -8,7 +8,7 @@ import pytest
 
 import carom
 from carom import plots
-from carom.bodies.cases import normal_of
+from carom.bodies.cases import losses_of
 from carom.cli import main
 
 BALL = ["impact", "--radius", "5 mm", "--material", "steel", "--friction", "0.2"]
@@ -58,7 +58,7 @@ def steel_on_steel(friction=0.2):
 def test_an_impact_with_losses_is_that_of_the_library(run, flags):
     """All numbers and phases as JSON, which knows no slip angles with losses."""
     code, out, _ = run(*BALL, *SPEED, *flags.split(" "), "--json")
-    hit = carom.impact(steel_on_steel(), speed=2.0, angle="30 deg", normal=LAWS[flags])
+    hit = carom.impact(steel_on_steel(), speed=2.0, angle="30 deg", losses=LAWS[flags])
     record = json.loads(out)
     assert code == 0
     assert record["result"] == hit.scalars()
@@ -100,7 +100,7 @@ def test_files_of_an_impact_with_losses_are_what_it_is_and_can_be_drawn(run):
     assert (code, err.count("stored")) == (0, 2)
     assert "normal losses" in Path("hit.svg").read_text()
     law = carom.KelvinVoigt(loss_time=2e-6)
-    wanted = carom.impact(steel_on_steel(), speed=2, angle="30 deg", normal=law).to_dataset()
+    wanted = carom.impact(steel_on_steel(), speed=2, angle="30 deg", losses=law).to_dataset()
     assert run("impact", "case.toml", "--output", "hit.csv")[0] == 0
     for name in ("hit.nc", "hit.csv"):
         assert carom.read(name).identical(wanted), name
@@ -149,13 +149,13 @@ def test_commands_about_elastic_impacts_refuse_a_case_with_losses(run):
 
 
 def test_a_case_has_one_loss_or_none():
-    assert normal_of({}) is normal_of({"restitution": None}) is None
-    assert normal_of({"loss_time": "2 us"}) == carom.KelvinVoigt(loss_time=2e-6)
-    assert normal_of({"yield_velocity": " material"}) == carom.ElasticPlastic()
+    assert losses_of({}) is losses_of({"restitution": None}) is None
+    assert losses_of({"loss_time": "2 us"}) == carom.KelvinVoigt(loss_time=2e-6)
+    assert losses_of({"yield_velocity": " material"}) == carom.ElasticPlastic()
     with pytest.raises(carom.InputError, match="loss_time: give it or restitution, not both"):
-        normal_of({"loss_time": 0.0, "restitution": 1.0})
+        losses_of({"loss_time": 0.0, "restitution": 1.0})
     with pytest.raises(carom.InputError, match=r"restitution: \[0.9\] cannot be used"):
-        normal_of({"restitution": [0.9]})
+        losses_of({"restitution": [0.9]})
 
 
 def test_a_sweep_over_restitutions(run):
@@ -170,7 +170,7 @@ def test_a_sweep_over_restitutions(run):
     for e in (0.6, 0.8, 1.0):
         law = carom.KelvinVoigt(restitution=e)
         for mu in (0.1, 0.3):
-            hit = carom.impact(steel_on_steel(mu), speed=2.0, angle="30 deg", normal=law)
+            hit = carom.impact(steel_on_steel(mu), speed=2.0, angle="30 deg", losses=law)
             point = found.sel(restitution=e, friction=mu)
             for name in ("normal_restitution", "psi_out", "lost_energy", "max_force"):
                 assert float(point[name]) == pytest.approx(getattr(hit, name), rel=1e-10), name

@@ -13,9 +13,9 @@ from scipy.special import beta, betainc, betaincinv
 
 import carom
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.normal import Loss
+from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.panels.stages import viscous_loss
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.lossy.stages import viscous_loss
 from carom.dimensionless.twins.marching import extrapolated, march_on
 
 Array = NDArray[np.float64]
@@ -147,6 +147,6 @@ def test_elastic_plastic_impacts() -> None:
 def test_the_law_gives_what_the_twin_gives() -> None:
     """KelvinVoigt(restitution=e) is the viscous impact of the alpha that belongs to e."""
     for psi, chi, e in ((0.4, 1.44, 0.95), (2.0, 1.44, 0.8), (5.0, 0.9, 0.55)):
-        found = carom.rebound(psi, chi, normal=carom.KelvinVoigt(restitution=e))
+        found = carom.rebound(psi, chi, losses=carom.KelvinVoigt(restitution=e))
         twin = extrapolated(psi, chi, 2000, 8000, viscous_loss(e))
         assert found == pytest.approx(twin, abs=AGREEMENT)

@@ -9,17 +9,19 @@ import numpy as np
 import pytest
 
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.stages import viscous_loss
+from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.panels.stages import viscous_loss
+from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.twins import rings
 from carom.dimensionless.twins.marching_solid import extrapolated, march
-from carom.dimensionless.viscoelastic.impacts import viscoelastic_rebounds
 
 
 def psi_out(psi, chi, alpha):
     """Return psi_2 of impacts, all of which must be solved."""
-    found, status = viscoelastic_rebounds(*map(np.atleast_1d, (psi, chi, alpha)))
-    assert np.all(status == Status.SOLVED)
-    return found
+    psi, chi, alpha = map(np.atleast_1d, (psi, chi, alpha))
+    found = lossy_rebounds(psi, chi, Loss.VISCOUS, alpha)
+    assert np.all(found.status == Status.SOLVED)
+    return found.psi_out
 
 
 def test_impacts_with_all_losses():

@@ -69,7 +69,7 @@ def tables():
     HIT = carom.impact(PAIR, speed=2.0, angle="30 deg")
     LOSSY = carom.KelvinVoigt(restitution=0.9)
     PATH = carom.load_path(PAIR, normal_force="10 N", tangential_force=[0.0, 1.0])
-    SOLVED, LOST = carom.solve(0.5, 1.44), carom.solve(1.5, 1.44, normal=LOSSY)
+    SOLVED, LOST = carom.solve(0.5, 1.44), carom.solve(1.5, 1.44, losses=LOSSY)
     LAW, MIXED = carom.ReboundLaw(1.44), carom.MixtureLaw(1.2, 1.3)
     SLIDING = {"tangential_damping": 0.5, "restitution": 0.9}
     LAWS = {

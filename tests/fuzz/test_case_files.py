@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from carom.bodies.cases import motion_of, normal_of, pair_of, read_case
+from carom.bodies.cases import losses_of, motion_of, pair_of, read_case
 from carom.bodies.plausibility import doubts_of_case
 from carom.impacts.solve import approach
 from carom.sweeps.plans import plan
@@ -25,7 +25,7 @@ def test_case_files(calls, tmp_path, mutated, answered, text):
             plan(case, path)
             return
         pair, motion = pair_of(case), motion_of(case)
-        normal_of(case)
+        losses_of(case)
         assert isfinite(pair.chi)
         names = ("speed", "angle", "normal_speed", "tangential_speed")
         assert all(map(isfinite, approach(*(motion.get(name) for name in names))))

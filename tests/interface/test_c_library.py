@@ -55,7 +55,7 @@ def test_the_same_bits_with_losses(functions):
     psi, chi = (values[8:80].copy() for values in impacts(2))
     restitution = np.linspace(0.2, 1.0, psi.size)
     expected = [
-        carom.rebound(one, other, normal=carom.KelvinVoigt(restitution=e))
+        carom.rebound(one, other, losses=carom.KelvinVoigt(restitution=e))
         for one, other, e in zip(psi, chi, restitution, strict=True)
     ]
     alpha = np.array([carom.KelvinVoigt(restitution=e).scale_free()[1] for e in restitution])

@@ -95,7 +95,7 @@ def test_a_chi_and_the_bodies_of_the_results(tmp_path):
 
 
 def test_a_score_is_against_an_elastic_impact():
-    hit = carom.impact(PAIR, speed=1.0, angle=0.5, normal=carom.KelvinVoigt(restitution=0.6))
+    hit = carom.impact(PAIR, speed=1.0, angle=0.5, losses=carom.KelvinVoigt(restitution=0.6))
     refused("case: .* it has losses", carom.verify.score, hit.history(200), case=hit)
 
 

@@ -6,7 +6,7 @@ from scipy.special import beta
 
 import carom
 from carom.bodies.losses import yield_velocity
-from carom.dimensionless.lossy.normal import Loss
+from carom.dimensionless.lossy.panels.normal import Loss
 from carom.quantities.refusals import InputError
 
 STEEL = carom.Pair(
@@ -19,7 +19,7 @@ GLASS = carom.Pair(
 
 
 def hit(law: object, speed: float = 1.0, pair: carom.Pair = STEEL) -> carom.Impact:
-    return carom.impact(pair, normal_speed=speed, tangential_speed=0.4 * speed, normal=law)
+    return carom.impact(pair, normal_speed=speed, tangential_speed=0.4 * speed, losses=law)
 
 
 def test_loss_time_is_read_with_its_unit() -> None:
@@ -158,7 +158,7 @@ def test_plastic_law_wants_a_yield_strength() -> None:
 def test_laws_of_the_speed_are_refused_without_units(law: object) -> None:
     for call in (carom.rebound, carom.solve):
         with pytest.raises(InputError, match="normal"):
-            call(1.0, 1.44, normal=law)
+            call(1.0, 1.44, losses=law)
 
 
 @pytest.mark.parametrize("law", [0.9, "KelvinVoigt", {"restitution": 0.9}])

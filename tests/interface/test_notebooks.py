@@ -154,8 +154,8 @@ def entries(text):
 
 
 def test_what_was_used_is_cited():
-    lossy = carom.impact(PAIR, **MOTION, normal=carom.KelvinVoigt(restitution=0.9))
-    yielding = carom.impact(PAIR, **MOTION, normal=carom.ElasticPlastic(yield_velocity=0.1))
+    lossy = carom.impact(PAIR, **MOTION, losses=carom.KelvinVoigt(restitution=0.9))
+    yielding = carom.impact(PAIR, **MOTION, losses=carom.ElasticPlastic(yield_velocity=0.1))
     assert entries(carom.impact(PAIR, **MOTION).cite()) == ["carom", "barber1979", "maw1976"]
     assert entries(lossy.cite())[-1] == "kuwabara1987"
     assert entries(yielding.cite())[-1] == "thornton1997"
@@ -181,7 +181,7 @@ def test_fits_cite_losses_and_data_of_ones_own(tmp_path):
     angles = [10.0, 20.0, 40.0, 60.0, 75.0]
     hits = [
         carom.impact(
-            PAIR, speed=2.0, angle=f"{angle} deg", normal=carom.KelvinVoigt(restitution=0.9)
+            PAIR, speed=2.0, angle=f"{angle} deg", losses=carom.KelvinVoigt(restitution=0.9)
         )
         for angle in angles
     ]

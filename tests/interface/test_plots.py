@@ -190,7 +190,7 @@ def test_energies_fill_the_whole(figures):
 def test_normal_losses_are_drawn_where_there_are_any(hit, history):
     """Seven shares of energy that end at 1; a history stored without that column has six."""
     law = carom.KelvinVoigt(restitution=0.7)
-    lossy = carom.impact(hit.pair, speed=2.0, angle="30 deg", normal=law).history(51)
+    lossy = carom.impact(hit.pair, speed=2.0, angle="30 deg", losses=law).history(51)
     axis = plots.plot_impact(lossy).axes[3]
     edges = axis.collections[-1].get_paths()[0].vertices[:, 1]
     assert axis.collections[-1].get_label() == "normal losses"

@@ -188,7 +188,7 @@ def test_a_chi_that_is_too_large_costs_no_time(law):
     assert np.isnan(out).all()
     assert set(status.tolist()) == {LawStatus.CHI_TOO_LARGE}
     for normal in (None, carom.KelvinVoigt(restitution=0.9)):
-        out, status = carom.rebound(0.5, chi[:10], normal=normal, return_status=True)
+        out, status = carom.rebound(0.5, chi[:10], losses=normal, return_status=True)
         assert np.isnan(out).all()
         assert np.all(status != 0)
 
@@ -199,10 +199,10 @@ def test_losses_with_a_large_chi_are_not_taken_for_sliding():
     Taken for one that slides throughout it would leave with 5000.
     """
     losses = carom.KelvinVoigt(restitution=0.9)
-    out, status = carom.rebound(15000.0, 5000.0, normal=losses, return_status=True)
+    out, status = carom.rebound(15000.0, 5000.0, losses=losses, return_status=True)
     assert status == carom.Status.TOO_MANY_PHASES
     assert np.isnan(out)
-    assert abs(carom.rebound(3000.0, 1000.0, normal=losses)) < 3.0
+    assert abs(carom.rebound(3000.0, 1000.0, losses=losses)) < 3.0
 
 
 LOSSES = "carom.KelvinVoigt(restitution=0.9)"
@@ -215,19 +215,19 @@ TINY = {"material": "steel", "radius": 1e-120}
         *(
             (call, ("normal: ", LOSSES))
             for call in (
-                lambda: carom.rebound(0.5, 1.44, normal=0.9),
-                lambda: carom.solve(0.5, 1.44, normal=carom.KelvinVoigt),
-                lambda: carom.curve(1.44, 0.5, normal=0.9),
-                lambda: carom.impact(PAIR, speed=1.0, normal=0.9),
-                lambda: carom.ReboundLaw(1.44, normal=0.9),
+                lambda: carom.rebound(0.5, 1.44, losses=0.9),
+                lambda: carom.solve(0.5, 1.44, losses=carom.KelvinVoigt),
+                lambda: carom.curve(1.44, 0.5, losses=0.9),
+                lambda: carom.impact(PAIR, speed=1.0, losses=0.9),
+                lambda: carom.ReboundLaw(1.44, losses=0.9),
             )
         ),
         *(
             (call, ("normal: ",))
             for call in (
-                lambda: carom.rebound(0.5, 1.44, normal=carom.KelvinVoigt([0.9, 0.8])),
-                lambda: carom.ReboundLaw(1.44, normal=carom.KelvinVoigt([0.9, 0.8])),
-                lambda: carom.impact(PAIR, speed=1.0, normal=carom.KelvinVoigt([0.9, 0.8])),
+                lambda: carom.rebound(0.5, 1.44, losses=carom.KelvinVoigt([0.9, 0.8])),
+                lambda: carom.ReboundLaw(1.44, losses=carom.KelvinVoigt([0.9, 0.8])),
+                lambda: carom.impact(PAIR, speed=1.0, losses=carom.KelvinVoigt([0.9, 0.8])),
             )
         ),
         (lambda: carom.KelvinVoigt(restitution=["most"]), ("restitution: ",)),

@@ -7,9 +7,10 @@ import pytest
 
 import carom
 from carom.dimensionless import interpolation
+from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics import chebyshev, hertz, permutation, shared_library
 from carom.dimensionless.numerics.kernels import ENTRIES
-from carom.dimensionless.viscoelastic.impacts import viscoelastic_rebounds
 
 pytestmark = pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
 STEEL = carom.material("steel")
@@ -61,9 +62,9 @@ def rebounds(rng):
     for e in (1.0, 0.9, 0.5, 0.1):
         some = slice(0, 60)
         normal = carom.KelvinVoigt(restitution=e)
-        carom.rebound(psi[some], chi[40:100], normal=normal, threads=1, return_status=True)
+        carom.rebound(psi[some], chi[40:100], losses=normal, threads=1, return_status=True)
     for _ in range(5):
-        viscoelastic_rebounds(psi[20:300], chi[20:300], rng.uniform(1e-4, 2.0, 280))
+        lossy_rebounds(psi[20:300], chi[20:300], Loss.VISCOUS, rng.uniform(1e-4, 2.0, 280))
 
 
 def impacts(rng):
@@ -74,7 +75,7 @@ def impacts(rng):
         found.traction(times[4], np.linspace(0.0, 1.0, 7))
         found.slid(times[5], np.linspace(0.0, 1.0, 7))
         found.memory(times[6]).profile()
-        lossy = carom.solve(psi, chi, normal=carom.KelvinVoigt(restitution=0.8))
+        lossy = carom.solve(psi, chi, losses=carom.KelvinVoigt(restitution=0.8))
         lossy.at(lossy.duration * rng.uniform(0.0, 1.0, 4))
 
 

@@ -14,11 +14,11 @@ from scipy.integrate import cumulative_simpson
 
 import carom
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.normal import Loss
+from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.panels.record import NUMBERS, PSI_OUT, new_record
+from carom.dimensionless.lossy.panels.work import new_work
 from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds, outgoing
-from carom.dimensionless.lossy.record import NUMBERS, PSI_OUT, new_record
 from carom.dimensionless.lossy.solution import LossySolution, solve_with_losses
-from carom.dimensionless.lossy.work import new_work
 from carom.dimensionless.twins.marching import march_history
 from carom.dimensionless.twins.marching_motion import kelvin_voigt
 
@@ -89,7 +89,7 @@ def test_vanishing_losses_give_the_elastic_impact() -> None:
 def test_lawful_corners_are_solved(psi: float, chi: float) -> None:
     """Round numbers are where fronts, signs and ends meet; no loss is where they all do."""
     expected = carom.rebound(psi, chi)
-    assert carom.rebound(psi, chi, normal=carom.KelvinVoigt(restitution=1.0)) == pytest.approx(
+    assert carom.rebound(psi, chi, losses=carom.KelvinVoigt(restitution=1.0)) == pytest.approx(
         expected, abs=PROMISED
     )
     tiny = solved(*(np.full(4, x) for x in (psi, chi)), Loss.VISCOUS, np.logspace(-14, -8, 4))

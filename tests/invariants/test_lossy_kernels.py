@@ -10,13 +10,12 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.lossy.collocation import INTEGRALS, NODES
-from carom.dimensionless.lossy.memory import RADIUS
-from carom.dimensionless.lossy.normal import Loss
-from carom.dimensionless.lossy.panels import Panel, back_substitute, factorise
+from carom.dimensionless.lossy.panels.collocation import INTEGRALS, NODES
+from carom.dimensionless.lossy.panels.newton import Panel, back_substitute, factorise
+from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.panels.work import RADIUS, new_work
 from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds
 from carom.dimensionless.lossy.solution import solve_with_losses
-from carom.dimensionless.lossy.work import new_work
 from carom.dimensionless.numerics.kernels import plain
 
 IMPACTS = (
@@ -118,7 +117,7 @@ def test_rebound_solve_and_impact_are_one_solver() -> None:
     pair = carom.Pair(
         carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), 0.3
     )
-    hit = carom.impact(pair, normal_speed=1.5, tangential_speed=1.0, normal=law)
-    found = carom.rebound(hit.psi_in, pair.chi, normal=law)
-    assert found == carom.solve(hit.psi_in, pair.chi, normal=law).psi_out
+    hit = carom.impact(pair, normal_speed=1.5, tangential_speed=1.0, losses=law)
+    found = carom.rebound(hit.psi_in, pair.chi, losses=law)
+    assert found == carom.solve(hit.psi_in, pair.chi, losses=law).psi_out
     assert hit.psi_out == found

@@ -22,18 +22,18 @@ ACCURACY = 1e-6
 
 @pytest.fixture(scope="module")
 def law():
-    return carom.ReboundLaw(PAIR.chi, normal=LOSSES)
+    return carom.ReboundLaw(PAIR.chi, losses=LOSSES)
 
 
 def relative_error(law, psi):
-    exact = carom.rebound(psi, law.chi, normal=carom.KelvinVoigt(restitution=law.restitution))
+    exact = carom.rebound(psi, law.chi, losses=carom.KelvinVoigt(restitution=law.restitution))
     return np.max(np.abs(law(psi) - exact) / np.maximum(1.0, np.abs(psi)))
 
 
 @pytest.mark.parametrize(("chi", "e"), [(0.3, 0.9), (1.44, 0.5), (1.44, 0.999), (2.2, 0.05)])
 def test_equals_the_solver(chi, e):
     """Within 1e-6 max(1, |psi|) of `rebound`, of either sign, at edges, in the tail, near zero."""
-    law = carom.ReboundLaw(chi, normal=carom.KelvinVoigt(restitution=e))
+    law = carom.ReboundLaw(chi, losses=carom.KelvinVoigt(restitution=e))
     rng = np.random.default_rng(4)
     spread = rng.uniform(0.0, 4.0 * chi * (1.0 + e), 250)
     psi = np.concatenate([spread, 10.0 ** rng.uniform(-7.0, 9.0, 100), law.edges])
@@ -85,7 +85,7 @@ def test_never_gains_energy_is_odd_and_keeps_coulombs_bound(law):
 @pytest.mark.parametrize("slope", [-3.0, -0.4, 0.02, 0.3, 0.9, 20.0])
 def test_equals_an_impact_with_units(law, slope):
     """Rebound, tangential impulse, dissipation, duration are those of `impact`, rescaled."""
-    hit = carom.impact(PAIR, normal_speed=1.3, tangential_speed=1.3 * slope, normal=LOSSES)
+    hit = carom.impact(PAIR, normal_speed=1.3, tangential_speed=1.3 * slope, losses=LOSSES)
     psi, largest = hit.psi_in, PAIR.friction * 1.8 * PAIR.normal_mass * 1.3
     size = max(1.0, abs(psi))
     energy = 0.5 * PAIR.tangential_mass * hit.scales.tangential_speed**2
@@ -127,7 +127,7 @@ def test_collisions_are_impacts(law):
             continue
         along = old - (old @ n) * n
         hit = carom.impact(
-            PAIR, normal_speed=old @ n, tangential_speed=np.linalg.norm(along), normal=LOSSES
+            PAIR, normal_speed=old @ n, tangential_speed=np.linalg.norm(along), losses=LOSSES
         )
         want = hit.contact_velocity_out * along / np.linalg.norm(along) - 0.8 * (old @ n) * n
         size = PAIR.friction / PAIR.kappa * (old @ n) * max(1.0, hit.psi_in)
@@ -177,7 +177,7 @@ def test_survives_storage_to_the_bit_and_old_tables_load(law):
 def test_restitution_one_is_the_elastic_law():
     """To the bit."""
     psi = np.linspace(-9.0, 9.0, 999)
-    lossless = carom.ReboundLaw(1.44, normal=carom.KelvinVoigt(restitution=1.0))
+    lossless = carom.ReboundLaw(1.44, losses=carom.KelvinVoigt(restitution=1.0))
     assert np.array_equal(lossless(psi), carom.ReboundLaw(1.44)(psi))
 
 
@@ -194,7 +194,7 @@ def test_restitution_one_is_the_elastic_law():
 def test_refuses_losses_that_have_no_table(normal):
     """One line that names normal."""
     with pytest.raises(carom.InputError, match=r"^normal: [^\n]+$"):
-        carom.ReboundLaw(1.44, normal=normal)
+        carom.ReboundLaw(1.44, losses=normal)
 
 
 def test_c_header_is_the_law(law, tmp_path):
@@ -231,12 +231,12 @@ def test_curve_of_impacts_with_losses(capsys, tmp_path, monkeypatch):
     rows = json.loads(capsys.readouterr().out)
     for row in rows:
         assert "borders" not in row
-        want = carom.rebound(row["psi_in"], row["chi"], normal=carom.KelvinVoigt(restitution=0.9))
+        want = carom.rebound(row["psi_in"], row["chi"], losses=carom.KelvinVoigt(restitution=0.9))
         np.testing.assert_allclose(row["psi_out"], want, rtol=0.0, atol=1e-12)
     assert (tmp_path / "curve.png").stat().st_size > 1000
     from carom.plots import plot_curve
 
-    axis = plot_curve(carom.curve(1.44, np.linspace(0.0, 6.0, 9), normal=LOSSES)).axes[0]
+    axis = plot_curve(carom.curve(1.44, np.linspace(0.0, 6.0, 9), losses=LOSSES)).axes[0]
     assert [text.get_text() for text in axis.get_legend().get_texts()] == [r"$\chi$ = 1.44"]
     assert main(["curve", "--chi", "1.44", "--restitution", "1.5"]) == 2
     assert capsys.readouterr().err.startswith("carom: restitution: '1.5' cannot be used")

@@ -9,7 +9,7 @@ import pytest
 
 import carom
 from carom import InputError
-from carom.bodies.cases import motion_of, normal_of, pair_of
+from carom.bodies.cases import losses_of, motion_of, pair_of
 from carom.sweeps import sweep
 from carom.sweeps.designs import Grid, LatinHypercube
 from carom.sweeps.points import PointStatus
@@ -50,7 +50,7 @@ def solved_alone(case, point):
         for key in path:
             table = table.setdefault(key, {})
         table[last] = value
-    return carom.impact(pair_of(full), **motion_of(full), normal=normal_of(full))
+    return carom.impact(pair_of(full), **motion_of(full), losses=losses_of(full))
 
 
 def require_same(problem, found, case, at, point):

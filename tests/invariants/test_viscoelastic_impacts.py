@@ -9,16 +9,24 @@ import numpy as np
 import pytest
 
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.stages import viscous_loss
-from carom.dimensionless.viscoelastic.impacts import viscoelastic_rebounds
+from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.panels.stages import viscous_loss
+from carom.dimensionless.lossy.rebounds import lossy_rebounds
 
 LOSSES = (0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 0.999, 0.9999)
 PROGRAM = """
 import json, sys
 import numpy as np
-from carom.dimensionless.viscoelastic.impacts import viscoelastic_rebounds
-print(json.dumps(viscoelastic_rebounds(*np.array(json.load(sys.stdin)))[0].tolist()))
+from carom.dimensionless.lossy.rebounds import lossy_rebounds
+psi, chi, alpha = np.array(json.load(sys.stdin))
+print(json.dumps(lossy_rebounds(psi, chi, 1, alpha).psi_out.tolist()))
 """
+
+
+def viscoelastic_rebounds(psi, chi, alpha, **more):
+    """Return psi_2 and status."""
+    found = lossy_rebounds(psi, chi, Loss.VISCOUS, alpha, **more)
+    return found.psi_out, found.status
 
 
 def impacts(count, seed):

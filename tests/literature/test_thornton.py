@@ -5,10 +5,10 @@ import pytest
 from numpy.typing import NDArray
 
 import carom
-from carom.dimensionless.lossy.normal import Loss
+from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.panels.stages import restitution
+from carom.dimensionless.lossy.panels.work import new_work
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.lossy.stages import restitution
-from carom.dimensionless.lossy.work import new_work
 
 Array = NDArray[np.float64]
 
@@ -90,6 +90,6 @@ def test_impacts_with_units() -> None:
     )
     law = carom.ElasticPlastic(yield_velocity="0.1 m/s")
     for speed in (0.05, 0.2, 1.0, 8.0):
-        hit = carom.impact(pair, normal_speed=speed, tangential_speed=0.3 * speed, normal=law)
+        hit = carom.impact(pair, normal_speed=speed, tangential_speed=0.3 * speed, losses=law)
         wanted = 1.0 if speed < 0.1 else closed_form(np.array([0.1 / speed]))[0]
         assert hit.normal_restitution == pytest.approx(wanted, abs=1e-9)

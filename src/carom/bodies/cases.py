@@ -18,7 +18,7 @@ from carom.quantities.refusals import InputError, clipped, hint, refusal
 from carom.quantities.units import finite, finite_or_text, not_negative, number, positive
 
 if TYPE_CHECKING:
-    from carom.bodies.losses import NormalLaw
+    from carom.bodies.losses import LossLaw
 
 Case = dict[str, Any]
 
@@ -150,13 +150,13 @@ def motion_of(case: Mapping[str, Any]) -> dict[str, Any]:
     return {name: case[name] for name in MOTION if case.get(name) is not None}
 
 
-def normal_of(case: Mapping[str, Any]) -> "NormalLaw | None":
+def losses_of(case: Mapping[str, Any]) -> "LossLaw | None":
     """Return what the normal motion of a case loses energy to, None where it does not.
 
     Raises InputError if it is given in two ways, or out of range.
 
-    >>> from carom.bodies.cases import normal_of
-    >>> normal_of({"restitution": 0.9}), normal_of({"speed": "2 m/s"})
+    >>> from carom.bodies.cases import losses_of
+    >>> losses_of({"restitution": 0.9}), losses_of({"speed": "2 m/s"})
     (KelvinVoigt(restitution=0.9, loss_time=None), None)
     """
     given = [name for name in LOSSES if case.get(name) is not None]
@@ -165,7 +165,7 @@ def normal_of(case: Mapping[str, Any]) -> "NormalLaw | None":
     return law_of(given[0], read_loss(given[0], case[given[0]])) if given else None
 
 
-def law_of(name: str, value: Any) -> "NormalLaw":
+def law_of(name: str, value: Any) -> "LossLaw":
     """Return the law of a loss; its value is a number, an array, or None for the strengths."""
     from carom.bodies.losses import ElasticPlastic, KelvinVoigt  # compiled code: not for all cases
 

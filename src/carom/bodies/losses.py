@@ -9,8 +9,8 @@ from typing import Any, Protocol
 import numpy as np
 
 from carom.bodies.pairs import Pair
-from carom.dimensionless.lossy.normal import Loss
-from carom.dimensionless.lossy.stages import viscous_loss
+from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.panels.stages import viscous_loss
 from carom.io.citations import VISCOUS
 from carom.quantities.arrays import numbers
 from carom.quantities.elementwise import sqrt
@@ -24,8 +24,8 @@ LIMIT_PRESSURE = 1.6  # in yield strengths: where a sphere first yields (Johnson
 _viscous_loss: Callable[[float], float] = lru_cache(maxsize=4096)(viscous_loss)
 
 
-class NormalLaw(Protocol):
-    """What an impact needs of a law of normal loss."""
+class LossLaw(Protocol):
+    """What an impact needs of a law of losses."""
 
     def loss(self, pair: Pair, normal_speed: Any) -> tuple[int, Any]:
         """Return which loss it is, and its dimensionless parameter, a number or an array."""
@@ -73,7 +73,7 @@ class KelvinVoigt:
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> law = carom.KelvinVoigt(restitution=0.9)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg", normal=law)
+    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg", losses=law)
     >>> round(hit.normal_restitution, 10), round(hit.contact_restitution, 4)
     (0.9, -0.4639)
     """
@@ -101,9 +101,9 @@ class KelvinVoigt:
     def scale_free(self) -> tuple[int, float]:
         """Return the loss and alpha; InputError for a loss time, or many restitutions."""
         if self.restitution is None:
-            raise refusal("normal", self, "give a restitution, which needs no bodies and speed")
+            raise refusal("losses", self, "give a restitution, which needs no bodies and speed")
         if np.ndim(self.restitution):
-            raise refusal("normal", self, "give one restitution; call once for each, or use sweep")
+            raise refusal("losses", self, "give one restitution; call once for each, or use sweep")
         return Loss.VISCOUS.value, float(_alphas(self.restitution))
 
     @property
@@ -148,7 +148,7 @@ class ElasticPlastic:
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> law = carom.ElasticPlastic(yield_velocity="0.1 m/s")
-    >>> hit = carom.impact(pair, normal_speed=1.0, tangential_speed=0.5, normal=law)
+    >>> hit = carom.impact(pair, normal_speed=1.0, tangential_speed=0.5, losses=law)
     >>> round(hit.normal_restitution, 6)
     0.658558
     """
@@ -169,7 +169,7 @@ class ElasticPlastic:
 
     def scale_free(self) -> tuple[int, float]:
         """Raise InputError: the loss depends on the speed."""
-        raise refusal("normal", self, "it depends on the speed; use impact, or KelvinVoigt")
+        raise refusal("losses", self, "it depends on the speed; use impact, or KelvinVoigt")
 
     @property
     def source(self) -> str:

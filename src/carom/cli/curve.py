@@ -66,7 +66,7 @@ def curve_command(
     if not first < last:
         raise refusal("to", last, f"must be above --from, {first:g}")
     psi = np.linspace(first, last, whole("points", points, 2, MOST))
-    dataset = carom.curve(values, psi, normal=_normal(restitution))
+    dataset = carom.curve(values, psi, losses=_losses(restitution))
     if output is not None:
         stored(carom.save(dataset, output))
     if plot is not None:
@@ -74,7 +74,7 @@ def curve_command(
     typer.echo(json.dumps(_record(dataset), indent=2) if as_json else _table(dataset))
 
 
-def _normal(restitution: str | None) -> "KelvinVoigt | None":
+def _losses(restitution: str | None) -> "KelvinVoigt | None":
     return None if restitution is None else carom.KelvinVoigt(restitution=restitution)
 
 
@@ -95,8 +95,8 @@ def _export(
     if unused is not None:
         raise InputError(f"{unused}: is of no use with --export; leave one of them out")
     target = None if output is None else checked_output(output, HEADERS)
-    normal = _normal(restitution)
-    text = c_header([carom.ReboundLaw(positive("chi", value), normal=normal) for value in chi])
+    losses = _losses(restitution)
+    text = c_header([carom.ReboundLaw(positive("chi", value), losses=losses) for value in chi])
     if target is None:
         typer.echo(text, nl=False)
         return

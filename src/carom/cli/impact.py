@@ -105,7 +105,7 @@ def impact_command(
 
     A case file with figures: carom impact examples/steel_ball.toml --plot hit.png --animate hit.gif
     """
-    from carom.bodies.cases import motion_of, normal_of, pair_of, read_case
+    from carom.bodies.cases import losses_of, motion_of, pair_of, read_case
 
     flags = {
         "first.radius": radius,
@@ -123,10 +123,10 @@ def impact_command(
     content = merged(read_case(case, losses=True) if case else {}, flags)
     tell_sweep(content)
     files = outputs(content)
-    normal = normal_of(content)
-    _check_outputs(files, elastic=normal is None)
+    losses = losses_of(content)
+    _check_outputs(files, elastic=losses is None)
     solver = _method(method, elements, steps)
-    hit = carom.impact(pair_of(content), **motion_of(content), normal=normal, method=solver)
+    hit = carom.impact(pair_of(content), **motion_of(content), losses=losses, method=solver)
     paths = list(_store(hit, files))
     typer.echo(json.dumps(hit.to_dict(), indent=2) if as_json else str(hit))
     for path in paths:

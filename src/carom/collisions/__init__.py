@@ -58,7 +58,7 @@ def collide(
     V_t = V - V_n n: J = (1 + e) m_n V_n n + m_t (1 + beta) V_t, v_1' = v_1 - J/M_1,
     v_2' = v_2 + J/M_2, omega_i' = omega_i - (R_i/I_i) n x J; e and beta = -V_t'/V_t are the law's,
     by default e = 1 and the exact rebound to 1e-9 (Maw, Barber & Fawcett 1976; for rigid rough
-    spheres Walton 1993). With losses: law=ReboundLaw(pair.chi, normal=KelvinVoigt(restitution=e)),
+    spheres Walton 1993). With losses: law=ReboundLaw(pair.chi, losses=KelvinVoigt(restitution=e)),
     made once, in a second or two.
 
     Parameters

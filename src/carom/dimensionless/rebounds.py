@@ -11,10 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.normal import NormalLoss, scale_free
+from carom.dimensionless.lossy.panels.normal import ScaleFreeLaw, scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.arrays import Array
 from carom.quantities.arrays import along_the_same, pure_numbers, together
+from carom.quantities.keywords import renamed_keyword
 from carom.quantities.refusals import flag
 from carom.quantities.units import threads_or_none
 
@@ -26,7 +27,7 @@ def rebound(
     *,
     threads: int | None = ...,
     return_status: Literal[False] = ...,
-    normal: NormalLoss | None = ...,
+    losses: ScaleFreeLaw | None = ...,
 ) -> Any: ...
 
 
@@ -37,17 +38,18 @@ def rebound(
     *,
     threads: int | None = ...,
     return_status: Literal[True],
-    normal: NormalLoss | None = ...,
+    losses: ScaleFreeLaw | None = ...,
 ) -> tuple[Any, Any]: ...
 
 
+@renamed_keyword("normal", "losses")
 def rebound(
     psi: ArrayLike,
     chi: ArrayLike,
     *,
     threads: int | None = None,
     return_status: bool = False,
-    normal: NormalLoss | None = None,
+    losses: ScaleFreeLaw | None = None,
 ) -> Any:
     """Return the tangential velocity of the contact point after an oblique impact.
 
@@ -66,8 +68,8 @@ def rebound(
         How many threads to use, all cores by default. The result does not depend on it.
     return_status : bool
         Return also an array of `Status` values, one per impact.
-    normal : KelvinVoigt or ElasticPlastic, optional
-        What the normal motion loses energy to, free of units; by default nothing.
+    losses : KelvinVoigt or ElasticPlastic, optional
+        What the impact loses energy to, free of units; by default nothing.
 
     Returns
     -------
@@ -79,7 +81,7 @@ def rebound(
     Raises
     ------
     InputError
-        If an argument is not a pure number at all, the shapes do not fit, `normal` is no law of
+        If an argument is not a pure number at all, the shapes do not fit, `losses` is no law of
         loss or depends on the speed, or `threads` is below 1.
 
     Examples
@@ -89,7 +91,7 @@ def rebound(
     0.0471310838
     >>> carom.rebound([0.5, 1.5, 3.5, 6.0], 1.44).round(6)
     array([ 0.047131, -0.429967, -1.477247,  0.24    ])
-    >>> carom.rebound([0.5, 6.0], 1.44, normal=carom.KelvinVoigt(restitution=0.9)).round(6)
+    >>> carom.rebound([0.5, 6.0], 1.44, losses=carom.KelvinVoigt(restitution=0.9)).round(6)
     array([-0.000683,  0.529468])
     """
     threads, return_status = threads_or_none(threads), flag("return_status", return_status)
@@ -97,10 +99,10 @@ def rebound(
     given = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
     shape = together(given)
     flat_psi, flat_chi = (np.array(np.broadcast_to(x, shape)).ravel() for x in given.values())
-    if normal is None:
+    if losses is None:
         psi_out, status, _ = solved(flat_psi, flat_chi, threads)
     else:
-        loss, parameter = scale_free(normal)
+        loss, parameter = scale_free(losses)
         parameters = np.full(flat_psi.size, parameter)
         found = lossy_rebounds(flat_psi, flat_chi, loss, parameters, threads)
         psi_out, status = found.psi_out, found.status

@@ -13,13 +13,14 @@ from carom.dimensionless.elastic.motion import PSI
 from carom.dimensionless.elastic.phases import Cause, Kind, Status, new_work, run_phases
 from carom.dimensionless.elastic.record import CAUSE, KIND, KIND_SIGN, Record, new_record, trimmed
 from carom.dimensionless.fields import surface
-from carom.dimensionless.lossy.normal import NormalLoss, scale_free
+from carom.dimensionless.lossy.panels.normal import ScaleFreeLaw, scale_free
 from carom.dimensionless.lossy.rebounds import is_elastic
 from carom.dimensionless.lossy.solution import LossySolution, solve_with_losses
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.states import KIND_NAMES, History, Phase, SlipAngle, Trajectory, now_at
 from carom.quantities.arrays import pure_numbers
+from carom.quantities.keywords import renamed_keyword
 from carom.quantities.refusals import refusal
 from carom.quantities.units import pure_number
 
@@ -71,6 +72,7 @@ class Solution(Trajectory):
     max_penetration: ClassVar[float] = 1.0
     max_force: ClassVar[float] = 1.0
     max_radius: ClassVar[float] = 1.0
+    shear_lost: ClassVar[float] = 0.0
 
     @property
     def scale(self) -> float:
@@ -94,8 +96,8 @@ class Solution(Trajectory):
         -------
         History
             Arrays of shape (n,) in the units of `Solution`: time, penetration, speed, psi,
-            displacement, force, stick_radius, contact_radius, stored, dissipated, normal_force,
-            normal_stored, normal_lost.
+            displacement, force, stick_radius, contact_radius, stored, dissipated, shear_lost,
+            normal_force, normal_stored, normal_lost.
 
         Raises
         ------
@@ -123,6 +125,7 @@ class Solution(Trajectory):
             contact_radius=rows[:, dense.AT_CONTACT],
             stored=scale**2 * rows[:, dense.AT_STORED],
             dissipated=scale**2 * rows[:, dense.AT_DISSIPATED],
+            shear_lost=np.zeros(wanted.size),
             normal_force=rows[:, dense.AT_D] ** 1.5,
             normal_stored=rows[:, dense.AT_D] ** 2.5,
             normal_lost=np.zeros(wanted.size),
@@ -332,21 +335,24 @@ class Solution(Trajectory):
 
 
 def solve_with(psi: float, chi: float, loss: int, parameter: float) -> Solution | LossySolution:
-    """Solve one impact with a loss in the normal motion, as elastic if that is nothing."""
+    """Solve one impact with losses, as elastic if that is nothing."""
     if is_elastic(loss, parameter):
         return solve(psi, chi)
     return solve_with_losses(psi, chi, loss, parameter)
 
 
 @overload
-def solve(psi: float, chi: float, *, normal: None = ...) -> Solution: ...
+def solve(psi: float, chi: float, *, losses: None = ...) -> Solution: ...
 
 
 @overload
-def solve(psi: float, chi: float, *, normal: NormalLoss) -> Solution | LossySolution: ...
+def solve(psi: float, chi: float, *, losses: ScaleFreeLaw) -> Solution | LossySolution: ...
 
 
-def solve(psi: float, chi: float, *, normal: NormalLoss | None = None) -> Solution | LossySolution:
+@renamed_keyword("normal", "losses")
+def solve(
+    psi: float, chi: float, *, losses: ScaleFreeLaw | None = None
+) -> Solution | LossySolution:
     """Solve one oblique impact exactly, phase by phase.
 
     psi' = -(15/4) chi Q, with Q' that of the phase of the moment: stick (Barber 1979, (15)), a slip
@@ -358,15 +364,14 @@ def solve(psi: float, chi: float, *, normal: NormalLoss | None = None) -> Soluti
         psi_1 = kappa V_x / (mu V_1), any finite number.
     chi : float
         chi = (kappa/2) (m_n/m_t), positive.
-    normal : KelvinVoigt or ElasticPlastic, optional
-        What the normal motion loses energy to, free of units; by default nothing.
+    losses : KelvinVoigt or ElasticPlastic, optional
+        What the impact loses energy to, free of units; by default nothing.
 
     Returns
     -------
     Solution or LossySolution
         `status`, psi_out where that is SOLVED, and `phases`, times in d_max/V_1; `at`, `history`
-        and what else it has tell the state at any time. LossySolution where the normal motion loses
-        energy.
+        and what else it has tell the state at any time. LossySolution where energy is lost.
 
     Raises
     ------
@@ -384,8 +389,8 @@ def solve(psi: float, chi: float, *, normal: NormalLoss | None = None) -> Soluti
     gross slip -1 until 2.9433: separation
     """
     psi, chi = pure_number("psi", psi, ONE), pure_number("chi", chi, ONE)
-    if normal is not None:
-        return solve_with(psi, chi, *scale_free(normal))
+    if losses is not None:
+        return solve_with(psi, chi, *scale_free(losses))
     work, record = new_work(), new_record(True)
     recorded = max(abs(psi), LINEAR) if psi != 0.0 else 0.0
     status = Status(run_phases(recorded, chi, TOLERANCE, work, record))

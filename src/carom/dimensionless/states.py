@@ -50,6 +50,7 @@ class History:
     contact_radius: Array
     stored: Array
     dissipated: Array
+    shear_lost: Array
     normal_force: Array
     normal_stored: Array
     normal_lost: Array

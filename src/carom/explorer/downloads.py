@@ -93,6 +93,7 @@ MEANINGS = {  # of the columns of `Solution.history`
     "dissipated": "work of friction, as above",
     "normal_force": "F_z/P_max",
     "normal_stored": "normal elastic energy, in that of the impact",
+    "shear_lost": "what viscosity took in shear, in psi^2/2",
     "normal_lost": "what the normal motion lost, as above",
 }
 ENTRY = 1.8  # mm that a law adds to the legend of the rebound curve

@@ -48,6 +48,7 @@ class GridHistory(NamedTuple):
     contact_radius: Field
     stored: Field
     dissipated: Field
+    shear_lost: Field
     normal_force: Field
     normal_stored: Field
     normal_lost: Field
@@ -110,6 +111,11 @@ class HalfspaceSolution:
         return float(self.column("contact_radius").max())
 
     @property
+    def shear_lost(self) -> float:
+        """Energy lost to viscosity in shear: none, the bodies are elastic."""
+        return 0.0
+
+    @property
     def energy_error(self) -> float:
         """Largest change of the sum of all energies, as a share of those before the impact."""
         response = tangential_response(self.chi, self.materials.kappa)
@@ -162,6 +168,7 @@ class HalfspaceSolution:
             self.column("contact_radius"),
             energy * self.column("tangential_stored"),
             energy * np.cumsum(self.column("lost")),
+            np.zeros(len(self.ledger)),
             self.column("normal_force"),
             2.0 * NORMAL * self.column("normal_stored"),
             np.zeros(len(self.ledger)),

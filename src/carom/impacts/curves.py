@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.normal import NormalLoss
+from carom.dimensionless.lossy.panels.normal import ScaleFreeLaw
 from carom.dimensionless.rebounds import rebound, regime_borders
 from carom.dimensionless.solution import solve
 from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.quantities.arrays import Array, finite_line, positive_line
-from carom.quantities.keywords import known_keywords
+from carom.quantities.keywords import known_keywords, renamed_keyword
 from carom.quantities.refusals import refusal
 
 if TYPE_CHECKING:
@@ -62,9 +62,10 @@ def borders(chi: float) -> tuple[float, float, float]:
     return first, second, third
 
 
+@renamed_keyword("normal", "losses")
 @known_keywords
 def curve(
-    chi: float | Sequence[float], psi: ArrayLike, *, normal: NormalLoss | None = None
+    chi: float | Sequence[float], psi: ArrayLike, *, losses: ScaleFreeLaw | None = None
 ) -> xr.Dataset:
     """Return psi_2 and restitutions against psi_1, one row per chi, as a labelled dataset.
 
@@ -78,8 +79,8 @@ def curve(
         Positive; one row for each.
     psi : array_like
         psi_1.
-    normal : KelvinVoigt, optional
-        What the normal motion loses energy to: a restitution is given. The `border` of regimes,
+    losses : KelvinVoigt, optional
+        What the impact loses energy to: a restitution is given. The `border` of regimes,
         1, 2 chi, 4 chi - 1, is left out then, as it is that of elastic bodies.
 
     Returns
@@ -100,15 +101,15 @@ def curve(
     >>> import carom
     >>> carom.curve(1.44, [0.0, 1.0, 6.0]).psi_out.values.round(4)
     array([[ 0.    , -0.0612,  0.24  ]])
-    >>> carom.curve(1.44, [6.0], normal=carom.KelvinVoigt(restitution=0.9)).psi_out.values.round(4)
+    >>> carom.curve(1.44, [6.0], losses=carom.KelvinVoigt(restitution=0.9)).psi_out.values.round(4)
     array([[0.5295]])
     """
     chis, incoming = _axes(chi, psi)
     rows = chis[:, np.newaxis]
     nonzero = np.where(incoming == 0.0, 1e-12, incoming)
-    outgoing = rebound(nonzero, rows, normal=normal)
+    outgoing = rebound(nonzero, rows, losses=losses)
     contact = outgoing / nonzero
-    wide, elastic = ("chi", "psi_in"), normal is None
+    wide, elastic = ("chi", "psi_in"), losses is None
     return labelled_dataset(
         {
             "psi_out": (wide, np.where(incoming == 0.0, 0.0, outgoing)),
@@ -125,7 +126,7 @@ def curve(
             "psi_in": incoming,
             **({"regime_border": ("regime_border", list(REGIMES[1:]), {})} if elastic else {}),
         },
-        {"title": "rebound curve"} | ({} if elastic else {"normal": repr(normal)}),
+        {"title": "rebound curve"} | ({} if elastic else {"losses": repr(losses)}),
     )
 
 

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.bodies.kinematics import Tangential
-from carom.bodies.losses import NormalLaw
+from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Pair
 from carom.contacts.contact import Contact, contact_in_impact
 from carom.contacts.in_contact import InContact
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.normal import checked_law
+from carom.dimensionless.lossy.panels.normal import checked_law
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution, solve, solve_with
 from carom.dimensionless.states import SlipAngle
@@ -121,7 +121,7 @@ class Impact(ImpactResult, InContact):
         >>> [line for line in hit.cite().splitlines() if line.startswith("@")]
         ['@software{carom,', '@article{barber1979,', '@article{maw1976,']
         """
-        source = () if self.normal is None else (self.normal.source,)
+        source = () if self.losses is None else (self.losses.source,)
         return bibtex(*IMPACT, *source)
 
     def _phase_columns(self) -> dict[str, list[float]]:
@@ -134,30 +134,30 @@ class Impact(ImpactResult, InContact):
 
 
 def solve_exactly(
-    pair: Pair, normal_speed: float, motion: Tangential, normal: NormalLaw | None
+    pair: Pair, normal_speed: float, motion: Tangential, losses: LossLaw | None
 ) -> Impact:
     """Return an impact solved within the theory; see `carom.impact`."""
     psi = pair.psi(motion.contact_velocity(pair), normal_speed)
-    solution = _solution(pair, normal_speed, psi if isfinite(psi) else 0.0, normal)
-    return Impact(pair, normal_speed, *motion, solution, normal)
+    solution = _solution(pair, normal_speed, psi if isfinite(psi) else 0.0, losses)
+    return Impact(pair, normal_speed, *motion, solution, losses)
 
 
 def _solution(
-    pair: Pair, normal_speed: float, psi: float, normal: NormalLaw | None
+    pair: Pair, normal_speed: float, psi: float, losses: LossLaw | None
 ) -> Solution | LossySolution:
     given = pair, normal_speed, psi
-    found = solve(psi, pair.chi) if normal is None else _with_losses(*given, normal)
+    found = solve(psi, pair.chi) if losses is None else _with_losses(*given, losses)
     if found.status is not Status.SOLVED:
-        name, value = ("chi", pair.chi) if normal is None else ("normal", normal)
+        name, value = ("chi", pair.chi) if losses is None else ("losses", losses)
         what = f"the impact at psi_1 = {psi:g}, chi = {pair.chi:g} is {found.status.message}"
         raise refusal(name, value, what)
     return found
 
 
 def _with_losses(
-    pair: Pair, normal_speed: float, psi: float, normal: NormalLaw
+    pair: Pair, normal_speed: float, psi: float, losses: LossLaw
 ) -> Solution | LossySolution:
-    loss, parameter = checked_law(normal, "loss")(pair, normal_speed)
+    loss, parameter = checked_law(losses, "loss")(pair, normal_speed)
     if np.ndim(parameter):
-        raise refusal("normal", normal, "an impact takes one number; carom.sweep takes many")
+        raise refusal("losses", losses, "an impact takes one number; carom.sweep takes many")
     return solve_with(psi, pair.chi, loss, float(parameter))

@@ -11,7 +11,7 @@ RESULTS = (
     *("duration", "max_penetration", "max_force", "max_radius", "max_pressure"),
     *("rebound_speed", "rebound_angle", "tangential_speed_out", "spin_out", "spin2_out"),
     *("normal_restitution", "tangential_restitution", "contact_restitution"),
-    *("dissipated_energy", "lost_energy"),
+    *("dissipated_energy", "lost_energy", "shear_lost_energy"),
 )
 PAIR = (
     *("friction", "chi", "kappa", "dundurs_beta"),
@@ -35,6 +35,8 @@ class Solved(Protocol):
     def max_force(self) -> float: ...
     @property
     def max_radius(self) -> float: ...
+    @property
+    def shear_lost(self) -> float: ...
 
 
 class InTime(Solved, Protocol):
@@ -53,9 +55,9 @@ def history_columns(
     """Return the impact at n times by name of column, in SI units.
 
     In the frame of the centre of mass the kinetic energies of the normal motion, of the tangential
-    motion of the centres and of the spins, both elastic energies and the work of friction add up to
-    a constant. Of the tangential ones friction can act on that of the contact point alone,
-    (1/2) m_t V_x^2; the rest stays what it was.
+    motion of the centres and of the spins, both elastic energies, the work of friction and what
+    viscosity has taken add up to a constant. Of the tangential ones friction can act on that of the
+    contact point alone, (1/2) m_t V_x^2; the rest stays what it was.
     """
     h, scales = solution.history(n), pair.scales(normal_speed)
     slides_freely = not isfinite(pair.psi(start.contact_velocity(pair), normal_speed))
@@ -84,5 +86,6 @@ def history_columns(
         "normal_elastic_energy": h.normal_stored * scales.energy,
         "normal_loss": h.normal_lost * scales.energy,
         "tangential_elastic_energy": h.stored * energy_unit,
+        "shear_loss": h.shear_lost * energy_unit,
         "frictional_work": h.dissipated * energy_unit,
     }

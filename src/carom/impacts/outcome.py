@@ -5,7 +5,7 @@ from functools import cached_property
 from typing import Any
 
 from carom.bodies.kinematics import Kinematics, Tangential
-from carom.bodies.losses import NormalLaw
+from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Scales
 from carom.bodies.shapes import describe
 from carom.impacts.history import PAIR, RESULTS, Solved
@@ -24,7 +24,7 @@ class Outcome(Kinematics):
     spin: float
     spin2: float
     solution: Solved = field(repr=False)
-    normal: NormalLaw | None = None
+    losses: LossLaw | None = None
 
     @property
     def _before(self) -> Tangential:
@@ -55,7 +55,14 @@ class Outcome(Kinematics):
     def dissipated_energy(self) -> float:
         """Energy lost to friction, in J."""
         before, after = self.contact_velocity, self.contact_velocity_out
-        return 0.5 * self.pair.tangential_mass * (before - after) * (before + after)
+        lost = 0.5 * self.pair.tangential_mass * (before - after) * (before + after)
+        return lost - self.shear_lost_energy
+
+    @property
+    def shear_lost_energy(self) -> float:
+        """Energy lost to viscosity in shear, in J."""
+        unit = self.pair.tangential_mass * self.scales.tangential_speed**2
+        return self.solution.shear_lost * unit
 
     @property
     def lost_energy(self) -> float:
@@ -107,5 +114,5 @@ class Outcome(Kinematics):
             "friction": self.pair.friction,
             "normal_speed": self.normal_speed,
             **self._before._asdict(),
-            **({} if self.normal is None else {"normal": self.normal.describe()}),
+            **({} if self.losses is None else {"losses": self.losses.describe()}),
         }

@@ -5,14 +5,14 @@ from __future__ import annotations
 from math import degrees, isnan
 from typing import Any, Protocol
 
-from carom.bodies.losses import NormalLaw
+from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Pair
 from carom.dimensionless.states import Phase, SlipAngle
 from carom.impacts.history import RESULTS
 from carom.io.labels import MARKS, Validity
 from carom.quantities.glossary import GLOSSARY
 
-OF_LOSSES = ("normal_restitution", "lost_energy")  # 1 and 0 without
+OF_LOSSES = ("normal_restitution", "lost_energy", "shear_lost_energy")  # 1 and 0 without
 NOTES = {
     "exact": "  * angle between slip and x in degrees, which the theory neglects",
     "lossy": "  * angle between slip and x, which is known without losses only",
@@ -26,7 +26,7 @@ class Reported(Protocol):
     @property
     def pair(self) -> Pair: ...
     @property
-    def normal(self) -> NormalLaw | None: ...
+    def losses(self) -> LossLaw | None: ...
     @property
     def phases(self) -> tuple[Phase, ...]: ...
     @property
@@ -40,8 +40,8 @@ class Reported(Protocol):
 def impact_text(hit: Reported) -> str:
     """Return the result as text to read."""
     scalars, method = hit.scalars(), hit.inputs().get("method", "exact")
-    note = NOTES["lossy" if hit.normal is not None else method]
-    loses = hit.normal is not None or (method != "exact" and hit.pair.dundurs_beta != 0.0)
+    note = NOTES["lossy" if hit.losses is not None else method]
+    loses = hit.losses is not None or (method != "exact" and hit.pair.dundurs_beta != 0.0)
     shown = ["chi", *(name for name in RESULTS if loses or name not in OF_LOSSES)]
     shown += [name for name in ("psi_out_error", "energy_error") if name in scalars]
     if len(hit.pair.moving) == 1:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal, TypedDict, Unpack, overload
 
 from carom.bodies.kinematics import Tangential, approach
-from carom.bodies.losses import NormalLaw
+from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Pair, checked_scales
 from carom.bodies.shapes import Sphere
 from carom.impacts.exact import Impact, solve_exactly
 from carom.io.progress import Progress
-from carom.quantities.keywords import known_keywords
+from carom.quantities.keywords import known_keywords, renamed_keyword
 from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, finite
 
@@ -33,7 +33,7 @@ class MotionInputs(TypedDict, total=False):
 def impact(
     pair: Pair,
     *,
-    normal: NormalLaw | None = None,
+    losses: LossLaw | None = None,
     method: Literal["exact"] = "exact",
     progress: Progress = None,
     **motion: Unpack[MotionInputs],
@@ -42,7 +42,7 @@ def impact(
 def impact(
     pair: Pair,
     *,
-    normal: None = None,
+    losses: None = None,
     method: Literal["halfspace"] | BoundaryElements,
     progress: Progress = None,
     **motion: Unpack[MotionInputs],
@@ -51,11 +51,12 @@ def impact(
 def impact(
     pair: Pair,
     *,
-    normal: NormalLaw | None = None,
+    losses: LossLaw | None = None,
     method: str | BoundaryElements,
     progress: Progress = None,
     **motion: Unpack[MotionInputs],
 ) -> Impact | HalfspaceImpact: ...
+@renamed_keyword("normal", "losses")
 @known_keywords
 def impact(
     pair: Pair,
@@ -66,7 +67,7 @@ def impact(
     tangential_speed: Value | None = None,
     spin: Value = 0.0,
     spin2: Value = 0.0,
-    normal: NormalLaw | None = None,
+    losses: LossLaw | None = None,
     method: str | BoundaryElements = "exact",
     progress: Progress = None,
 ) -> Impact | HalfspaceImpact:
@@ -89,8 +90,8 @@ def impact(
     spin, spin2 : float or str
         Spin of the first body, and of the second if it is a sphere, in rad/s; positive spin adds
         to the tangential speed of the contact point.
-    normal : KelvinVoigt or ElasticPlastic, optional
-        What the normal motion loses energy to; by default nothing, the bodies are elastic.
+    losses : KelvinVoigt or ElasticPlastic, optional
+        What the impact loses energy to; by default nothing, the bodies are elastic.
     method : "exact", "halfspace" or BoundaryElements
         The theory, in which slip is parallel to x and unlike materials do not couple; or the full
         contact in three dimensions, which assumes neither and takes ten seconds, a minute for
@@ -132,8 +133,8 @@ def impact(
     motion = Tangential(tangential, first_spin, second_spin)
     checked_scales(pair, approaching, motion.contact_velocity(pair))
     if isinstance(method, str) and method == "exact":
-        return solve_exactly(pair, approaching, motion, normal)
-    return _by_elements(pair, approaching, motion, method, normal, progress)
+        return solve_exactly(pair, approaching, motion, losses)
+    return _by_elements(pair, approaching, motion, method, losses, progress)
 
 
 def _by_elements(
@@ -141,7 +142,7 @@ def _by_elements(
     normal_speed: float,
     motion: Tangential,
     method: str | BoundaryElements,
-    normal: NormalLaw | None,
+    losses: LossLaw | None,
     progress: Progress,
 ) -> HalfspaceImpact:
     from carom.impacts.boundary_elements import BoundaryElements, solve_by_elements
@@ -151,6 +152,6 @@ def _by_elements(
     if not isinstance(elements, BoundaryElements):
         allowed = "must be 'exact', 'halfspace' or carom.BoundaryElements(elements=, steps=)"
         raise refusal("method", method, allowed)
-    if normal is not None:
-        raise refusal("normal", normal, "boundary elements are elastic; leave it or method out")
+    if losses is not None:
+        raise refusal("losses", losses, "boundary elements are elastic; leave it or method out")
     return solve_by_elements(pair, normal_speed, motion, elements, progress)

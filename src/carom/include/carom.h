@@ -41,9 +41,9 @@ enum carom_status {
 CAROM_API int carom_rebound(
     size_t n, const double *psi, const double *chi, double *psi_out, int8_t *status);
 
-/* psi_2 and normal restitution of n impacts with a viscous normal force (Kelvin & Voigt);
- * alpha = tau V_1/d_max, with the retardation time tau, the normal speed V_1 and the penetration
- * d_max that it would reach without losses. */
+/* psi_2 and normal restitution of n impacts of Kelvin-Voigt solids, viscous in compression and in
+ * shear alike; alpha = tau V_1/d_max, with the retardation time tau, the normal speed V_1 and the
+ * penetration d_max that it would reach without losses. */
 CAROM_API int carom_rebound_viscous(
     size_t n, const double *psi, const double *chi, const double *alpha,
     double *psi_out, double *restitution, int8_t *status);

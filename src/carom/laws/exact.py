@@ -12,15 +12,16 @@ from numpy.polynomial import chebyshev
 
 from carom.bodies.losses import KelvinVoigt
 from carom.bodies.pairs import Pair
-from carom.dimensionless.lossy.normal import scale_free
+from carom.dimensionless.lossy.panels.normal import scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.chebyshev import Panels
 from carom.io.citations import IMPACT, VISCOUS, bibtex
-from carom.laws.panels import LARGEST_CHI, elastic_panels, lossy_panels, panel_ends, reach_of
+from carom.laws.panels import LARGEST_CHI, panel_ends, panels
 from carom.laws.portable import applied, lost
 from carom.laws.rules import DEGREE, Rule, frozen
 from carom.quantities.arrays import Array
+from carom.quantities.keywords import renamed_keyword
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import positive
 
@@ -30,26 +31,24 @@ class ReboundLaw:
     """The exact rebound at one chi, tabulated to 1e-9 for chi up to 10; or at one chi and e < 1.
 
     psi_2 = psi_1 r(|psi_1|), r as Chebyshev series on panels up to the border of gross slip
-    throughout, psi_2 = psi_1 -+ 4 chi from there on (Maw, Barber & Fawcett 1976; Barber (33)).
-
-    With losses psi_2 = psi_1 - x (1 - r(x)), x = psi_1/(1 + |psi_1|/S), S = 2 chi (1 + e), to 1e-6
-    max(1, |psi_1|) for e >= 0.01; gross slip throughout, psi_1 -+ S, is the limit of large |psi_1|.
+    throughout, psi_2 = psi_1 -+ 2 chi (1 + e) from there on (Maw, Barber & Fawcett 1976; Barber
+    (33)). With losses to 3e-8 max(1, |psi_1|) for e >= 0.01.
 
     Parameters
     ----------
     chi : float
         (kappa/2)(m_n/m_t), positive, up to 100; spheres have 0.5 to 3. Made in 20 to 70 ms up to 3,
         in seconds beyond 30. Beyond 10 impacts have many phases, and the error reaches 2e-9.
-    normal : KelvinVoigt, optional
-        What the normal motion loses energy to, the same at all speeds: a restitution is given. Made
-        in 0.5 to 3 s for chi up to 3, 10 s at 10.
+    losses : KelvinVoigt, optional
+        What the impact loses energy to, the same at all speeds: a restitution is given. Made
+        in half a second for chi up to 3.
 
     Attributes
     ----------
     restitution : float
         e; 1 without losses.
     edges : ndarray, shape (n + 1,)
-        psi_1 at which panels begin and end, from 0 to max(1, 4 chi - 1); with losses to 1e12 S.
+        psi_1 at which panels begin and end, from 0 to max(1, 2 chi (1 + e) - e).
     coefficients : ndarray, shape (n, 11)
         Chebyshev coefficients of r on each panel.
 
@@ -66,7 +65,7 @@ class ReboundLaw:
     array([ 0.047131, -0.429967,  1.477247,  0.24    ])
     >>> law.nbytes < 4000
     True
-    >>> lossy = carom.ReboundLaw(1.44, normal=carom.KelvinVoigt(restitution=0.9))
+    >>> lossy = carom.ReboundLaw(1.44, losses=carom.KelvinVoigt(restitution=0.9))
     >>> lossy([0.5, 6.0]).round(5), round(lossy.duration, 4)
     (array([-0.00068,  0.52947]), 2.9186)
     """
@@ -76,12 +75,13 @@ class ReboundLaw:
     edges: Array
     coefficients: Array
 
-    def __init__(self, chi: float, *, normal: KelvinVoigt | None = None) -> None:
-        value, e = positive("chi", chi), _restitution_of(normal)
+    @renamed_keyword("normal", "losses")
+    def __init__(self, chi: float, *, losses: KelvinVoigt | None = None) -> None:
+        value, e = positive("chi", chi), _restitution_of(losses)
         if value > LARGEST_CHI:
             allowed = f"a table takes chi up to {LARGEST_CHI:g}; carom.rebound needs none"
             raise refusal("chi", chi, allowed)
-        self._hold(value, e, elastic_panels(value) if e == 1.0 else lossy_panels(value, e))
+        self._hold(value, e, panels(value, e))
 
     def _hold(self, chi: float, restitution: float, panels: Panels) -> None:
         object.__setattr__(self, "chi", chi)
@@ -191,16 +191,15 @@ class ReboundLaw:
     @cached_property
     def _rule(self) -> Rule:
         """The table in powers, with a last panel on which sliding alone counts."""
-        reach = reach_of(self.chi, self.restitution)
-        places = reach.bent(self.edges)
-        low, high = places[:-1], places[1:]
+        low, high = self.edges[:-1], self.edges[1:]
         powers = np.zeros((self.edges.size, DEGREE + 1))
         powers[:-1] = [-chebyshev.cheb2poly(row) for row in self.coefficients]
         powers[:-1, 0] += 1.0
         powers[-1, 0] = 2.0
         slopes = np.append(2.0 / (high - low), 0.0)
         shifts = np.append(-(high + low) / (high - low), 0.0)
-        return frozen(Rule(self.restitution, 1.0, *reach, self.edges, slopes, shifts, powers))
+        sliding = 2.0 * self.chi * (1.0 + self.restitution)
+        return frozen(Rule(self.restitution, 1.0, sliding, self.edges, slopes, shifts, powers))
 
     def cite(self) -> str:
         """Return what to cite for this law, as BibTeX."""
@@ -266,34 +265,34 @@ class ReboundLaw:
     def __repr__(self) -> str:
         if self.restitution == 1.0:
             return f"ReboundLaw(chi={self.chi!r})"
-        return f"ReboundLaw(chi={self.chi!r}, normal=KelvinVoigt(restitution={self.restitution!r}))"
+        return f"ReboundLaw(chi={self.chi!r}, losses=KelvinVoigt(restitution={self.restitution!r}))"
 
 
 @lru_cache(maxsize=128)
-def law_of(chi: float, normal: KelvinVoigt | None = None) -> ReboundLaw:
+def law_of(chi: float, losses: KelvinVoigt | None = None) -> ReboundLaw:
     """Return the law at one chi, built once."""
-    return ReboundLaw(chi, normal=normal)
+    return ReboundLaw(chi, losses=losses)
 
 
 def _is_whole(chi: float, restitution: float, edges: Array, rows: Array) -> bool:
     """Tell whether a table is that of a law: its ends, its order, no gap in psi_2 at an edge."""
-    ends, reach = panel_ends(chi, restitution), reach_of(chi, restitution)
+    ends, sliding = panel_ends(chi, restitution), 2.0 * chi * (1.0 + restitution)
     if rows.shape != (edges.size - 1, DEGREE + 1) or edges.ndim != 1:
         return False
     if not np.all(np.isfinite(edges)) or [edges[0], edges[-1]] != [ends[0], ends[-1]]:
         return False
-    places = reach.bent(edges[1:])
+    places = edges[1:]
     starts = rows @ (-1.0) ** np.arange(rows.shape[1])
-    after = np.append(starts[1:], 1.0 - reach.sliding / places[-1])
+    after = np.append(starts[1:], 1.0 - sliding / places[-1])
     gaps = np.abs(rows.sum(axis=1) - after) * places
     return bool(np.all(np.diff(edges) > 0.0) and np.all(gaps < 1e-8))
 
 
-def _restitution_of(normal: KelvinVoigt | None) -> float:
-    """Return e of a law of normal loss that is the same at all speeds, or raise InputError."""
-    if normal is None:
+def _restitution_of(losses: KelvinVoigt | None) -> float:
+    """Return e of a law of losses that is the same at all speeds, or raise InputError."""
+    if losses is None:
         return 1.0
-    scale_free(normal)
-    if not isinstance(normal, KelvinVoigt):
-        raise refusal("normal", normal, "a table takes KelvinVoigt(restitution=), or no losses")
-    return float(normal.restitution)
+    scale_free(losses)
+    if not isinstance(losses, KelvinVoigt):
+        raise refusal("losses", losses, "a table takes KelvinVoigt(restitution=), or no losses")
+    return float(losses.restitution)

@@ -21,9 +21,9 @@ HEADER = Template("""\
  *
  *     V_x' = (mu V_1 / kappa) psi_2,    J_x = m_t (V_x' - V_x),    V_n' = -e V_n.
  *
- * psi_2 = psi_1 - x (1 - r(x)), x = psi_1 / (1 + bend |psi_1|), r a polynomial on each panel, bend
- * = 0 for e = 1; psi_2 = psi_1 -+ 2 chi (1 + e) in gross slip throughout (Maw, Barber & Fawcett
- * 1976; Barber 1979); e < 1 from viscous springs without tension. C99 or C++, nothing to link.
+ * psi_2 = r(|psi_1|) psi_1, r a polynomial on each panel; psi_2 = psi_1 -+ 2 chi (1 + e) in gross
+ * slip throughout (Maw, Barber & Fawcett 1976; Barber 1979); e < 1 of a Kelvin-Voigt solid, viscous
+ * in shear as in compression. C99 or C++, nothing to link.
  */
 #ifndef $guard
 #define $guard
@@ -49,9 +49,7 @@ $places
 $powers
     };
     const double limit = $limit; /* 2 chi (1 + e): psi_1 - psi_2 in gross slip */
-    const double bend = $bend;
     const double size = psi < 0.0 ? -psi : psi;
-    const double share = 1.0 / (1.0 + bend * size);
     double place, part, lost;
     int low = 0, high = panels, middle, k;
 
@@ -64,11 +62,10 @@ $powers
         else
             low = middle;
     }
-    place = places[low][0] * (share * size) + places[low][1];
+    place = places[low][0] * size + places[low][1];
     part = powers[low][terms - 1];
     for (k = terms - 2; k >= 0; --k)
         part = part * place + powers[low][k];
-    part *= share;
     part = part < 0.0 ? 0.0 : part > 2.0 ? 2.0 : part; /* beyond, energy would grow */
     lost = part * size > limit ? limit : part * size;
     return psi < 0.0 ? psi + lost : psi - lost;
@@ -139,7 +136,6 @@ def _function(name: str, law: ReboundLaw) -> str:
             f"{' ' * 8}{{\n{_row(panel, 12)}\n{' ' * 8}}}," for panel in table.powers[:-1]
         ),
         limit=repr(table.sliding),
-        bend=repr(table.bend),
     )
 
 

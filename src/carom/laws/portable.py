@@ -83,11 +83,10 @@ def _stuck_or_slides(tangential: Any, normal: Any, rule: Rule, xp: Any) -> tuple
 
 def _series(slope: Any, rule: Rule, xp: Any) -> Any:
     flat = xp.reshape(slope, (-1,))
-    edges, slopes, shifts, powers = (constants(part, flat, xp) for part in rule[4:])
+    edges, slopes, shifts, powers = (constants(part, flat, xp) for part in rule[3:])
     panel = xp.searchsorted(edges[1:], flat, side="right")
-    share = 1.0 / (1.0 + rule.bend * flat)
-    place = xp.take(slopes, panel) * (share * flat) + xp.take(shifts, panel)
+    place = xp.take(slopes, panel) * flat + xp.take(shifts, panel)
     value = xp.take(powers[:, -1], panel)
     for term in range(powers.shape[1] - 2, -1, -1):
         value = value * place + xp.take(powers[:, term], panel)
-    return xp.reshape(xp.clip(share * value, 0.0, 2.0), slope.shape)
+    return xp.reshape(xp.clip(value, 0.0, 2.0), slope.shape)

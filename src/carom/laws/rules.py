@@ -17,16 +17,14 @@ class Rule(NamedTuple):
     """A law for one pair of bodies, as numbers.
 
     With the slope w = scale * V_x/V_n of the approach the contact point loses the part
-    1 + beta = min(share * series, sliding/w) of its tangential velocity, beta = -V_x'/V_x, and
-    V_n' = -restitution * V_n. share = 1/(1 + bend w); the series has the powers of
-    (slopes * share * w + shifts) on the panel that starts at the last of `edges` not above w. With
-    a bend it is regular up to infinite slopes; without one a polynomial of w.
+    1 + beta = min(series, sliding/w) of its tangential velocity, beta = -V_x'/V_x, and
+    V_n' = -restitution * V_n. The series has the powers of (slopes * w + shifts) on the panel that
+    starts at the last of `edges` not above w.
     """
 
     restitution: float
     scale: float
     sliding: float
-    bend: float
     edges: Vector  # (n,)
     slopes: Vector  # (n,)
     shifts: Vector  # (n,)
@@ -36,12 +34,12 @@ class Rule(NamedTuple):
 def constant_rule(restitution: float, sliding: float, one_plus_beta: float) -> Rule:
     """Return the rule of a law with one beta, up to the bound of sliding."""
     zero, power = np.zeros(1), np.full((1, 1), one_plus_beta)
-    return frozen(Rule(restitution, 1.0, sliding, 0.0, zero, zero, zero, power))
+    return frozen(Rule(restitution, 1.0, sliding, zero, zero, zero, power))
 
 
 def frozen(rule: Rule) -> Rule:
     """Return the rule, its arrays protected: one compiled kernel serves all rules."""
-    for values in rule[4:]:
+    for values in rule[3:]:
         values.setflags(write=False)
     return rule
 
@@ -77,14 +75,13 @@ def one_plus_beta(
 
 @kernel
 def series(slope: Array, count: int, rule: Rule, panel: NDArray[np.int32], out: Array) -> None:
-    """Write share * series at each slope, two powers at a time."""
+    """Write the series at each slope, two powers at a time."""
     find_panels(slope, count, rule.edges, panel)
     for i in range(count):
         powers = rule.powers[panel[i]]
-        share = 1.0 / (1.0 + rule.bend * slope[i])
-        place = rule.slopes[panel[i]] * (share * slope[i]) + rule.shifts[panel[i]]
+        place = rule.slopes[panel[i]] * slope[i] + rule.shifts[panel[i]]
         square = place * place
         value = powers[DEGREE]
         for term in range(DEGREE - 1, 0, -2):
             value = value * square + (powers[term] * place + powers[term - 1])
-        out[i] = share * value
+        out[i] = value

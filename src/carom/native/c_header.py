@@ -4,8 +4,9 @@ from collections.abc import Iterable
 from typing import Any
 
 from carom.dimensionless.elastic import phases, record as elastic
-from carom.dimensionless.lossy import record as lossy, work
-from carom.dimensionless.lossy.normal import Loss
+from carom.dimensionless.lossy.panels import record as lossy, work
+from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.panels.plans import TOLERANCE
 from carom.dimensionless.lossy.rebounds import NEARLY_ELASTIC
 
 ELASTIC = "carom_dimensionless_elastic_batch_fill"
@@ -24,6 +25,7 @@ def kernels_h() -> str:
         "CAROM_RESTITUTION": lossy.RESTITUTION,
         "CAROM_VISCOUS": Loss.VISCOUS.value,
         "CAROM_NEARLY_ELASTIC": NEARLY_ELASTIC,
+        "CAROM_TOLERANCE": TOLERANCE,
         "CAROM_MESSAGES": _braces(f'"{status.message}"' for status in phases.Status),
     }
     lines = (f"#define {name} {value}" for name, value in defined.items())

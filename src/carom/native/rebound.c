@@ -46,6 +46,11 @@ static void add_vector(carom_block *block, const void *data, size_t n)
     add_array(block, data, &array);
 }
 
+static void add_number(carom_block *block, double number)
+{
+    memcpy(block->words + block->count++, &number, sizeof number);
+}
+
 /* Add scratch arrays, all in one piece of memory; items of eight bytes stand for smaller ones. */
 static int add_scratch(carom_block *block, const carom_array *arrays, size_t count)
 {
@@ -95,6 +100,7 @@ CAROM_API int carom_rebound_viscous(
         add_vector(&block, chi, n);
         block.words[block.count++] = CAROM_VISCOUS;
         add_vector(&block, alpha, n);
+        add_number(&block, CAROM_TOLERANCE);
         failed = add_scratch(&block, lossy_scratch, sizeof lossy_scratch / sizeof *lossy_scratch);
     }
     if (!failed) {

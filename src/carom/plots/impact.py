@@ -20,7 +20,10 @@ ENERGIES = {
     "tangential_elastic_energy": ("elastic, tangential", "#E69F00", ""),
     "frictional_work": ("lost to friction", "#6E6E6E", "\\\\\\\\"),
 }
-LOST = {"normal_loss": ("normal losses", "#DDA6C3", "xxxx")}  # where there is any
+LOST = {  # where there is any
+    "normal_loss": ("normal losses", "#DDA6C3", "xxxx"),
+    "shear_loss": ("losses in shear", "#B07AA1", "----"),
+}
 
 HISTORY = "the history of an impact, what Impact.history returns"
 FORCES = ("tangential_force", "normal_force", "friction", "time")

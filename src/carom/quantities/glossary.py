@@ -91,6 +91,7 @@ GLOSSARY = {
     "loss_time": Quantity(r"$\tau$", "s", "time of loss of a Kelvin-Voigt sphere"),
     "yield_velocity": Quantity("$V_y$", "m/s", "normal velocity from which on a body yields"),
     "lost_energy": Quantity("$W_n$", "J", "energy lost in the normal motion"),
+    "shear_lost_energy": Quantity("$W_s$", "J", "energy lost to viscosity in shear"),
     "impulse_ratio": Quantity("$J_t/J_n$", "1", "tangential impulse to normal impulse"),
     "normal_speed_out": Quantity("$V_1'$", "m/s", "normal speed of the centres after"),
     "tangential_impulse": Quantity("$J_t$", "N s", "impulse of the tangential force, against $x$"),
@@ -114,6 +115,7 @@ GLOSSARY = {
     "normal_elastic_energy": Quantity("$E_n$", "J", "elastic energy of normal deformation"),
     "tangential_elastic_energy": Quantity("$E_t$", "J", "elastic energy of tangential deformation"),
     "normal_loss": Quantity("$W_n$", "J", "energy lost in the normal motion so far"),
+    "shear_loss": Quantity("$W_s$", "J", "energy lost to viscosity in shear so far"),
     "frictional_work": Quantity("$W$", "J", "energy dissipated by slip so far"),
     "spin_kinetic_energy": Quantity(r"$T_\omega$", "J", "kinetic energy of the spins"),
     "contact_kinetic_energy": Quantity(

@@ -41,21 +41,19 @@ SYMBOLS: dict[str, tuple[str, ...]] = {  # the first that is known where one is 
     "omega_r": ("spin_out",),
     "e": ("normal_restitution", "restitution"),
     "e_n": ("normal_restitution", "restitution"),
-    "restitution": ("normal_restitution", "normal"),
+    "restitution": ("normal_restitution", "losses"),
     "e_t": ("tangential_restitution",),
     "beta": ("contact_beta",),
     "e_c": ("contact_restitution",),
     "psi1": ("psi_in",),
     "psi2": ("psi_out",),
     "sigma_y": ("yield_strength",),
-    "losses": ("normal",),
 }
 REMARKS = {
     "diameter": "radius, half of it",
     "d": "radius, half the diameter",
     "D": "radius, half the diameter",
-    "restitution": "normal=carom.KelvinVoigt(restitution=...)",
-    "losses": "normal=carom.KelvinVoigt(restitution=...)",
+    "restitution": "losses=carom.KelvinVoigt(restitution=...)",
 }
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from carom.bodies.cases import law_of
 from carom.bodies.kinematics import components
-from carom.bodies.losses import SMALLEST_RESTITUTION, NormalLaw
+from carom.bodies.losses import SMALLEST_RESTITUTION, LossLaw
 from carom.bodies.materials import Material, unchecked
 from carom.bodies.pairs import Counterbody, Pair, representable
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
@@ -74,6 +74,7 @@ class BlockSolution(NamedTuple):
     max_penetration: Any = 1.0
     max_force: Any = 1.0
     max_radius: Any = 1.0
+    shear_lost: Any = 0.0
 
 
 def evaluate(
@@ -113,7 +114,7 @@ def _solve(outcome: Outcome, solution: BlockSolution, status: Codes, threads: in
 
 
 def _solve_with_losses(
-    outcome: Outcome, law: NormalLaw, solution: BlockSolution, status: Codes, threads: int | None
+    outcome: Outcome, law: LossLaw, solution: BlockSolution, status: Codes, threads: int | None
 ) -> None:
     """Fill in the impacts with losses, also those without friction: e and the like differ."""
     loss, numbers = law.loss(outcome.pair, outcome.normal_speed)

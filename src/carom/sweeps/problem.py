@@ -42,7 +42,7 @@ OUTPUTS = (
     "max_radius",
     "max_pressure",
 )
-OF_LOSSES = ("normal_restitution", "lost_energy")
+OF_LOSSES = ("normal_restitution", "lost_energy", "shear_lost_energy")
 COSTLIER = 16  # an impact with losses than one without, about: blocks are smaller by so much
 
 
@@ -100,7 +100,7 @@ class SweepProblem:
 
     @property
     def loses(self) -> bool:
-        """Whether the normal motion loses energy."""
+        """Whether energy is lost but to friction."""
         return self._common.loss is not None
 
     def chunks(self) -> tuple[int, ...]:

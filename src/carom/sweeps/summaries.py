@@ -21,6 +21,7 @@ MAIN = (
     "tangential_restitution",
     "dissipated_energy",
     "lost_energy",
+    "shear_lost_energy",
 )
 
 

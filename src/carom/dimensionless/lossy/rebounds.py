@@ -7,17 +7,19 @@ from numpy.typing import NDArray
 
 from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy import record as layout
-from carom.dimensionless.lossy.impacts import run
-from carom.dimensionless.lossy.normal import Loss
-from carom.dimensionless.lossy.record import PSI_OUT, Trace, new_record
-from carom.dimensionless.lossy.work import Arrays, new_work
+from carom.dimensionless.lossy.panels import record as layout
+from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.panels.plans import TOLERANCE
+from carom.dimensionless.lossy.panels.record import PSI_OUT, Trace, new_record
+from carom.dimensionless.lossy.panels.work import Arrays, new_work
+from carom.dimensionless.lossy.viscoelastic import impacts as viscoelastic
+from carom.dimensionless.lossy.viscoelastic.impacts import NEVER
+from carom.dimensionless.lossy.yielding import impacts as yielding
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array, Codes, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.dimensionless.numerics.threads import in_blocks
 
-TOLERANCE = 1e-9  # of a panel; keeps psi_2 to 1e-8 max(1, |psi_1|)
 NEARLY_ELASTIC, NEARLY_YIELDING = 1e-10, 1e-5
 TIE = 1e-6  # about psi_1 = 1
 LINEAR, FAR = 1e-3, 1e4  # psi_1 between which impacts are solved
@@ -40,6 +42,7 @@ class LossyRebounds(NamedTuple):
     max_penetration: Array
     max_force: Array
     max_radius: Array
+    shear_lost: Array
     status: NDArray[np.int8]
 
 
@@ -49,6 +52,7 @@ def outgoing(
     chi: float,
     loss: int,
     parameter: float,
+    tolerance: float,
     work: Arrays,
     record: Trace,
     numbers: Vector,
@@ -57,16 +61,16 @@ def outgoing(
 
     Below LINEAR psi_2/psi_1 is linear in psi_1, beyond FAR the impulse is that of sliding.
     """
-    speed = abs(psi)
-    other, near = 0.0, LINEAR
+    speed, other = abs(psi), 0.0
     if speed < LINEAR:
-        run_beside(2.0 * LINEAR, chi, loss, parameter, work, record, numbers)
+        run_beside(2.0 * LINEAR, chi, loss, parameter, tolerance, work, record, numbers)
         other = 0.5 * numbers[PSI_OUT] / LINEAR
     near = min(max(speed, LINEAR), FAR) if np.isfinite(psi) else psi
-    status, panels = run_beside(near, chi, loss, parameter, work, record, numbers)
+    status, panels = run_beside(near, chi, loss, parameter, tolerance, work, record, numbers)
     if speed < LINEAR:
         ratio = numbers[PSI_OUT] / LINEAR
         numbers[PSI_OUT] = speed * (ratio + (ratio - other) * (1.0 - speed / LINEAR))
+        numbers[layout.SHEAR_LOST] *= (speed / LINEAR) ** 2
     elif speed > FAR:
         numbers[PSI_OUT] += speed - FAR
     numbers[PSI_OUT] *= np.copysign(1.0, psi)
@@ -77,13 +81,22 @@ def outgoing(
 
 @kernel
 def run_beside(
-    psi: float, chi: float, loss: int, parameter: float, work: Arrays, record: Trace, numbers: Array
+    psi: float,
+    chi: float,
+    loss: int,
+    parameter: float,
+    tolerance: float,
+    work: Arrays,
+    record: Trace,
+    numbers: Array,
 ) -> tuple[int, int]:
     """Run an impact, psi_1 > 0, beside the border of stick if it lies on it."""
-    beside = 0.0
-    if loss != Loss.VISCOUS.value and chi <= 0.5 and abs(psi - 1.0) < TIE:
-        beside = TIE  # slip would start too slowly to be told
-    status, panels = run(psi + beside, chi, loss, parameter, TOLERANCE, work, numbers, record)
+    if loss == Loss.VISCOUS.value:
+        return viscoelastic.run(psi, chi, parameter, tolerance, NEVER, work, numbers, record)
+    beside = TIE if chi <= 0.5 and abs(psi - 1.0) < TIE else 0.0  # slip would start too slowly
+    status, panels = yielding.run(
+        psi + beside, chi, loss, parameter, tolerance, work, numbers, record
+    )
     numbers[PSI_OUT] -= beside
     return status, panels
 
@@ -94,6 +107,7 @@ def fill(
     chi: Vector,
     loss: int,
     parameter: Vector,
+    tolerance: float,
     work: Arrays,
     record: Trace,
     numbers: Matrix,
@@ -101,11 +115,17 @@ def fill(
 ) -> None:
     """Write what every impact comes to, and its status."""
     for i in range(psi.size):
-        status[i], _ = outgoing(psi[i], chi[i], loss, parameter[i], work, record, numbers[i])
+        given = psi[i], chi[i], loss, parameter[i], tolerance
+        status[i], _ = outgoing(*given, work, record, numbers[i])
 
 
 def lossy_rebounds(
-    psi: Array, chi: Array, loss: int, parameter: Array, threads: int | None = None
+    psi: Array,
+    chi: Array,
+    loss: int,
+    parameter: Array,
+    threads: int | None = None,
+    tolerance: float = TOLERANCE,
 ) -> LossyRebounds:
     """Return what impacts with losses come to, all arguments of one length, in threads.
 
@@ -113,7 +133,7 @@ def lossy_rebounds(
     """
     numbers, status = np.ones((psi.size, layout.NUMBERS)), np.zeros(psi.size, dtype=np.int8)
     elastic = np.array([is_elastic(loss, float(value)) for value in parameter], dtype=bool)
-    numbers[:, layout.TIME] = hertz.DURATION
+    numbers[:, layout.TIME], numbers[:, layout.SHEAR_LOST] = hertz.DURATION, 0.0
     numbers[elastic, PSI_OUT], status[elastic], _ = solved(psi[elastic], chi[elastic], threads)
     numbers[status != Status.SOLVED] = np.nan
     lossy = np.flatnonzero(~elastic)
@@ -121,7 +141,7 @@ def lossy_rebounds(
     found, codes = np.empty((lossy.size, layout.NUMBERS)), np.empty(lossy.size, dtype=np.int8)
 
     def block(part: slice) -> None:
-        given = psis[part], chis[part], int(loss), parameters[part]
+        given = psis[part], chis[part], int(loss), parameters[part], tolerance
         fill(*given, new_work(), new_record(False), found[part], codes[part])
 
     in_blocks(block, lossy.size, BLOCK, SMALLEST_BLOCK, threads)
@@ -133,5 +153,6 @@ def lossy_rebounds(
         max_penetration=numbers[:, layout.DEEPEST],
         max_force=numbers[:, layout.STRONGEST],
         max_radius=numbers[:, layout.WIDEST],
+        shear_lost=numbers[:, layout.SHEAR_LOST],
         status=status,
     )

@@ -6,11 +6,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.dimensionless.elastic.phases import Kind, Status
-from carom.dimensionless.lossy import record as layout
-from carom.dimensionless.lossy.collocation import NODES, TO_SERIES, place
+from carom.dimensionless.lossy.panels import record as layout
+from carom.dimensionless.lossy.panels.collocation import NODES, TO_SERIES, place
+from carom.dimensionless.lossy.panels.plans import TOLERANCE
+from carom.dimensionless.lossy.panels.record import Trace, new_record
+from carom.dimensionless.lossy.panels.work import new_work
 from carom.dimensionless.lossy.rebounds import outgoing
-from carom.dimensionless.lossy.record import Trace, new_record
-from carom.dimensionless.lossy.work import new_work
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.states import KIND_NAMES, History, Phase, Trajectory
 from carom.quantities.refusals import refusal
@@ -38,7 +39,7 @@ class LossySolution(Trajectory):
     Examples
     --------
     >>> import carom
-    >>> s = carom.solve(1.5, 1.44, normal=carom.KelvinVoigt(restitution=0.9))
+    >>> s = carom.solve(1.5, 1.44, losses=carom.KelvinVoigt(restitution=0.9))
     >>> round(s.psi_out, 6), round(s.restitution, 10)
     (-0.498972, 0.9)
     """
@@ -53,6 +54,7 @@ class LossySolution(Trajectory):
     max_penetration: float
     max_force: float
     max_radius: float
+    shear_lost: float
     _record: Trace = field(repr=False)
     _scale: float = field(repr=False)
 
@@ -65,7 +67,7 @@ class LossySolution(Trajectory):
         wanted = self._times_within(time)
         rows, scale = self._sampled(wanted), self._scale
         first, psi = self._record.rows[0, layout.AT_PSI, 0], rows[layout.AT_PSI]
-        stored = 1.875 * self.chi * rows[layout.AT_SQUARE]
+        stored, shear = 1.875 * self.chi * rows[layout.AT_SQUARE], rows[layout.AT_SHEAR_LOST]
         return History(
             time=wanted,
             penetration=rows[layout.AT_D],
@@ -76,7 +78,8 @@ class LossySolution(Trajectory):
             stick_radius=np.minimum(rows[layout.AT_STUCK], rows[layout.AT_B]),
             contact_radius=rows[layout.AT_B],
             stored=scale**2 * stored,
-            dissipated=scale**2 * (0.5 * (first - psi) * (first + psi) - stored),
+            dissipated=scale**2 * (0.5 * (first - psi) * (first + psi) - stored - shear),
+            shear_lost=scale**2 * shear,
             normal_force=rows[layout.AT_P],
             normal_stored=rows[layout.AT_STORED],
             normal_lost=rows[layout.AT_LOST],
@@ -96,7 +99,8 @@ class LossySolution(Trajectory):
 def solve_with_losses(psi: float, chi: float, loss: int, parameter: float) -> LossySolution:
     """Solve one oblique impact whose normal motion loses energy; InputError for bad numbers."""
     record, numbers = new_record(True), np.zeros(layout.NUMBERS)
-    code, panels = outgoing(psi, chi, int(loss), parameter, new_work(), record, numbers)
+    given = psi, chi, int(loss), parameter, TOLERANCE
+    code, panels = outgoing(*given, new_work(), record, numbers)
     status = Status(code)
     if status in (Status.PSI_NOT_FINITE, Status.CHI_NOT_POSITIVE):
         name, value = ("psi", psi) if status is Status.PSI_NOT_FINITE else ("chi", chi)
@@ -114,6 +118,7 @@ def solve_with_losses(psi: float, chi: float, loss: int, parameter: float) -> Lo
         max_penetration=float(numbers[layout.DEEPEST]),
         max_force=float(numbers[layout.STRONGEST]),
         max_radius=float(numbers[layout.WIDEST]),
+        shear_lost=float(numbers[layout.SHEAR_LOST]),
         _record=kept,
         _scale=psi / first,
     )

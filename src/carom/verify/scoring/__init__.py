@@ -218,7 +218,7 @@ def _impact(case: Any) -> Impact:
 
 
 def _check_elastic(case: Any) -> None:
-    if isinstance(case, Impact) and case.normal is not None:
+    if isinstance(case, Impact) and case.losses is not None:
         raise refusal("case", case, "it has losses; scores are against elastic impacts")
 
 

@@ -19,7 +19,7 @@ from carom.quantities.refusals import refusal
 
 
 class Loss(IntEnum):
-    """What the normal motion loses energy to; the parameter that goes with it."""
+    """What the impact loses energy to; the parameter that goes with it."""
 
     NONE = 0
     VISCOUS = 1  # alpha, the loss time in units of d_max/V_1
@@ -34,24 +34,24 @@ class Stage(IntEnum):
     UNLOADING = 2
 
 
-class NormalLoss(Protocol):
-    """What an impact needs of a law of normal loss, free of units."""
+class ScaleFreeLaw(Protocol):
+    """What an impact needs of a law of losses, free of units."""
 
     def scale_free(self) -> tuple[int, float]:
         """Return the loss and its parameter; ValueError if they depend on the speed."""
 
 
-def scale_free(normal: Any) -> tuple[int, float]:
-    """Return loss and parameter of what is given as a law of normal loss, or raise InputError."""
-    return checked_law(normal, "scale_free")()  # type: ignore[no-any-return]
+def scale_free(losses: Any) -> tuple[int, float]:
+    """Return loss and parameter of what is given as a law of losses, or raise InputError."""
+    return checked_law(losses, "scale_free")()  # type: ignore[no-any-return]
 
 
-def checked_law(normal: Any, method: str) -> Any:
-    """Return a method of a law of normal loss, or raise InputError if this is none."""
-    found = getattr(normal, method, None)
-    if isinstance(normal, type) or not callable(found):
-        allowed = "must be a law of normal loss, e.g. carom.KelvinVoigt(restitution=0.9)"
-        raise refusal("normal", normal, allowed)
+def checked_law(losses: Any, method: str) -> Any:
+    """Return a method of a law of losses, or raise InputError if this is none."""
+    found = getattr(losses, method, None)
+    if isinstance(losses, type) or not callable(found):
+        allowed = "must be a law of losses, e.g. carom.KelvinVoigt(restitution=0.9)"
+        raise refusal("losses", losses, allowed)
     return found
 
 

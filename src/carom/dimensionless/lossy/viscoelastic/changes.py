@@ -1,30 +1,37 @@
 """What an event changes for good: the memory of a viscoelastic contact, and its ring of slip."""
 
-from carom.dimensionless.lossy.collocation import NODES
-from carom.dimensionless.lossy.memory import (
+from carom.dimensionless.lossy.panels.collocation import NODES
+from carom.dimensionless.lossy.panels.newton import Panel, State, state_at_node
+from carom.dimensionless.lossy.panels.normal import Motion, Stage
+from carom.dimensionless.lossy.panels.pieces import (
     A0,
     A1,
-    LAID,
-    LAID_A,
     MAX_PIECES,
     PANEL,
     R0,
     R1,
+    S0,
+    S1,
     SIGN,
     W0,
     W1,
     X0,
     X1,
 )
-from carom.dimensionless.lossy.normal import Motion, Stage
-from carom.dimensionless.lossy.panels import Panel, State, state_at_node
-from carom.dimensionless.lossy.work import FRONT, LAID_RADIUS, TIME, Arrays
-from carom.dimensionless.numerics.kernels import kernel
-from carom.dimensionless.viscoelastic import passed
-from carom.dimensionless.viscoelastic.events import ARRIVES, BEGINS, CLOSES, STOPS, TURNS
-from carom.dimensionless.viscoelastic.memory import FLAT, lay_flat, level_at, rim, trim
-from carom.dimensionless.viscoelastic.passed import AT_ONCE, left, push, push_at_once
-from carom.dimensionless.viscoelastic.ring import (
+from carom.dimensionless.lossy.panels.work import (
+    FRONT,
+    LAID,
+    LAID_A,
+    LAID_RADIUS,
+    LAID_SQUARE,
+    TIME,
+    Arrays,
+)
+from carom.dimensionless.lossy.viscoelastic import passed
+from carom.dimensionless.lossy.viscoelastic.events import ARRIVES, BEGINS, CLOSES, STOPS, TURNS
+from carom.dimensionless.lossy.viscoelastic.memory import FLAT, lay_flat, level_at, rim, trim
+from carom.dimensionless.lossy.viscoelastic.passed import AT_ONCE, left, push, push_at_once
+from carom.dimensionless.lossy.viscoelastic.ring import (
     RETREATS,
     RETURNS,
     SLIPS,
@@ -36,6 +43,7 @@ from carom.dimensionless.viscoelastic.ring import (
     ring_of,
     set_ring,
 )
+from carom.dimensionless.numerics.kernels import kernel
 
 SAME = 1e-10  # levels nearer than this are one
 
@@ -68,6 +76,7 @@ def lay(work: Arrays, panel: Panel, sign: int) -> int:
     pieces[i, R0], pieces[i, R1] = values[LAID_RADIUS, 0], values[LAID_RADIUS, last]
     pieces[i, A0], pieces[i, A1] = values[LAID_A, 0], values[LAID_A, last]
     pieces[i, W0], pieces[i, W1] = 0.0, values[LAID, last]
+    pieces[i, S0], pieces[i, S1] = 0.0, values[LAID_SQUARE, last]
     return i + 1
 
 

@@ -2,14 +2,13 @@
 
 from typing import NamedTuple
 
-from carom.dimensionless.lossy import normal
-from carom.dimensionless.lossy.collocation import evaluate
-from carom.dimensionless.lossy.memory import LAID, cubes
-from carom.dimensionless.lossy.normal import Motion
-from carom.dimensionless.lossy.panels import Panel, State
-from carom.dimensionless.lossy.work import LAID_RADIUS, Arrays
-from carom.dimensionless.numerics.kernels import kernel
-from carom.dimensionless.viscoelastic.memory import (
+from carom.dimensionless.lossy.panels import normal
+from carom.dimensionless.lossy.panels.collocation import evaluate
+from carom.dimensionless.lossy.panels.newton import Panel, State
+from carom.dimensionless.lossy.panels.normal import Motion
+from carom.dimensionless.lossy.panels.pieces import cubes
+from carom.dimensionless.lossy.panels.work import LAID, LAID_RADIUS, Arrays
+from carom.dimensionless.lossy.viscoelastic.memory import (
     left_force,
     part_force,
     passed_level,
@@ -17,14 +16,15 @@ from carom.dimensionless.viscoelastic.memory import (
     rim,
     row_of,
 )
-from carom.dimensionless.viscoelastic.passed import returned
+from carom.dimensionless.lossy.viscoelastic.passed import returned
+from carom.dimensionless.numerics.kernels import kernel
 
 # What a contact does: it sticks as a whole; the front of slip goes inwards, stands, or comes back
-# outwards; it slips as a whole.
-STICKS, RETREATS, STANDS, RETURNS, SLIPS = range(5)
-# Numbers of the ring: what it does, the sign of slip, how much of what slip passed still slips, and
-# the force for T = 0 of pieces that stay whole in the panel.
-MODE, RING_SIGN, DEPTH, WHOLE = range(4)
+# outwards; it slips as a whole; it sticks and goes back as it came.
+STICKS, RETREATS, STANDS, RETURNS, SLIPS, RETRACES = range(6)
+# Numbers of the ring: what it does, the sign of slip, how much of what slip passed still slips, the
+# force for T = 0 of pieces that stay whole in the panel, and psi/v where that is constant.
+MODE, RING_SIGN, DEPTH, WHOLE, RATIO = range(5)
 
 
 class Ring(NamedTuple):
@@ -76,7 +76,7 @@ def excess(sign: int, now: State) -> float:
 def front(work: Arrays, motion: Motion, panel: Panel, now: State, time: float) -> Front:
     """Return where slip begins."""
     ring, stuck = ring_of(work), rim(work.pieces, panel.pieces)
-    if ring.mode == STICKS:
+    if ring.mode == STICKS or ring.mode == RETRACES:
         return Front(now.radius, 0.0)
     if ring.mode == RETREATS:
         level = level_now(motion, ring.sign, now)
@@ -102,6 +102,8 @@ def add_up(work: Arrays, panel: Panel) -> None:
 def force(work: Arrays, motion: Motion, panel: Panel, x: float, now: State, at: Front) -> float:
     """Return Q, the integral of f over the contact, at a place of a panel."""
     ring, a, b = ring_of(work), at.radius, now.radius
+    if ring.mode == RETRACES:
+        return float(work.ring[RATIO] * 2.0 / 3.0 * normal.normal_force(motion, b, now.speed))
     total = moved(motion, now) * a + work.ring[WHOLE]
     if ring.mode == RETREATS:
         total += part_force(work, panel.pieces - 1, a, at.place)

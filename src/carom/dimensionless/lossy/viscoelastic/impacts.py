@@ -1,11 +1,11 @@
 """A viscoelastic impact, panel after panel from the first touch to the last."""
 
-import numpy as np
-from numpy.typing import NDArray
-
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.collocation import EVEN, NODES, clock, tail
-from carom.dimensionless.lossy.impacts import (
+from carom.dimensionless.lossy.panels.collocation import EVEN, NODES, clock, tail
+from carom.dimensionless.lossy.panels.newton import Panel, state_at_node
+from carom.dimensionless.lossy.panels.normal import Loss, Motion, Stage
+from carom.dimensionless.lossy.panels.pieces import MAX_PIECES
+from carom.dimensionless.lossy.panels.plans import (
     FIRST,
     GROWTH,
     LONGEST,
@@ -21,59 +21,61 @@ from carom.dimensionless.lossy.impacts import (
     why_not,
     with_length,
 )
-from carom.dimensionless.lossy.memory import LAID, MAX_PIECES, MOVED
-from carom.dimensionless.lossy.normal import Loss, Motion, Stage
-from carom.dimensionless.lossy.panels import Panel, state_at_node
-from carom.dimensionless.lossy.rebounds import TOLERANCE
-from carom.dimensionless.lossy.stages import cut_to_stage, next_stage, restitution
-from carom.dimensionless.lossy.work import (
+from carom.dimensionless.lossy.panels.record import Trace, note_numbers
+from carom.dimensionless.lossy.panels.stages import cut_to_stage, next_stage
+from carom.dimensionless.lossy.panels.work import (
+    LAID,
     LAID_RADIUS,
     MAX_PANELS,
+    MOVED,
     PSI,
     SPEED,
     TIME,
     VALUES,
     Arrays,
-    new_work,
 )
-from carom.dimensionless.numerics.arrays import Array, Codes, Vector
-from carom.dimensionless.numerics.kernels import entry_point, kernel
-from carom.dimensionless.viscoelastic.changes import begin, commit
-from carom.dimensionless.viscoelastic.events import BEGINS, NOTHING, first_event
-from carom.dimensionless.viscoelastic.memory import row_of
-from carom.dimensionless.viscoelastic.panels import solve_panel
-from carom.dimensionless.viscoelastic.ring import RETURNS, SLIPS, STICKS, ring_of, set_ring
+from carom.dimensionless.lossy.viscoelastic.changes import begin, commit
+from carom.dimensionless.lossy.viscoelastic.events import NOTHING, first_event
+from carom.dimensionless.lossy.viscoelastic.memory import row_of
+from carom.dimensionless.lossy.viscoelastic.panels import solve_panel
+from carom.dimensionless.lossy.viscoelastic.record import keep, note_shear
+from carom.dimensionless.lossy.viscoelastic.ring import (
+    RATIO,
+    RETRACES,
+    RETURNS,
+    SLIPS,
+    STICKS,
+    ring_of,
+    set_ring,
+)
+from carom.dimensionless.numerics.arrays import Array
+from carom.dimensionless.numerics.kernels import kernel
 
+NEVER = -1  # instead of a panel
 AFTER_EVENT = 0.02  # length at least tried after an event
 HALF, STOPPED = 1e-4, 4e-9  # about chi = 1/2; the speed at which a stick phase has lasted to v = 0
 
 
-def viscoelastic_rebounds(
-    psi: Array, chi: Array, alpha: Array, tolerance: float = TOLERANCE
-) -> tuple[Array, NDArray[np.int8]]:
-    """Return psi_2 of impacts, NaN where the status is not SOLVED, and the status of each.
-
-    >>> import numpy as np
-    >>> from carom.dimensionless.viscoelastic.impacts import viscoelastic_rebounds
-    >>> psi, chi, alpha = np.array([1.5, 9.0]), np.array([1.44, 1.44]), np.full(2, 0.0576035799)
-    >>> viscoelastic_rebounds(psi, chi, alpha)[0].round(6)  # e = 0.9
-    array([-0.366922,  3.528   ])
-    """
-    psi_out, status = np.empty(psi.size), np.empty(psi.size, dtype=np.int8)
-    fill(psi, chi, alpha, tolerance, new_work(), psi_out, status)
-    return psi_out, status
-
-
 @kernel
-def run(psi: float, chi: float, alpha: float, tolerance: float, work: Arrays) -> tuple[int, int]:
-    """Run a whole impact, psi_1 >= 0; return its status and the number of panels.
+def run(
+    psi: float,
+    chi: float,
+    alpha: float,
+    tolerance: float,
+    until: int,
+    work: Arrays,
+    numbers: Array,
+    record: Trace,
+) -> tuple[int, int]:
+    """Run an impact, psi_1 >= 0; return its status and the number of panels.
 
-    At the end psi_2 is in the first column of the values.
+    It ends with the contact, or in the panel `until`, which is left as it was solved.
     """
     refused = why_not(psi, chi)
     if refused != Status.SOLVED.value:
         return refused, 0
-    work.values[:, 0] = 0.0
+    numbers[:] = 0.0
+    work.values[:, 0], work.ring[:] = 0.0, 0.0
     work.values[SPEED, 0], work.values[PSI, 0] = 1.0, psi
     slips = psi > 1.0 or (psi == 1.0 and chi <= 0.5)
     set_ring(work, SLIPS if slips else STICKS, 1 if slips else 0, 0)
@@ -84,13 +86,21 @@ def run(psi: float, chi: float, alpha: float, tolerance: float, work: Arrays) ->
         plan, error = solved_panel(work, motion, number, pieces, plan, tolerance * (1.0 + psi))
         if error < 0.0 or pieces > MAX_PIECES // 2:
             return Status.UNRESOLVED.value, number
-        pieces = commit(work, motion, Panel(number, plan.clock, plan.length, pieces), plan.change)
+        panel = Panel(number, plan.clock, plan.length, pieces)
+        if number == until:
+            return Status.SOLVED.value, number
+        if record.rows.shape[0] > 0:
+            keep(work, motion, panel, numbers, record)
+        else:
+            note_shear(work, motion, panel, numbers)
+        note_numbers(work, motion, panel, numbers)
+        if goes_back(work, motion, plan):
+            set_ring(work, RETRACES, 0, 0)
+            work.ring[RATIO], pieces = psi, 0
+        else:
+            pieces = commit(work, motion, panel, plan.change)
         for row in range(VALUES):
             work.values[row, 0] = work.values[row, NODES - 1]
-        if goes_back(work, motion, plan):
-            psi_out = -psi * restitution(motion.loss, alpha, work)
-            work.values[PSI, 0] = psi_out
-            return Status.SOLVED.value, number + 1
         if plan.to_stage_end and motion.stage == Stage.UNLOADING.value:
             return Status.SOLVED.value, number + 1
         from_change = plan.change != NOTHING or plan.to_stage_end
@@ -107,8 +117,8 @@ def run(psi: float, chi: float, alpha: float, tolerance: float, work: Arrays) ->
 @kernel
 def goes_back(work: Arrays, motion: Motion, plan: Plan) -> bool:
     """Tell whether the impact goes back as it came: for chi = 1/2 psi stays in proportion to v."""
-    all_stuck = plan.change == BEGINS or (plan.to_stage_end and ring_of(work).mode == STICKS)
-    return bool(all_stuck and abs(motion.chi - 0.5) < HALF and work.values[SPEED, 0] < STOPPED)
+    stops = motion.stage == Stage.LOADING.value and work.values[SPEED, NODES - 1] < STOPPED
+    return bool(stops and abs(motion.chi - 0.5) < HALF and ring_of(work).mode == STICKS)
 
 
 @kernel
@@ -145,6 +155,8 @@ def solved_panel(
         if part < 1.0 - near and plan.length > SHORTEST:
             plan = with_length(plan, plan.length * part, plan.natural, event.what, False)
             continue
+        if event.what != NOTHING:
+            plan = with_length(plan, plan.length, plan.natural, event.what, plan.to_stage_end)
         error = error_of(work, panel)
         if error <= tolerance or plan.length <= SHORTEST:
             return plan, error
@@ -163,20 +175,3 @@ def error_of(work: Arrays, panel: Panel) -> float:
         error = max(error, tail(series[LAID]), tail(series[row_of(ring.sign)]))
         error = max(error, tail(series[LAID_RADIUS]) * abs(levels[NODES - 1] - levels[0]))
     return float(error)
-
-
-@entry_point()
-def fill(
-    psi: Vector,
-    chi: Vector,
-    alpha: Vector,
-    tolerance: float,
-    work: Arrays,
-    psi_out: Vector,
-    status: Codes,
-) -> None:
-    """Write psi_2 of every impact, NaN unless it is solved, and its status."""
-    for i in range(psi.size):
-        status[i], _ = run(abs(psi[i]), chi[i], alpha[i], tolerance, work)
-        solved = status[i] == Status.SOLVED.value
-        psi_out[i] = np.copysign(1.0, psi[i]) * work.values[PSI, 0] if solved else np.nan

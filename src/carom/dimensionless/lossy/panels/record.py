@@ -3,25 +3,23 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.dimensionless.lossy import normal
-from carom.dimensionless.lossy.collocation import NODES, PLACES, begin_smoothly, evaluate, integrate
-from carom.dimensionless.lossy.memory import RADIUS
-from carom.dimensionless.lossy.normal import Loss, Motion
-from carom.dimensionless.lossy.panels import Panel, cut_memory, state_at_node
-from carom.dimensionless.lossy.work import MAX_PANELS, PSI, SPEED, Arrays
+from carom.dimensionless.lossy.panels import normal
+from carom.dimensionless.lossy.panels.collocation import NODES, PLACES, evaluate, integrate
+from carom.dimensionless.lossy.panels.newton import Panel
+from carom.dimensionless.lossy.panels.normal import Loss, Motion
+from carom.dimensionless.lossy.panels.work import MAX_PANELS, MOVED, PSI, RADIUS, SPEED, Arrays
 from carom.dimensionless.numerics.arrays import Array, CodePairs, Cube
 from carom.dimensionless.numerics.kernels import kernel
 
-# What an impact comes to; time, penetration and loss are those so far.
-PSI_OUT, RESTITUTION, TIME, PENETRATION, LOST, DEEPEST, STRONGEST, WIDEST = range(8)
-NUMBERS = 8
+# What an impact comes to; time, penetration and losses (normal, in shear) are those so far.
+PSI_OUT, RESTITUTION, TIME, PENETRATION, LOST, SHEAR_LOST, DEEPEST, STRONGEST, WIDEST = range(9)
+NUMBERS = 9
 
-# What is kept of a panel, at its nodes.
+# What is kept of a panel, at its nodes; AT_SQUARE is the integral of u^2 over the contact.
 AT_TIME, AT_D, AT_V, AT_PSI, AT_U, AT_Q, AT_P, AT_B, AT_STUCK, AT_SQUARE = range(10)
-AT_STORED, AT_LOST = 10, 11
-ROWS = 12
+AT_STORED, AT_LOST, AT_SHEAR_LOST = 10, 11, 12
+ROWS = 13
 STICK, SLIP, GROSS_SLIP = range(3)  # what a panel does
 SEARCH = 40
 
@@ -40,10 +38,8 @@ def new_record(wanted: bool) -> Trace:
 
 
 @kernel
-def note_panel(work: Arrays, motion: Motion, panel: Panel, numbers: Array, record: Trace) -> None:
-    """Add a solved panel to the numbers, and to the record if that is wanted."""
-    if record.rows.shape[0] > 0:
-        keep(work, motion, panel, numbers, record)
+def note_numbers(work: Arrays, motion: Motion, panel: Panel, numbers: Array) -> None:
+    """Add a solved panel to what an impact comes to."""
     values, rates, last = work.values, work.rates, NODES - 1
     b, v = values[RADIUS], values[SPEED]
     for j in range(NODES):
@@ -89,10 +85,10 @@ def force_at(motion: Motion, series: Array, n: int, x: float) -> float:
 
 
 @kernel
-def keep(work: Arrays, motion: Motion, panel: Panel, numbers: Array, record: Trace) -> None:
-    """Keep a panel: what there is at its nodes, and what it does."""
-    rows, rates, h = record.rows[panel.number], work.rates, panel.length
-    b, v = work.values[RADIUS], work.values[SPEED]
+def keep_normal(work: Arrays, motion: Motion, panel: Panel, numbers: Array, rows: Array) -> None:
+    """Keep the normal motion of a panel, U and psi at its nodes, before the numbers are added."""
+    values, rates, h = work.values, work.rates, panel.length
+    b, v = values[RADIUS], values[SPEED]
     for j in range(NODES):
         rates[0, j], rates[1, j] = 2.0 * b[j], 2.0 * b[j] * v[j]
         rates[2, j] = normal.loss_rate(motion, b[j], v[j])
@@ -100,26 +96,11 @@ def keep(work: Arrays, motion: Motion, panel: Panel, numbers: Array, record: Tra
     integrate(panel.clock, numbers[PENETRATION], h, rates[1], rows[AT_D])
     integrate(panel.clock, numbers[LOST], h, rates[2], rows[AT_LOST])
     for j in range(NODES):
-        keep_node(work, motion, panel, j, rows, record.kinds[panel.number])
-    begin_smoothly(rows[AT_STUCK])  # what slips from the first node on does not slip at it yet
+        rows[AT_B, j], rows[AT_V, j] = b[j], v[j]
+        rows[AT_U, j], rows[AT_PSI, j] = values[MOVED, j], values[PSI, j]
+        rows[AT_P, j] = normal.normal_force(motion, b[j], v[j])
+        rows[AT_STORED, j] = normal.stored(motion, b[j], rows[AT_D, j])
     if motion.loss == Loss.PLASTIC.value:
         for j in range(NODES):
             rows[AT_LOST, j] = 1.0 - v[j] * v[j] - rows[AT_STORED, j]
     numbers[LOST] = rows[AT_LOST, NODES - 1]
-
-
-@kernel
-def keep_node(
-    work: Arrays, motion: Motion, panel: Panel, j: int, rows: Array, kind: NDArray[np.int8]
-) -> None:
-    """Keep what there is at a node, and at the middle one what the panel does."""
-    now = state_at_node(work, j)
-    cut = cut_memory(work, motion, panel, PLACES[j], now)
-    rows[AT_B, j], rows[AT_V, j], rows[AT_U, j], rows[AT_PSI, j] = now
-    rows[AT_Q, j], rows[AT_SQUARE, j], rows[AT_STUCK, j] = cut.force, cut.stored, cut.stuck
-    rows[AT_P, j] = normal.normal_force(motion, now.radius, now.speed)
-    rows[AT_STORED, j] = normal.stored(motion, now.radius, rows[AT_D, j])
-    if j == NODES // 2:
-        forth, back = int(cut.plus), int(cut.minus)
-        kind[0] = STICK if forth + back == 0 else (SLIP if cut.stuck > 0.0 else GROSS_SLIP)
-        kind[1] = forth - back

@@ -2,11 +2,10 @@
 
 import numpy as np
 
-from carom.dimensionless.lossy import normal
-from carom.dimensionless.lossy.collocation import CLOCKS, EVEN, NODES, PLACES, integrate
-from carom.dimensionless.lossy.memory import RADIUS
-from carom.dimensionless.lossy.normal import Loss, Motion, Stage
-from carom.dimensionless.lossy.work import MAX_PANELS, SPEED, Arrays, new_work
+from carom.dimensionless.lossy.panels import normal
+from carom.dimensionless.lossy.panels.collocation import CLOCKS, EVEN, NODES, PLACES, integrate
+from carom.dimensionless.lossy.panels.normal import Loss, Motion, Stage
+from carom.dimensionless.lossy.panels.work import MAX_PANELS, RADIUS, SPEED, Arrays, new_work
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 MAX_ITERATIONS = 40
@@ -139,7 +138,7 @@ def restitution(loss: int, parameter: float, work: Arrays) -> float:
 def viscous_loss(wanted: float) -> float:
     """Return alpha, loss time in d_max/V_1, that gives a restitution 0 < e <= 1, to 1e-12 or so.
 
-    >>> from carom.dimensionless.lossy.stages import viscous_loss
+    >>> from carom.dimensionless.lossy.panels.stages import viscous_loss
     >>> round(viscous_loss(0.9), 10)
     0.0576035799
     """

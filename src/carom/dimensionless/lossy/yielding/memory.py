@@ -7,31 +7,31 @@ cuts its inner or its outer end.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.dimensionless.lossy.collocation import evaluate, place
+from carom.dimensionless.lossy.panels.collocation import evaluate, place
+from carom.dimensionless.lossy.panels.pieces import (
+    A0,
+    A1,
+    COLUMNS,
+    PANEL,
+    R0,
+    R1,
+    S0,
+    S1,
+    SIGN,
+    W0,
+    W1,
+    X0,
+    X1,
+    Pieces,
+    cubes,
+)
+from carom.dimensionless.lossy.panels.work import LAID, LAID_A, LAID_B, LAID_SQUARE, RADIUS
 from carom.dimensionless.numerics.kernels import kernel
 
-Pieces = NDArray[np.float64]
-
-# Columns of a piece: sign of the slip that made it flat (0: laid), its panel, where in the panel it
-# begins and ends, and there: radius, A, and the integrals of U db and U^2 db since its start.
-SIGN, PANEL, X0, X1, R0, R1, A0, A1, W0, W1, S0, S1 = range(12)
-COLUMNS = 12
-MAX_PIECES = 400
 ACTIVE, PAST = -1.0, -2.0  # instead of a panel: slips at the moment, has slipped
-PARTS = 3  # into which a piece can be cut
 
 SLACK = 1e-13  # beyond a limit by rounding alone
-
-# Series of a panel: b, U, integrals of U db and U^2 db, A and B as they are laid.
-RADIUS, MOVED, LAID, LAID_SQUARE, LAID_A, LAID_B = range(6)
-
-
-@kernel
-def cubes(inner: float, outer: float) -> float:
-    """Return the integral of s dx between two radii."""
-    return (outer - inner) * (outer * outer + outer * inner + inner * inner) / 3.0
 
 
 @kernel

@@ -7,8 +7,8 @@ that the front returns over the stack. What slips since it was touched has h = 0
 
 import numpy as np
 
-from carom.dimensionless.lossy.collocation import evaluate
-from carom.dimensionless.lossy.work import FRONT, PSI, SPEED, TIME, Arrays
+from carom.dimensionless.lossy.panels.collocation import evaluate
+from carom.dimensionless.lossy.panels.work import FRONT, PSI, SPEED, TIME, Arrays
 from carom.dimensionless.numerics.kernels import kernel
 
 # Columns: the panel, the places in it and radii of the outer and the inner end; of what was passed

@@ -2,31 +2,33 @@
 
 from typing import NamedTuple
 
-from carom.dimensionless.lossy import memory, normal
-from carom.dimensionless.lossy.collocation import (
+from carom.dimensionless.lossy.panels import normal
+from carom.dimensionless.lossy.panels.collocation import (
     CLOCKS,
-    INTEGRALS,
     NODES,
     PLACES,
     evaluate,
     expand,
     integrate,
-    place_of_clock,
 )
-from carom.dimensionless.lossy.memory import (
+from carom.dimensionless.lossy.panels.newton import (
+    MAX_ITERATIONS,
+    SETTLED,
+    Panel,
+    State,
+    correct,
+    factorise,
+    guess,
+    state_at_node,
+)
+from carom.dimensionless.lossy.panels.normal import Motion, Stage
+from carom.dimensionless.lossy.panels.pieces import (
     A0,
     A1,
-    ACTIVE,
-    LAID,
-    LAID_A,
-    LAID_B,
-    LAID_SQUARE,
     MAX_PIECES,
-    MOVED,
     PANEL,
     R0,
     R1,
-    RADIUS,
     S0,
     S1,
     SIGN,
@@ -36,39 +38,23 @@ from carom.dimensionless.lossy.memory import (
     X1,
     Pieces,
 )
-from carom.dimensionless.lossy.normal import Motion, Stage
-from carom.dimensionless.lossy.work import PSI, SPEED, Arrays
+from carom.dimensionless.lossy.panels.work import (
+    LAID,
+    LAID_A,
+    LAID_B,
+    LAID_SQUARE,
+    MOVED,
+    PSI,
+    RADIUS,
+    SPEED,
+    Arrays,
+)
+from carom.dimensionless.lossy.yielding import memory
+from carom.dimensionless.lossy.yielding.memory import ACTIVE
 from carom.dimensionless.numerics.kernels import kernel
 
-MAX_ITERATIONS = 30
-SETTLED = 1e-13
 ZONES, SLIPS_FORTH, SLIPS_BACK = 7, 3, 1  # codes of zones; what sticks has 4, 5, 6
 THIN = 1e-5  # part of the contact: zones that are narrower are not told
-
-
-class Panel(NamedTuple):
-    """A panel of time: its number, clock and length, and how many pieces of memory it finds."""
-
-    number: int
-    clock: int
-    length: float
-    pieces: int
-
-
-class State(NamedTuple):
-    """The state at an instant: radius of the edge, normal speed, U, psi."""
-
-    radius: float
-    speed: float
-    moved: float
-    psi: float
-
-
-@kernel
-def state_at_node(work: Arrays, j: int) -> State:
-    """Return the state at a node."""
-    values = work.values
-    return State(values[RADIUS, j], values[SPEED, j], values[MOVED, j], values[PSI, j])
 
 
 class Cut(NamedTuple):
@@ -170,19 +156,6 @@ def solve_panel(work: Arrays, motion: Motion, panel: Panel, before: Panel) -> bo
 
 
 @kernel
-def guess(work: Arrays, panel: Panel, before: Panel) -> bool:
-    """Write psi as it was when the panel was tried last, if it was longer; tell whether so."""
-    if before.length < panel.length:
-        return False
-    ratio = panel.length / before.length
-    for j in range(1, NODES):
-        part = min(CLOCKS[panel.clock, j] * ratio, 1.0)
-        x = place_of_clock(before.clock, part)
-        work.values[PSI, j] = evaluate(work.series, panel.number, PSI, x)
-    return True
-
-
-@kernel
 def follow(work: Arrays, motion: Motion, panel: Panel, u0: float) -> None:
     """Write U that follows from psi, and the series of what is laid."""
     values, rates, series = work.values, work.rates, work.series[panel.number]
@@ -202,56 +175,6 @@ def follow(work: Arrays, motion: Motion, panel: Panel, u0: float) -> None:
     integrate(panel.clock, 0.0, h, rates[0], values[LAID_SQUARE])
     for row in (LAID, LAID_SQUARE, LAID_A, LAID_B):
         expand(values[row], series[row])
-
-
-@kernel
-def correct(work: Arrays, panel: Panel, psi0: float) -> float:
-    """Do a step of Newton's method, from the rates of psi; return by how much psi has changed."""
-    rates, psi, change = work.rates, work.values[PSI], 0.0
-    integrate(panel.clock, psi0, panel.length, rates[1], rates[0])
-    for j in range(NODES):
-        rates[0, j] -= psi[j]
-    back_substitute(work)
-    for j in range(NODES):
-        psi[j] += rates[0, j]
-        change = max(change, abs(rates[0, j]))
-    psi[0] = psi0
-    return change
-
-
-@kernel
-def factorise(work: Arrays, panel: Panel, alpha: float) -> None:
-    """Write I - h S diag(-(15/2) chi b X) (h S diag(2 b) + alpha) as L R, S being the integral.
-
-    alpha is the retardation time in shear.
-    """
-    s, h, b, matrix = INTEGRALS[panel.clock], panel.length, work.values[RADIUS], work.matrix
-    for i in range(NODES):
-        for j in range(NODES):
-            total = 0.0
-            for k in range(NODES):
-                total += s[i, k] * work.rates[2, k] * s[k, j]
-            direct = h * s[i, j] * work.rates[2, j] * alpha
-            matrix[i, j] = -h * h * total * 2.0 * b[j] - direct
-        matrix[i, i] += 1.0
-    for k in range(NODES):
-        for i in range(k + 1, NODES):
-            matrix[i, k] /= matrix[k, k]
-            for j in range(k + 1, NODES):
-                matrix[i, j] -= matrix[i, k] * matrix[k, j]
-
-
-@kernel
-def back_substitute(work: Arrays) -> None:
-    """Solve L R x = y; y is the first row of the rates, and so is x."""
-    matrix, y = work.matrix, work.rates[0]
-    for i in range(NODES):
-        for j in range(i):
-            y[i] -= matrix[i, j] * y[j]
-    for i in range(NODES - 1, -1, -1):
-        for j in range(i + 1, NODES):
-            y[i] -= matrix[i, j] * y[j]
-        y[i] /= matrix[i, i]
 
 
 @kernel

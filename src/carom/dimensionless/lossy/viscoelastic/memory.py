@@ -10,16 +10,14 @@ returned.
 
 import numpy as np
 
-from carom.dimensionless.lossy.collocation import evaluate, place
-from carom.dimensionless.lossy.memory import (
+from carom.dimensionless.lossy.panels.collocation import evaluate, place
+from carom.dimensionless.lossy.panels.pieces import (
     A0,
     A1,
-    LAID,
-    LAID_A,
-    LAID_B,
     PANEL,
     R0,
     R1,
+    S1,
     SIGN,
     W0,
     W1,
@@ -28,7 +26,14 @@ from carom.dimensionless.lossy.memory import (
     Pieces,
     cubes,
 )
-from carom.dimensionless.lossy.work import LAID_RADIUS, Arrays
+from carom.dimensionless.lossy.panels.work import (
+    LAID,
+    LAID_A,
+    LAID_B,
+    LAID_RADIUS,
+    LAID_SQUARE,
+    Arrays,
+)
 from carom.dimensionless.numerics.arrays import Cube
 from carom.dimensionless.numerics.kernels import kernel
 
@@ -127,6 +132,7 @@ def trim(work: Arrays, i: int, r: float, x: float) -> None:
     level = level_at(pieces, i, kind, False)
     if n >= 0:
         pieces[i, X1], pieces[i, W1] = x, evaluate(work.series, n, LAID, x)
+        pieces[i, S1] = evaluate(work.series, n, LAID_SQUARE, x)
         level = evaluate(work.series, n, row_of(1 if kind == 0 else kind), x)
     pieces[i, R1] = r
     pieces[i, A1] = 2.0 * r * r - level if kind < 0 else level

@@ -4,16 +4,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.lossy import memory
-from carom.dimensionless.lossy.collocation import NODES
-from carom.dimensionless.lossy.memory import MAX_PIECES, PARTS
+from carom.dimensionless.lossy.panels.collocation import NODES
+from carom.dimensionless.lossy.panels.pieces import COLUMNS, MAX_PIECES, PARTS
 from carom.dimensionless.numerics.arrays import Counts, Cube, Matrix, Vector
 
 MAX_PANELS = 600
-PASSED_COLUMNS, RING_NUMBERS = 7, 4
-# Rows beyond those of the memory: v, psi; then, of viscoelastic impacts alone, the radius at which
-# the memory is laid, time, the front of slip.
-SPEED, PSI, LAID_RADIUS, TIME, FRONT, VALUES = range(6, 12)
+PASSED_COLUMNS, RING_NUMBERS = 7, 5
+# Series of a panel: b, U, integrals of U db and U^2 db, A and B as they are laid, v, psi; then, of
+# viscoelastic impacts alone, the radius at which the memory is laid, time, the front of slip.
+RADIUS, MOVED, LAID, LAID_SQUARE, LAID_A, LAID_B, SPEED, PSI, LAID_RADIUS, TIME, FRONT = range(11)
+VALUES = 11
 
 
 class Arrays(NamedTuple):
@@ -38,9 +38,9 @@ def new_work() -> Arrays:
         values=np.zeros((VALUES, NODES)),
         rates=np.zeros((3, NODES)),
         matrix=np.zeros((NODES, NODES)),
-        pieces=np.zeros((MAX_PIECES, memory.COLUMNS)),
-        spare=np.zeros((MAX_PIECES, memory.COLUMNS)),
-        parts=np.zeros((PARTS, memory.COLUMNS)),
+        pieces=np.zeros((MAX_PIECES, COLUMNS)),
+        spare=np.zeros((MAX_PIECES, COLUMNS)),
+        parts=np.zeros((PARTS, COLUMNS)),
         zones=np.zeros(NODES, dtype=np.int64),
         passed=np.zeros((MAX_PANELS, PASSED_COLUMNS)),
         ring=np.zeros(RING_NUMBERS),

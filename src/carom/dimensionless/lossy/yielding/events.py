@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from carom.dimensionless.lossy import normal
-from carom.dimensionless.lossy.collocation import FLAT_ENDS, FLAT_START, NODES, PLACES, evaluate
-from carom.dimensionless.lossy.memory import MOVED, RADIUS
-from carom.dimensionless.lossy.normal import Motion, Stage
-from carom.dimensionless.lossy.panels import Panel, State, cut_memory, state_at_node
-from carom.dimensionless.lossy.work import PSI, SPEED, Arrays
+from carom.dimensionless.lossy.panels import normal
+from carom.dimensionless.lossy.panels.collocation import FLAT_ENDS, FLAT_START, NODES, PLACES
+from carom.dimensionless.lossy.panels.newton import Panel, State, state_at, state_at_node
+from carom.dimensionless.lossy.panels.normal import Motion, Stage
+from carom.dimensionless.lossy.panels.work import Arrays
+from carom.dimensionless.lossy.yielding.panels import cut_memory
 from carom.dimensionless.numerics.kernels import kernel
 
 EARLY = 5e-4  # part of a panel in which zones that begin with it are too thin to be told
@@ -29,14 +29,6 @@ def signs(motion: Motion, zones: int, now: State) -> int:
         return code
     laid = LEVEL + normal.edge_rate(motion, now.radius, now.speed)
     return (code * 2 + (now.psi > laid)) * 2 + (-now.psi > laid)
-
-
-@kernel
-def state_at(work: Arrays, panel: Panel, x: float) -> State:
-    """Return the state at a place of a solved panel."""
-    table, n = work.series, panel.number
-    b, v = evaluate(table, n, RADIUS, x), evaluate(table, n, SPEED, x)
-    return State(b, v, evaluate(table, n, MOVED, x), evaluate(table, n, PSI, x))
 
 
 @kernel

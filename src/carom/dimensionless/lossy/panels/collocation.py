@@ -107,6 +107,15 @@ def evaluate(table: np.ndarray, panel: int, row: int, x: float) -> float:
 
 
 @kernel
+def slope(table: np.ndarray, panel: int, row: int, x: float) -> float:
+    """Return the derivative by x of a row of series on a panel."""
+    last, one = 0.0, 0.0
+    for k in range(DEGREE, 1, -1):
+        last, one = one, k * table[panel, row, k] + 2.0 * x * one - last
+    return float(table[panel, row, 1] + 2.0 * x * one - last)
+
+
+@kernel
 def begin_smoothly(values: np.ndarray) -> None:
     """Put the value at the first node to what the others tend to."""
     values[0] = 0.0

@@ -2,11 +2,16 @@
 
 import numpy as np
 
-from carom.dimensionless.lossy import normal
-from carom.dimensionless.lossy.collocation import EVEN, NODES, PLACES, TO_SERIES, expand, integrate
-from carom.dimensionless.lossy.memory import LAID, LAID_A, LAID_B, MOVED, RADIUS
-from carom.dimensionless.lossy.normal import Motion
-from carom.dimensionless.lossy.panels import (
+from carom.dimensionless.lossy.panels import normal
+from carom.dimensionless.lossy.panels.collocation import (
+    EVEN,
+    NODES,
+    PLACES,
+    TO_SERIES,
+    expand,
+    integrate,
+)
+from carom.dimensionless.lossy.panels.newton import (
     MAX_ITERATIONS,
     SETTLED,
     Panel,
@@ -15,10 +20,23 @@ from carom.dimensionless.lossy.panels import (
     guess,
     state_at_node,
 )
-from carom.dimensionless.lossy.work import FRONT, LAID_RADIUS, PSI, SPEED, TIME, Arrays
-from carom.dimensionless.numerics.kernels import kernel
-from carom.dimensionless.viscoelastic.memory import rim, row_of
-from carom.dimensionless.viscoelastic.ring import (
+from carom.dimensionless.lossy.panels.normal import Motion
+from carom.dimensionless.lossy.panels.work import (
+    FRONT,
+    LAID,
+    LAID_A,
+    LAID_B,
+    LAID_RADIUS,
+    LAID_SQUARE,
+    MOVED,
+    PSI,
+    RADIUS,
+    SPEED,
+    TIME,
+    Arrays,
+)
+from carom.dimensionless.lossy.viscoelastic.memory import rim, row_of
+from carom.dimensionless.lossy.viscoelastic.ring import (
     RETURNS,
     STICKS,
     add_up,
@@ -27,6 +45,7 @@ from carom.dimensionless.viscoelastic.ring import (
     level_now,
     ring_of,
 )
+from carom.dimensionless.numerics.kernels import kernel
 
 
 def _slopes() -> np.ndarray:
@@ -100,13 +119,13 @@ def follow(work: Arrays, motion: Motion, panel: Panel, u0: float) -> None:
         lay_at_front(work, motion, panel)
     else:
         return
-    for row in (LAID, LAID_A, LAID_B, LAID_RADIUS):
+    for row in (LAID, LAID_SQUARE, LAID_A, LAID_B, LAID_RADIUS):
         expand(values[row], series[row])
 
 
 @kernel
 def lay_at_edge(work: Arrays, motion: Motion, panel: Panel) -> None:
-    """Write what the edge lays, c = -U, and the integral of U db."""
+    """Write what the edge lays, c = -U, and the integrals of U db and U^2 db."""
     values, rates = work.values, work.rates
     b, u = values[RADIUS], values[MOVED]
     for j in range(NODES):
@@ -114,6 +133,9 @@ def lay_at_edge(work: Arrays, motion: Motion, panel: Panel) -> None:
         values[LAID_A, j], values[LAID_B, j] = b[j] * b[j] - u[j], b[j] * b[j] + u[j]
         rates[0, j] = u[j] * normal.edge_rate(motion, b[j], values[SPEED, j])
     integrate(panel.clock, 0.0, panel.length, rates[0], values[LAID])
+    for j in range(NODES):
+        rates[0, j] *= u[j]
+    integrate(panel.clock, 0.0, panel.length, rates[0], values[LAID_SQUARE])
 
 
 @kernel

@@ -4,16 +4,21 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.lossy import normal
-from carom.dimensionless.lossy.collocation import FLAT_ENDS, FLAT_START, NODES, PLACES, evaluate
-from carom.dimensionless.lossy.events import EARLY, TO, state_at
-from carom.dimensionless.lossy.normal import Motion
-from carom.dimensionless.lossy.panels import Panel, State
-from carom.dimensionless.lossy.work import TIME, Arrays
-from carom.dimensionless.numerics.kernels import kernel
-from carom.dimensionless.viscoelastic.memory import level_at
-from carom.dimensionless.viscoelastic.passed import left
-from carom.dimensionless.viscoelastic.ring import (
+from carom.dimensionless.lossy.panels import normal
+from carom.dimensionless.lossy.panels.collocation import (
+    FLAT_ENDS,
+    FLAT_START,
+    NODES,
+    PLACES,
+    evaluate,
+)
+from carom.dimensionless.lossy.panels.newton import Panel, State, state_at
+from carom.dimensionless.lossy.panels.normal import Motion, Stage
+from carom.dimensionless.lossy.panels.work import RADIUS, TIME, Arrays
+from carom.dimensionless.lossy.viscoelastic.memory import level_at
+from carom.dimensionless.lossy.viscoelastic.passed import left
+from carom.dimensionless.lossy.viscoelastic.ring import (
+    RETRACES,
     RETREATS,
     RETURNS,
     SLIPS,
@@ -25,6 +30,8 @@ from carom.dimensionless.viscoelastic.ring import (
     level_now,
     ring_of,
 )
+from carom.dimensionless.lossy.yielding.events import EARLY
+from carom.dimensionless.numerics.kernels import kernel
 
 # Slip begins at the edge; it stops all over; the front turns; it comes to the end of a piece, or of
 # what slip passed; the ring closes.
@@ -33,6 +40,7 @@ NOTHING, BEGINS, STOPS, TURNS, ARRIVES, CLOSES = range(6)
 ROUNDING = 1e-12
 TURNED = 1e-10
 STILL = 1e-10  # alpha times the rate of slip below which all that slips sticks at once
+PARTING = 2e-3  # radius below which what still happens changes psi by less than chi b^5
 BISECTIONS = 40
 
 
@@ -54,6 +62,8 @@ def inwards(motion: Motion, sign: int, now: State, q: float) -> float:
 def happened(work: Arrays, motion: Motion, panel: Panel, x: float, now: State, time: float) -> int:
     """Return what has happened at a place of a solved panel."""
     ring, alpha, small = ring_of(work), motion.parameter, ROUNDING * (1.0 + abs(now.psi))
+    if ring.mode == RETRACES:
+        return NOTHING
     if ring.mode == STICKS:
         return BEGINS if abs(now.psi) - now.speed > small else NOTHING
     g = excess(ring.sign, now)
@@ -90,11 +100,13 @@ def happened_at(work: Arrays, motion: Motion, panel: Panel, x: float) -> int:
 @kernel
 def first_event(work: Arrays, motion: Motion, panel: Panel) -> Event:
     """Return what first happens in a solved panel."""
+    if motion.stage == Stage.UNLOADING.value and work.values[RADIUS, 0] < PARTING:
+        return Event(2.0, NOTHING)
     flat = panel.clock == FLAT_START or panel.clock == FLAT_ENDS
     early = 2.0 * (np.sqrt(EARLY) if flat else EARLY) - 1.0
     low = -1.0
     for j in range(NODES):
-        high = early if j == 0 else (PLACES[j] if j < NODES - 1 else TO)
+        high = early if j == 0 else PLACES[j]
         if high < early:
             continue
         found = happened_at(work, motion, panel, high)

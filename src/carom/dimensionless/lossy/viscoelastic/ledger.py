@@ -1,0 +1,202 @@
+"""Where the tangential energy of a viscoelastic impact is: stored in springs, lost in dashpots.
+
+Springs that stick have u' = psi, those that slip u = sigma (w - alpha h), u' = sigma (v + h), with
+w = d - s. What the dashpots lose is alpha u'^2, and u^2/2 of each spring that the edge lets go; the
+rest is lost to friction.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.dimensionless.lossy.panels import normal
+from carom.dimensionless.lossy.panels.collocation import evaluate, place, slope
+from carom.dimensionless.lossy.panels.newton import Panel, State
+from carom.dimensionless.lossy.panels.normal import Motion, Stage
+from carom.dimensionless.lossy.panels.pieces import PANEL, R0, R1, S0, S1, SIGN, X0, X1, cubes
+from carom.dimensionless.lossy.panels.work import FRONT, LAID_RADIUS, LAID_SQUARE, TIME, Arrays
+from carom.dimensionless.lossy.viscoelastic import passed
+from carom.dimensionless.lossy.viscoelastic.memory import FLAT, level_at, row_of
+from carom.dimensionless.lossy.viscoelastic.passed import AT_ONCE, left, left_at
+from carom.dimensionless.lossy.viscoelastic.ring import (
+    RATIO,
+    RETRACES,
+    RETREATS,
+    RETURNS,
+    STICKS,
+    Front,
+    Ring,
+    moved,
+    ring_of,
+)
+from carom.dimensionless.numerics.kernels import kernel
+
+ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(8)
+LAYERS = np.array([0.0, 2.0, 6.0, 14.0, 38.0])  # ages of h, in alpha, between which it is smooth
+
+
+class Moments(NamedTuple):
+    """Integrals over the ring of h, h s and h^2, and h at the edge."""
+
+    plain: float
+    weighted: float
+    square: float
+    edge: float
+
+
+@kernel
+def passed_moments(
+    work: Arrays, n: int, sign: int, alpha: float, x0: float, x1: float, time: float
+) -> tuple[float, float, float]:
+    """Return the integrals of h, h s and h^2 over what the front passed in part of a panel."""
+    plain, weighted, square, high = 0.0, 0.0, 0.0, x1
+    for layer in range(1, LAYERS.size):
+        if high <= x0:
+            break
+        oldest = time - LAYERS[layer] * alpha
+        low = x0
+        if evaluate(work.series, n, TIME, x0) < oldest:
+            low = max(x0, min(high, place(work.series, n, TIME, oldest, x0, high)))
+        half = 0.5 * (high - low)
+        for k in range(ABSCISSAS.size):
+            x = low + half * (1.0 + ABSCISSAS[k])
+            r, h = evaluate(work.series, n, FRONT, x), left_at(work, n, sign, alpha, x, time)
+            width = -slope(work.series, n, FRONT, x) * half * WEIGHTS[k]
+            plain += width * h
+            weighted += width * h * r * r
+            square += width * h * h
+        high = low
+    return plain, weighted, square
+
+
+@kernel
+def entry_moments(
+    work: Arrays, i: int, ring: Ring, alpha: float, edge: float, x1: float, time: float
+) -> tuple[float, float, float]:
+    """Return the integrals over an entry of the stack, from the edge to a place of its panel."""
+    row, n = work.passed[i], int(work.passed[i, passed.PANEL])
+    outer, inner = min(row[passed.R_OUTER], edge), row[passed.R_INNER]
+    if outer <= inner:
+        return 0.0, 0.0, 0.0
+    if row[passed.PANEL] == AT_ONCE:
+        h = left(work, i, True, ring.sign, alpha, time)
+        return h * (outer - inner), h * cubes(inner, outer), h * h * (outer - inner)
+    x0 = row[passed.X_OUTER]
+    if outer < row[passed.R_OUTER]:
+        x0 = place(work.series, n, FRONT, outer, x0, x1)
+    return passed_moments(work, n, ring.sign, alpha, x0, x1, time)
+
+
+@kernel
+def edge_left(work: Arrays, i: int, ring: Ring, alpha: float, edge: float, time: float) -> float:
+    """Return h at the edge, which an entry of the stack holds."""
+    row, n = work.passed[i], int(work.passed[i, passed.PANEL])
+    if row[passed.PANEL] == AT_ONCE:
+        return left(work, i, True, ring.sign, alpha, time)
+    x = place(work.series, n, FRONT, edge, row[passed.X_OUTER], row[passed.X_INNER])
+    return left_at(work, n, ring.sign, alpha, x, time)
+
+
+@kernel
+def ring_moments(
+    work: Arrays, motion: Motion, panel: Panel, x: float, now: State, at: Front, time: float
+) -> Moments:
+    """Return what the ledger needs to know of h in the ring, at a place of a panel."""
+    ring, alpha, edge = ring_of(work), motion.parameter, now.radius
+    plain, weighted, square, at_edge = 0.0, 0.0, 0.0, 0.0
+    for i in range(ring.depth):
+        row = work.passed[i]
+        last = at.place if ring.mode == RETURNS and i == ring.depth - 1 else row[passed.X_INNER]
+        found = entry_moments(work, i, ring, alpha, edge, last, time)
+        plain, weighted, square = plain + found[0], weighted + found[1], square + found[2]
+        if row[passed.R_INNER] < edge <= row[passed.R_OUTER]:
+            at_edge = edge_left(work, i, ring, alpha, edge, time)
+    if ring.mode == RETREATS:
+        found = passed_moments(work, panel.number, ring.sign, alpha, -1.0, x, time)
+        plain, weighted, square = plain + found[0], weighted + found[1], square + found[2]
+    return Moments(plain, weighted, square, at_edge)
+
+
+@kernel
+def loss_rate(motion: Motion, now: State, ring: Ring, at: Front, h: Moments) -> float:
+    """Return the rate of viscous loss in shear by the clock, such that psi^2/2 is kinetic."""
+    alpha, v, a, b = motion.parameter, now.speed, at.radius, now.radius
+    squared = now.psi * now.psi * a + v * v * (b - a) + 2.0 * v * h.plain + h.square
+    rate = 7.5 * motion.chi * alpha * b * squared
+    if motion.stage == Stage.UNLOADING.value:
+        let_go = alpha * (ring.sign * (v + h.edge) if ring.sign != 0 else now.psi)
+        rate -= 1.875 * motion.chi * let_go * let_go * normal.edge_rate(motion, b, v)
+    return float(rate)
+
+
+@kernel
+def square_of_u(
+    work: Arrays,
+    motion: Motion,
+    panel: Panel,
+    x: float,
+    now: State,
+    at: Front,
+    depth: float,
+    force: float,
+    h: Moments,
+) -> float:
+    """Return the integral of u^2 over the contact at a place of a panel; `force` is Q there."""
+    ring, a, b, u = ring_of(work), at.radius, now.radius, now.moved
+    if ring.mode == RETRACES:
+        return float(work.ring[RATIO] ** 2 * squares(depth, 0.0, b))
+    limit = normal.limit(motion, b, now.speed)
+    laid = force - moved(motion, now) * a - ring.sign * (limit * (b - a) - cubes(a, b))
+    total = u * u * a + 2.0 * u * laid + squares_of_c(work, panel, x, at)
+    total += squares(depth, a, b)
+    alpha = motion.parameter
+    return float(total - 2.0 * alpha * (depth * h.plain - h.weighted) + alpha * alpha * h.square)
+
+
+@kernel
+def squares(level: float, inner: float, outer: float) -> float:
+    """Return the integral of (level - s)^2 between two radii."""
+    plain = level * (level * (outer - inner) - 2.0 * cubes(inner, outer))
+    return float(plain + (outer**5 - inner**5) / 5.0)
+
+
+@kernel
+def squares_of_c(work: Arrays, panel: Panel, x: float, at: Front) -> float:
+    """Return the integral of c^2 over what sticks, at a place of a panel."""
+    pieces, ring, total = work.pieces, ring_of(work), 0.0
+    whole = panel.pieces - 1 if ring.mode == RETREATS else panel.pieces
+    for i in range(whole):
+        total += square_of_piece(work, i, pieces[i, R1], pieces[i, X1])
+    if ring.mode == RETREATS:
+        total += square_of_piece(work, whole, at.radius, at.place)
+    elif ring.mode == STICKS:
+        total += evaluate(work.series, panel.number, LAID_SQUARE, x)
+    elif ring.mode == RETURNS:
+        total += square_left(work, panel.number, ring.sign, -1.0, x)
+    return float(total)
+
+
+@kernel
+def square_of_piece(work: Arrays, i: int, r1: float, x1: float) -> float:
+    """Return the integral of c^2 over a piece up to a radius, which is at this place."""
+    pieces, sign, n = work.pieces, int(work.pieces[i, SIGN]), int(work.pieces[i, PANEL])
+    r0 = pieces[i, R0]
+    if pieces[i, PANEL] == FLAT:
+        level = level_at(pieces, i, sign, False)
+        return squares(level, r0, r1)
+    if sign != 0:
+        return square_left(work, n, sign, pieces[i, X0], x1)
+    last = pieces[i, S1] if x1 == pieces[i, X1] else evaluate(work.series, n, LAID_SQUARE, x1)
+    return float(last - pieces[i, S0])
+
+
+@kernel
+def square_left(work: Arrays, n: int, sign: int, x0: float, x1: float) -> float:
+    """Return the integral of c^2 over what a front that returned left in part of a panel."""
+    total, half = 0.0, 0.5 * (x1 - x0)
+    for k in range(ABSCISSAS.size):
+        x = x0 + half * (1.0 + ABSCISSAS[k])
+        r = evaluate(work.series, n, LAID_RADIUS, x)
+        c = evaluate(work.series, n, row_of(sign), x) - r * r
+        total += WEIGHTS[k] * half * slope(work.series, n, LAID_RADIUS, x) * c * c
+    return total

@@ -1,0 +1,1 @@
+"""The oblique impact of spheres that yield, panel by panel."""
