@@ -21,7 +21,7 @@ LARGEST_CHI = 100.0  # tables of larger ones would take minutes
 RETURNING = 3.0
 SMALLEST, LOSSY_SMALLEST = 1e-6, 1e-3  # psi_1: below, r is that of the first panel
 TOLERANCE = 4e-10  # of the tail of a series; the error stays below 1e-9
-LOSSY_TOLERANCE, ROUGH = 1e-8, 1e-6  # with losses; for chi above 3, where the front of slip returns
+LOSSY_TOLERANCE, ROUGH = 1e-8, 2e-7  # with losses; for chi above 3, where the front of slip returns
 
 
 def panel_ends(chi: float, restitution: float) -> list[float]:

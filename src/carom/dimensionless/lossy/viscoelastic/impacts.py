@@ -149,6 +149,11 @@ def solved_panel(
             before = Panel(number, EVEN, 0.0, pieces)
             continue
         before = panel
+        mode, error = ring_of(work).mode, error_of(work, panel)
+        is_smooth = mode == STICKS or mode == SLIPS  # beyond an event, too
+        if is_smooth and error > tolerance and plan.length > SHORTEST:
+            plan = revised(with_length(plan, h, h, NOTHING, False), error, tolerance)
+            continue
         event = first_event(work, motion, panel)
         near = NEAR if plan.clock == EVEN else NEAR_FLAT
         part = clock(plan.clock, event.place) if event.place < 1.0 else 1.0
@@ -157,7 +162,6 @@ def solved_panel(
             continue
         if event.what != NOTHING:
             plan = with_length(plan, plan.length, plan.natural, event.what, plan.to_stage_end)
-        error = error_of(work, panel)
         if error <= tolerance or plan.length <= SHORTEST:
             return plan, error
         plan = revised(plan, error, tolerance)

@@ -112,7 +112,11 @@ def ring_moments(
         if row[passed.R_INNER] < edge <= row[passed.R_OUTER]:
             at_edge = edge_left(work, i, ring, alpha, edge, time)
     if ring.mode == RETREATS:
-        found = passed_moments(work, panel.number, ring.sign, alpha, -1.0, x, time)
+        n, x0 = panel.number, -1.0
+        if edge < work.values[FRONT, 0]:
+            x0 = place(work.series, n, FRONT, edge, -1.0, x)
+            at_edge = left_at(work, n, ring.sign, alpha, x0, time)
+        found = passed_moments(work, n, ring.sign, alpha, x0, x, time)
         plain, weighted, square = plain + found[0], weighted + found[1], square + found[2]
     return Moments(plain, weighted, square, at_edge)
 
