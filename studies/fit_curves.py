@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from rich.progress import track
 
 import carom
-from carom.dimensionless.interpolation import TABLE, grid, nodes, table, tabulated
+from carom.dimensionless.interpolation import TABLE, grid, nodes, table
 
 FILE = Path(carom.__file__).parent / TABLE
 CHECKED = (0, 3, 11)  # of the e of the table
@@ -24,8 +24,7 @@ def curves(chi: NDArray[np.float64], restitution: float) -> NDArray[np.float64]:
     """Return the curves of one e, one a row."""
     psi = nodes(chi, restitution)
     law = None if restitution == 1.0 else carom.KelvinVoigt(restitution=restitution)
-    outgoing = carom.rebound(psi, chi[:, np.newaxis, np.newaxis], losses=law)
-    return tabulated(psi, outgoing, chi, restitution).reshape(chi.size, -1)
+    return np.asarray(carom.rebound(psi, chi[:, np.newaxis], losses=law)) / psi
 
 
 def check() -> int:

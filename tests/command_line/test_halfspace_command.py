@@ -61,7 +61,7 @@ def test_unlike_materials_show_what_the_normal_motion_loses(run):
         (["--method", "fem"], "carom: method: 'fem' cannot be used; must be exact or halfspace"),
         (["--elements", "32"], "carom: elements: 32 cannot be used; only boundary elements have"),
         (["--method", "halfspace", "--steps", "5"], "carom: steps: '5' cannot be used; must be a"),
-        ([*COARSE, "--restitution", "0.9"], "carom: normal: KelvinVoigt(restitution=0.9"),
+        ([*COARSE, "--restitution", "0.9"], "carom: losses: KelvinVoigt(restitution=0.9"),
     ],
 )
 def test_what_cannot_be_solved_takes_one_line(run, flags, said):

@@ -63,18 +63,22 @@ def test_an_impact_with_losses_is_that_of_the_library(run, flags):
     assert code == 0
     assert record["result"] == hit.scalars()
     assert record["result"]["normal_restitution"] < 0.95
-    assert record["inputs"]["normal"] == LAWS[flags].describe()
+    assert record["inputs"]["losses"] == LAWS[flags].describe()
     assert [phase["end"] for phase in record["phases"]] == [phase.end for phase in hit.phases]
     angles = {(phase["slip_angle_max"], phase["slip_angle_mean"]) for phase in record["phases"]}
     assert angles == {(None, None)}
 
 
 def test_the_table_tells_what_was_lost_where_something_was(run):
-    meanings = ("normal velocity, after to before  ", "energy lost in the normal motion  ")
+    meanings = (
+        "normal velocity, after to before  ",
+        "energy lost in the normal motion  ",
+        "energy lost to viscosity in shear  ",
+    )
     _, lossy, _ = run(*BALL, *SPEED, "--restitution", "0.9")
     _, elastic, _ = run(*BALL, *SPEED)
-    assert [meaning in lossy for meaning in meanings] == [True, True]
-    assert [meaning in elastic for meaning in meanings] == [False, False]
+    assert [meaning in lossy for meaning in meanings] == [True, True, True]
+    assert [meaning in elastic for meaning in meanings] == [False, False, False]
     told = dict(line.strip().rsplit("  ", 1) for line in lossy.splitlines() if "  " in line.strip())
     values = {key.strip(): value for key, value in told.items()}
     assert float(values[meanings[0].strip()]) == pytest.approx(0.9, abs=1e-5)
@@ -92,7 +96,7 @@ def test_a_flag_takes_the_place_of_what_the_case_file_has(run):
     ):
         code, out, _ = run("impact", "case.toml", *flags, "--json")
         assert code == 0
-        assert json.loads(out)["inputs"]["normal"] == law
+        assert json.loads(out)["inputs"]["losses"] == law
 
 
 def test_files_of_an_impact_with_losses_are_what_it_is_and_can_be_drawn(run):
@@ -104,7 +108,7 @@ def test_files_of_an_impact_with_losses_are_what_it_is_and_can_be_drawn(run):
     assert run("impact", "case.toml", "--output", "hit.csv")[0] == 0
     for name in ("hit.nc", "hit.csv"):
         assert carom.read(name).identical(wanted), name
-    assert len(plots.plot_impact(carom.read("hit.csv")).axes[3].collections) == 7
+    assert len(plots.plot_impact(carom.read("hit.csv")).axes[3].collections) == 8
 
 
 @pytest.mark.parametrize(

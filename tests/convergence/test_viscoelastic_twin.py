@@ -8,6 +8,7 @@ most 2e-7, half of what that changed by from 500 to 1000 springs, in the median 
 import numpy as np
 import pytest
 
+import carom
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.panels.normal import Loss
 from carom.dimensionless.lossy.panels.stages import viscous_loss
@@ -81,3 +82,10 @@ def test_coulombs_law_in_every_ring(e):
     assert fine < 4e-3
     assert coarse / middle == pytest.approx(2.0, abs=0.15)
     assert middle / fine == pytest.approx(2.0, abs=0.15)
+
+
+def test_the_law_gives_what_the_twin_gives():
+    """KelvinVoigt(restitution=e) is the impact of the alpha that belongs to e."""
+    for psi, chi, e in ((0.4, 1.44, 0.95), (2.0, 1.44, 0.8), (5.0, 0.9, 0.55)):
+        found = carom.rebound(psi, chi, losses=carom.KelvinVoigt(restitution=e))
+        assert found == pytest.approx(extrapolated(psi, chi, viscous_loss(e)), abs=1e-6)

@@ -188,18 +188,21 @@ def test_energies_fill_the_whole(figures):
 
 
 def test_normal_losses_are_drawn_where_there_are_any(hit, history):
-    """Seven shares of energy that end at 1; a history stored without that column has six."""
+    """Eight shares of energy that end at 1; a history stored without losses has six."""
     law = carom.KelvinVoigt(restitution=0.7)
     lossy = carom.impact(hit.pair, speed=2.0, angle="30 deg", losses=law).history(51)
     axis = plots.plot_impact(lossy).axes[3]
     edges = axis.collections[-1].get_paths()[0].vertices[:, 1]
-    assert axis.collections[-1].get_label() == "normal losses"
+    assert axis.collections[-1].get_label() == "losses in shear"
     assert edges.max() == pytest.approx(1.0, abs=1e-9)
     start = lossy.normal_kinetic_energy + lossy.tangential_kinetic_energy
-    lost = float(lossy.normal_loss[-1] / start[0])
+    lost = float(lossy.shear_loss[-1] / start[0])
     assert 1.0 - edges.min() == pytest.approx(lost, abs=1e-9)
-    assert len(axis.collections) == 7
-    assert len(plots.plot_impact(history.drop_vars("normal_loss")).axes[3].collections) == 6
+    assert len(axis.collections) == 8
+    assert (
+        len(plots.plot_impact(history.drop_vars(["normal_loss", "shear_loss"])).axes[3].collections)
+        == 6
+    )
 
 
 def test_bands_are_the_phases(figures, history, hit):

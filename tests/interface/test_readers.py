@@ -213,7 +213,7 @@ TINY = {"material": "steel", "radius": 1e-120}
     ("call", "words"),
     [
         *(
-            (call, ("normal: ", LOSSES))
+            (call, ("losses: ", LOSSES))
             for call in (
                 lambda: carom.rebound(0.5, 1.44, losses=0.9),
                 lambda: carom.solve(0.5, 1.44, losses=carom.KelvinVoigt),
@@ -223,7 +223,7 @@ TINY = {"material": "steel", "radius": 1e-120}
             )
         ),
         *(
-            (call, ("normal: ",))
+            (call, ("losses: ",))
             for call in (
                 lambda: carom.rebound(0.5, 1.44, losses=carom.KelvinVoigt([0.9, 0.8])),
                 lambda: carom.ReboundLaw(1.44, losses=carom.KelvinVoigt([0.9, 0.8])),

@@ -176,7 +176,7 @@ def test_a_bar_is_shown_when_asked_for(capsys, monkeypatch):
     ("change", "said"),
     [
         ({"method": "fem"}, r"^method: 'fem' cannot be used; must be 'exact', 'halfspace' or"),
-        ({"normal": carom.KelvinVoigt(restitution=0.9)}, r"^normal: .*elastic; leave it"),
+        ({"losses": carom.KelvinVoigt(restitution=0.9)}, r"^losses: .*elastic; leave it"),
         ({"pair": against_wall(friction=0.0)}, r"^friction: without it nothing is tangential"),
         ({"pair": against_wall(friction=1e-100)}, r"^psi_1: .* leave method out"),
     ],

@@ -17,7 +17,7 @@ BALL = carom.Sphere(radius="4 mm", material="soda-lime-glass", inner_radius="2.5
 OTHER = carom.Sphere(radius="7 mm", material="steel")
 PAIR = carom.Pair(BALL, OTHER, friction=0.2)
 LOSSES = carom.KelvinVoigt(restitution=0.8)
-ACCURACY = 1e-6
+ACCURACY = 3e-8
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +32,7 @@ def relative_error(law, psi):
 
 @pytest.mark.parametrize(("chi", "e"), [(0.3, 0.9), (1.44, 0.5), (1.44, 0.999), (2.2, 0.05)])
 def test_equals_the_solver(chi, e):
-    """Within 1e-6 max(1, |psi|) of `rebound`, of either sign, at edges, in the tail, near zero."""
+    """Within 3e-8 max(1, |psi|) of `rebound`, of either sign, at edges, in the tail, near zero."""
     law = carom.ReboundLaw(chi, losses=carom.KelvinVoigt(restitution=e))
     rng = np.random.default_rng(4)
     spread = rng.uniform(0.0, 4.0 * chi * (1.0 + e), 250)
@@ -40,31 +40,12 @@ def test_equals_the_solver(chi, e):
     assert relative_error(law, np.concatenate([psi, -psi])) <= ACCURACY
 
 
-def test_what_is_lacking_from_gross_slip_falls_as_theory_says(law):
-    """psi_1 (psi_2 - [psi_1 - S]) -> (15/8) chi alpha^2 integral of v^2 db over loading.
-
-    With b = sqrt(d) the integral is that of v^2 dd/(2 sqrt d), d' = v, v' = -(5/4) sqrt(d) (d +
-    (3/2) alpha v), marched here by Runge and Kutta's method in the clock b, on which it is regular.
-    """
-    alpha = LOSSES.scale_free()[1]
-
-    def rates(b, state):
-        v = state[0]
-        return np.array([-2.5 * b**2 * (b**2 + 1.5 * alpha * v) / v, v * v])
-
-    state, b, h = np.array([1.0, 0.0]), 0.0, 1e-4
-    while state[0] > 0.05:  # beyond, v^2 falls linearly in b to zero
-        one = rates(b, state)
-        two = rates(b + 0.5 * h, state + 0.5 * h * one)
-        three = rates(b + 0.5 * h, state + 0.5 * h * two)
-        four = rates(b + h, state + h * three)
-        state, b = state + h / 6.0 * (one + 2.0 * two + 2.0 * three + four), b + h
-    slope = 2.0 * state[0] * rates(b, state)[0]
-    integral = state[1] - state[0] ** 4 / (2.0 * slope)
+def test_sliding_throughout_is_exact(law):
+    """psi_2 = psi_1 - S from psi_1 = S - e on, S = 2 chi (1 + e); before, less is lost."""
     sliding = 2.0 * law.chi * 1.8
-    psi = 300.0 * sliding
-    lacking = (law(psi) - (psi - sliding)) * psi
-    assert lacking == pytest.approx(1.875 * law.chi * alpha**2 * integral, rel=0.01)
+    psi = sliding - 0.8 + np.array([0.0, 1e-9, 0.1, 3.0, 1e6])
+    np.testing.assert_array_equal(law(psi), psi - sliding)
+    assert law(psi[0] - 1e-3) > psi[0] - 1e-3 - sliding + 1e-9
 
 
 def test_never_gains_energy_is_odd_and_keeps_coulombs_bound(law):
@@ -77,7 +58,7 @@ def test_never_gains_energy_is_odd_and_keeps_coulombs_bound(law):
     assert np.all(np.abs(out) <= psi)
     assert np.all(loss >= 0.0)
     assert np.all(np.abs(impulse) <= 1.0 + 4e-16)
-    assert np.max(np.abs(np.abs(impulse[psi > 1e9]) - 1.0)) < 1e-9
+    assert np.all(np.abs(impulse[psi > law.edges[-1]]) >= 1.0 - 4e-16)
     assert law(np.inf) == np.inf
     assert np.isnan(law(np.nan))
 
@@ -94,7 +75,7 @@ def test_equals_an_impact_with_units(law, slope):
         hit.tangential_impulse, abs=ACCURACY * size * largest
     )
     assert energy * law.dissipation(psi) == pytest.approx(
-        hit.dissipated_energy, abs=2.0 * ACCURACY * energy * size**2
+        hit.dissipated_energy + hit.shear_lost_energy, abs=2.0 * ACCURACY * energy * size**2
     )
     assert law.duration * hit.scales.time == pytest.approx(hit.duration, rel=1e-8)
 
@@ -111,7 +92,7 @@ def collisions(count):
 
 
 def test_collisions_are_impacts(law):
-    """Random collisions in space are `impact`s in their planes: V_n' = -e V_n, V_t' to 1e-6."""
+    """Random collisions in space are `impact`s in their planes: V_n' = -e V_n, V_t' to 3e-8."""
     motion = collisions(60)
     after = carom.collide(PAIR, law=law, **motion)
 
@@ -192,8 +173,8 @@ def test_restitution_one_is_the_elastic_law():
     ],
 )
 def test_refuses_losses_that_have_no_table(normal):
-    """One line that names normal."""
-    with pytest.raises(carom.InputError, match=r"^normal: [^\n]+$"):
+    """One line that names losses."""
+    with pytest.raises(carom.InputError, match=r"^losses: [^\n]+$"):
         carom.ReboundLaw(1.44, losses=normal)
 
 

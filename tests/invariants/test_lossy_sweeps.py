@@ -118,8 +118,9 @@ def test_restitution_of_yielding_bodies_is_thorntons():
 
 
 def test_energy_that_is_missing_was_lost():
-    """Kinetic energy before less after is what friction and the normal motion took."""
-    names = ["rebound_speed", "spin_out", "dissipated_energy", "lost_energy", "normal_mass"]
+    """Kinetic energy before less after is what friction took, and viscosity either way."""
+    names = ["rebound_speed", "spin_out", "dissipated_energy", "normal_mass"]
+    names += ["lost_energy", "shear_lost_energy"]
     for loss, ends in LOSSES.items():
         cube = LatinHypercube({**RANGES, loss: ends}, samples=40, seed=1)
         found = SweepProblem(BALL, cube, names).block(whole(cube))
@@ -130,9 +131,12 @@ def test_energy_that_is_missing_was_lost():
             found["normal_mass"] * found["rebound_speed"] ** 2 + inertia * found["spin_out"] ** 2
         )
         lost = 2.0 * (found["dissipated_energy"] + found["lost_energy"])
+        lost += 2.0 * found["shear_lost_energy"]
         assert np.max(np.abs((before - after - lost) / before)) < 1e-13
         assert np.all(found["lost_energy"] >= -SOLVER * before)
         assert found["lost_energy"].max() > 1e-3 * before.max()
+        assert np.all(found["dissipated_energy"] >= -SOLVER * before)
+        assert np.all(found["shear_lost_energy"] >= 0.0)
 
 
 def test_losses_that_are_none_give_the_elastic_sweep():

@@ -12,14 +12,16 @@ from carom.dimensionless.numerics.kernels import entry_point
 from carom.dimensionless.rebounds import regime_borders
 
 TABLE = "data/fit_curves.npz"  # made by studies/fit_curves.py
-PANELS, NODES = 4, 33  # of a curve; nodes even in arccos, for roots at the kinks
+NODES = np.array([33, 129, 33])  # on the panels of a curve; even in arccos, for roots at the kinks
+PANELS = len(NODES)
+FIRST = np.concatenate(([0], np.cumsum(NODES)))  # place of the first node of a panel
 FOLD = 0.5  # chi at which the borders of the regimes meet: no stencil reaches across
-LOG_CHI, LOWEST, HIGHEST = 0.05, -14, 41  # spacing of curves in log(chi/FOLD), first, last
+LOG_CHI, LOWEST, HIGHEST = 0.025, -28, 84  # spacing of curves in log(chi/FOLD), first, last
 ROOT_LOSS, LOSSES = 0.05, 18  # spacing of curves in sqrt(1 - e), and their number
 LEAST_CHI, MOST_CHI = (FOLD * float(np.exp(LOG_CHI * i)) for i in (LOWEST, HIGHEST))
 LEAST_E = 0.3  # somewhat above the last curve
-SMALLEST, FARTHEST = 1e-4, 50.0  # psi_1 that stands for 0, and for infinity in units of the border
-THROUGHOUT = PANELS - 1  # the regime of gross slip throughout
+SMALLEST = 1e-4  # psi_1 that stands for 0
+THROUGHOUT = PANELS  # the regime of gross slip throughout
 
 
 def panel_starts(chi: Any, restitution: Any) -> Array:
@@ -31,10 +33,10 @@ def panel_starts(chi: Any, restitution: Any) -> Array:
 def psi_out(psi: Array, chi: Array, restitution: Array) -> Array:
     """Return psi_2, odd in psi_1, of shape (batch, points); chi and e have the shape (batch,).
 
-    Cubic interpolation in the angle of Chebyshev nodes between the kinks, in log chi and in
-    sqrt(1 - e): of psi_2/psi_1, and beyond the last kink of psi_1 (psi_2 - psi_1 + 2 chi (1 + e)).
-    The error is below 2e-4 for e = 1 and chi up to 1.75, where solid spheres are; it grows to 2e-3
-    for e = 0.6, whose kinks lie elsewhere, and to 1e-2 for chi = 4, with more of them.
+    Cubic interpolation of psi_2/psi_1 in the angle of Chebyshev nodes between the kinks, in log chi
+    and in sqrt(1 - e); psi_1 - 2 chi (1 + e) beyond the last kink. The error is below 5e-5 for chi
+    from 0.5 to 1.75, where solid spheres are, and 2e-4 up to 2.2; for weak losses it grows to 2e-3
+    at chi = 3 and 5e-3 at 4, where curves have more kinks, and is 3e-3 just below chi = 1/2.
     """
     curves = _blended(chi, restitution)
     result = np.empty(psi.shape)
@@ -53,24 +55,22 @@ def regimes(psi: Array, chi: float, restitution: float) -> NDArray[np.int8]:
 def interpolate(curves: Matrix, starts: Matrix, slide: Vector, psi: Matrix, result: Matrix) -> None:
     """Write psi_2 of all points, from the values at the nodes, a row of either for a curve."""
     for row in range(psi.shape[0]):
-        top = starts[row, PANELS - 1]
         for point in range(psi.shape[1]):
             speed = abs(psi[row, point])
-            panel = 0
-            for later in range(1, PANELS):
+            panel = -1
+            for later in range(PANELS + 1):
                 if speed >= starts[row, later]:
                     panel = later
-            if panel == PANELS - 1:
-                part = top / speed
-            else:
-                part = (speed - starts[row, panel]) / (starts[row, panel + 1] - starts[row, panel])
-            place = np.arccos(1.0 - 2.0 * part) * ((NODES - 1) / np.pi)
-            cell = min(max(int(place), 1), NODES - 3)
-            first = panel * NODES + cell - 1
-            one, two, three, four = cubic(place - cell)
-            near = curves[row, first : first + 4]
-            value = one * near[0] + two * near[1] + three * near[2] + four * near[3]
-            out = speed - slide[row] + value / speed if panel == PANELS - 1 else speed * value
+            out = speed - slide[row]
+            if panel < PANELS:
+                width = starts[row, panel + 1] - starts[row, panel]
+                part = (speed - starts[row, panel]) / width
+                place = np.arccos(1.0 - 2.0 * part) * ((NODES[panel] - 1) / np.pi)
+                cell = min(max(int(place), 1), NODES[panel] - 3)
+                first = FIRST[panel] + cell - 1
+                one, two, three, four = cubic(place - cell)
+                near = curves[row, first : first + 4]
+                out = speed * (one * near[0] + two * near[1] + three * near[2] + four * near[3])
             result[row, point] = out if psi[row, point] >= 0.0 else -out
 
 
@@ -93,20 +93,13 @@ def grid() -> tuple[Array, Array]:
 
 
 def nodes(chi: Array, restitution: float) -> Array:
-    """Return psi_1 at the nodes of curves of one e, of shape (curves, panels, nodes)."""
-    part = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, NODES))
-    starts = panel_starts(chi, restitution)[:, :, np.newaxis]
-    inside = starts[:, :-1] + (starts[:, 1:] - starts[:, :-1]) * part
-    beyond = starts[:, -1:] / np.maximum(part, 1.0 / FARTHEST)
-    return np.maximum(np.concatenate((inside, beyond), axis=1), SMALLEST)
-
-
-def tabulated(psi: Array, outgoing: Array, chi: Array, restitution: float) -> Array:
-    """Return what the table holds of psi_2 at the nodes."""
-    slide = 2.0 * (1.0 + restitution) * chi[:, np.newaxis]
-    result = outgoing / psi
-    result[:, -1] = psi[:, -1] * (outgoing[:, -1] - psi[:, -1] + slide)
-    return result
+    """Return psi_1 at the nodes of curves of one e, of shape (curves, nodes)."""
+    starts, rows = panel_starts(chi, restitution), []
+    for panel, count in enumerate(NODES):
+        part = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, count))
+        low, high = starts[:, panel, np.newaxis], starts[:, panel + 1, np.newaxis]
+        rows.append(low + (high - low) * part)
+    return np.maximum(np.concatenate(rows, axis=1), SMALLEST)
 
 
 @cache

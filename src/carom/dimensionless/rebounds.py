@@ -114,15 +114,16 @@ def rebound(
 
 
 def regime_borders(chi: ArrayLike, restitution: ArrayLike = 1.0) -> Array:
-    """Return the |psi_1| at which the regime changes, along a new last axis: 1, 2 chi, 4 chi - 1.
+    """Return the |psi_1| at which the regime changes, along a new last axis.
 
-    For chi <= 1/2 all are 1. With losses the last is 2 chi (1 + e) - e, where slip in gross just
-    ends with the contact.
+    1, 2 chi, where slip in gross just lasts to the largest compression, and 2 chi (1 + e) - e, from
+    where it lasts to the end; all are 1 for chi <= 1/2.
     """
-    e = np.asarray(restitution, dtype=np.float64)
+    given = np.broadcast_arrays(np.asarray(chi, dtype=np.float64), np.asarray(restitution))
+    twice, e = 2.0 * given[0], given[1]
     with np.errstate(over="ignore"):
-        last = np.maximum(2.0 * np.asarray(chi) * (1.0 + e) - e, 1.0)
-    return np.stack((np.ones_like(last), 0.5 + 0.5 * last, last), axis=-1)
+        borders = np.ones_like(twice), twice, twice * (1.0 + e) - e
+    return np.maximum(np.stack(borders, axis=-1), 1.0)
 
 
 def warn_of_unsolved(status: NDArray[np.int8], kind: type[IntEnum] = Status) -> None:

@@ -19,6 +19,7 @@ from carom.dimensionless.twins.marching_springs import places, share, weigh
 
 AT, TIME, PACE, EDGE, LIMIT = range(5)  # columns of a normal motion
 DEPTH, SPEED = 6, 7
+COLUMNS = 7  # of a history: time, psi, U, Q, the integral of u^2, friction, what dashpots lose
 MAX_ROUNDS, SETTLED = 40, 1e-15
 RESOLVED = 4.0  # steps to a retardation time, for a parabola to follow what happens in one
 
@@ -35,7 +36,25 @@ def march(psi: float, chi: float, alpha: float, springs: int = 500, steps: int =
     5.575234871
     """
     motion = kelvin_voigt(float(alpha), steps)
-    return float(integrate(float(psi), float(chi), float(alpha), motion, steps // (2 * springs)))
+    given = float(psi), float(chi), float(alpha), motion, steps // (2 * springs)
+    return float(integrate(*given, np.empty((0, COLUMNS))))
+
+
+def march_history(psi: float, chi: float, alpha: float, springs: int, steps: int) -> Array:
+    """Return time, psi, U, Q, integral of u^2, friction and dashpots' loss after each step.
+
+    psi^2/2 + (15/4) chi [integral of u^2/2 + both losses] is constant. First row: the touch.
+
+    >>> from carom.dimensionless.twins.marching_solid import march_history
+    >>> rows = march_history(9.0, 1.0, 0.2, 100, 400)
+    >>> rows.shape
+    (401, 7)
+    """
+    motion = kelvin_voigt(float(alpha), steps)
+    history = np.zeros((len(motion), COLUMNS))
+    history[0, 1] = psi
+    integrate(float(psi), float(chi), float(alpha), motion, steps // (2 * springs), history)
+    return history
 
 
 def extrapolated(psi: float, chi: float, alpha: float, springs: int = 2000) -> float:
@@ -87,7 +106,25 @@ def _force(u: Array, s: Array, weights: Array, limit: float, pull: float) -> flo
 
 
 @kernel
-def integrate(psi: float, chi: float, alpha: float, motion: Array, stride: int) -> float:
+def _lost(
+    old: float, new: float, s: float, drag: tuple[float, float], before: Array, after: Array
+) -> tuple[float, float]:
+    """Return what slip and its dashpot take from a spring in a step, by the trapezoidal rule.
+
+    `drag` is alpha psi before and after the step.
+    """
+    most, most_end = before[LIMIT] - s, after[LIMIT] - s
+    force = max(min(old + drag[0], most), -most)
+    force_end = max(min(new + drag[1], most_end), -most_end)
+    rate, rate_end = force - old, force_end - new  # alpha u'
+    slip = 0.5 * ((drag[0] - rate) * force + (drag[1] - rate_end) * force_end)
+    return slip, 0.5 * (rate * rate + rate_end * rate_end)
+
+
+@kernel
+def integrate(
+    psi: float, chi: float, alpha: float, motion: Array, stride: int, history: Array
+) -> float:
     """Return psi after contact, kick-drift-kick, with alpha psi in the force of the last kick."""
     x = places(motion, stride)
     s = x * x
@@ -102,6 +139,7 @@ def integrate(psi: float, chi: float, alpha: float, motion: Array, stride: int) 
         edge, limit = after[EDGE], after[LIMIT]
         touching = np.searchsorted(x[: u.size], edge)
         inner, last = u[:touching], max(touching - 1, 0)
+        old = u.copy() if history.shape[0] > 0 else u
         for j in range(touching):
             inner[j] = _moved(inner[j], s[j], first, du, before, after, alpha)
         whole = weights[last]
@@ -115,5 +153,18 @@ def integrate(psi: float, chi: float, alpha: float, motion: Array, stride: int) 
             psi = half - kick * after[PACE] * force
             if abs(psi - last_psi) <= SETTLED * (1.0 + abs(half)):
                 break
+        if history.shape[0] > 0:
+            row, dt = history[i + 1], after[TIME] - before[TIME]
+            row[0], row[1], row[2], row[3] = after[TIME], psi, history[i, 2] + du, force
+            row[5], row[6] = history[i, 5], history[i, 6]
+            drag = alpha * first, alpha * psi
+            for j in range(touching):
+                slip, dashpot = _lost(old[j], inner[j], s[j], drag, before, after)
+                row[4] += weights[j] * inner[j] * inner[j]
+                row[5] += weights[j] * slip * dt / alpha
+                row[6] += weights[j] * dashpot * dt / alpha
+            for j in range(touching, u.size):  # let go: the dashpot takes what is left
+                row[6] += 0.5 * weights[j] * u[j] * u[j]
+                u[j] = 0.0
         weights[last] = whole
     return psi

@@ -11,7 +11,7 @@ from carom.dimensionless.numerics.arrays import Counts, Cube, Matrix, Vector
 MAX_PANELS = 600
 PASSED_COLUMNS, RING_NUMBERS = 7, 5
 # Series of a panel: b, U, integrals of U db and U^2 db, A and B as they are laid, v, psi; then, of
-# viscoelastic impacts alone, the radius at which the memory is laid, time, the front of slip.
+# viscoelastic impacts alone, the radius at which memory is laid, time, the front of slip squared.
 RADIUS, MOVED, LAID, LAID_SQUARE, LAID_A, LAID_B, SPEED, PSI, LAID_RADIUS, TIME, FRONT = range(11)
 VALUES = 11
 

@@ -1,5 +1,7 @@
 """What an event changes for good: the memory of a viscoelastic contact, and its ring of slip."""
 
+import numpy as np
+
 from carom.dimensionless.lossy.panels.collocation import NODES
 from carom.dimensionless.lossy.panels.newton import Panel, State, state_at_node
 from carom.dimensionless.lossy.panels.normal import Motion, Stage
@@ -58,7 +60,7 @@ def commit(work: Arrays, motion: Motion, panel: Panel, event: int) -> int:
         count = lay(work, panel, 0)
     elif ring.mode == RETREATS:
         trim(work, count - 1, at.radius, at.place)
-        depth = push(work, ring.depth, panel.number, work.values[FRONT, 0], at.radius)
+        depth = push(work, ring.depth, panel.number, np.sqrt(work.values[FRONT, 0]), at.radius)
         set_ring(work, ring.mode, ring.sign, depth)
         if event == ARRIVES:
             count -= 1
@@ -140,7 +142,11 @@ def retreat(work: Arrays, motion: Motion, count: int, now: State, time: float) -
     for _ in range(MAX_PIECES):
         i = count - 1
         if count == 0:
-            set_ring(work, SLIPS, ring.sign, ring_of(work).depth)
+            depth = ring_of(work).depth
+            rest = work.passed[depth - 1, passed.R_INNER] if depth > 0 else 0.0
+            if rest > 0.0:  # the centre is reached to rounding of levels, that is of r^2
+                depth = push_at_once(work, depth, rest, 0.0, time, excess(ring.sign, now))
+            set_ring(work, SLIPS, ring.sign, depth)
             return 0
         if pieces[i, R1] <= pieces[i, R0]:
             count = i

@@ -14,7 +14,15 @@ from carom.dimensionless.lossy.panels.collocation import evaluate, place, slope
 from carom.dimensionless.lossy.panels.newton import Panel, State
 from carom.dimensionless.lossy.panels.normal import Motion, Stage
 from carom.dimensionless.lossy.panels.pieces import PANEL, R0, R1, S0, S1, SIGN, X0, X1, cubes
-from carom.dimensionless.lossy.panels.work import FRONT, LAID_RADIUS, LAID_SQUARE, TIME, Arrays
+from carom.dimensionless.lossy.panels.work import (
+    FRONT,
+    LAID_RADIUS,
+    LAID_SQUARE,
+    PSI,
+    SPEED,
+    TIME,
+    Arrays,
+)
 from carom.dimensionless.lossy.viscoelastic import passed
 from carom.dimensionless.lossy.viscoelastic.memory import FLAT, level_at, row_of
 from carom.dimensionless.lossy.viscoelastic.passed import AT_ONCE, left, left_at
@@ -48,7 +56,10 @@ class Moments(NamedTuple):
 def passed_moments(
     work: Arrays, n: int, sign: int, alpha: float, x0: float, x1: float, time: float
 ) -> tuple[float, float, float]:
-    """Return the integrals of h, h s and h^2 over what the front passed in part of a panel."""
+    """Return the integrals of h, h s and h^2 over what the front passed in part of a panel.
+
+    By parts, as the front comes to the centre like the root of time: -[h r] + integral of r dh.
+    """
     plain, weighted, square, high = 0.0, 0.0, 0.0, x1
     for layer in range(1, LAYERS.size):
         if high <= x0:
@@ -60,13 +71,33 @@ def passed_moments(
         half = 0.5 * (high - low)
         for k in range(ABSCISSAS.size):
             x = low + half * (1.0 + ABSCISSAS[k])
-            r, h = evaluate(work.series, n, FRONT, x), left_at(work, n, sign, alpha, x, time)
-            width = -slope(work.series, n, FRONT, x) * half * WEIGHTS[k]
-            plain += width * h
-            weighted += width * h * r * r
-            square += width * h * h
+            r, h = front_at(work, n, x), left_at(work, n, sign, alpha, x, time)
+            rise = half * WEIGHTS[k] * slope_of_left(work, n, sign, alpha, x, time)
+            plain += rise * r
+            weighted += rise * r * r * r / 3.0
+            square += rise * 2.0 * h * r
         high = low
+    for end, x in ((1.0, x0), (-1.0, x1)):
+        r, h = front_at(work, n, x), left_at(work, n, sign, alpha, x, time)
+        plain += end * h * r
+        weighted += end * h * r * r * r / 3.0
+        square += end * h * h * r
     return plain, weighted, square
+
+
+@kernel
+def front_at(work: Arrays, n: int, x: float) -> float:
+    """Return where the front was at a place of a panel."""
+    return float(np.sqrt(max(evaluate(work.series, n, FRONT, x), 0.0)))
+
+
+@kernel
+def slope_of_left(work: Arrays, n: int, sign: int, alpha: float, x: float, time: float) -> float:
+    """Return the derivative of h by the place where its spring was passed."""
+    table, ago = work.series, evaluate(work.series, n, TIME, x) - time
+    excess = sign * evaluate(table, n, PSI, x) - evaluate(table, n, SPEED, x)
+    change = sign * slope(table, n, PSI, x) - slope(table, n, SPEED, x)
+    return float(np.exp(ago / alpha) * (change + excess * slope(table, n, TIME, x) / alpha))
 
 
 @kernel
@@ -83,7 +114,7 @@ def entry_moments(
         return h * (outer - inner), h * cubes(inner, outer), h * h * (outer - inner)
     x0 = row[passed.X_OUTER]
     if outer < row[passed.R_OUTER]:
-        x0 = place(work.series, n, FRONT, outer, x0, x1)
+        x0 = place(work.series, n, FRONT, outer * outer, x0, x1)
     return passed_moments(work, n, ring.sign, alpha, x0, x1, time)
 
 
@@ -93,7 +124,7 @@ def edge_left(work: Arrays, i: int, ring: Ring, alpha: float, edge: float, time:
     row, n = work.passed[i], int(work.passed[i, passed.PANEL])
     if row[passed.PANEL] == AT_ONCE:
         return left(work, i, True, ring.sign, alpha, time)
-    x = place(work.series, n, FRONT, edge, row[passed.X_OUTER], row[passed.X_INNER])
+    x = place(work.series, n, FRONT, edge * edge, row[passed.X_OUTER], row[passed.X_INNER])
     return left_at(work, n, ring.sign, alpha, x, time)
 
 
@@ -113,8 +144,8 @@ def ring_moments(
             at_edge = edge_left(work, i, ring, alpha, edge, time)
     if ring.mode == RETREATS:
         n, x0 = panel.number, -1.0
-        if edge < work.values[FRONT, 0]:
-            x0 = place(work.series, n, FRONT, edge, -1.0, x)
+        if edge * edge < work.values[FRONT, 0]:
+            x0 = place(work.series, n, FRONT, edge * edge, -1.0, x)
             at_edge = left_at(work, n, ring.sign, alpha, x0, time)
         found = passed_moments(work, n, ring.sign, alpha, x0, x, time)
         plain, weighted, square = plain + found[0], weighted + found[1], square + found[2]

@@ -79,7 +79,7 @@ def solve_panel(work: Arrays, motion: Motion, panel: Panel, before: Panel) -> bo
         for j in range(NODES):
             now = state_at_node(work, j)
             at = front(work, motion, panel, now, values[TIME, j])
-            values[FRONT, j] = at.radius
+            values[FRONT, j] = at.radius * at.radius
             rates[1, j] = -7.5 * motion.chi * b[j] * force(work, motion, panel, PLACES[j], now, at)
             rates[2, j] = -7.5 * motion.chi * b[j] * at.radius
         if iteration == 0:

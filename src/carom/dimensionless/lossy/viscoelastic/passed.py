@@ -72,4 +72,4 @@ def returned(
             low = middle
         else:
             high = middle
-    return evaluate(work.series, n, FRONT, high), high
+    return np.sqrt(max(evaluate(work.series, n, FRONT, high), 0.0)), high
