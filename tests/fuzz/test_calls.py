@@ -89,7 +89,7 @@ def tables():
         carom.StrongeLaw: {"stiffness_ratio": 0.3, "restitution": 0.9},
         carom.HardSphere: {"tangential_restitution": 0.4, "restitution": 0.9},
     }
-    MOTION = {"spin": 3.0, "spin2": 1.0, "normal": None, "method": "exact", "progress": False}
+    MOTION = {"spin": 3.0, "spin2": 1.0, "losses": None, "method": "exact", "progress": False}
     POLAR, CARTESIAN = {"speed": 2.0, "angle": 0.5}, {"normal_speed": 1.0, "tangential_speed": 0.5}
     STEPS = {"normal_force": "10 N", "tangential_force": [0.0, 1.0, -1.0]}
     PLACES = {"x": [0.0, 1e-5], "y": [0.0], "points": None}
@@ -115,12 +115,12 @@ def tables():
         "ElasticPlastic": (carom.ElasticPlastic, {"yield_velocity": 0.1}),
         "impact": (carom.impact, {"pair": BALLS, **POLAR, **MOTION}),
         "impact, components": (carom.impact, {"pair": BALLS, **CARTESIAN, **MOTION}),
-        "impact, losses": (carom.impact, {"pair": PAIR, **CARTESIAN, "normal": LOSSY}),
-        "rebound": (carom.rebound, {"psi": [0.5, 1.0], "chi": 1.44, "threads": 1, "normal": None}),
+        "impact, losses": (carom.impact, {"pair": PAIR, **CARTESIAN, "losses": LOSSY}),
+        "rebound": (carom.rebound, {"psi": [0.5, 1.0], "chi": 1.44, "threads": 1, "losses": None}),
         "rebound, status": (carom.rebound, {"psi": 0.5, "chi": 1.44, "return_status": True}),
-        "rebound, losses": (carom.rebound, {"psi": 0.5, "chi": 1.44, "normal": LOSSY}),
-        "solve": (carom.solve, {"psi": 0.5, "chi": 1.44, "normal": None}),
-        "solve, losses": (carom.solve, {"psi": 0.5, "chi": 1.44, "normal": LOSSY}),
+        "rebound, losses": (carom.rebound, {"psi": 0.5, "chi": 1.44, "losses": LOSSY}),
+        "solve": (carom.solve, {"psi": 0.5, "chi": 1.44, "losses": None}),
+        "solve, losses": (carom.solve, {"psi": 0.5, "chi": 1.44, "losses": LOSSY}),
         **{f"{kind}.{name}": (getattr(each, name), {argument: value})
            for kind, each in (("solution", SOLVED), ("lossy", LOST))
            for name, argument, value in (("at", "time", [0.1, 1.0]), ("history", "n", 5))},
@@ -129,7 +129,7 @@ def tables():
         **{name: (getattr(SOLVED, name), {"time": 1.0, "radii": [0.0, 0.5]})
            for name in ("traction", "slid")},
         "slip_angles": (SOLVED.slip_angles, {"lateral_ratio": 0.2}),
-        "curve": (carom.curve, {"chi": 1.44, "psi": [0.0, 1.0], "normal": None}),
+        "curve": (carom.curve, {"chi": 1.44, "psi": [0.0, 1.0], "losses": None}),
         "regime_map": (carom.regime_map, {"psi": [0.5, 2.0], "chi": 1.44, "progress": False}),
         "law": (LAW, {"psi": [0.5, 2.0]}),
         "impulse": (LAW.impulse, {"psi": [0.5, 2.0]}),
@@ -198,7 +198,7 @@ def tables():
         "dataset": (carom.datasets.table, {"name": "kharaz2001"}),
     }  # fmt: skip
     costly = {
-        "ReboundLaw": (carom.ReboundLaw, {"chi": 1.44, "normal": None}),
+        "ReboundLaw": (carom.ReboundLaw, {"chi": 1.44, "losses": None}),
         "MixtureLaw": (lambda low: carom.MixtureLaw(low, 1.3), {"low": 1.2}),
         "fit_walton": (carom.fit_walton, {"pair": PAIR, "span": 5.0}),
         "hit.stress": (HIT.stress, {**INSIDE, **BELOW}),

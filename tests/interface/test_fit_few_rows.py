@@ -162,10 +162,10 @@ def test_numbers_that_cannot_be_meant_are_refused(changes, words):
 
 
 def test_bodies_beyond_the_curves_are_refused():
-    """chi = (kappa/2)(1 + R^2/K^2) of a ball with its mass in the middle, above 3.9."""
+    """chi = (kappa/2)(1 + R^2/K^2) of a ball with its mass in the middle, above 4.1."""
     ball = carom.Sphere(radius="20 mm", material="steel", gyration_radius="5 mm")
     pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    with pytest.raises(carom.InputError, match=r"pair: chi of 7 cannot be fitted.* 0\.25 to 3\.9"):
+    with pytest.raises(carom.InputError, match=r"pair: chi of 7 cannot be fitted.* 0\.25 to 4\.1"):
         fit(impacts((20, 40, 60), "spin_out"), pair=pair)
 
 

@@ -48,7 +48,7 @@ def picture(html):
 
 @pytest.mark.parametrize(
     "how",
-    [{}, {"method": TINY}, {"normal": carom.KelvinVoigt(restitution=0.9)}],
+    [{}, {"method": TINY}, {"losses": carom.KelvinVoigt(restitution=0.9)}],
     ids=["exact", "halfspace", "lossy"],
 )
 def test_impacts_are_a_table_and_a_picture(how):

@@ -1,4 +1,4 @@
-"""What holds for every impact with normal losses: limits, energy, friction, contraction, refusals.
+"""What holds for every impact with losses: limits, energy, friction, contraction, refusals.
 
 With the normal motion given, springs that Coulomb's limit cuts are a sweeping process: two impacts
 that differ in psi_1 alone come no further apart, |psi_2 - psi_2'| <= |psi_1 - psi_1'|, as
@@ -10,17 +10,18 @@ import time
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.integrate import cumulative_simpson
+from scipy.integrate import cumulative_simpson, simpson
 
 import carom
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.panels.plans import TOLERANCE
 from carom.dimensionless.lossy.panels.record import NUMBERS, PSI_OUT, new_record
 from carom.dimensionless.lossy.panels.work import new_work
 from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds, outgoing
 from carom.dimensionless.lossy.solution import LossySolution, solve_with_losses
-from carom.dimensionless.twins.marching import march_history
 from carom.dimensionless.twins.marching_motion import kelvin_voigt
+from carom.dimensionless.twins.marching_solid import march_history
 
 Array = NDArray[np.float64]
 
@@ -64,7 +65,7 @@ def test_without_losses_it_is_the_elastic_solver() -> None:
     work, record, numbers = new_work(), new_record(False), np.zeros(NUMBERS)
     found = np.empty(700)
     for i in range(700):  # lossy_rebounds would hand them to the elastic solver
-        given = psi[i], chi[i], Loss.NONE.value, 0.0, work, record, numbers
+        given = psi[i], chi[i], Loss.NONE.value, 0.0, TOLERANCE, work, record, numbers
         assert outgoing(*given)[0] == Status.SOLVED
         found[i] = numbers[PSI_OUT]
     error = np.abs(found - exact) / np.maximum(1.0, psi)
@@ -73,14 +74,14 @@ def test_without_losses_it_is_the_elastic_solver() -> None:
 
 
 def test_vanishing_losses_give_the_elastic_impact() -> None:
-    """The difference is at most 2.1 alpha, in proportion to it, down to what is promised."""
+    """The difference is at most 6 alpha, in proportion to it, down to what is promised."""
     psi, chi, _ = impacts(Loss.VISCOUS, 6, 300)
     exact = carom.rebound(psi, chi)
     for alpha in (1e-4, 1e-6, 1e-8, 1e-11):
         found = solved(psi, chi, Loss.VISCOUS, np.full(300, alpha))
         error = np.abs(found.psi_out - exact) / np.maximum(1.0, psi)
-        assert np.max(error) < 2.1 * alpha + PROMISED
-        assert np.median(error) < 0.6 * alpha + 1e-11
+        assert np.max(error) < 6.0 * alpha + PROMISED
+        assert np.median(error) < 1.2 * alpha + 1e-11
         assert np.max(np.abs(1.0 - 1.891706 * alpha - found.restitution)) < 4.0 * alpha**2 + 1e-9
 
 
@@ -161,7 +162,10 @@ def test_ledgers_close_along_the_history(loss: Loss) -> None:
         scale = 1e-5 * (1.0 + s.psi_in**2)
         assert np.min(np.diff(h.dissipated)) > -scale
         assert np.min(h.stored) > -scale
-        assert abs(s.psi_in**2 - s.psi_out**2 - 2.0 * h.dissipated[-1]) < scale
+        assert np.min(np.diff(h.shear_lost)) > -scale
+        assert s.shear_lost == pytest.approx(h.shear_lost[-1], abs=scale)
+        lost = h.dissipated[-1] + h.shear_lost[-1]
+        assert abs(s.psi_in**2 - s.psi_out**2 - 2.0 * lost) < scale
 
 
 @pytest.mark.parametrize("loss", LOSSES)
@@ -176,7 +180,7 @@ def test_histories_agree_with_themselves(loss: Loss) -> None:
         assert all(one == pytest.approx(other, abs=1e-12) for one, other in ends)
         for rate, kept in ((h.psi, h.displacement), (h.speed, h.penetration)):
             assert cumulative_simpson(rate, x=h.time, initial=0.0) == pytest.approx(kept, abs=1e-7)
-        impulse = np.trapezoid(h.force, h.time)
+        impulse = simpson(h.force, x=h.time)
         assert s.psi_in - 3.75 * s.chi * impulse == pytest.approx(s.psi_out, abs=2e-5)
         for name in ("penetration", "contact_radius", "normal_force"):
             largest = np.max(getattr(h, name))
@@ -193,14 +197,18 @@ def test_histories_agree_with_themselves(loss: Loss) -> None:
     "impact", [(0.3, 2.0, 0.2), (1.5, 1.44, 0.2), (3.0, 1.44, 0.1), (5.0, 2.5, 0.45)]
 )
 def test_histories_are_those_of_the_marching_method(impact: tuple[float, float, float]) -> None:
-    """psi, U, Q, the energy in the springs and the frictional work, at all times."""
+    """psi, U, Q, the energy in the springs, what slip and what dashpots took, at all times.
+
+    What is lost the marching method knows to first order only, the rest to second.
+    """
     psi, chi, alpha = impact
     s = solve_with_losses(psi, chi, Loss.VISCOUS, alpha)
-    ledger = march_history(psi, chi, 1000, 4000, alpha)[:-1:20]
+    ledger = march_history(psi, chi, alpha, 1000, 4000)[:-3:20]
     h = s.at(ledger[:, 0])
     for name, column, factor, close in (
         ("psi", 1, 1.0, 1e-5), ("displacement", 2, 1.0, 1e-5), ("force", 3, 1.0, 3e-5),
-        ("stored", 4, 1.875 * chi, 5e-5), ("dissipated", 5, 3.75 * chi, 5e-5),
+        ("stored", 4, 1.875 * chi, 5e-5), ("dissipated", 5, 3.75 * chi, 3e-4 * (1.0 + psi)),
+        ("shear_lost", 6, 3.75 * chi, 3e-4 * (1.0 + psi)),
     ):  # fmt: skip
         assert getattr(h, name) == pytest.approx(factor * ledger[:, column], abs=close), name
 
@@ -208,9 +216,9 @@ def test_histories_are_those_of_the_marching_method(impact: tuple[float, float, 
 @pytest.mark.parametrize("chi", [0.5, 1.44, 2.7])
 @pytest.mark.parametrize("alpha", [0.01, 0.1, 0.4])
 def test_small_psi_is_the_impact_without_slip(chi: float, alpha: float) -> None:
-    """psi_2/psi_1 as psi_1 -> 0: springs stick until they are let go, Q = integral of U - U(laid).
+    """psi_2/psi_1 as psi_1 -> 0: springs stick until they are let go, Q = integral of T - U(laid).
 
-    Steps of the linear problem on the closed normal motion, extrapolated.
+    Steps of the linear problem on the closed normal motion, T = U + alpha psi, extrapolated.
     """
     slopes = []
     for steps in (2000, 4000):
@@ -218,13 +226,15 @@ def test_small_psi_is_the_impact_without_slip(chi: float, alpha: float) -> None:
         t, b, peak = motion[:, 1], motion[:, 3], steps // 2
         psi, u, laid = 1.0, np.zeros(steps + 1), np.zeros(peak + 1)
         for i in range(steps):
-            force = u[i] * b[i] - (laid[i] if i <= peak else np.interp(b[i], b[: peak + 1], laid))
-            half = psi - 1.875 * chi * (t[i + 1] - t[i]) * force
+            before = laid[i] if i <= peak else np.interp(b[i], b[: peak + 1], laid)
+            kick = 1.875 * chi * (t[i + 1] - t[i])
+            half = psi - kick * ((u[i] + alpha * psi) * b[i] - before)
             u[i + 1] = u[i] + half * (t[i + 1] - t[i])
             if i < peak:
                 laid[i + 1] = laid[i] + 0.5 * (u[i] + u[i + 1]) * (b[i + 1] - b[i])
             after = laid[i + 1] if i < peak else np.interp(b[i + 1], b[: peak + 1], laid)
-            psi = half - 1.875 * chi * (t[i + 1] - t[i]) * (u[i + 1] * b[i + 1] - after)
+            psi = half - kick * (u[i + 1] * b[i + 1] - after)
+            psi /= 1.0 + kick * alpha * b[i + 1]
         slopes.append(psi)
     limit = (4.0 * slopes[1] - slopes[0]) / 3.0
     for psi in (1e-12, 1e-7, 5e-5):

@@ -1,4 +1,4 @@
-"""Laws of the normal motion that lose energy: what an impact takes as `normal`."""
+"""Laws by which impacts lose energy but to friction: what an impact takes as `losses`."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -43,18 +43,20 @@ class LossLaw(Protocol):
 
 @dataclass(frozen=True)
 class KelvinVoigt:
-    """A sphere that is viscous in compression, of incompressible linear material.
+    """A viscoelastic solid: stress = (1 + tau d/dt) elastic stress, in shear as in compression.
 
-    P/P_max = (3/2) integral of (d + tau v - s) over the contact while that is positive: a contact
-    in parallel with dashpots that cannot pull; shear is elastic. Either e is given, the same at all
-    speeds, or the loss time tau, whence 1 - e grows as V_1^(1/5).
+    P/P_max = (3/2) integral of (d + tau v - s) over the contact while that is positive, and springs
+    in shear bear u + tau u', at most mu times what those in compression bear; Poisson's ratio does
+    not depend on time. Either e is given, the same at all speeds, or the retardation time tau,
+    whence 1 - e grows as V_1^(1/5). e alone does not tell psi_2: other solids of the same e lose
+    more or less in shear.
 
     Parameters
     ----------
     restitution : float or array, optional
         e wanted, from 0.001 to 1; alpha = tau V_1/d_max follows from it, to 1e-12.
     loss_time : float or str, optional
-        tau in s, zero or positive: viscosity over modulus of the material.
+        tau in s, zero or positive: viscosity over modulus of the material, of both bodies.
 
     Raises
     ------
@@ -65,7 +67,7 @@ class KelvinVoigt:
     -----
     Kuwabara & Kono (1987), Jpn. J. Appl. Phys. 26:1230-1233; Brilliantov et al. (1996), Phys. Rev.
     E 53:5382-5392; without tension as in Schwager & Poeschel (2008), Phys. Rev. E 78:051304. With
-    the memory of the tangential springs on limits that the viscous part shifts.
+    the same retardation in shear Coulomb's law holds at every point; see the theory of losses.
 
     Examples
     --------
@@ -75,7 +77,7 @@ class KelvinVoigt:
     >>> law = carom.KelvinVoigt(restitution=0.9)
     >>> hit = carom.impact(pair, speed=2.0, angle="30 deg", losses=law)
     >>> round(hit.normal_restitution, 10), round(hit.contact_restitution, 4)
-    (0.9, -0.4639)
+    (0.9, -0.3938)
     """
 
     restitution: Any = None

@@ -2,13 +2,14 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from math import isnan, nan
 from typing import Any
 
 import numpy as np
 
 from carom.bodies.pairs import ContactScales, Pair
 from carom.dimensionless.fields.profile import Profile
-from carom.dimensionless.numerics import hertz
+from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution
 from carom.dimensionless.states import now_at
 from carom.quantities.arrays import Array
@@ -20,9 +21,11 @@ ROUNDING = 8.0 * np.finfo(np.float64).eps  # of a time that has passed through s
 class Contact:
     """A contact at one instant, of an impact or on a load path.
 
-    Penetration d, tangential displacement U, stick radius a and profile are dimensionless; `scales`
-    gives them units. `slid` tells from dimensionless radii the radial functions of the slip, in m;
-    `slip_speed` is that of the slip far outside the stick zone in m/s, None where there is no time.
+    Penetration d, tangential displacement U, stick radius a, radius of the edge, density of the
+    pressure there and profile are dimensionless; `scales` gives them units. `slid` tells from
+    dimensionless radii the radial functions of the slip, in m, `slipping` those of its velocity in
+    m/s, None where there is no time. The surfaces of `viscous` bodies have moved by what acted
+    before, too, so that their displacements are not told.
     """
 
     pair: Pair
@@ -32,14 +35,21 @@ class Contact:
     stick_radius: float
     profile: Profile = field(repr=False)
     slid: Callable[[Array], Array] = field(repr=False)
-    slip_speed: float | None = None
+    slipping: Callable[[Array], Array] | None = field(default=None, repr=False)
+    edge: float = nan
+    rim: float = 0.0
+    viscous: bool = False
     scalars: Mapping[str, float] = field(default_factory=dict)
     attributes: Mapping[str, Any] = field(default_factory=dict, repr=False)
+
+    def __post_init__(self) -> None:
+        if isnan(self.edge):  # that of elastic bodies
+            object.__setattr__(self, "edge", float(np.sqrt(self.penetration)))
 
     @property
     def radius(self) -> float:
         """Radius of the contact, in m."""
-        return float(np.sqrt(self.penetration)) * self.scales.radius
+        return self.edge * self.scales.radius
 
     def numbers(self) -> dict[str, float]:
         """Return the numbers that describe the contact by name, in SI units."""
@@ -57,7 +67,7 @@ def contact_in_impact(
     pair: Pair,
     normal_speed: float,
     drift: float,
-    solution: Solution,
+    solution: Solution | LossySolution,
     time: float,
     attributes: Mapping[str, Any],
 ) -> Contact:
@@ -66,40 +76,46 @@ def contact_in_impact(
     instant = _at_change(time / scales.time, solution)
     phase = solution.phase_at(instant)
     kind, sign = ("gross slip", int(np.sign(drift))) if drift else (phase.kind, phase.sign)
-    now = now_at(solution.at(instant))
-    d = now["penetration"]
+    now, state = now_at(solution.at(instant)), solution.contact_at(instant)
 
     def slid(radii: Array) -> Array:
         if drift:
             return freely_slid(radii)
-        return solution.slid(instant, radii) * scales.tangential_length
+        return state.slid(radii) * scales.tangential_length
 
     def freely_slid(radii: Array) -> Array:
-        inside = radii**2 <= d
-        met = [hertz.time(r**2, np.sqrt(max(1.0 - r**5, 0.0))) for r in radii * inside]
-        slip = drift * (instant - np.array(met)) * scales.time * inside
+        inside = radii <= state.radius
+        slip = drift * (instant - solution.touched(radii * inside)) * scales.time * inside
         return np.column_stack((slip, np.zeros(radii.size)))
+
+    def slipping(radii: Array) -> Array:
+        if drift:
+            return np.column_stack((np.full(radii.size, drift), np.zeros(radii.size)))
+        return state.slipping(radii) * scales.tangential_speed
 
     return Contact(
         pair,
         scales,
-        penetration=d,
+        penetration=now["penetration"],
         displacement=now["displacement"],
         stick_radius=0.0 if drift else now["stick_radius"],
-        profile=solution.memory(instant).profile(),
+        profile=state.profile,
         slid=slid,
-        slip_speed=drift or solution.slip_rate(instant) * scales.tangential_speed,
+        slipping=slipping,
+        edge=state.radius,
+        rim=state.rim,
+        viscous=isinstance(solution, LossySolution),
         scalars={
             "time": time,
             "displacement": now["displacement"] * scales.tangential_length + drift * time,
-            "normal_force": d**1.5 * scales.force,
+            "normal_force": now["normal_force"] * scales.force,
             "tangential_force": now["force"] * scales.tangential_force,
         },
         attributes={"phase_kind": kind, "phase_sign": sign, **attributes},
     )
 
 
-def _at_change(instant: float, solution: Solution) -> float:
+def _at_change(instant: float, solution: Solution | LossySolution) -> float:
     """Return the instant, or that of a change of phase from which only rounding parts it."""
     for change in (*(phase.start for phase in solution.phases), solution.duration):
         if abs(instant - change) <= ROUNDING * change:

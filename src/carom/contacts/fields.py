@@ -1,5 +1,6 @@
 """What happens at the surface of a contact: tractions, zones, displacements, slip."""
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -51,7 +52,7 @@ def surface_fields(
 
 def radial_fields(contact: Contact, n: int = 401) -> "xr.Dataset":
     """Return pressure, traction and memory at n distances from the centre of the contact."""
-    r = np.linspace(0.0, float(np.sqrt(contact.penetration)), n)
+    r = np.linspace(0.0, contact.edge, n)
     values, memory = _radial(contact, r), _memory(contact, r)
     limit = contact.pair.friction * contact.scales.pressure
     deflection = contact.scales.tangential_length
@@ -61,7 +62,7 @@ def radial_fields(contact: Contact, n: int = 401) -> "xr.Dataset":
         "traction_x": values[:, 1] * limit,
         "memory_g": memory[:, 0],
         "memory_q": memory[:, 1] * deflection,
-        "memory_limit": (contact.penetration - r**2) * deflection,
+        "memory_limit": (contact.edge**2 + contact.rim - r**2) * deflection,
     }
     variables: dict[str, Any] = {name: ("distance", value) for name, value in columns.items()}
     return labelled_dataset(
@@ -75,19 +76,19 @@ def _distances(contact: Contact, px: Array, py: Array) -> Array:
     """Return dimensionless distances from the centre, those at the edge freed from rounding."""
     with np.errstate(over="ignore"):
         r = np.minimum(np.hypot(px, py) / contact.scales.radius, FAR)
-    edge = np.sqrt(contact.penetration)
+    edge = contact.edge
     return np.where(np.abs(r - edge) <= ROUNDING * edge, edge, r)
 
 
 def _radial(contact: Contact, r: Array) -> Array:
     """Return pressure, traction, u_z, u_0, u_2, w_0, w_2 for dimensionless radii."""
     out = np.empty((r.size, 5))
-    surface.sample(contact.profile, contact.penetration, r, out)
+    surface.sample(contact.profile, contact.penetration, contact.edge, contact.rim, r, out)
     return np.hstack((out, contact.slid(r)))
 
 
 def _memory(contact: Contact, r: Array) -> Array:
-    edges, q, g = contact.profile
+    edges, q, g, _ = contact.profile
     if len(g) == 0:
         return np.zeros((r.size, 2))
     panels = np.clip(np.searchsorted(edges, r) - 1, 0, len(g) - 1)
@@ -105,23 +106,25 @@ def _columns(contact: Contact, r: Array, radial: Array, cos: Array, sin: Array) 
     columns = {
         "pressure": p * scales.pressure,
         "traction_x": f * pair.friction * scales.pressure,
-        "displacement_x": unit * (u_0 + lateral * u_2 * cos),
-        "displacement_y": unit * lateral * u_2 * sin,
-        "displacement_z": u_z * scales.length,
         "slip_x": w_0 - lateral * w_2 * cos,
         "slip_y": -lateral * w_2 * sin,
     }
-    if contact.slip_speed is not None:
-        v_0, v_2 = contact.slip_speed * _slip_shape(contact, r)
+    if not contact.viscous:
+        columns["displacement_x"] = unit * (u_0 + lateral * u_2 * cos)
+        columns["displacement_y"] = unit * lateral * u_2 * sin
+        columns["displacement_z"] = u_z * scales.length
+    if contact.slipping is not None:
+        v_0, v_2 = np.moveaxis(_within(contact, r, contact.slipping), -1, 0)
         columns["slip_velocity_x"] = v_0 - lateral * v_2 * cos
         columns["slip_velocity_y"] = -lateral * v_2 * sin
     return columns
 
 
-def _slip_shape(contact: Contact, r: Array) -> Array:
-    shapes = np.array([surface.slip_shape(contact.stick_radius, at) for at in r.ravel()])
-    inside = _in_contact(contact, r).ravel()[:, np.newaxis]
-    return np.moveaxis((shapes * inside).reshape(*r.shape, 2), -1, 0)
+def _within(contact: Contact, r: Array, radial: Callable[[Array], Array]) -> Array:
+    """Return radial functions at distances, each asked for once, zero outside the contact."""
+    unique, back = np.unique(r, return_inverse=True)
+    inside = _in_contact(contact, unique)[:, np.newaxis]
+    return np.asarray((radial(unique) * inside)[back.ravel()].reshape(*r.shape, 2))
 
 
 def _zones(contact: Contact, r: Array) -> NDArray[np.int8]:
@@ -131,4 +134,4 @@ def _zones(contact: Contact, r: Array) -> NDArray[np.int8]:
 
 
 def _in_contact(contact: Contact, r: Array) -> NDArray[np.bool_]:
-    return np.asarray((r <= np.sqrt(contact.penetration)) & (contact.penetration > 0.0))
+    return np.asarray((r <= contact.edge) & (contact.edge > 0.0))

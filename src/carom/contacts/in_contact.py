@@ -53,8 +53,7 @@ class InContact(ABC):
         Raises
         ------
         InputError
-            If the bodies do not touch then, there is no such step, or the normal motion of an
-            impact loses energy.
+            If the bodies do not touch then, there is no such step, or they are spheres that yield.
 
         Examples
         --------
@@ -102,8 +101,10 @@ class InContact(ABC):
         xarray.Dataset
             Along (y, x), or along `point`: pressure, traction_x, zone (0 outside, 1 stick, 2 slip),
             displacement_x, displacement_y, displacement_z, slip_x, slip_y, and of impacts
-            slip_velocity_x, slip_velocity_y; and as numbers contact_radius, stick_radius,
-            normal_force, tangential_force, penetration, displacement, friction, of impacts time.
+            slip_velocity_x, slip_velocity_y; of viscous bodies no displacements, and pressure and
+            traction are infinite at the edge while the load grows; and as numbers contact_radius,
+            stick_radius, normal_force, tangential_force, penetration, displacement, friction, of
+            impacts time.
 
         Raises
         ------
@@ -159,7 +160,8 @@ class InContact(ABC):
             Along (z, x), or along `point`: sigma_xx, sigma_yy, sigma_zz, sigma_xy, sigma_xz,
             sigma_yz, principal_1 to principal_3, von_mises, max_shear in Pa; of the whole body
             max_von_mises and, on its surface, max_tension, with their places, max_von_mises_x and
-            so on.
+            so on. While viscous bodies are loaded, the stress is infinite at the edge: then from a
+            fiftieth of the contact radius downwards, and no max_tension.
 
         Raises
         ------

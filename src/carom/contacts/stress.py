@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from carom.contacts.contact import Contact
 from carom.dimensionless.fields.extremes import (
+    DEPTHS,
     SURFACE,
     Largest,
     largest,
@@ -26,6 +27,8 @@ ALONG, DOWN = 101, 61  # points along x and z where none are asked for
 REACH = 2.0  # of that grid, in contact radii
 FAR = 1e300  # dimensionless; nothing is left there
 BODIES = ("first", "second")
+SHALLOW = 0.02  # depth, in contact radii, from which on stresses are told if those at the edge are
+# infinite: while viscous bodies are loaded
 
 
 def stress_dataset(
@@ -42,22 +45,26 @@ def stress_dataset(
     """
     friction, poisson = _of_body(contact, body)
     reach = REACH * (contact.radius or contact.scales.radius)
-    default = {"x": np.linspace(-reach, reach, ALONG), "z": np.linspace(0.0, reach, DOWN)}
+    top = SHALLOW * contact.radius if contact.rim else 0.0
+    default = {"x": np.linspace(-reach, reach, ALONG), "z": np.linspace(top, reach, DOWN)}
     dims, coords, at = places("xyz", {"x": x, "z": z}, default, points)
-    _refuse_outside("z" if points is None else "points", at[..., 2])
+    _refuse_outside("z" if points is None else "points", at[..., 2], top)
 
     def stress_at(where: Array) -> Array:
-        return stresses(where, contact.profile, friction=friction, poisson=poisson)
+        return stresses(where, contact.profile, friction=friction, poisson=poisson, rim=contact.rim)
 
     with np.errstate(over="ignore"):
         where = np.clip(at.reshape(-1, 3) / contact.scales.radius, -FAR, FAR)
     stress = contact.scales.pressure * stress_at(where)
     columns = {name: (dims, v.reshape(at.shape[:-1])) for name, v in _columns(stress).items()}
-    tension = largest(
-        lambda where: principal_stresses(stress_at(where))[:, 0], contact.profile, SURFACE
-    )
-    mises = largest(lambda where: von_mises(stress_at(where)), contact.profile)
-    numbers = _entries(contact, "max_von_mises", mises) | _entries(contact, "max_tension", tension)
+    depths = SHALLOW + DEPTHS if contact.rim else DEPTHS
+    mises = largest(lambda where: von_mises(stress_at(where)), contact.profile, depths)
+    numbers = _entries(contact, "max_von_mises", mises)
+    if not contact.rim:
+        tension = largest(
+            lambda where: principal_stresses(stress_at(where))[:, 0], contact.profile, SURFACE
+        )
+        numbers |= _entries(contact, "max_tension", tension)
     return labelled_dataset(
         {**columns, **numbers, **contact.numbers(), "poisson": poisson},
         coords,
@@ -90,7 +97,10 @@ def _of_body(contact: Contact, body: str) -> tuple[float, float]:
     return pull * contact.pair.friction, material.poisson
 
 
-def _refuse_outside(name: str, depth: Array) -> None:
+def _refuse_outside(name: str, depth: Array, top: float) -> None:
+    if top and np.any(depth < top):
+        z, what = float(depth.min()), "at the edge stresses are infinite while the load grows"
+        raise refusal(name, f"z = {z:g} m", f"{what}; ask from z = {top:.3g} m on")
     if np.any(depth < 0.0):
         z = float(depth.min())
         raise refusal(name, f"z = {z:g} m", "z is the depth in the body and cannot be negative")

@@ -92,7 +92,7 @@ def rebound(
     >>> carom.rebound([0.5, 1.5, 3.5, 6.0], 1.44).round(6)
     array([ 0.047131, -0.429967, -1.477247,  0.24    ])
     >>> carom.rebound([0.5, 6.0], 1.44, losses=carom.KelvinVoigt(restitution=0.9)).round(6)
-    array([-0.000683,  0.529468])
+    array([0.00384, 0.528  ])
     """
     threads, return_status = threads_or_none(threads), flag("return_status", return_status)
     along_the_same(psi=psi, chi=chi)
@@ -123,7 +123,7 @@ def regime_borders(chi: ArrayLike, restitution: ArrayLike = 1.0) -> Array:
     twice, e = 2.0 * given[0], given[1]
     with np.errstate(over="ignore"):
         borders = np.ones_like(twice), twice, twice * (1.0 + e) - e
-    return np.maximum(np.stack(borders, axis=-1), 1.0)
+    return np.asarray(np.maximum(np.stack(borders, axis=-1), 1.0))
 
 
 def warn_of_unsolved(status: NDArray[np.int8], kind: type[IntEnum] = Status) -> None:

@@ -1,25 +1,35 @@
 """One impact in plain numbers: its phases, and its state at any time."""
 
 from dataclasses import dataclass, field
+from functools import partial
 from typing import ClassVar, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.dimensionless.elastic import dense_output as dense, slip
-from carom.dimensionless.elastic.annuli import Memory, memory_at
+from carom.dimensionless.elastic.annuli import memory_at
 from carom.dimensionless.elastic.batch import LINEAR, TOLERANCE
 from carom.dimensionless.elastic.motion import PSI
 from carom.dimensionless.elastic.phases import Cause, Kind, Status, new_work, run_phases
 from carom.dimensionless.elastic.record import CAUSE, KIND, KIND_SIGN, Record, new_record, trimmed
 from carom.dimensionless.fields import surface
+from carom.dimensionless.fields.memory import Memory
 from carom.dimensionless.lossy.panels.normal import ScaleFreeLaw, scale_free
 from carom.dimensionless.lossy.rebounds import is_elastic
 from carom.dimensionless.lossy.solution import LossySolution, solve_with_losses
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.states import KIND_NAMES, History, Phase, SlipAngle, Trajectory, now_at
-from carom.quantities.arrays import pure_numbers
+from carom.dimensionless.states import (
+    KIND_NAMES,
+    ContactState,
+    History,
+    Phase,
+    SlipAngle,
+    Trajectory,
+    now_at,
+    places_of,
+)
 from carom.quantities.keywords import renamed_keyword
 from carom.quantities.refusals import refusal
 from carom.quantities.units import pure_number
@@ -160,67 +170,21 @@ class Solution(Trajectory):
         now = now_at(self.at(self._time_within(time)))
         return memory_at(self._record, self._times, self._moved, now, self.scale or 1.0)
 
-    def phase_at(self, time: float) -> Phase:
-        """Return the phase at a time; the instant of a change belongs to the later one.
+    def contact_at(self, time: float) -> ContactState:
+        """Return the contact at a time: tractions and slip."""
+        rate, now = self.slip_rate(time), now_at(self.at(self._time_within(time)))
 
-        Parameters
-        ----------
-        time : float
-            In d_max/V_1, 0 to `duration`.
+        def slipping(radii: Array) -> Array:
+            shapes = [surface.slip_shape(now["stick_radius"], radius) for radius in radii]
+            return rate * np.array(shapes).reshape(-1, 2)
 
-        Returns
-        -------
-        Phase
-            Its kind, sign of slip, start and end in d_max/V_1, and what ended it.
+        profile = self.memory(time).profile()
+        slid = partial(self.slid, time)
+        return ContactState(np.sqrt(now["penetration"]), 0.0, profile, slid, slipping)
 
-        Raises
-        ------
-        InputError
-            If the time is outside the contact, or the impact is not solved.
-
-        Examples
-        --------
-        >>> import carom
-        >>> carom.solve(0.5, 1.44).phase_at(1.0).kind
-        'stick'
-        """
-        instant = self._time_within(time)
-        started = [phase for phase in self.phases if phase.start <= instant]
-        return started[-1]
-
-    def traction(self, time: float, radii: ArrayLike) -> Array:
-        """Return the traction at given radii at a time, over mu and the largest pressure.
-
-        In the plane of the contact, along x (Barber 1979, (6)).
-
-        Parameters
-        ----------
-        time : float
-            In d_max/V_1, 0 to `duration`.
-        radii : array_like
-            In units of sqrt(R* d_max).
-
-        Returns
-        -------
-        numpy.ndarray, shape (n,)
-            f/(mu p_max), p_max the largest pressure of the impact; zero outside the contact.
-
-        Raises
-        ------
-        InputError
-            If the time is outside the contact, or the impact is not solved.
-
-        Examples
-        --------
-        >>> import carom
-        >>> gross = carom.solve(9.0, 1.44)  # the traction is mu times the pressure
-        >>> gross.traction(0.5 * gross.duration, [0.0, 0.6]).round(6)
-        array([1. , 0.8])
-        """
-        places = _radii(radii)
-        out = np.empty(places.size)
-        surface.tractions(self.memory(time).profile(), places, out)
-        return out
+    def touched(self, radii: Array) -> Array:
+        """Return when the edge of the contact first passed radii that it reaches."""
+        return np.array([hertz.time(r * r, np.sqrt(max(1.0 - r**5, 0.0))) for r in radii])
 
     def slip_rate(self, time: float) -> float:
         """Return psi - sigma v, the rate of slip far outside the stick zone; 0 in stick.
@@ -281,7 +245,7 @@ class Solution(Trajectory):
                [0., 0.]])
         """
         now = now_at(self.at(self._time_within(time)))
-        places = _radii(radii)
+        places = places_of(radii)
         out = np.empty((places.size, 2))
         last = int(np.searchsorted(self._times, now["time"], side="right")) - 1
         record, b, v = self._record, now["contact_radius"], now["speed"]
@@ -407,15 +371,6 @@ def solve(
     if status is Status.SOLVED:
         psi_out = mirror * min(1.0, abs(psi) / LINEAR) * float(work.series[0, PSI])
     return Solution(psi, chi, psi_out, status, phases, record, times, moved)
-
-
-def _radii(radii: ArrayLike) -> Array:
-    """Return distances from the centre as a line of numbers, or raise InputError."""
-    places = pure_numbers("radii", radii).ravel()
-    bad = ~((places >= 0.0) & (places < np.inf))
-    if bad.any():
-        raise refusal("radii", float(places[bad][0]), "must be zero or positive and finite")
-    return places
 
 
 def _phases(changes: Array, times: Array, mirror: int) -> tuple[Phase, ...]:

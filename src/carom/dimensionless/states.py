@@ -1,6 +1,7 @@
 """What a solved impact is told in: phases, and states at some times."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import NamedTuple
 
@@ -8,6 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.dimensionless.elastic.phases import Kind, Status
+from carom.dimensionless.fields import surface
+from carom.dimensionless.fields.profile import Profile
 from carom.dimensionless.numerics.arrays import Array
 from carom.quantities.arrays import pure_numbers
 from carom.quantities.refusals import InputError, refusal
@@ -59,6 +62,19 @@ class History:
         return len(self.time)
 
 
+class ContactState(NamedTuple):
+    """A contact at an instant: radius, density of the pressure at the edge, tractions, slip.
+
+    `slid` and `slipping` give the radial functions w_0, w_2 of slip and its rate at radii, (n, 2).
+    """
+
+    radius: float
+    rim: float
+    profile: Profile
+    slid: Callable[[Array], Array]
+    slipping: Callable[[Array], Array]
+
+
 class Trajectory(ABC):
     """A solved impact: what its state at any time gives."""
 
@@ -66,10 +82,82 @@ class Trajectory(ABC):
     chi: float
     duration: float
     status: Status
+    phases: tuple[Phase, ...]
 
     @abstractmethod
     def at(self, time: ArrayLike) -> History:
         """Return the state at the given times, one row for each."""
+
+    @abstractmethod
+    def contact_at(self, time: float) -> ContactState:
+        """Return the contact at a time; InputError if it is not known."""
+
+    @abstractmethod
+    def touched(self, radii: Array) -> Array:
+        """Return when the edge of the contact first passed radii that it reaches."""
+
+    def phase_at(self, time: float) -> Phase:
+        """Return the phase at a time; the instant of a change belongs to the later one.
+
+        Parameters
+        ----------
+        time : float
+            In d_max/V_1, 0 to `duration`.
+
+        Returns
+        -------
+        Phase
+            Its kind, sign of slip, start and end in d_max/V_1, and what ended it.
+
+        Raises
+        ------
+        InputError
+            If the time is outside the contact, or the impact is not solved.
+
+        Examples
+        --------
+        >>> import carom
+        >>> carom.solve(0.5, 1.44).phase_at(1.0).kind
+        'stick'
+        """
+        instant = self._time_within(time)
+        started = [phase for phase in self.phases if phase.start <= instant]
+        return started[-1]
+
+    def traction(self, time: float, radii: ArrayLike) -> Array:
+        """Return the traction at given radii at a time, over mu and the largest pressure.
+
+        In the plane of the contact, along x (Barber 1979, (6)).
+
+        Parameters
+        ----------
+        time : float
+            In d_max/V_1, 0 to `duration`.
+        radii : array_like
+            In units of sqrt(R* d_max).
+
+        Returns
+        -------
+        numpy.ndarray, shape (n,)
+            f/(mu p_max), p_max the largest pressure of the elastic impact; zero outside the
+            contact, and infinite at the edge where viscous bodies are loaded.
+
+        Raises
+        ------
+        InputError
+            If the time is outside the contact, or the impact is not solved.
+
+        Examples
+        --------
+        >>> import carom
+        >>> gross = carom.solve(9.0, 1.44)  # the traction is mu times the pressure
+        >>> gross.traction(0.5 * gross.duration, [0.0, 0.6]).round(6)
+        array([1. , 0.8])
+        """
+        places = places_of(radii)
+        out = np.empty(places.size)
+        surface.tractions(self.contact_at(self._time_within(time)).profile, places, out)
+        return out
 
     def history(self, n: int = 200) -> History:
         """Return the impact at evenly spaced times from the first touch to the last.
@@ -124,3 +212,12 @@ class Trajectory(ABC):
 def now_at(history: History) -> dict[str, float]:
     """Return the only row of a history as numbers."""
     return {item.name: float(getattr(history, item.name)[0]) for item in fields(history)}
+
+
+def places_of(radii: ArrayLike) -> Array:
+    """Return distances from the centre as a line of numbers, or raise InputError."""
+    places = pure_numbers("radii", radii).ravel()
+    bad = ~((places >= 0.0) & (places < np.inf))
+    if bad.any():
+        raise refusal("radii", float(places[bad][0]), "must be zero or positive and finite")
+    return places

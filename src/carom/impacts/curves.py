@@ -102,7 +102,7 @@ def curve(
     >>> carom.curve(1.44, [0.0, 1.0, 6.0]).psi_out.values.round(4)
     array([[ 0.    , -0.0612,  0.24  ]])
     >>> carom.curve(1.44, [6.0], losses=carom.KelvinVoigt(restitution=0.9)).psi_out.values.round(4)
-    array([[0.5295]])
+    array([[0.528]])
     """
     chis, incoming = _axes(chi, psi)
     rows = chis[:, np.newaxis]

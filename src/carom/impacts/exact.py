@@ -23,7 +23,7 @@ from carom.impacts.result import ImpactResult
 from carom.impacts.validity import judge
 from carom.io.citations import IMPACT, bibtex
 from carom.io.labels import Validity
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import refusal
 from carom.quantities.units import Value
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ class Impact(ImpactResult, InContact):
     def slip_angles(self) -> tuple[SlipAngle, ...]:
         """Angle between slip and traction in each phase, which the theory neglects, in rad.
 
-        NaN where the normal motion loses energy: there it is not known.
+        NaN with losses: there it is not known.
         """
         if isinstance(self.solution, LossySolution):
             return (SlipAngle(nan, nan),) * len(self.phases)
@@ -70,10 +70,6 @@ class Impact(ImpactResult, InContact):
         return self.solution.slip_angles(self.pair.lateral_ratio)
 
     def contact(self, time: Value) -> Contact:
-        if isinstance(self.solution, LossySolution):
-            raise InputError(
-                "normal: fields and stresses are those of elastic impacts; leave normal out"
-            )
         drift = 0.0 if isfinite(self.psi_in) else self.contact_velocity
         inputs = {"inputs": self.inputs()}
         return contact_in_impact(

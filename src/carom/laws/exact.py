@@ -67,7 +67,7 @@ class ReboundLaw:
     True
     >>> lossy = carom.ReboundLaw(1.44, losses=carom.KelvinVoigt(restitution=0.9))
     >>> lossy([0.5, 6.0]).round(5), round(lossy.duration, 4)
-    (array([-0.00068,  0.52947]), 2.9186)
+    (array([0.00384, 0.528  ]), 2.9186)
     """
 
     chi: float

@@ -52,7 +52,8 @@ def renamed_keyword(
     >>> @renamed_keyword("mu", "friction")
     ... def slide(*, friction):
     ...     return friction
-    >>> with warnings.catch_warnings(record=True):
+    >>> with warnings.catch_warnings():
+    ...     warnings.simplefilter("ignore")
     ...     slide(mu=0.2)
     0.2
     """

@@ -15,12 +15,14 @@ class Profile(NamedTuple):
     """q and g = -dq/ds of a contact at an instant, on panels between radii x = sqrt(s).
 
     `edges` has shape (n + 1,) and runs from 0 to the contact radius; rows of `q` and `g`, shape
-    (n, TERMS), are Chebyshev coefficients on a panel mapped to [-1, 1].
+    (n, TERMS), are Chebyshev coefficients on a panel mapped to [-1, 1]. `rim` is q at the edge,
+    where it ends with a jump.
     """
 
     edges: Vector
     q: Matrix
     g: Matrix
+    rim: float = 0.0
 
 
 @kernel
@@ -46,9 +48,9 @@ def flat(low: float, high: float, g: float, q_high: float) -> tuple[Array, Array
     return coefficients(q_high + g * (high**2 - radii(low, high) ** 2)), row
 
 
-def stacked(edges: list[float], rows: list[tuple[Array, Array]]) -> Profile:
-    """Return the profile made of panels, given their outer edges in order."""
+def stacked(edges: list[float], rows: list[tuple[Array, Array]], rim: float = 0.0) -> Profile:
+    """Return the profile made of panels, given their outer edges in order, and of q at the edge."""
     if not rows:
-        return Profile(np.zeros(1), np.zeros((0, TERMS)), np.zeros((0, TERMS)))
+        return Profile(np.zeros(1), np.zeros((0, TERMS)), np.zeros((0, TERMS)), 0.0)
     q, g = zip(*rows, strict=True)
-    return Profile(np.array([0.0, *edges]), np.array(q), np.array(g))
+    return Profile(np.array([0.0, *edges]), np.array(q), np.array(g), float(rim))

@@ -32,12 +32,18 @@ BELOW, INSIDE, OUTSIDE = range(3)  # ways along s: at depth; on the surface, s <
 
 
 class Load(NamedTuple):
-    """What acts on a body: pressure on 0 <= r <= edges[-1] = 1, friction of memory g along x."""
+    """What acts on a body: pressure on 0 <= r <= edges[-1] = 1, friction of memory g along x.
+
+    `pressed` and `pulled` are half of the densities of pressure and of traction over mu at the
+    edge, where they end with a jump: a slice of no width.
+    """
 
     edges: Vector
     g: Matrix
     friction: float  # positive where it pulls along +x
     poisson: float
+    pressed: float
+    pulled: float
 
 
 @kernel
@@ -143,9 +149,22 @@ def add_slices(total: Array, at: Place, way: int, panel: int, load: Load) -> Non
 
 
 @kernel
+def add_rim(total: Array, at: Place, load: Load) -> None:
+    """Add the stress due to the slice of no width at the edge."""
+    x, y, z, r = at
+    distance = np.sqrt(complex(z * z + (r - 1.0) * (r + 1.0), 2.0 * z))
+    pull = load.friction * load.pulled / load.pressed
+    stress = point_force(x, y, z, complex(z, 1.0), distance, load.poisson, pull)
+    for component in range(total.size):
+        total[component] += load.pressed * stress[component]
+
+
+@kernel
 def stress_at(total: Array, x: float, y: float, z: float, load: Load) -> None:
     """Add up the stress at one point."""
     r = max(np.hypot(x, y), NEGLIGIBLE)
+    if load.pressed != 0.0:
+        add_rim(total, (x, y, z, r), load)
     for panel in range(load.edges.size - 1):
         if z > NEGLIGIBLE:
             add_slices(total, (x, y, z, r), BELOW, panel, load)
@@ -161,7 +180,9 @@ def fill(stress: Matrix, points: Matrix, load: Load) -> None:
         stress_at(stress[row], points[row, 0], points[row, 1], points[row, 2], load)
 
 
-def stresses(points: ArrayLike, profile: Profile, *, friction: float, poisson: float) -> Array:
+def stresses(
+    points: ArrayLike, profile: Profile, *, friction: float, poisson: float, rim: float = 0.0
+) -> Array:
     """Return the stress below a contact at points, components in the order of `COMPONENTS`.
 
     sigma = integral of s Im[N(z + i s) + mu g(s) T(z + i s)] ds over 0 <= s <= b, with N and T the
@@ -177,6 +198,8 @@ def stresses(points: ArrayLike, profile: Profile, *, friction: float, poisson: f
         mu for the body that positive friction drags along +x (the second), -mu for the other.
     poisson : float
         Poisson's ratio of the body.
+    rim : float
+        Density of the pressure at the edge, where it ends with a jump; stresses are infinite there.
 
     Examples
     --------
@@ -191,7 +214,8 @@ def stresses(points: ArrayLike, profile: Profile, *, friction: float, poisson: f
     where = np.asarray(points, dtype=np.float64)
     stress = np.zeros((where.shape[0], len(COMPONENTS)))
     if b > 0.0:
-        load = Load(profile.edges / b, profile.g, float(friction), float(poisson))
+        rims = 0.5 * rim / b**2, 0.5 * profile.rim / b**2
+        load = Load(profile.edges / b, profile.g, float(friction), float(poisson), *rims)
         fill(stress, np.clip(where / b, -FAR, FAR), load)
     stress *= b
     return stress

@@ -16,9 +16,23 @@ ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(20)
 
 
 @kernel
-def pressure(d: float, r: float) -> float:
-    """Return Hertz's pressure, sqrt(d - r^2): Barber (1979), (1)."""
-    return float(np.sqrt(max(d - r * r, 0.0)))
+def pressure(b: float, rim: float, r: float) -> float:
+    """Return the pressure at r of a contact of radius b: Barber (1979), (1).
+
+    sqrt(b^2 - r^2), Hertz's, and what the density at the edge adds, rim/(2 sqrt(b^2 - r^2)).
+    """
+    if r > b:
+        return 0.0
+    root = np.sqrt((b - r) * (b + r))
+    return float(root + at_rim(rim, root))
+
+
+@kernel
+def at_rim(rim: float, root: float) -> float:
+    """Return what a density that ends with a jump adds, infinite at the edge itself."""
+    if rim == 0.0:
+        return 0.0
+    return float(0.5 * rim / root) if root > 0.0 else float(np.copysign(np.inf, rim))
 
 
 @kernel
@@ -44,8 +58,10 @@ def sine_less_chord(angle: float) -> float:
 
 @kernel
 def traction(profile: Profile, r: float) -> float:
-    """Return f = integral_r^b g s ds/sqrt(s^2 - r^2), Barber's (6), over mu."""
+    """Return f = integral_r^b g s ds/sqrt(s^2 - r^2), Barber's (6), over mu; and of the rim."""
     edges, total = profile.edges, 0.0
+    if profile.rim != 0.0 and r <= edges[-1]:
+        total = at_rim(profile.rim, np.sqrt((edges[-1] - r) * (edges[-1] + r)))
     for i in range(edges.size - 1):
         low, high = max(edges[i], r), edges[i + 1]
         if high <= low:
@@ -131,10 +147,13 @@ def slip_shape(front: float, r: float) -> tuple[float, float]:
 
 
 @entry_point()
-def sample(profile: Profile, d: float, radii: Vector, out: Matrix) -> None:
-    """Write pressure, traction over mu, u_z, u_0 and u_2 for every radius."""
+def sample(profile: Profile, d: float, b: float, rim: float, radii: Vector, out: Matrix) -> None:
+    """Write pressure, traction over mu, u_z, u_0 and u_2 for every radius.
+
+    d is the penetration, b the radius of the contact, `rim` the density of the pressure there.
+    """
     for i in range(radii.size):
         r = radii[i]
-        out[i, 0], out[i, 1] = pressure(d, r), traction(profile, r)
+        out[i, 0], out[i, 1] = pressure(b, rim, r), traction(profile, r)
         out[i, 2] = normal_displacement(d, r)
         out[i, 3], out[i, 4] = displacement(profile, r)

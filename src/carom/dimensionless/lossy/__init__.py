@@ -1,1 +1,1 @@
-"""The oblique impact with losses in the normal motion, panel by panel."""
+"""The oblique impact with losses: viscoelastic solids, spheres that yield."""

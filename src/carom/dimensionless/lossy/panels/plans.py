@@ -11,6 +11,7 @@ from carom.dimensionless.numerics.kernels import kernel
 FIRST, LONGEST, SHORTEST = 0.3, 0.8, 1e-8  # lengths of panels
 TOLERANCE = 1e-9  # of a panel; keeps psi_2 to 1e-8 max(1, |psi_1|)
 TRIALS = 60  # of a panel
+EARLY = 5e-4  # part of a panel in which zones that begin with it are too thin to be told
 NEAR, NEAR_FLAT = 1e-9, 1e-5  # part of a panel: a change so near its end is its end
 LARGEST_CHI = 1000.0  # beyond, few impacts are solved, and sliding begins above `rebounds.FAR`
 ORDER = 9.0  # of the error of a panel in its length, about

@@ -14,6 +14,7 @@ from carom.dimensionless.lossy.panels.collocation import (
 )
 from carom.dimensionless.lossy.panels.newton import Panel, State, state_at
 from carom.dimensionless.lossy.panels.normal import Motion, Stage
+from carom.dimensionless.lossy.panels.plans import EARLY
 from carom.dimensionless.lossy.panels.work import RADIUS, TIME, Arrays
 from carom.dimensionless.lossy.viscoelastic.memory import level_at
 from carom.dimensionless.lossy.viscoelastic.passed import left
@@ -30,7 +31,6 @@ from carom.dimensionless.lossy.viscoelastic.ring import (
     level_now,
     ring_of,
 )
-from carom.dimensionless.lossy.yielding.events import EARLY
 from carom.dimensionless.numerics.kernels import kernel
 
 # Slip begins at the edge; it stops all over; the front turns; it comes to the end of a piece, or of

@@ -48,8 +48,8 @@ from carom.dimensionless.lossy.viscoelastic.ring import (
     ring_of,
     set_ring,
 )
-from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.numerics.kernels import kernel
+from carom.dimensionless.numerics.arrays import Array, Vector
+from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 NEVER = -1  # instead of a panel
 AFTER_EVENT = 0.02  # length at least tried after an event
@@ -69,7 +69,8 @@ def run(
 ) -> tuple[int, int]:
     """Run an impact, psi_1 >= 0; return its status and the number of panels.
 
-    It ends with the contact, or in the panel `until`, which is left as it was solved.
+    It ends with the contact; or in the panel `until`, which is left as it was solved, and returns
+    how many pieces of memory that finds.
     """
     refused = why_not(psi, chi)
     if refused != Status.SOLVED.value:
@@ -88,7 +89,7 @@ def run(
             return Status.UNRESOLVED.value, number
         panel = Panel(number, plan.clock, plan.length, pieces)
         if number == until:
-            return Status.SOLVED.value, number
+            return Status.SOLVED.value, pieces
         if record.rows.shape[0] > 0:
             keep(work, motion, panel, numbers, record)
         else:
@@ -179,3 +180,18 @@ def error_of(work: Arrays, panel: Panel) -> float:
         error = max(error, tail(series[LAID]), tail(series[row_of(ring.sign)]))
         error = max(error, tail(series[LAID_RADIUS]) * abs(levels[NODES - 1] - levels[0]))
     return float(error)
+
+
+@entry_point()
+def run_until(
+    psi: float,
+    chi: float,
+    alpha: float,
+    tolerance: float,
+    until: int,
+    work: Arrays,
+    numbers: Vector,
+    record: Trace,
+) -> int:
+    """Run an impact up to a panel, left as it was solved; return the pieces that it finds."""
+    return run(psi, chi, alpha, tolerance, until, work, numbers, record)[1]

@@ -140,7 +140,8 @@ def ring_moments(
         last = at.place if ring.mode == RETURNS and i == ring.depth - 1 else row[passed.X_INNER]
         found = entry_moments(work, i, ring, alpha, edge, last, time)
         plain, weighted, square = plain + found[0], weighted + found[1], square + found[2]
-        if row[passed.R_INNER] < edge <= row[passed.R_OUTER]:
+        parts = edge <= 0.0 and i == ring.depth - 1
+        if parts or row[passed.R_INNER] < edge <= row[passed.R_OUTER]:
             at_edge = edge_left(work, i, ring, alpha, edge, time)
     if ring.mode == RETREATS:
         n, x0 = panel.number, -1.0

@@ -6,11 +6,11 @@ from carom.dimensionless.lossy.panels import normal
 from carom.dimensionless.lossy.panels.collocation import FLAT_ENDS, FLAT_START, NODES, PLACES
 from carom.dimensionless.lossy.panels.newton import Panel, State, state_at, state_at_node
 from carom.dimensionless.lossy.panels.normal import Motion, Stage
+from carom.dimensionless.lossy.panels.plans import EARLY
 from carom.dimensionless.lossy.panels.work import Arrays
 from carom.dimensionless.lossy.yielding.panels import cut_memory
 from carom.dimensionless.numerics.kernels import kernel
 
-EARLY = 5e-4  # part of a panel in which zones that begin with it are too thin to be told
 TO = 0.9999  # place up to which the structure is looked at
 BISECTIONS = 36
 LEVEL = 1e-8  # a limit that falls more slowly does not fall

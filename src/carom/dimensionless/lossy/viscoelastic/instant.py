@@ -1,0 +1,262 @@
+"""The contact of a viscoelastic impact at an instant, read off when it has been run up to there."""
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.dimensionless.fields.profile import Profile, coefficients, radii, stacked
+from carom.dimensionless.lossy.panels.pieces import A0, PANEL, R0, R1, SIGN, X0, X1
+from carom.dimensionless.lossy.panels.plans import TOLERANCE
+from carom.dimensionless.lossy.panels.record import NUMBERS, new_record
+from carom.dimensionless.lossy.panels.work import (
+    FRONT,
+    LAID_RADIUS,
+    MOVED,
+    PSI,
+    RADIUS,
+    SPEED,
+    TIME,
+    new_work,
+)
+from carom.dimensionless.lossy.viscoelastic import passed
+from carom.dimensionless.lossy.viscoelastic.impacts import run_until
+from carom.dimensionless.lossy.viscoelastic.memory import FLAT, row_of
+from carom.dimensionless.lossy.viscoelastic.ring import (
+    DEPTH,
+    MODE,
+    RATIO,
+    RETRACES,
+    RETREATS,
+    RETURNS,
+    RING_SIGN,
+    STICKS,
+)
+from carom.dimensionless.numerics.arrays import Array
+
+BISECTIONS = 50
+RESOLVED, NARROW = 1e-10, 1e-6  # of a series on a panel; panels that are not halved any more
+
+Read = Callable[[Array], tuple[Array, Array]]  # value and slope in s, at radii
+
+
+class Stretch(NamedTuple):
+    """Part of a contact between two radii, and what is read there: c in stick, h in slip."""
+
+    inner: float
+    outer: float
+    sign: int
+    read: Read
+
+
+class Replay:
+    """An impact, psi_1 > 0, run again up to a panel, which is left as it was solved."""
+
+    def __init__(self, psi: float, chi: float, alpha: float, number: int) -> None:
+        self.alpha, self.number, self.work = alpha, number, new_work()
+        numbers, record = np.zeros(NUMBERS), new_record(False)
+        given = psi, chi, alpha, TOLERANCE, number
+        self.pieces = run_until(*given, self.work, numbers, record)
+
+
+class Instant:
+    """The contact of an impact at a place of the panel up to which it was run again.
+
+    Springs that stick bear f = T + c(s) at the deflection u = U + c(s), those that slip with sign
+    sigma bear sigma (D - s) at sigma (d - s - alpha h).
+    """
+
+    def __init__(self, panel: "Replay", x: float) -> None:
+        self.alpha, self.number, self.work, self.x = panel.alpha, panel.number, panel.work, x
+        number = panel.number
+        self.radius, self.speed, self.moved, self.psi, self.time, front = (
+            float(self._at(number, row, x)) for row in (RADIUS, SPEED, MOVED, PSI, TIME, FRONT)
+        )
+        ring = self.work.ring
+        self.mode, self.sign = int(ring[MODE]), int(ring[RING_SIGN])
+        self.radius, self.front = max(self.radius, 0.0), float(np.sqrt(max(front, 0.0)))
+        loading = self.speed > 0.0
+        self.shift = self.alpha * self.speed if loading else 0.0  # D - b^2
+        self.depth = self.radius**2 - (0.0 if loading else self.alpha * self.speed)
+        self.stuck = self.radius if self.sign == 0 else min(self.front, self.radius)
+        self.stretches = (*self._sticking(panel.pieces), *self._slipping())
+
+    def forces(self) -> Profile:
+        """Return f and -df/ds: what tractions come from."""
+        limit = self.radius**2 + self.shift
+        tension = self.moved + self.alpha * self.psi
+
+        def read(part: Stretch, r: Array) -> tuple[Array, Array]:
+            if part.sign:
+                return part.sign * (limit - r * r), np.full(r.shape, float(part.sign))
+            c, slope = part.read(r)
+            return tension + c, -slope
+
+        return self._profile(read, self.edge_force)
+
+    @property
+    def edge_force(self) -> float:
+        """What the spring at the edge bears: none while unloading."""
+        if self.mode == STICKS:
+            return self.alpha * self.psi
+        if self.mode == RETRACES:
+            return float(self.work.ring[RATIO]) * self.shift
+        return self.sign * self.shift
+
+    def lags(self) -> Profile:
+        """Return U - u and its slope: how far springs lag behind, from which slip follows."""
+
+        def read(part: Stretch, r: Array) -> tuple[Array, Array]:
+            value, slope = part.read(r)
+            if not part.sign:
+                return -value, slope
+            u = part.sign * (self.depth - r * r - self.alpha * value)
+            return self.moved - u, -part.sign * (1.0 + self.alpha * slope)
+
+        return self._profile(read, 0.0)
+
+    def rates(self) -> tuple[float, Profile]:
+        """Return the rate of slip just outside the front, and how it changes from there outwards.
+
+        Both as rates of springs, sigma (g - h).
+        """
+        slipping = [part for part in self.stretches if part.sign]
+        if not slipping:
+            return 0.0, stacked([], [])
+        excess = self.sign * self.psi - self.speed
+        first = float(slipping[0].read(np.array([slipping[0].inner]))[0][0])
+
+        def read(part: Stretch, r: Array) -> tuple[Array, Array]:
+            if not part.sign:
+                return np.zeros(r.shape), np.zeros(r.shape)
+            h, slope = part.read(r)
+            return self.sign * (first - h), self.sign * slope
+
+        return self.sign * (excess - first), self._profile(read, 0.0)
+
+    def _profile(
+        self, read: Callable[[Stretch, Array], tuple[Array, Array]], rim: float
+    ) -> Profile:
+        """Return a profile of values and minus their slopes."""
+        edges: list[float] = []
+        rows: list[tuple[Array, Array]] = []
+        for part in self.stretches:
+            for outer, row in panels_of(partial(read, part), part.inner, part.outer):
+                edges.append(outer)
+                rows.append(row)
+        return stacked(edges, rows, rim)
+
+    def _at(self, panel: int, row: int, x: Array | float) -> Array:
+        return np.asarray(np.polynomial.chebyshev.chebval(x, self.work.series[panel, row]))
+
+    def _slope(self, panel: int, row: int, x: Array) -> Array:
+        series = np.polynomial.chebyshev.chebder(self.work.series[panel, row])
+        return np.asarray(np.polynomial.chebyshev.chebval(x, series))
+
+    def _place(self, panel: int, row: int, levels: Array, x0: float, x1: float) -> Array:
+        """Return where a monotone row passes levels between two places."""
+        low, high = np.full(levels.shape, x0), np.full(levels.shape, x1)
+        rises = self._at(panel, row, x1) > self._at(panel, row, x0)
+        for _ in range(BISECTIONS):
+            middle = 0.5 * (low + high)
+            below = (self._at(panel, row, middle) < levels) == rises
+            low, high = np.where(below, middle, low), np.where(below, high, middle)
+        return np.asarray(0.5 * (low + high))
+
+    def _sticking(self, count: int) -> Iterator[Stretch]:
+        """Yield the pieces that stick, from the centre outwards."""
+        if self.mode == RETRACES:
+            yield Stretch(0.0, self.radius, 0, self._retraced)
+            return
+        for row in self.work.pieces[:count].copy():
+            inner, outer = float(row[R0]), min(float(row[R1]), self.stuck)
+            if outer > inner:
+                yield Stretch(inner, outer, 0, self._piece(row))
+        if self.mode in (STICKS, RETURNS):
+            inner = float(self.work.values[LAID_RADIUS, 0])
+            row = np.zeros(self.work.pieces.shape[1])
+            row[[SIGN, PANEL, X0, X1]] = self.sign, self.number, -1.0, self.x
+            if self.stuck > inner:
+                yield Stretch(inner, self.stuck, 0, self._piece(row))
+
+    def _piece(self, row: Array) -> Read:
+        """Return what reads c on a piece, and its slope in s."""
+        sign, n = int(row[SIGN]), int(row[PANEL])
+
+        def laid(r: Array) -> tuple[Array, Array]:
+            x = self._place(n, LAID_RADIUS, r, row[X0], row[X1])
+            v = np.maximum(self._at(n, SPEED, x), 1e-300)
+            return -self._at(n, MOVED, x), -np.clip(self._at(n, PSI, x) / v, -1.0, 1.0)
+
+        def left(r: Array) -> tuple[Array, Array]:
+            x = self._place(n, LAID_RADIUS, r, row[X0], row[X1])
+            level, rate = self._at(n, row_of(sign), x), self._slope(n, row_of(sign), x)
+            rise = rate / np.maximum(2.0 * r * self._slope(n, LAID_RADIUS, x), 1e-300)
+            return sign * (level - r * r), sign * (np.clip(rise, 0.0, 2.0) - 1.0)
+
+        def flat(r: Array) -> tuple[Array, Array]:
+            level = row[A0] if sign > 0 else 2.0 * row[R0] ** 2 - row[A0]
+            return sign * (level - r * r), np.full(r.shape, -float(sign))
+
+        if row[PANEL] == FLAT:
+            return flat
+        return left if sign else laid
+
+    def _retraced(self, r: Array) -> tuple[Array, Array]:
+        ratio = float(self.work.ring[RATIO])
+        return ratio * (self.depth - r * r) - self.moved, np.full(r.shape, -ratio)
+
+    def _slipping(self) -> Iterator[Stretch]:
+        """Yield the parts of the ring, from the front outwards."""
+        if self.sign == 0:
+            return
+        inner = self.stuck
+        depth = int(self.work.ring[DEPTH])
+        entries = [(row, float(row[passed.X_INNER])) for row in self.work.passed[:depth].copy()]
+        if self.mode == RETREATS:
+            row = np.zeros(self.work.passed.shape[1])
+            row[[passed.PANEL, passed.X_OUTER]] = self.number, -1.0
+            row[passed.R_OUTER] = np.sqrt(self.work.values[FRONT, 0])
+            entries.append((row, self.x))
+        for row, x_inner in reversed(entries):
+            outer = min(float(row[passed.R_OUTER]), self.radius)
+            if outer > inner:
+                yield Stretch(inner, outer, self.sign, self._left(row, x_inner))
+                inner = outer
+        if self.radius > inner:
+            yield Stretch(inner, self.radius, self.sign, _nothing)
+
+    def _left(self, row: Array, x_inner: float) -> Read:
+        """Return what reads h on an entry of the stack, and its slope in s."""
+        n, alpha = int(row[passed.PANEL]), self.alpha
+
+        def read(r: Array) -> tuple[Array, Array]:
+            if row[passed.PANEL] == passed.AT_ONCE:
+                h = row[passed.EXCESS] * np.exp((row[passed.INSTANT] - self.time) / alpha)
+                return np.full(r.shape, h), np.zeros(r.shape)
+            x = self._place(n, FRONT, r * r, row[passed.X_OUTER], x_inner)
+            decay = np.exp((self._at(n, TIME, x) - self.time) / alpha)
+            excess = self.sign * self._at(n, PSI, x) - self._at(n, SPEED, x)
+            change = self.sign * self._slope(n, PSI, x) - self._slope(n, SPEED, x)
+            change += excess * self._slope(n, TIME, x) / alpha
+            return excess * decay, change * decay / self._slope(n, FRONT, x)
+
+        return read
+
+
+def _nothing(r: Array) -> tuple[Array, Array]:
+    return np.zeros(r.shape), np.zeros(r.shape)
+
+
+def panels_of(read: Read, low: float, high: float) -> Iterator[tuple[float, tuple[Array, Array]]]:
+    """Yield the outer edges and rows of as many panels as a stretch needs."""
+    value, slope = read(radii(low, high))
+    series = coefficients(slope)
+    tail = np.max(np.abs(series[-3:])) * np.sqrt(high - low)
+    if tail <= RESOLVED or high - low <= NARROW:
+        yield high, (coefficients(value), series)
+        return
+    middle = 0.5 * (low + high)
+    yield from panels_of(read, low, middle)
+    yield from panels_of(read, middle, high)
