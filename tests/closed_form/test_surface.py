@@ -33,7 +33,7 @@ def constant(g, d):
 def sampled(profile, d, r):
     """Return p, f, u_z, u_0, u_2 at radii."""
     out = np.empty((np.size(r), 5))
-    surface.sample(profile, d, np.atleast_1d(r).astype(float), out)
+    surface.sample(profile, d, d, 0.0, np.atleast_1d(r).astype(float), out)
     return out.T
 
 
@@ -51,7 +51,7 @@ def test_profile_is_the_memory(psi, chi, place):
     solution = carom.solve(psi, chi)
     time = place * solution.duration
     memory, force = solution.memory(time), solution.at(time).force[0]
-    edges, rows_q, rows_g = memory.profile()
+    edges, rows_q, rows_g, _ = memory.profile()
     assert edges[0] == 0.0
     assert edges[-1] == np.sqrt(memory.penetration)
     nodes, weights = np.polynomial.legendre.leggauss(20)

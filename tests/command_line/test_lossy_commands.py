@@ -123,7 +123,7 @@ def test_files_of_an_impact_with_losses_are_what_it_is_and_can_be_drawn(run):
         (["--yield-velocity", "steel"], ("yield_velocity: 'steel'", "'material'", "0.1 m/s")),
         (["--yield-velocity", "0 m/s"], ("yield_velocity: 0.0", "positive")),
         (
-            ["--restitution", "0.9", "--animate", "x.gif", "--plot", "x.png"],
+            ["--yield-velocity", "0.1", "--animate", "x.gif", "--plot", "x.png"],
             ("animation: 'x.gif'",),
         ),
     ],

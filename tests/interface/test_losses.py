@@ -1,5 +1,7 @@
 """The laws of normal loss as users meet them: units, refusals, how the loss follows the speed."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from scipy.special import beta
@@ -173,6 +175,27 @@ def test_too_large_a_loss_time_is_refused_not_answered() -> None:
         hit(carom.KelvinVoigt(loss_time="1 s"))
 
 
-def test_fields_of_impacts_with_losses_are_refused() -> None:
-    with pytest.raises(InputError, match="losses"):
-        hit(carom.KelvinVoigt(restitution=0.9)).contact(time=1e-6)
+def test_fields_of_yielding_spheres_are_refused() -> None:
+    with pytest.raises(InputError, match=r"losses: fields of spheres that yield"):
+        hit(carom.ElasticPlastic(0.1)).contact(time=1e-6)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda **law: carom.rebound(0.5, 1.44, **law),
+        lambda **law: carom.solve(0.5, 1.44, **law).psi_out,
+        lambda **law: float(carom.curve(1.44, [0.5], **law).psi_out[0, 0]),
+        lambda **law: carom.impact(STEEL, normal_speed=1.0, **law).duration,
+        lambda **law: float(carom.ReboundLaw(1.44, **law)(0.5)),
+    ],
+)
+def test_the_old_name_of_losses_still_works(call: Callable[..., float]) -> None:
+    """With one warning, and the same number; both at once are refused."""
+    law = carom.KelvinVoigt(restitution=0.9)
+    with pytest.warns(DeprecationWarning, match="normal= is now called losses=") as told:
+        old = call(normal=law)
+    assert len(told) == 1
+    assert old == call(losses=law)
+    with pytest.raises(InputError, match="normal: the old name of losses"):
+        call(normal=law, losses=law)

@@ -124,7 +124,7 @@ def impact_command(
     tell_sweep(content)
     files = outputs(content)
     losses = losses_of(content)
-    _check_outputs(files, elastic=losses is None)
+    _check_outputs(files, yields="yield_velocity" in content)
     solver = _method(method, elements, steps)
     hit = carom.impact(pair_of(content), **motion_of(content), losses=losses, method=solver)
     paths = list(_store(hit, files))
@@ -149,13 +149,13 @@ def _method(name: str, elements: str | None, steps: str | None) -> "str | Bounda
     return carom.BoundaryElements(**counts)
 
 
-def _check_outputs(files: Output, *, elastic: bool) -> None:
+def _check_outputs(files: Output, *, yields: bool) -> None:
     from carom.io.files import FIGURES, TABLES
 
     check_outputs((files.plot, FIGURES), (files.data, TABLES))
     if files.animation is not None:
-        if not elastic:
-            allowed = "fields are those of elastic impacts; leave it or the losses out"
+        if yields:
+            allowed = "fields of spheres that yield are not known; leave it or yield_velocity out"
             raise refusal("animation", files.animation, allowed)
         carom.plots.checked_animation(files.animation)
 

@@ -83,7 +83,9 @@ def _distances(contact: Contact, px: Array, py: Array) -> Array:
 def _radial(contact: Contact, r: Array) -> Array:
     """Return pressure, traction, u_z, u_0, u_2, w_0, w_2 for dimensionless radii."""
     out = np.empty((r.size, 5))
-    surface.sample(contact.profile, contact.penetration, contact.edge, contact.rim, r, out)
+    d = contact.penetration
+    square = contact.edge**2 if contact.viscous else d
+    surface.sample(contact.profile, d, square, contact.rim, r, out)
     return np.hstack((out, contact.slid(r)))
 
 

@@ -16,14 +16,14 @@ ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(20)
 
 
 @kernel
-def pressure(b: float, rim: float, r: float) -> float:
-    """Return the pressure at r of a contact of radius b: Barber (1979), (1).
+def pressure(square: float, rim: float, r: float) -> float:
+    """Return the pressure at r of a contact of radius b, b^2 = `square`: Barber (1979), (1).
 
     sqrt(b^2 - r^2), Hertz's, and what the density at the edge adds, rim/(2 sqrt(b^2 - r^2)).
     """
-    if r > b:
+    if r * r > square:
         return 0.0
-    root = np.sqrt((b - r) * (b + r))
+    root = np.sqrt(square - r * r)
     return float(root + at_rim(rim, root))
 
 
@@ -61,7 +61,7 @@ def traction(profile: Profile, r: float) -> float:
     """Return f = integral_r^b g s ds/sqrt(s^2 - r^2), Barber's (6), over mu; and of the rim."""
     edges, total = profile.edges, 0.0
     if profile.rim != 0.0 and r <= edges[-1]:
-        total = at_rim(profile.rim, np.sqrt((edges[-1] - r) * (edges[-1] + r)))
+        total = at_rim(profile.rim, np.sqrt(edges[-1] * edges[-1] - r * r))
     for i in range(edges.size - 1):
         low, high = max(edges[i], r), edges[i + 1]
         if high <= low:
@@ -147,13 +147,15 @@ def slip_shape(front: float, r: float) -> tuple[float, float]:
 
 
 @entry_point()
-def sample(profile: Profile, d: float, b: float, rim: float, radii: Vector, out: Matrix) -> None:
+def sample(
+    profile: Profile, d: float, square: float, rim: float, radii: Vector, out: Matrix
+) -> None:
     """Write pressure, traction over mu, u_z, u_0 and u_2 for every radius.
 
-    d is the penetration, b the radius of the contact, `rim` the density of the pressure there.
+    d is the penetration, `square` that of the radius, `rim` the density of pressure at the edge.
     """
     for i in range(radii.size):
         r = radii[i]
-        out[i, 0], out[i, 1] = pressure(b, rim, r), traction(profile, r)
+        out[i, 0], out[i, 1] = pressure(square, rim, r), traction(profile, r)
         out[i, 2] = normal_displacement(d, r)
         out[i, 3], out[i, 4] = displacement(profile, r)
