@@ -199,3 +199,17 @@ def test_the_old_name_of_losses_still_works(call: Callable[..., float]) -> None:
     assert old == call(losses=law)
     with pytest.raises(InputError, match="normal: the old name of losses"):
         call(normal=law, losses=law)
+
+
+def test_validity_says_what_is_assumed_of_losses() -> None:
+    """The solid and what another may change; of yielded spheres by how much psi_2 may be off."""
+    told = {f.name: f for f in hit(carom.KelvinVoigt(restitution=0.8)).validity.findings}
+    assert told["e"].value == pytest.approx(0.8)
+    assert "as viscous in shear as in compression" in told["e"].verdict
+    for ratio, words in ((2.0, "by up to 0.08"), (10.0, "by up to 0.32"), (11.0, "not studied")):
+        law = carom.ElasticPlastic(yield_velocity=1.0 / ratio)
+        told = {f.name: f for f in hit(law).validity.findings}
+        assert told["V_1/V_y"].value == pytest.approx(ratio)
+        assert words in told["V_1/V_y"].verdict
+        assert told["V_1/V_y"].holds is None
+    assert "e" not in {f.name for f in hit(None).validity.findings}

@@ -83,7 +83,7 @@ def test_same_as_springs_one_by_one(walk):
 def test_force_energy_and_profile_are_those_of_the_memory(walk):
     path = moved(*walk)
     nodes, weights = np.polynomial.legendre.leggauss(3)
-    edges, coefficients, _ = profile_of(path.stack)
+    edges, coefficients, *_ = profile_of(path.stack)
     sums = np.zeros(2)
     for low, high, row in zip(edges[:-1], edges[1:], coefficients, strict=True):
         x = 0.5 * (low + high) + 0.5 * (high - low) * nodes

@@ -1,7 +1,7 @@
 """What happens in the contact of viscoelastic bodies: Coulomb's law everywhere, forces, slip.
 
 Over 500 random impacts, 20 instants each, |traction| exceeded mu times the pressure by at most
-4e-15 of it, at radii up to 1 - 1e-6 of the edge.
+6e-11 of it, at radii up to 1 - 1e-6 of the edge.
 """
 
 import numpy as np

@@ -78,10 +78,10 @@ class Solution(Trajectory):
     _moved: Array = field(repr=False)
 
     duration: float = field(default=hertz.DURATION, init=False, repr=False)
+    max_radius: float = field(default=1.0, init=False, repr=False)
     restitution: ClassVar[float] = 1.0
     max_penetration: ClassVar[float] = 1.0
     max_force: ClassVar[float] = 1.0
-    max_radius: ClassVar[float] = 1.0
     shear_lost: ClassVar[float] = 0.0
 
     @property
@@ -171,7 +171,6 @@ class Solution(Trajectory):
         return memory_at(self._record, self._times, self._moved, now, self.scale or 1.0)
 
     def contact_at(self, time: float) -> ContactState:
-        """Return the contact at a time: tractions and slip."""
         rate, now = self.slip_rate(time), now_at(self.at(self._time_within(time)))
 
         def slipping(radii: Array) -> Array:
@@ -182,8 +181,7 @@ class Solution(Trajectory):
         slid = partial(self.slid, time)
         return ContactState(np.sqrt(now["penetration"]), 0.0, profile, slid, slipping)
 
-    def touched(self, radii: Array) -> Array:
-        """Return when the edge of the contact first passed radii that it reaches."""
+    def _touched(self, radii: Array) -> Array:
         return np.array([hertz.time(r * r, np.sqrt(max(1.0 - r**5, 0.0))) for r in radii])
 
     def slip_rate(self, time: float) -> float:

@@ -81,6 +81,7 @@ class Trajectory(ABC):
     psi_in: float
     chi: float
     duration: float
+    max_radius: float
     status: Status
     phases: tuple[Phase, ...]
 
@@ -90,11 +91,64 @@ class Trajectory(ABC):
 
     @abstractmethod
     def contact_at(self, time: float) -> ContactState:
-        """Return the contact at a time; InputError if it is not known."""
+        """Return the contact at a time: its radius, tractions and slip.
+
+        Parameters
+        ----------
+        time : float
+            In d_max/V_1, 0 to `duration`.
+
+        Returns
+        -------
+        ContactState
+            `radius` of the edge in sqrt(R* d_max), `rim` the density of the pressure there, a
+            `profile` of g and q, and functions `slid`, `slipping` of radii.
+
+        Raises
+        ------
+        InputError
+            If the time is outside the contact, or the bodies are spheres that yield.
+
+        Examples
+        --------
+        >>> import carom
+        >>> carom.solve(0.5, 1.44).contact_at(1.0).radius > 0.8
+        True
+        """
 
     @abstractmethod
-    def touched(self, radii: Array) -> Array:
+    def _touched(self, radii: Array) -> Array:
         """Return when the edge of the contact first passed radii that it reaches."""
+
+    def touched(self, radii: ArrayLike) -> Array:
+        """Return when the edge of the contact first passed radii that it reaches.
+
+        Parameters
+        ----------
+        radii : array_like, shape (n,)
+            In sqrt(R* d_max), none larger than `max_radius`.
+
+        Returns
+        -------
+        numpy.ndarray, shape (n,)
+            Times in d_max/V_1.
+
+        Raises
+        ------
+        InputError
+            If a radius is negative or the contact does not grow so large.
+
+        Examples
+        --------
+        >>> import carom
+        >>> carom.solve(0.5, 1.44).touched([0.5]).round(4)
+        array([0.2511])
+        """
+        places = places_of(radii)
+        if np.any(places > self.max_radius):
+            far, most = float(places.max()), self.max_radius
+            raise refusal("radii", far, f"the contact grows to a radius of {most:.6g}")
+        return self._touched(places)
 
     def phase_at(self, time: float) -> Phase:
         """Return the phase at a time; the instant of a change belongs to the later one.

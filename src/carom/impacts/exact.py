@@ -20,9 +20,9 @@ from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution, solve, solve_with
 from carom.dimensionless.states import SlipAngle
 from carom.impacts.result import ImpactResult
-from carom.impacts.validity import judge
+from carom.impacts.validity import judge, judge_losses
 from carom.io.citations import IMPACT, bibtex
-from carom.io.labels import Validity
+from carom.io.labels import Finding, Validity
 from carom.quantities.refusals import refusal
 from carom.quantities.units import Value
 
@@ -55,7 +55,10 @@ class Impact(ImpactResult, InContact):
     @property
     def validity(self) -> Validity:
         """How far the assumptions of the theory hold, as numbers with a verdict."""
-        return judge(self.pair, self.normal_speed, self.duration, self.psi_in)
+        found: tuple[Finding, ...] = ()
+        if isinstance(self.solution, LossySolution):
+            found = (judge_losses(*self.solution.loss, self.normal_restitution),)
+        return judge(self.pair, self.normal_speed, self.duration, self.psi_in, found)
 
     @property
     def slip_angles(self) -> tuple[SlipAngle, ...]:

@@ -2,9 +2,12 @@
 
 from math import inf, isfinite, isinf, sqrt
 
+import numpy as np
+
 from carom.bodies.materials import Material
 from carom.bodies.pairs import Pair
 from carom.bodies.plausibility import doubts
+from carom.dimensionless.lossy.panels.normal import Loss
 from carom.io.labels import Finding, Validity
 
 SMALL_CONTACT = 0.1  # a_max/R*: Hertz's parabolic gap against the sphere (Johnson 1985, 4.2)
@@ -12,10 +15,15 @@ YIELD_PRESSURE = 1.60  # p_0/Y at first yield of a sphere, von Mises (Johnson 19
 SLOW_CONTACT = 3.0  # contact time in transits of a wave through the sphere and back (Love 1927)
 WEAK_COUPLING = 0.01  # |Dundurs' beta|: what is left uncoupled is below a hundredth
 CLOSE_REBOUND = 0.01  # of psi_2, also against the full contact in three dimensions
+OTHER_SOLID = 0.2  # in psi_2, a standard linear solid of the same e against Kelvin & Voigt's
+# V_1/V_y, and by how much psi_2 is off from rings of traction with the true radius (Thornton 1997)
+YIELDED = (1.0, 2.0, 5.0, 10.0), (0.0, 0.08, 0.22, 0.32)
 LATERAL, RADIAL, COUPLED = 0.008, 0.22, 0.8  # of its bound, studies/halfspace_study.csv
 
 
-def judge(pair: Pair, normal_speed: float, duration: float, psi: float) -> Validity:
+def judge(
+    pair: Pair, normal_speed: float, duration: float, psi: float, losses: tuple[Finding, ...] = ()
+) -> Validity:
     """Return the findings on an impact: small contact, no yield, slow contact, no coupling."""
     coupling = _judged(
         "Dundurs beta",
@@ -31,7 +39,26 @@ def judge(pair: Pair, normal_speed: float, duration: float, psi: float) -> Valid
         "psi_2 is as close as this to the full contact in three dimensions",
         "coupling may turn psi_2 by as much; method='halfspace' solves the full contact",
     )
-    return Validity((*judge_contact(pair, normal_speed, duration), coupling, close))
+    return Validity((*judge_contact(pair, normal_speed, duration), *losses, coupling, close))
+
+
+def judge_losses(loss: int, parameter: float, restitution: float) -> Finding:
+    """Return the finding on losses: which solid is assumed, and how much that may be in psi_2."""
+    if loss == Loss.VISCOUS:
+        words = (
+            "a solid as viscous in shear as in compression: others of this e differ in psi_2 by"
+            f" up to {OTHER_SOLID:g}"
+        )
+        return Finding("e", restitution, 1.0, None, words)
+    ratio = parameter**-2.5
+    off = float(np.interp(np.log(ratio), np.log(YIELDED[0]), YIELDED[1]))
+    known = (
+        f"psi_2 is off by up to {off:.2g}"
+        if ratio <= YIELDED[0][-1] * (1.0 + 1e-9)
+        else "that is not studied"
+    )
+    words = f"after yield the tangential contact is that of an elastic one of this load: {known}"
+    return Finding("V_1/V_y", ratio, YIELDED[0][-1], None, words)
 
 
 def judge_contact(pair: Pair, normal_speed: float, duration: float) -> tuple[Finding, ...]:

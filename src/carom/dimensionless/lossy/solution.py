@@ -62,7 +62,7 @@ class LossySolution(Trajectory):
     max_force: float
     max_radius: float
     shear_lost: float
-    _loss: tuple[int, float] = field(repr=False)
+    loss: tuple[int, float] = field(repr=False)  # which it is, and its parameter
     _record: Trace = field(repr=False)
     _scale: float = field(repr=False)
 
@@ -94,7 +94,6 @@ class LossySolution(Trajectory):
         )
 
     def contact_at(self, time: float) -> ContactState:
-        """Return the contact at a time; InputError for spheres that yield: it is not known."""
         number, x = self._places(np.array([self._time_within(time)]))[0]
         instant = Instant(self._replay(number), x)
         rate, change = instant.rates()
@@ -116,14 +115,13 @@ class LossySolution(Trajectory):
         return ContactState(instant.radius, instant.shift, profile, slid, slipping)
 
     def _replay(self, number: int) -> Replay:
-        loss, alpha = self._loss
+        loss, alpha = self.loss
         if loss != Loss.VISCOUS:
             what = "fields of spheres that yield are not known; take KelvinVoigt, or no losses"
             raise InputError(f"losses: {what}")
         return Replay(float(self._record.rows[0, layout.AT_PSI, 0]), self.chi, alpha, number)
 
-    def touched(self, radii: Array) -> Array:
-        """Return when the edge of the contact first passed radii that it reaches."""
+    def _touched(self, radii: Array) -> Array:
         return np.array([self._read(*at, layout.AT_TIME) for at in self._touches(radii)])
 
     def _touches(self, radii: Array) -> list[tuple[int, float]]:
@@ -213,7 +211,7 @@ def solve_with_losses(psi: float, chi: float, loss: int, parameter: float) -> Lo
         max_force=float(numbers[layout.STRONGEST]),
         max_radius=float(numbers[layout.WIDEST]),
         shear_lost=float(numbers[layout.SHEAR_LOST]),
-        _loss=(int(loss), parameter),
+        loss=(int(loss), parameter),
         _record=kept,
         _scale=psi / first,
     )
