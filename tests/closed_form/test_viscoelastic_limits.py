@@ -7,6 +7,7 @@ import carom
 from carom.dimensionless.lossy.panels.normal import Loss
 from carom.dimensionless.lossy.panels.stages import viscous_loss
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.rebounds import regime_borders
 
 
 def psi_out(psi, chi, e):
@@ -48,3 +49,24 @@ def test_small_losses_are_linear_in_alpha(psi, chi):
     slopes = (found - elastic) / alpha
     assert abs(slopes[2] - slopes[1]) < 0.6 * abs(slopes[1] - slopes[0]) + 1e-3
     assert abs(2.0 * found[2] - found[1] - elastic) < 1e-4
+
+
+@pytest.mark.parametrize(("chi", "e"), [(1.44, 0.9), (0.8, 0.3), (3.0, 0.6)])
+def test_borders_of_regimes(chi, e):
+    """Slip in gross from the touch ends at the largest compression for psi_1 = 2 chi at any e."""
+    law = carom.KelvinVoigt(restitution=e)
+    np.testing.assert_allclose(
+        regime_borders(chi, e), [1.0, 2.0 * chi, max(2.0 * chi * (1.0 + e) - e, 1.0)]
+    )
+    for change in (-1e-3, 1e-3):
+        solution = carom.solve(2.0 * chi + change, chi, losses=law)
+        speed = solution.at(solution.phases[0].end).speed[0]
+        assert speed == pytest.approx(-change / (2.0 * chi - 1.0), rel=0.01)
+    assert carom.solve(0.999, chi, losses=law).phases[0].kind == "stick"
+
+
+def test_sliding_throughout_loses_in_shear_what_it_loses_in_compression():
+    """Shear lost is chi (1 - e^2), friction the rest, (psi_1^2 - psi_2^2)/2 in all."""
+    for chi, e in ((1.44, 0.9), (0.7, 0.4)):
+        solution = carom.solve(12.0, chi, losses=carom.KelvinVoigt(restitution=e))
+        assert solution.shear_lost == pytest.approx(chi * (1.0 - e * e), rel=1e-9)

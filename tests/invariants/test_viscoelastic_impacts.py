@@ -61,6 +61,34 @@ def test_panels_that_end_with_the_loading(psi, chi):
     assert np.ptp(found) < 1e-8
 
 
+@pytest.mark.parametrize(
+    ("psi", "chi", "e"),
+    [
+        (2.879973361496, 1.44, 0.9),  # slip stops just before the largest compression
+        (9.747349253848784, 5.0, 0.99),  # and here just before the bodies part
+        (9.747349253921556, 5.0, 0.99),
+        (2.60465849294749, 5.0, 0.99),
+        (1.0, 5.0, 0.05),  # where it neither begins nor does not, and losses are heavy
+    ],
+)
+def test_events_beside_the_end_of_something(psi, chi, e):
+    """Each once was missed, or told again and again; a smooth curve has no steps."""
+    beside = psi * (1.0 + np.array([-2e-9, -1e-9, -1e-12, 0.0, 1e-12, 1e-9, 2e-9]))
+    given = beside, np.full(7, chi), np.full(7, viscous_loss(e))
+    found, status = viscoelastic_rebounds(*given)
+    assert np.all(status == Status.SOLVED)
+    assert np.ptp(found) < 1e-7
+
+
+def test_no_energy_is_made_and_all_is_accounted_for():
+    """Shear loses at least nothing, friction as well."""
+    psi, chi, alpha, _ = impacts(1500, 4)
+    found = lossy_rebounds(psi, chi, Loss.VISCOUS, alpha)
+    friction = 0.5 * (psi**2 - found.psi_out**2) - found.shear_lost
+    assert np.all(found.shear_lost >= 0.0)
+    assert np.min(friction / (1.0 + psi**2)) > -1e-9
+
+
 def test_mirror_images():
     psi, chi, alpha, _ = impacts(200, 2)
     found, mirrored = (viscoelastic_rebounds(s * psi, chi, alpha)[0] for s in (1.0, -1.0))

@@ -170,7 +170,7 @@ class Solution(Trajectory):
         now = now_at(self.at(self._time_within(time)))
         return memory_at(self._record, self._times, self._moved, now, self.scale or 1.0)
 
-    def contact_at(self, time: float) -> ContactState:
+    def _contact_at(self, time: float) -> ContactState:
         rate, now = self.slip_rate(time), now_at(self.at(self._time_within(time)))
 
         def slipping(radii: Array) -> Array:

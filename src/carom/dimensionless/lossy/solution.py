@@ -93,8 +93,8 @@ class LossySolution(Trajectory):
             normal_lost=rows[layout.AT_LOST],
         )
 
-    def contact_at(self, time: float) -> ContactState:
-        number, x = self._places(np.array([self._time_within(time)]))[0]
+    def _contact_at(self, time: float) -> ContactState:
+        number, x = self._places(np.array([time]))[0]
         instant = Instant(self._replay(number), x)
         rate, change = instant.rates()
         lags = instant.lags()

@@ -40,6 +40,7 @@ from carom.dimensionless.lossy.viscoelastic.ring import (
 from carom.dimensionless.numerics.kernels import kernel
 
 ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(8)
+ROUNDING = 1e-6  # relative, of squares of radii at which a ring begins
 LAYERS = np.array([0.0, 2.0, 6.0, 14.0, 38.0])  # ages of h, in alpha, between which it is smooth
 
 
@@ -145,7 +146,7 @@ def ring_moments(
             at_edge = edge_left(work, i, ring, alpha, edge, time)
     if ring.mode == RETREATS:
         n, x0 = panel.number, -1.0
-        if edge * edge < work.values[FRONT, 0]:
+        if edge * edge <= work.values[FRONT, 0] * (1.0 + ROUNDING):
             x0 = place(work.series, n, FRONT, edge * edge, -1.0, x)
             at_edge = left_at(work, n, ring.sign, alpha, x0, time)
         found = passed_moments(work, n, ring.sign, alpha, x0, x, time)
