@@ -32,7 +32,7 @@ class ReboundLaw:
 
     psi_2 = psi_1 r(|psi_1|), r as Chebyshev series on panels up to the border of gross slip
     throughout, psi_2 = psi_1 -+ 2 chi (1 + e) from there on (Maw, Barber & Fawcett 1976; Barber
-    (33)). With losses to 3e-8 max(1, |psi_1|) for e >= 0.01.
+    (33)). With losses to 3e-8 max(1, |psi_1|) for e >= 0.01 and chi up to 3, to 1e-6 above.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ class ReboundLaw:
         in seconds beyond 30. Beyond 10 impacts have many phases, and the error reaches 2e-9.
     losses : KelvinVoigt, optional
         What the impact loses energy to, the same at all speeds: a restitution is given. Made
-        in half a second for chi up to 3.
+        in 0.1 to 0.3 s for chi up to 3, some seconds above.
 
     Attributes
     ----------

@@ -1,5 +1,7 @@
 """What a table of the exact rebound holds: series of r = psi_2/psi_1 between kinks."""
 
+from functools import partial
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -8,7 +10,7 @@ from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.panels.normal import Loss
 from carom.dimensionless.lossy.panels.stages import viscous_loss
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.numerics.chebyshev import Panels, fitted
+from carom.dimensionless.numerics.chebyshev import NARROWEST, Panels, fitted
 from carom.dimensionless.rebounds import regime_borders
 from carom.io.progress import advancing
 from carom.laws.rules import DEGREE
@@ -19,6 +21,7 @@ Branches = NDArray[np.int64]
 
 LARGEST_CHI = 100.0  # tables of larger ones would take minutes
 RETURNING = 3.0
+NARROW = 1e-7  # with losses, relative: no kink is strong enough to be felt within
 SMALLEST, LOSSY_SMALLEST = 1e-6, 1e-3  # psi_1: below, r is that of the first panel
 TOLERANCE = 4e-10  # of the tail of a series; the error stays below 1e-9
 LOSSY_TOLERANCE, ROUGH = 1e-8, 2e-7  # with losses; for chi above 3, where the front of slip returns
@@ -32,25 +35,30 @@ def panel_ends(chi: float, restitution: float) -> list[float]:
 
 def panels(chi: float, restitution: float) -> Panels:
     """Return the table of r = psi_2/psi_1 between the regime borders; a bar tells of it."""
-    parameter = viscous_loss(restitution)
+    rebounds, tolerance, narrowest = _elastic, TOLERANCE, NARROWEST
+    if restitution < 1.0:
+        rebounds, narrowest = partial(_lossy, viscous_loss(restitution)), NARROW
+        tolerance = LOSSY_TOLERANCE if chi <= RETURNING else ROUGH
     with advancing("table of rebounds", None, unit="impacts") as advance:
 
         def ratio(psi: Array) -> tuple[Array, Branches]:
-            chis = np.full(psi.size, chi)
-            if restitution == 1.0:
-                outgoing, status, sequence = solved(psi, chis)
-            else:
-                found = lossy_rebounds(psi, chis, Loss.VISCOUS, np.full(psi.size, parameter))
-                outgoing, status = found.psi_out, found.status
-                sequence = np.zeros(psi.size, dtype=np.int64)  # with losses all kinks are weak
+            outgoing, status, sequence = rebounds(psi, np.full(psi.size, chi))
             _refuse_unsolved(chi, status)
             advance(psi.size)
             return outgoing / psi, sequence
 
-        lossy_tolerance = LOSSY_TOLERANCE if chi <= RETURNING else ROUGH
-        tolerance = TOLERANCE if restitution == 1.0 else lossy_tolerance
         ends = panel_ends(chi, restitution)
-        return fitted(ratio, ends, DEGREE, tolerance, singular=(1.0,))
+        return fitted(ratio, ends, DEGREE, tolerance, (1.0,), narrowest)
+
+
+def _elastic(psi: Array, chi: Array) -> tuple[Array, NDArray[np.int8], Branches]:
+    return solved(psi, chi)
+
+
+def _lossy(alpha: float, psi: Array, chi: Array) -> tuple[Array, NDArray[np.int8], Branches]:
+    """Return psi_2, status and one branch for all: with losses kinks are weak."""
+    found = lossy_rebounds(psi, chi, Loss.VISCOUS, np.full(psi.size, alpha))
+    return found.psi_out, found.status, np.zeros(psi.size, dtype=np.int64)
 
 
 def _refuse_unsolved(chi: float, status: NDArray[np.int8]) -> None:

@@ -75,13 +75,15 @@ def fitted(
     degree: int,
     tolerance: float,
     singular: Sequence[float] = (),
+    narrowest: float = NARROWEST,
 ) -> Panels:
     """Return f as series on panels between borders, split until the error of x f(x) is tolerable.
 
     `function` gives values and the number of the branch of f on which each lies: panels are cut
     where the branch changes. The last terms of a series tell its error, and a look between the
     outer nodes, where a weak kink could hide. Where it is too large, a panel is halved, or cut
-    close to its lower end if that is `singular`.
+    close to its lower end if that is `singular`; none is halved that is narrower than `narrowest`
+    times its upper end.
     """
     recall = _remembering(function)
     waiting = list(pairwise(borders))
@@ -97,7 +99,7 @@ def fitted(
         judged = list(zip(waiting, rows, errors, kinks, strict=True))
         waiting = []
         for (low, high), row, error, inside in judged:
-            if error <= tolerance or high - low <= NARROWEST * high:
+            if error <= tolerance or high - low <= narrowest * high:
                 done.append((low, high, row))
                 continue
             near = GRADING if low in singular else 0.5
