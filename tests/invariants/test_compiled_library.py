@@ -77,6 +77,8 @@ def impacts(rng):
         found.memory(times[6]).profile()
         lossy = carom.solve(psi, chi, losses=carom.KelvinVoigt(restitution=0.8))
         lossy.at(lossy.duration * rng.uniform(0.0, 1.0, 4))
+        inside = lossy.contact_at(lossy.duration * rng.uniform(0.1, 0.9))
+        inside.slid(inside.radius * rng.uniform(0.0, 1.0, 3))
 
 
 def contacts(rng):
