@@ -95,24 +95,33 @@ def test_vanishing_losses_give_the_elastic_contact():
             np.testing.assert_allclose(one.slid(radii), other.slid(radii), rtol=0.0, atol=2e-5)
 
 
-def test_stress_of_a_density_with_a_jump():
-    """It is that of a thin ring of density: a parabola that falls to nothing within 1e-3."""
+def test_stress_of_a_density_that_ends_with_a_jump():
+    """Traction: as if it fell to nothing within 1e-5 of the radius. Pressure: Boussinesq's."""
     points = np.array([[0.3, 0.1, 0.2], [0.0, 0.0, 0.05], [1.0, 0.4, 0.3], [0.9, 0.0, 0.02]])
-    jump, width = 0.4, 1e-5
+    jump, inner, given = 0.4, 1.0 - 1e-5, {"friction": 1.0, "poisson": 0.3}
     ends = stacked([1.0], [flat(0.0, 1.0, 1.0, jump)], jump)
-    inner, steep = 1.0 - width, jump / (1.0 - (1.0 - width) ** 2)
-    both = [flat(0.0, inner, 1.0, jump), flat(inner, 1.0, steep, 0.0)]
-    smooth = stacked([inner, 1.0], both)
-    given = {"friction": 1.0, "poisson": 0.3}
-    with_jump = stresses(points, ends, **given) - stresses(points, ends._replace(rim=0.0), **given)
-    steps = stresses(points, smooth, **given)
+    falls = [flat(0.0, inner, 1.0, jump), flat(inner, 1.0, jump / (1.0 - inner**2), 0.0)]
     plain = stacked([1.0], [flat(0.0, 1.0, 1.0, 0.0)])
-    friction = steps - stresses(points, plain, **given)
-    assert not with_jump.any()  # without pressure at the edge there is no slice
-    normal = stresses(points, ends, **given, rim=jump) - stresses(points, plain, **given)
+    with_rim = stresses(points, ends, **given, rim=jump)
     pressed = stresses(points, ends._replace(rim=0.0), **given, rim=jump)
-    pressed -= stresses(points, plain, **given)
-    np.testing.assert_allclose(normal - pressed, friction, atol=1e-4)
+    smooth = stresses(points, stacked([inner, 1.0], falls), **given)
+    pulled = smooth - stresses(points, plain, **given)
+    assert np.abs(pulled).max(axis=1).min() > 0.01
+    np.testing.assert_allclose(with_rim - pressed, pulled, rtol=0.0, atol=1e-4)
+    for z in (0.05, 0.5, 2.0):  # on the axis, p = (jump/2)/sqrt(1 - r^2)
+        ring = quad(lambda a, z=z: np.sin(a) / (np.sin(a) ** 2 + z * z) ** 2.5, 0.0, np.pi / 2.0)
+        axis = np.array([[0.0, 0.0, z]])
+        found = stresses(axis, plain, **given, rim=jump) - stresses(axis, plain, **given)
+        assert found[0, 2] == pytest.approx(-1.5 * jump * z**3 * ring[0], rel=1e-6)
+
+
+def test_bodies_without_friction_have_no_traction_at_an_infinite_pressure():
+    pair = carom.Pair(STEEL, carom.HalfSpace(material="steel"), friction=0.0)
+    hit = carom.impact(pair, speed=2.0, angle=0.5, losses=carom.KelvinVoigt(restitution=0.7))
+    line = hit.radial(0.2 * hit.duration, 11)
+    assert line.pressure[-1] == np.inf
+    assert not line.friction_limit.values.any()
+    assert not line.traction_x.values.any()
 
 
 def test_stress_while_the_load_grows_is_told_from_a_depth_on():

@@ -58,7 +58,7 @@ def radial_fields(contact: Contact, n: int = 401) -> "xr.Dataset":
     deflection = contact.scales.tangential_length
     columns = {
         "pressure": values[:, 0] * contact.scales.pressure,
-        "friction_limit": values[:, 0] * limit,
+        "friction_limit": values[:, 0] * limit if limit else np.zeros(n),  # not 0 times infinity
         "traction_x": values[:, 1] * limit,
         "memory_g": memory[:, 0],
         "memory_q": memory[:, 1] * deflection,

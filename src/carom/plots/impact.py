@@ -206,7 +206,7 @@ def _stick_line(stick: Array, contact: Array) -> Array:
 
 
 def energies_panel(axis: Axes, dataset: xr.Dataset) -> None:
-    """Draw how the energy is shared between motion, deformation, friction and normal losses."""
+    """Draw how the energy is shared between motion, deformation, friction and other losses."""
     time = time_axis(axis, dataset)
     lossy = any(name in dataset and np.any(dataset[name].values) for name in LOST)
     drawn = ENERGIES | LOST if lossy else ENERGIES

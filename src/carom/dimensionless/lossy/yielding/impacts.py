@@ -1,4 +1,4 @@
-"""An impact with normal losses, panel after panel from the first touch to the last."""
+"""An impact of yielding spheres, panel after panel from the first touch to the last."""
 
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.panels.collocation import EVEN, NODES, clock, tail
