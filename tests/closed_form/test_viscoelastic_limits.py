@@ -65,6 +65,10 @@ def test_borders_of_regimes(chi, e):
     assert carom.solve(0.999, chi, losses=law).phases[0].kind == "stick"
 
 
+def test_borders_beyond_the_largest_number_are_infinite():
+    assert regime_borders(1.7e308, 0.9).tolist() == [1.0, np.inf, np.inf]
+
+
 def test_sliding_throughout_loses_in_shear_what_it_loses_in_compression():
     """Shear lost is chi (1 - e^2), friction the rest, (psi_1^2 - psi_2^2)/2 in all."""
     for chi, e in ((1.44, 0.9), (0.7, 0.4)):

@@ -120,8 +120,8 @@ def regime_borders(chi: ArrayLike, restitution: ArrayLike = 1.0) -> Array:
     where it lasts to the end; all are 1 for chi <= 1/2.
     """
     given = np.broadcast_arrays(np.asarray(chi, dtype=np.float64), np.asarray(restitution))
-    twice, e = 2.0 * given[0], given[1]
     with np.errstate(over="ignore"):
+        twice, e = 2.0 * given[0], given[1]
         borders = np.ones_like(twice), twice, twice * (1.0 + e) - e
     return np.asarray(np.maximum(np.stack(borders, axis=-1), 1.0))
 
