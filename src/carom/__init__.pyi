@@ -1,5 +1,9 @@
 from . import classical as classical, datasets as datasets, plots as plots, verify as verify
-from .bodies.losses import ElasticPlastic as ElasticPlastic, KelvinVoigt as KelvinVoigt
+from .bodies.losses import (
+    ElasticPlastic as ElasticPlastic,
+    KelvinVoigt as KelvinVoigt,
+    StandardLinearSolid as StandardLinearSolid,
+)
 from .bodies.materials import (
     Material as Material,
     material as material,

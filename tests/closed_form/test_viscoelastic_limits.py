@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.law import Loss
 from carom.dimensionless.lossy.panels.stages import viscous_loss
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.rebounds import regime_borders

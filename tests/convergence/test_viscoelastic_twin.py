@@ -10,7 +10,7 @@ import pytest
 
 import carom
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.law import Loss
 from carom.dimensionless.lossy.panels.stages import viscous_loss
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.twins import rings

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.special import beta, betainc, betaincinv
 
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.law import Loss
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.twins.marching import march_on
 

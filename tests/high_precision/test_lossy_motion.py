@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.special import beta
 
-from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.law import Loss
 from carom.dimensionless.lossy.panels.stages import restitution, viscous_loss
 from carom.dimensionless.lossy.panels.work import new_work
 from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds

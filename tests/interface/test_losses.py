@@ -8,7 +8,7 @@ from scipy.special import beta
 
 import carom
 from carom.bodies.losses import yield_velocity
-from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.law import Loss
 from carom.quantities.refusals import InputError
 
 STEEL = carom.Pair(

@@ -7,7 +7,7 @@ import pytest
 
 import carom
 from carom.dimensionless import interpolation
-from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.law import Loss
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics import chebyshev, hertz, permutation, shared_library
 from carom.dimensionless.numerics.kernels import ENTRIES

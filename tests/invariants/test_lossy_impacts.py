@@ -14,7 +14,7 @@ from scipy.integrate import cumulative_simpson, simpson
 
 import carom
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.law import Loss
 from carom.dimensionless.lossy.panels.plans import TOLERANCE
 from carom.dimensionless.lossy.panels.record import NUMBERS, PSI_OUT, new_record
 from carom.dimensionless.lossy.panels.work import new_work

@@ -12,7 +12,7 @@ import pytest
 import carom
 from carom.dimensionless.lossy.panels.collocation import INTEGRALS, NODES
 from carom.dimensionless.lossy.panels.newton import Panel, back_substitute, factorise
-from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.law import Loss
 from carom.dimensionless.lossy.panels.work import RADIUS, new_work
 from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds
 from carom.dimensionless.lossy.solution import solve_with_losses

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.law import Loss
 from carom.dimensionless.lossy.panels.stages import viscous_loss
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 

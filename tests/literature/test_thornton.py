@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 import carom
-from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.law import Loss
 from carom.dimensionless.lossy.panels.stages import restitution
 from carom.dimensionless.lossy.panels.work import new_work
 from carom.dimensionless.lossy.rebounds import lossy_rebounds

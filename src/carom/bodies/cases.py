@@ -3,7 +3,7 @@
 import re
 import tomllib
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -30,8 +30,9 @@ MOTION: dict[str, Callable[[str, Any], float]] = {
     "spin": finite,
     "spin2": finite,
 }
-LOSSES = ("restitution", "loss_time", "yield_velocity")  # of the normal motion, one at most
-ONE_LOSS = "both tell what the normal motion loses"
+LOSSES = ("restitution", "loss_time", "yield_velocity", "relaxation_time")  # one at most
+RATIO = "modulus_ratio"  # goes with a relaxation time
+ONE_LOSS = "both tell what the impact loses energy to"
 TWICE = "it is given twice in the material; leave one of them out"
 FROM_STRENGTH = "material"  # the yield velocity that the yield strengths give
 SIZES: dict[str, Callable[[str, Any], float]] = {
@@ -90,11 +91,11 @@ def check_case(
     if not isinstance(case, Mapping):
         raise refusal("case", case, "must be a mapping with friction, speeds, first and second")
     with Faults() as faults:
-        for key in () if losses else LOSSES:
+        for key in () if losses else (*LOSSES, RATIO):
             if key in case:
                 where = place(key, "")
                 faults.add(f"{key}: of no use{where}; this is for elastic impacts, leave it out")
-        check(case, ("friction", *MOTION, *LOSSES, *TABLES, SWEEP), "")
+        check(case, ("friction", *MOTION, *LOSSES, RATIO, *TABLES, SWEEP), "")
         for name, allowed in TABLES.items():
             table = case.get(name, {})
             if not isinstance(table, Mapping):
@@ -162,14 +163,29 @@ def losses_of(case: Mapping[str, Any]) -> "LossLaw | None":
     given = [name for name in LOSSES if case.get(name) is not None]
     if len(given) > 1:
         raise InputError(f"{given[1]}: give it or {given[0]}, not both; {ONE_LOSS}")
-    return law_of(given[0], read_loss(given[0], case[given[0]])) if given else None
+    refuse_half({*given, *([RATIO] if case.get(RATIO) is not None else [])})
+    if not given:
+        return None
+    ratio = case.get(RATIO, 1.0)
+    return law_of(given[0], read_loss(given[0], case[given[0]]), ratio)
 
 
-def law_of(name: str, value: Any) -> "LossLaw":
+def law_of(name: str, value: Any, ratio: Any = 1.0) -> "LossLaw":
     """Return the law of a loss; its value is a number, an array, or None for the strengths."""
-    from carom.bodies.losses import ElasticPlastic, KelvinVoigt  # compiled code: not for all cases
+    from carom.bodies import losses  # compiled code: not for all cases
 
-    return ElasticPlastic(value) if name == "yield_velocity" else KelvinVoigt(**{name: value})
+    if name == "relaxation_time":
+        return losses.StandardLinearSolid(ratio, value)
+    if name == "yield_velocity":
+        return losses.ElasticPlastic(value)
+    return losses.KelvinVoigt(**{name: value})
+
+
+def refuse_half(given: Container[str]) -> None:
+    """Raise InputError if a relaxation time comes without the ratio of moduli, or this alone."""
+    if ("relaxation_time" in given) != (RATIO in given):
+        missing, there = ("relaxation_time", RATIO)[:: 1 if RATIO in given else -1]
+        raise InputError(f"{missing}: missing; it goes with {there}")
 
 
 def read_loss(name: str, value: Any) -> float | None:
@@ -182,6 +198,12 @@ def read_loss(name: str, value: Any) -> float | None:
     read = number(name, value)
     law_of(name, read)
     return read
+
+
+def read_ratio(value: Any) -> float:
+    """Return the modulus at once over the relaxed one, or raise InputError."""
+    law_of("relaxation_time", 0.0, value)
+    return number(RATIO, value)
 
 
 def as_kind(kind: Any) -> str:

@@ -71,12 +71,12 @@ class Output(NamedTuple):
 
 def merged(case: "Case", flags: Mapping[str, Any]) -> "Case":
     """Return the case with what the flags give in place of what the file gives."""
-    from carom.bodies.cases import LOSSES
+    from carom.bodies.cases import LOSSES, RATIO
 
     result = {key: dict(value) if isinstance(value, dict) else value for key, value in case.items()}
     given = {name for name, value in flags.items() if value is not None}
     polar, cartesian = {"speed", "angle"}, {"normal_speed", "tangential_speed"}
-    for one, other in ((polar, cartesian), (cartesian, polar), (set(LOSSES), set(LOSSES))):
+    for one, other in ((polar, cartesian), (cartesian, polar), (set(LOSSES), {*LOSSES, RATIO})):
         if given & one:
             result = {name: value for name, value in result.items() if name not in other}
     for name in given:

@@ -1,7 +1,7 @@
 """`carom impact`: one impact from flags or a case file."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -68,6 +68,12 @@ def impact_command(
     loss_time: Annotated[
         Text, typer.Option(help="Loss time of such a contact, e.g. '2 us' [s].")
     ] = None,
+    relaxation_time: Annotated[
+        Text, typer.Option(help="Relaxation time of a standard linear solid, e.g. '20 us' [s].")
+    ] = None,
+    modulus_ratio: Annotated[
+        Text, typer.Option(help="Its modulus at once over the one it relaxes to, e.g. 1.5.")
+    ] = None,
     yield_velocity: Annotated[
         Text,
         typer.Option(
@@ -119,12 +125,13 @@ def impact_command(
         **{"friction": friction, "speed": speed, "angle": angle, "spin": spin, "spin2": spin2},
         **{"normal_speed": normal_speed, "tangential_speed": tangential_speed},
         **{"restitution": restitution, "loss_time": loss_time, "yield_velocity": yield_velocity},
+        **{"relaxation_time": relaxation_time, "modulus_ratio": modulus_ratio},
     }
     content = merged(read_case(case, losses=True) if case else {}, flags)
     tell_sweep(content)
     files = outputs(content)
     losses = losses_of(content)
-    _check_outputs(files, yields="yield_velocity" in content)
+    _check_outputs(files, content)
     solver = _method(method, elements, steps)
     hit = carom.impact(pair_of(content), **motion_of(content), losses=losses, method=solver)
     paths = list(_store(hit, files))
@@ -149,14 +156,15 @@ def _method(name: str, elements: str | None, steps: str | None) -> "str | Bounda
     return carom.BoundaryElements(**counts)
 
 
-def _check_outputs(files: Output, *, yields: bool) -> None:
+def _check_outputs(files: Output, case: Mapping[str, Any]) -> None:
     from carom.io.files import FIGURES, TABLES
 
     check_outputs((files.plot, FIGURES), (files.data, TABLES))
     if files.animation is not None:
-        if yields:
-            allowed = "fields of spheres that yield are not known; leave it or yield_velocity out"
-            raise refusal("animation", files.animation, allowed)
+        for key in ("yield_velocity", "relaxation_time"):
+            if key in case:
+                allowed = f"fields are not known of this solid; leave it or {key} out"
+                raise refusal("animation", files.animation, allowed)
         carom.plots.checked_animation(files.animation)
 
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.panels.normal import ScaleFreeLaw, scale_free
+from carom.dimensionless.lossy.law import ScaleFreeLaw, scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.arrays import Array
 from carom.quantities.arrays import along_the_same, pure_numbers, together
@@ -102,9 +102,7 @@ def rebound(
     if losses is None:
         psi_out, status, _ = solved(flat_psi, flat_chi, threads)
     else:
-        loss, parameter = scale_free(losses)
-        parameters = np.full(flat_psi.size, parameter)
-        found = lossy_rebounds(flat_psi, flat_chi, loss, parameters, threads)
+        found = lossy_rebounds(flat_psi, flat_chi, scale_free(losses), threads)
         psi_out, status = found.psi_out, found.status
     result = psi_out.reshape(shape) if shape else float(psi_out[0])
     if return_status:

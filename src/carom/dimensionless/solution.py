@@ -15,9 +15,10 @@ from carom.dimensionless.elastic.phases import Cause, Kind, Status, new_work, ru
 from carom.dimensionless.elastic.record import CAUSE, KIND, KIND_SIGN, Record, new_record, trimmed
 from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.memory import Memory
-from carom.dimensionless.lossy.panels.normal import ScaleFreeLaw, scale_free
+from carom.dimensionless.lossy.law import LossNumbers, ScaleFreeLaw, scale_free
 from carom.dimensionless.lossy.rebounds import is_elastic
-from carom.dimensionless.lossy.solution import LossySolution, solve_with_losses
+from carom.dimensionless.lossy.solution import LossySolution
+from carom.dimensionless.lossy.solving import solve_with_losses
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.states import (
@@ -296,11 +297,11 @@ class Solution(Trajectory):
         return SlipAngle(float(np.arcsin(lateral_ratio)), float(rate @ turned / (rate @ power)))
 
 
-def solve_with(psi: float, chi: float, loss: int, parameter: float) -> Solution | LossySolution:
+def solve_with(psi: float, chi: float, losses: LossNumbers) -> Solution | LossySolution:
     """Solve one impact with losses, as elastic if that is nothing."""
-    if is_elastic(loss, parameter):
+    if is_elastic(*losses):
         return solve(psi, chi)
-    return solve_with_losses(psi, chi, loss, parameter)
+    return solve_with_losses(psi, chi, losses)
 
 
 @overload
@@ -352,7 +353,7 @@ def solve(
     """
     psi, chi = pure_number("psi", psi, ONE), pure_number("chi", chi, ONE)
     if losses is not None:
-        return solve_with(psi, chi, *scale_free(losses))
+        return solve_with(psi, chi, scale_free(losses))
     work, record = new_work(), new_record(True)
     recorded = max(abs(psi), LINEAR) if psi != 0.0 else 0.0
     status = Status(run_phases(recorded, chi, TOLERANCE, work, record))

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.panels.normal import ScaleFreeLaw
+from carom.dimensionless.lossy.law import ScaleFreeLaw
 from carom.dimensionless.rebounds import rebound, regime_borders
 from carom.dimensionless.solution import solve
 from carom.io.labels import labelled_dataset

@@ -15,7 +15,7 @@ from carom.bodies.pairs import Pair
 from carom.contacts.contact import Contact, contact_in_impact
 from carom.contacts.in_contact import InContact
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.panels.normal import checked_law
+from carom.dimensionless.lossy.law import LossNumbers, checked_law
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution, solve, solve_with
 from carom.dimensionless.states import SlipAngle
@@ -57,7 +57,7 @@ class Impact(ImpactResult, InContact):
         """How far the assumptions of the theory hold, as numbers with a verdict."""
         found: tuple[Finding, ...] = ()
         if isinstance(self.solution, LossySolution):
-            found = (judge_losses(*self.solution.loss, self.normal_restitution),)
+            found = (judge_losses(self.solution.losses, self.normal_restitution),)
         return judge(self.pair, self.normal_speed, self.duration, self.psi_in, found)
 
     @property
@@ -156,7 +156,7 @@ def _solution(
 def _with_losses(
     pair: Pair, normal_speed: float, psi: float, losses: LossLaw
 ) -> Solution | LossySolution:
-    loss, parameter = checked_law(losses, "loss")(pair, normal_speed)
-    if np.ndim(parameter):
+    loss, *numbers = checked_law(losses, "loss")(pair, normal_speed)
+    if any(map(np.ndim, numbers)):
         raise refusal("losses", losses, "an impact takes one number; carom.sweep takes many")
-    return solve_with(psi, pair.chi, loss, float(parameter))
+    return solve_with(psi, pair.chi, LossNumbers(loss, *map(float, numbers)))

@@ -2,12 +2,10 @@
 
 from math import inf, isfinite, isinf, sqrt
 
-import numpy as np
-
 from carom.bodies.materials import Material
 from carom.bodies.pairs import Pair
 from carom.bodies.plausibility import doubts
-from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.io.labels import Finding, Validity
 
 SMALL_CONTACT = 0.1  # a_max/R*: Hertz's parabolic gap against the sphere (Johnson 1985, 4.2)
@@ -16,8 +14,7 @@ SLOW_CONTACT = 3.0  # contact time in transits of a wave through the sphere and 
 WEAK_COUPLING = 0.01  # |Dundurs' beta|: what is left uncoupled is below a hundredth
 CLOSE_REBOUND = 0.01  # of psi_2, also against the full contact in three dimensions
 OTHER_SOLID = 0.2  # in psi_2, a standard linear solid of the same e against Kelvin & Voigt's
-# V_1/V_y, and by how much psi_2 is off from rings of traction with the true radius (Thornton 1997)
-YIELDED = (1.0, 2.0, 5.0, 10.0), (0.0, 0.08, 0.22, 0.32)
+FAST, YIELDED = 10.0, 0.05  # V_1/V_y up to which psi_2 is as close as this to rings of traction
 LATERAL, RADIAL, COUPLED = 0.008, 0.22, 0.8  # of its bound, studies/halfspace_study.csv
 
 
@@ -42,23 +39,22 @@ def judge(
     return Validity((*judge_contact(pair, normal_speed, duration), *losses, coupling, close))
 
 
-def judge_losses(loss: int, parameter: float, restitution: float) -> Finding:
+def judge_losses(losses: LossNumbers, restitution: float) -> Finding:
     """Return the finding on losses: which solid is assumed, and how much that may be in psi_2."""
-    if loss == Loss.VISCOUS:
+    if losses.loss == Loss.VISCOUS:
         words = (
             "a solid as viscous in shear as in compression: others of this e differ in psi_2 by"
             f" up to {OTHER_SOLID:g}"
         )
         return Finding("e", restitution, 1.0, None, words)
-    ratio = parameter**-2.5
-    off = float(np.interp(np.log(ratio), np.log(YIELDED[0]), YIELDED[1]))
-    known = (
-        f"psi_2 is off by up to {off:.2g}"
-        if ratio <= YIELDED[0][-1] * (1.0 + 1e-9)
-        else "that is not studied"
-    )
-    words = f"after yield the tangential contact is that of an elastic one of this load: {known}"
-    return Finding("V_1/V_y", ratio, YIELDED[0][-1], None, words)
+    if losses.loss == Loss.RELAXING:
+        words = "a solid that relaxes in shear as in compression, in one time, is taken for granted"
+        return Finding("e", restitution, 1.0, None, words)
+    ratio = losses.parameter**-2.5
+    off = f"off by up to {YIELDED:g}"
+    known = f"psi_2 is {off}" if ratio <= FAST * (1.0 + 1e-9) else "beyond, that is not studied"
+    words = f"Coulomb's law holds for springs, not for the pressure of a yielded sphere: {known}"
+    return Finding("V_1/V_y", ratio, FAST, None, words)
 
 
 def judge_contact(pair: Pair, normal_speed: float, duration: float) -> tuple[Finding, ...]:

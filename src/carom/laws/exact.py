@@ -12,7 +12,7 @@ from numpy.polynomial import chebyshev
 
 from carom.bodies.losses import KelvinVoigt
 from carom.bodies.pairs import Pair
-from carom.dimensionless.lossy.panels.normal import scale_free
+from carom.dimensionless.lossy.law import scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.chebyshev import Panels
@@ -168,9 +168,8 @@ class ReboundLaw:
         """
         if self.restitution == 1.0:
             return float(hertz.DURATION)
-        loss, parameter = KelvinVoigt(restitution=self.restitution).scale_free()
-        one = np.ones(1)
-        return float(lossy_rebounds(0.0 * one, one, loss, parameter * one).duration[0])
+        losses, one = KelvinVoigt(restitution=self.restitution).scale_free(), np.ones(1)
+        return float(lossy_rebounds(0.0 * one, one, losses).duration[0])
 
     @property
     def nbytes(self) -> int:

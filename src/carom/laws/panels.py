@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.panels.stages import viscous_loss
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.chebyshev import NARROWEST, Panels, fitted
@@ -57,7 +57,7 @@ def _elastic(psi: Array, chi: Array) -> tuple[Array, NDArray[np.int8], Branches]
 
 def _lossy(alpha: float, psi: Array, chi: Array) -> tuple[Array, NDArray[np.int8], Branches]:
     """Return psi_2, status and one branch for all: with losses kinks are weak."""
-    found = lossy_rebounds(psi, chi, Loss.VISCOUS, np.full(psi.size, alpha))
+    found = lossy_rebounds(psi, chi, LossNumbers(Loss.VISCOUS, alpha))
     return found.psi_out, found.status, np.zeros(psi.size, dtype=np.int64)
 
 

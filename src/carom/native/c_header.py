@@ -4,8 +4,8 @@ from collections.abc import Iterable
 from typing import Any
 
 from carom.dimensionless.elastic import phases, record as elastic
+from carom.dimensionless.lossy import layout
 from carom.dimensionless.lossy.panels import record as lossy, work
-from carom.dimensionless.lossy.panels.normal import Loss
 from carom.dimensionless.lossy.panels.plans import TOLERANCE
 from carom.dimensionless.lossy.rebounds import NEARLY_ELASTIC
 
@@ -20,10 +20,9 @@ def kernels_h() -> str:
         "CAROM_LOSSY": LOSSY,
         "CAROM_ELASTIC_SCRATCH": _shapes((*phases.new_work(), *elastic.new_record(False))),
         "CAROM_LOSSY_SCRATCH": _shapes((*work.new_work(), *lossy.new_record(False))),
-        "CAROM_NUMBERS": lossy.NUMBERS,
-        "CAROM_PSI_OUT": lossy.PSI_OUT,
-        "CAROM_RESTITUTION": lossy.RESTITUTION,
-        "CAROM_VISCOUS": Loss.VISCOUS.value,
+        "CAROM_NUMBERS": layout.NUMBERS,
+        "CAROM_PSI_OUT": layout.PSI_OUT,
+        "CAROM_RESTITUTION": layout.RESTITUTION,
         "CAROM_NEARLY_ELASTIC": NEARLY_ELASTIC,
         "CAROM_TOLERANCE": TOLERANCE,
         "CAROM_MESSAGES": _braces(f'"{status.message}"' for status in phases.Status),

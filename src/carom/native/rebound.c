@@ -98,7 +98,6 @@ CAROM_API int carom_rebound_viscous(
     if (!failed) {
         add_vector(&block, psi, n);
         add_vector(&block, chi, n);
-        block.words[block.count++] = CAROM_VISCOUS;
         add_vector(&block, alpha, n);
         add_number(&block, CAROM_TOLERANCE);
         failed = add_scratch(&block, lossy_scratch, sizeof lossy_scratch / sizeof *lossy_scratch);

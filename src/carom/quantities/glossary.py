@@ -89,6 +89,12 @@ GLOSSARY = {
     ),
     "spin_offset": Quantity(r"$\delta\omega$", "rad/s", "initial spin besides what was meant"),
     "loss_time": Quantity(r"$\tau$", "s", "time of loss of a Kelvin-Voigt sphere"),
+    "relaxation_time": Quantity(
+        r"$\tau_r$", "s", "relaxation time of a standard linear solid, at constant strain"
+    ),
+    "modulus_ratio": Quantity(
+        "$E_0/E$", "1", "modulus at once over the one that a standard linear solid relaxes to"
+    ),
     "yield_velocity": Quantity("$V_y$", "m/s", "normal velocity from which on a body yields"),
     "lost_energy": Quantity("$W_n$", "J", "energy lost in the normal motion"),
     "shear_lost_energy": Quantity("$W_s$", "J", "energy lost to viscosity in shear"),

@@ -100,6 +100,7 @@ def common(case: cases.Case, design: Design) -> Common:
         del fixed["spin2"]
     if "sphere" not in kinds:  # a material may have more than a fixed body needs
         fixed.pop("second.material.density", None)
+    cases.refuse_half({*names, *losses, *fixed})
     refuse_contradictions({*names, *losses, *(name for name in fixed if "material" not in name)})
     whole = Common(design, fixed, kinds, inherits, next(iter(losses), None), yields)
     _refuse_foreign(whole)
@@ -117,6 +118,8 @@ def _numbers(case: cases.Case) -> Iterator[tuple[str, float]]:
     for name in cases.LOSSES:
         if case.get(name) is not None and (value := cases.read_loss(name, case[name])) is not None:
             yield name, value
+    if case.get(cases.RATIO) is not None:
+        yield cases.RATIO, cases.read_ratio(case[cases.RATIO])
     for body in BODIES:
         table = case.get(body, {})
         for name, check in cases.SIZES.items():

@@ -22,6 +22,7 @@ INPUTS = (
     "friction",
     *cases.MOTION,
     *cases.LOSSES,
+    cases.RATIO,
     *(f"{body}.{size}" for body in BODIES for size in cases.SIZES),
     *(f"{body}.material.{value}" for body in BODIES for value in ELASTIC),
     *CHOSEN,

@@ -7,13 +7,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.bodies.cases import law_of
+from carom.bodies.cases import RATIO, law_of
 from carom.bodies.kinematics import components
-from carom.bodies.losses import SMALLEST_RESTITUTION, LossLaw
+from carom.bodies.losses import SMALLEST_RESTITUTION, STIFFEST, LossLaw
 from carom.bodies.materials import Material, unchecked
 from carom.bodies.pairs import Counterbody, Pair, representable
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.dimensionless.elastic.phases import Status
+from carom.dimensionless.lossy.law import LossNumbers
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.rebounds import rebound
@@ -56,11 +57,12 @@ OF_SOLVER = {
 }
 FROM_SOLVER = np.array([OF_SOLVER[status] for status in Status], dtype=np.int8)
 POSITIVE = ("radius", "gyration_radius", "young", "density", "yield_velocity")
-NOT_NEGATIVE = ("friction", "inner_radius", "loss_time")
+NOT_NEGATIVE = ("friction", "inner_radius", "loss_time", "relaxation_time")
 IN_RANGE: dict[str, Callable[[Any], Any]] = {
     **dict.fromkeys(POSITIVE, lambda values: values > 0.0),
     **dict.fromkeys(NOT_NEGATIVE, lambda values: values >= 0.0),
     "poisson": lambda values: (values > -1.0) & (values <= 0.5),
+    RATIO: lambda values: (values >= 1.0) & (values <= STIFFEST),
     "restitution": lambda values: (values >= SMALLEST_RESTITUTION) & (values <= 1.0),
 }
 
@@ -97,7 +99,7 @@ def evaluate(
         if loss is None:
             _solve(outcome, solution, status, threads)
         else:
-            law = law_of(loss, columns.get(loss))
+            law = law_of(loss, columns.get(loss), columns.get(RATIO))
             _solve_with_losses(outcome, law, solution, status, threads)
         solved = status == PointStatus.SOLVED
         found = {name: getattr(outcome.pair if name in PAIR else outcome, name) for name in outputs}
@@ -117,13 +119,17 @@ def _solve_with_losses(
     outcome: Outcome, law: LossLaw, solution: BlockSolution, status: Codes, threads: int | None
 ) -> None:
     """Fill in the impacts with losses, also those without friction: e and the like differ."""
-    loss, numbers = law.loss(outcome.pair, outcome.normal_speed)
-    given = (outcome.psi_in, outcome.pair.chi, numbers)
-    psi, chi, parameter = (np.broadcast_to(x, status.shape) for x in given)
-    status[(status == PointStatus.SOLVED) & np.isnan(parameter)] = PointStatus.NOT_A_NUMBER
+    loss, *numbers = law.loss(outcome.pair, outcome.normal_speed)
+    given = (outcome.psi_in, outcome.pair.chi, *numbers)
+    psi, chi, parameter, extra = (np.broadcast_to(x, status.shape) for x in given)
+    unknown = np.isnan(parameter) | np.isnan(extra)
+    status[(status == PointStatus.SOLVED) & unknown] = PointStatus.NOT_A_NUMBER
     run = status == PointStatus.SOLVED
-    psi = np.where(np.isfinite(psi), psi, 0.0)
-    found = lossy_rebounds(psi[run], chi[run], loss, parameter[run], threads)
+    psi, losses = (
+        np.where(np.isfinite(psi), psi, 0.0),
+        LossNumbers(loss, parameter[run], extra[run]),
+    )
+    found = lossy_rebounds(psi[run], chi[run], losses, threads)
     for name in BlockSolution._fields:
         getattr(solution, name)[run] = getattr(found, name)
     status[run] = FROM_SOLVER[found.status]

@@ -7,30 +7,33 @@ from numpy.typing import NDArray
 
 from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.panels import record as layout
-from carom.dimensionless.lossy.panels.normal import Loss
+from carom.dimensionless.lossy import layout
+from carom.dimensionless.lossy.law import Loss, LossNumbers
+from carom.dimensionless.lossy.layout import PSI_OUT
 from carom.dimensionless.lossy.panels.plans import TOLERANCE
-from carom.dimensionless.lossy.panels.record import PSI_OUT, Trace, new_record
+from carom.dimensionless.lossy.panels.record import Trace, new_record
 from carom.dimensionless.lossy.panels.work import Arrays, new_work
+from carom.dimensionless.lossy.springs import rebounds as springs
+from carom.dimensionless.lossy.springs.record import COLUMNS
+from carom.dimensionless.lossy.springs.work import new_work as new_springs
 from carom.dimensionless.lossy.viscoelastic import impacts as viscoelastic
 from carom.dimensionless.lossy.viscoelastic.impacts import NEVER
-from carom.dimensionless.lossy.yielding import impacts as yielding
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array, Codes, Matrix, Vector
-from carom.dimensionless.numerics.kernels import entry_point, kernel
+from carom.dimensionless.numerics.kernels import entry_point
 from carom.dimensionless.numerics.threads import in_blocks
 
 NEARLY_ELASTIC, NEARLY_YIELDING = 1e-10, 1e-5
-TIE = 1e-6  # about psi_1 = 1
-LINEAR, FAR = 1e-3, 1e4  # psi_1 between which impacts are solved
+LINEAR, FAR = 1e-3, 1e4  # psi_1 between which viscoelastic impacts are solved
 BLOCK, SMALLEST_BLOCK = 64, 2  # impacts that a thread takes at once
 
 
-def is_elastic(loss: int, parameter: float) -> bool:
-    """Tell whether so little is lost, 1 - e below 2e-10, that the impact is the elastic one."""
-    if loss == Loss.VISCOUS:
-        return 0.0 <= parameter < NEARLY_ELASTIC
-    return loss == Loss.NONE or parameter > 1.0 - NEARLY_YIELDING
+def is_elastic(loss: int, parameter: Array, extra: Array) -> NDArray[np.bool_]:
+    """Tell where so little is lost, 1 - e below 2e-10, that the impact is the elastic one."""
+    if loss == Loss.PLASTIC:
+        return np.asarray(parameter > 1.0 - NEARLY_YIELDING)
+    alpha = parameter * extra if loss == Loss.RELAXING else parameter
+    return np.asarray((alpha >= 0.0) & (alpha < NEARLY_ELASTIC))
 
 
 class LossyRebounds(NamedTuple):
@@ -50,23 +53,23 @@ class LossyRebounds(NamedTuple):
 def outgoing(
     psi: float,
     chi: float,
-    loss: int,
-    parameter: float,
+    alpha: float,
     tolerance: float,
     work: Arrays,
     record: Trace,
     numbers: Vector,
 ) -> tuple[int, int]:
-    """Run an impact of any psi_1; return its status and the number of panels.
+    """Run a viscoelastic impact of any psi_1; return its status and the number of panels.
 
     Below LINEAR psi_2/psi_1 is linear in psi_1, beyond FAR the impulse is that of sliding.
     """
     speed, other = abs(psi), 0.0
+    given = chi, alpha, tolerance, NEVER, work, numbers, record
     if speed < LINEAR:
-        run_beside(2.0 * LINEAR, chi, loss, parameter, tolerance, work, record, numbers)
+        viscoelastic.run(2.0 * LINEAR, *given)
         other = 0.5 * numbers[PSI_OUT] / LINEAR
     near = min(max(speed, LINEAR), FAR) if np.isfinite(psi) else psi
-    status, panels = run_beside(near, chi, loss, parameter, tolerance, work, record, numbers)
+    status, panels = viscoelastic.run(near, *given)
     if speed < LINEAR:
         ratio = numbers[PSI_OUT] / LINEAR
         numbers[PSI_OUT] = speed * (ratio + (ratio - other) * (1.0 - speed / LINEAR))
@@ -79,70 +82,51 @@ def outgoing(
     return status, panels
 
 
-@kernel
-def run_beside(
-    psi: float,
-    chi: float,
-    loss: int,
-    parameter: float,
-    tolerance: float,
-    work: Arrays,
-    record: Trace,
-    numbers: Array,
-) -> tuple[int, int]:
-    """Run an impact, psi_1 > 0, beside the border of stick if it lies on it."""
-    if loss == Loss.VISCOUS.value:
-        return viscoelastic.run(psi, chi, parameter, tolerance, NEVER, work, numbers, record)
-    beside = TIE if chi <= 0.5 and abs(psi - 1.0) < TIE else 0.0  # slip would start too slowly
-    status, panels = yielding.run(
-        psi + beside, chi, loss, parameter, tolerance, work, numbers, record
-    )
-    numbers[PSI_OUT] -= beside
-    return status, panels
-
-
 @entry_point()
 def fill(
     psi: Vector,
     chi: Vector,
-    loss: int,
-    parameter: Vector,
+    alpha: Vector,
     tolerance: float,
     work: Arrays,
     record: Trace,
     numbers: Matrix,
     status: Codes,
 ) -> None:
-    """Write what every impact comes to, and its status."""
+    """Write what every viscoelastic impact comes to, and its status."""
     for i in range(psi.size):
-        given = psi[i], chi[i], loss, parameter[i], tolerance
+        given = psi[i], chi[i], alpha[i], tolerance
         status[i], _ = outgoing(*given, work, record, numbers[i])
 
 
 def lossy_rebounds(
     psi: Array,
     chi: Array,
-    loss: int,
-    parameter: Array,
+    losses: LossNumbers,
     threads: int | None = None,
     tolerance: float = TOLERANCE,
 ) -> LossyRebounds:
-    """Return what impacts with losses come to, all arguments of one length, in threads.
+    """Return what impacts with losses come to, psi and chi of one length, in threads.
 
     NaN where the status is not SOLVED.
     """
     numbers, status = np.ones((psi.size, layout.NUMBERS)), np.zeros(psi.size, dtype=np.int8)
-    elastic = np.array([is_elastic(loss, float(value)) for value in parameter], dtype=bool)
+    parameter, extra = (np.broadcast_to(x, psi.shape) for x in losses[1:])
+    elastic = is_elastic(losses.loss, parameter, extra)
     numbers[:, layout.TIME], numbers[:, layout.SHEAR_LOST] = hertz.DURATION, 0.0
     numbers[elastic, PSI_OUT], status[elastic], _ = solved(psi[elastic], chi[elastic], threads)
     numbers[status != Status.SOLVED] = np.nan
     lossy = np.flatnonzero(~elastic)
-    psis, chis, parameters = psi[lossy], chi[lossy], parameter[lossy]
+    psis, chis, parameters, extras = (x[lossy] for x in (psi, chi, parameter, extra))
     found, codes = np.empty((lossy.size, layout.NUMBERS)), np.empty(lossy.size, dtype=np.int8)
 
     def block(part: slice) -> None:
-        given = psis[part], chis[part], int(loss), parameters[part], tolerance
-        fill(*given, new_work(), new_record(False), found[part], codes[part])
+        given, out = (psis[part], chis[part]), (found[part], codes[part])
+        if losses.loss == Loss.VISCOUS:
+            fill(*given, parameters[part], tolerance, new_work(), new_record(False), *out)
+            return
+        loss, rows = int(losses.loss), np.zeros((0, COLUMNS))
+        springs.fill(*given, loss, parameters[part], extras[part], new_springs(), rows, *out)
 
     in_blocks(block, lossy.size, BLOCK, SMALLEST_BLOCK, threads)
     numbers[lossy], status[lossy] = found, codes

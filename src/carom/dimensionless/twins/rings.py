@@ -1,16 +1,18 @@
-"""The oblique impact of Kelvin-Voigt solids by rings of traction, Coulomb's law in each of them.
+"""The oblique impact by rings of traction, with Coulomb's law in each of them; no springs.
 
-No springs: the contact is cut into rings of uniform traction t, and the tangential displacement of
-the surface follows from influence coefficients, those of the normal problem as Poisson's ratio is
-zero (Johnson 1985, Contact Mechanics, section 3.4):
+The contact is cut into rings of uniform traction t, and the tangential displacement w of the
+surface follows from influence coefficients, those of the normal problem as Poisson's ratio is zero
+(Johnson 1985, Contact Mechanics, section 3.4):
 
-    alpha w' + w = K t,  |t| <= p,  w' = psi in rings that stick,
-    psi' = -(15/4) chi Q,  Q = half the integral of t over the contact.
+    w' = psi in rings that stick,  |t| <= p,  psi' = -(15/4) chi Q,  Q = half the integral of t,
 
-Pressure p is (2/pi) sqrt(b^2 - r^2) + (alpha v/pi)/sqrt(b^2 - r^2), the second term while loading
-only, averaged over each ring. Units of `marching`, tractions such that Q is that of the springs.
+    K t = w (elastic), w + alpha w' (Kelvin & Voigt), w + g m with m' = w' - m/theta (standard linear).
+
+The pressure is given by its integral inside radii, averaged over each ring. Units of `marching`,
+tractions such that Q is that of the springs.
 """
 
+from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
@@ -21,11 +23,34 @@ from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.twins.marching_motion import kelvin_voigt
 
 Signs = NDArray[np.int64]
+Solid = Callable[[Array, Array, float], tuple[float, Array, Array]]
 
 STEPS = 4  # in time, to a ring
 ROUNDS = 60
 AT_REST = 1e-14
 OUTSIDE = 9  # instead of a sign of slip
+
+
+def kelvin_voigt_solid(alpha: float) -> Solid:
+    """Return how w answers a traction over a step: w = c K t + rest, and what m is made of."""
+
+    def answer(w: Array, m: Array, dt: float) -> tuple[float, Array, Array]:
+        left = np.exp(-dt / alpha)
+        return 1.0 - left, w * left, m
+
+    return answer
+
+
+def standard_linear_solid(extra: float, relaxation: float) -> Solid:
+    """Return the same for w + g m = K t; m is fed by w at its mean rate. g = 0 is elastic."""
+
+    def answer(w: Array, m: Array, dt: float) -> tuple[float, Array, Array]:
+        left = np.exp(-dt / relaxation)
+        kept = (1.0 - left) * relaxation / dt
+        share = 1.0 / (1.0 + extra * kept)
+        return share, share * extra * (kept * w - left * m), np.array([left, kept])
+
+    return answer
 
 
 def extrapolated(psi: float, chi: float, alpha: float, rings: int = 200) -> float:
@@ -37,7 +62,7 @@ def extrapolated(psi: float, chi: float, alpha: float, rings: int = 200) -> floa
     >>> round(extrapolated(1.5, 1.44, 0.0576035799), 3)  # e = 0.9
     -0.367
     """
-    return richardson(*(march_rings(psi, chi, alpha, rings // part) for part in (4, 2, 1)))
+    return richardson(*(march_viscous(psi, chi, alpha, rings // part) for part in (4, 2, 1)))
 
 
 def richardson(coarse: float, middle: float, fine: float) -> float:
@@ -45,29 +70,42 @@ def richardson(coarse: float, middle: float, fine: float) -> float:
     return (8.0 * fine - 6.0 * middle + coarse) / 3.0
 
 
-def march_rings(psi: float, chi: float, alpha: float, rings: int) -> float:
-    """Return psi_2, to first order in the width of the rings and the steps in time.
+def march_viscous(psi: float, chi: float, alpha: float, rings: int) -> float:
+    """Return psi_2 of Kelvin-Voigt solids, to first order.
 
-    >>> from carom.dimensionless.twins.rings import march_rings
-    >>> round(march_rings(9.0, 1.44, 0.0576035799, 200), 3)  # slides throughout
+    p = (2/pi) sqrt(b^2 - r^2) + (alpha v/pi)/sqrt(b^2 - r^2), the second term while loading only.
+
+    >>> from carom.dimensionless.twins.rings import march_viscous
+    >>> round(march_viscous(9.0, 1.44, 0.0576035799, 200), 3)  # slides throughout
     3.528
     """
     motion = kelvin_voigt(float(alpha), STEPS * rings)
-    edges = np.linspace(0.0, motion[:, 3].max(), rings + 1)
-    middles, areas = 0.5 * (edges[1:] + edges[:-1]), np.pi * np.diff(edges**2)
-    influence = np.diff(displacement(middles[:, None], edges[None, :]), axis=1)
-    w, slips, force = np.zeros(rings), np.zeros(rings, dtype=np.int64), 0.0
-    for before, after in pairwise(motion):
-        dt, kick = after[1] - before[1], 0.5 * (after[0] - before[0]) * 3.75 * chi
-        psi -= kick * before[2] * force
-        decay = np.exp(-dt / alpha)
-        pressure = np.diff(load_within(edges, after[3], after[4])) / areas
-        wanted = psi * dt + w * (1.0 - decay)
-        matrix = (1.0 - decay) * influence
-        traction, slips = tractions(matrix, wanted, pressure, slips)
-        w = w * decay + matrix @ traction
-        force = 0.5 * float(traction @ areas)
-        psi -= kick * after[2] * force
+    radii = np.linspace(0.0, motion[:, 3].max(), rings + 1)
+    loads = np.array([load_within(radii, row[3], row[4]) for row in motion[1:]])
+    return march_rings(psi, chi, motion[:, 1], radii, loads, kelvin_voigt_solid(alpha))
+
+
+def march_rings(
+    psi: float, chi: float, times: Array, radii: Array, loads: Array, solid: Solid
+) -> float:
+    """Return psi_2, to first order in the width of the rings and the steps in time.
+
+    `loads` are integrals of the pressure inside the radii, at all times but the first.
+    """
+    middles, areas = 0.5 * (radii[1:] + radii[:-1]), np.pi * np.diff(radii**2)
+    influence = np.diff(displacement(middles[:, None], radii[None, :]), axis=1)
+    w, m = np.zeros(middles.size), np.zeros(middles.size)
+    slips, force = np.zeros(middles.size, dtype=np.int64), 0.0
+    for (before, after), load in zip(pairwise(times), loads, strict=True):
+        dt = float(after - before)
+        psi -= 0.5 * dt * 3.75 * chi * force
+        share, rest, fed = solid(w, m, dt)
+        matrix, wanted = share * influence, w + psi * dt - rest
+        traction, slips = tractions(matrix, wanted, np.diff(load) / areas, slips)
+        moved = matrix @ traction + rest
+        m = fed[0] * m + fed[1] * (moved - w) if fed.size == 2 else m
+        w, force = moved, 0.5 * float(traction @ areas)
+        psi -= 0.5 * dt * 3.75 * chi * force
     return float(psi)
 
 

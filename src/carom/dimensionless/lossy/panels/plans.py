@@ -2,9 +2,6 @@
 
 from typing import NamedTuple
 
-import numpy as np
-
-from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.panels.collocation import EVEN, FLAT_END, FLAT_ENDS, FLAT_START
 from carom.dimensionless.numerics.kernels import kernel
 
@@ -13,7 +10,6 @@ TOLERANCE = 1e-9  # of a panel; keeps psi_2 to 1e-8 max(1, |psi_1|)
 TRIALS = 60  # of a panel
 EARLY = 5e-4  # part of a panel in which zones that begin with it are too thin to be told
 NEAR, NEAR_FLAT = 1e-9, 1e-5  # part of a panel: a change so near its end is its end
-LARGEST_CHI = 1000.0  # beyond, few impacts are solved, and sliding begins above `rebounds.FAR`
 ORDER = 9.0  # of the error of a panel in its length, about
 NORMAL_WEIGHT = 30.0  # of the error of the normal motion, which is cheap to keep small
 SAFETY, STEEPEST, GROWTH = 0.8, 0.2, 4.0
@@ -72,13 +68,3 @@ def revised(plan: Plan, error: float, tolerance: float) -> Plan:
         plan = with_clock(plan, plan.clock - FLAT_END, plan.flat_is_worse, error)
     h = plan.length * max(STEEPEST, SAFETY * (tolerance / error) ** (1.0 / ORDER))
     return with_length(plan, h, h, 0, False)
-
-
-@kernel
-def why_not(psi: float, chi: float) -> int:
-    """Return the status of an impact that cannot be run, SOLVED if it can."""
-    if not np.isfinite(psi):
-        return Status.PSI_NOT_FINITE.value
-    if not (0.0 < chi < np.inf):
-        return Status.CHI_NOT_POSITIVE.value
-    return Status.TOO_MANY_PHASES.value if chi > LARGEST_CHI else Status.SOLVED.value

@@ -4,23 +4,34 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.dimensionless.lossy.layout import (
+    AT_B,
+    AT_D,
+    AT_LOST,
+    AT_P,
+    AT_PSI,
+    AT_STORED,
+    AT_TIME,
+    AT_U,
+    AT_V,
+    DEEPEST,
+    LOST,
+    PENETRATION,
+    PSI_OUT,
+    RESTITUTION,
+    ROWS,
+    STRONGEST,
+    TIME,
+    WIDEST,
+)
 from carom.dimensionless.lossy.panels import normal
 from carom.dimensionless.lossy.panels.collocation import NODES, PLACES, evaluate, integrate
 from carom.dimensionless.lossy.panels.newton import Panel
-from carom.dimensionless.lossy.panels.normal import Loss, Motion
+from carom.dimensionless.lossy.panels.normal import Motion
 from carom.dimensionless.lossy.panels.work import MAX_PANELS, MOVED, PSI, RADIUS, SPEED, Arrays
 from carom.dimensionless.numerics.arrays import Array, CodePairs, Cube
 from carom.dimensionless.numerics.kernels import kernel
 
-# What an impact comes to; time, penetration and losses (normal, in shear) are those so far.
-PSI_OUT, RESTITUTION, TIME, PENETRATION, LOST, SHEAR_LOST, DEEPEST, STRONGEST, WIDEST = range(9)
-NUMBERS = 9
-
-# What is kept of a panel, at its nodes; AT_SQUARE is the integral of u^2 over the contact.
-AT_TIME, AT_D, AT_V, AT_PSI, AT_U, AT_Q, AT_P, AT_B, AT_STUCK, AT_SQUARE = range(10)
-AT_STORED, AT_LOST, AT_SHEAR_LOST = 10, 11, 12
-ROWS = 13
-STICK, SLIP, GROSS_SLIP = range(3)  # what a panel does
 SEARCH = 40
 
 
@@ -99,8 +110,5 @@ def keep_normal(work: Arrays, motion: Motion, panel: Panel, numbers: Array, rows
         rows[AT_B, j], rows[AT_V, j] = b[j], v[j]
         rows[AT_U, j], rows[AT_PSI, j] = values[MOVED, j], values[PSI, j]
         rows[AT_P, j] = normal.normal_force(motion, b[j], v[j])
-        rows[AT_STORED, j] = normal.stored(motion, b[j], rows[AT_D, j])
-    if motion.loss == Loss.PLASTIC.value:
-        for j in range(NODES):
-            rows[AT_LOST, j] = 1.0 - v[j] * v[j] - rows[AT_STORED, j]
+        rows[AT_STORED, j] = normal.stored(b[j], rows[AT_D, j])
     numbers[LOST] = rows[AT_LOST, NODES - 1]

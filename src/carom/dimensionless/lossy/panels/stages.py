@@ -4,7 +4,7 @@ import numpy as np
 
 from carom.dimensionless.lossy.panels import normal
 from carom.dimensionless.lossy.panels.collocation import CLOCKS, EVEN, NODES, PLACES, integrate
-from carom.dimensionless.lossy.panels.normal import Loss, Motion, Stage
+from carom.dimensionless.lossy.panels.normal import Motion, Stage
 from carom.dimensionless.lossy.panels.work import MAX_PANELS, RADIUS, SPEED, Arrays, new_work
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
@@ -43,8 +43,6 @@ def beyond_stage(motion: Motion, b: float, v: float) -> float:
     """Return how far the normal motion is beyond the end of its stage; negative before it."""
     if motion.stage == Stage.UNLOADING.value:
         return -b
-    if motion.loss == Loss.PLASTIC.value and motion.stage == Stage.LOADING.value:
-        return max(b - min(motion.parameter, 2.0), -v)
     return -v
 
 
@@ -71,12 +69,6 @@ def until_stage_end(motion: Motion, b: float, v: float) -> float:
     """Return the clock time to the end of a stage, to first order."""
     if motion.stage == Stage.UNLOADING.value:
         return -b / normal.edge_rate(motion, b, v)
-    if motion.loss == Loss.PLASTIC.value and motion.stage == Stage.LOADING.value and v > 0.0:
-        return (
-            (motion.parameter - b) / v
-            if motion.parameter < 1.0
-            else -v / normal.speed_rate(motion, b, v)
-        )
     return -v / normal.speed_rate(motion, b, v)
 
 
@@ -107,23 +99,17 @@ def cut_to_stage(work: Arrays, motion: Motion, kind: int, h: float) -> tuple[flo
 
 @kernel
 def next_stage(work: Arrays, motion: Motion) -> Motion:
-    """Return what rules the motion after a stage, whose end the state is put to exactly."""
-    loss, stage, parameter, _, chi = motion
-    b, v = work.values[RADIUS, 0], work.values[SPEED, 0]
-    if loss == Loss.PLASTIC.value and stage == Stage.LOADING.value and v > 1e-12:
-        work.values[RADIUS, 0] = parameter
-        return Motion(loss, Stage.YIELDING.value, parameter, 1.0, chi)
+    """Return what rules the motion after the loading, whose end the state is put to exactly."""
     work.values[SPEED, 0] = 0.0
-    growth = normal.released_growth(motion, b)
-    return Motion(loss, Stage.UNLOADING.value, parameter, growth, chi)
+    return Motion(Stage.UNLOADING.value, motion.alpha, motion.chi)
 
 
 @entry_point()
-def restitution(loss: int, parameter: float, work: Arrays) -> float:
+def restitution(alpha: float, work: Arrays) -> float:
     """Return the normal speed after to before, normal motion alone; NaN if without end."""
     values = work.values
     values[RADIUS, 0], values[SPEED, 0] = 0.0, 1.0
-    motion = Motion(loss, Stage.LOADING.value, parameter, 1.0, 1.0)
+    motion = Motion(Stage.LOADING.value, alpha, 1.0)
     for _ in range(MAX_PANELS):
         _, ends = cut_to_stage(work, motion, EVEN, LENGTH)
         for row in (RADIUS, SPEED):
@@ -147,7 +133,7 @@ def viscous_loss(wanted: float) -> float:
     work = new_work()
 
     def excess(log_alpha: float) -> float:
-        return float(restitution(Loss.VISCOUS.value, np.exp(log_alpha), work)) - wanted
+        return float(restitution(np.exp(log_alpha), work)) - wanted
 
     first = (1.0 - wanted) / SLOPE  # e is convex: alpha is larger than this
     if wanted > NEARLY_ELASTIC:

@@ -171,7 +171,7 @@ def give_back(work: Arrays, motion: Motion, count: int, now: State, time: float)
     level = level_now(motion, ring.sign, now)
     for top in range(ring.depth - 1, -1, -1):
         row = work.passed[top]
-        if left(work, top, False, ring.sign, motion.parameter, time) < g * (1.0 - 1e-8) - 1e-14:
+        if left(work, top, False, ring.sign, motion.alpha, time) < g * (1.0 - 1e-8) - 1e-14:
             set_ring(work, STANDS if count > 0 else SLIPS, ring.sign, top + 1)
             return count
         if row[passed.PANEL] != AT_ONCE:

@@ -55,13 +55,13 @@ class Event(NamedTuple):
 def inwards(motion: Motion, sign: int, now: State, q: float) -> float:
     """Return g + alpha g': the level of slip falls, and its front goes inwards, while positive."""
     loading = 1.25 * normal.normal_force(motion, now.radius, now.speed)
-    return excess(sign, now) + motion.parameter * (loading - 3.75 * motion.chi * sign * q)
+    return excess(sign, now) + motion.alpha * (loading - 3.75 * motion.chi * sign * q)
 
 
 @kernel
 def happened(work: Arrays, motion: Motion, panel: Panel, x: float, now: State, time: float) -> int:
     """Return what has happened at a place of a solved panel."""
-    ring, alpha, small = ring_of(work), motion.parameter, ROUNDING * (1.0 + abs(now.psi))
+    ring, alpha, small = ring_of(work), motion.alpha, ROUNDING * (1.0 + abs(now.psi))
     if ring.mode == RETRACES:
         return NOTHING
     if ring.mode == STICKS:

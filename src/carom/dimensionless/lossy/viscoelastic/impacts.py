@@ -1,9 +1,10 @@
 """A viscoelastic impact, panel after panel from the first touch to the last."""
 
 from carom.dimensionless.elastic.phases import Status
+from carom.dimensionless.lossy.law import why_not
 from carom.dimensionless.lossy.panels.collocation import EVEN, NODES, clock, tail
 from carom.dimensionless.lossy.panels.newton import Panel, state_at_node
-from carom.dimensionless.lossy.panels.normal import Loss, Motion, Stage
+from carom.dimensionless.lossy.panels.normal import Motion, Stage
 from carom.dimensionless.lossy.panels.pieces import MAX_PIECES
 from carom.dimensionless.lossy.panels.plans import (
     FIRST,
@@ -18,7 +19,6 @@ from carom.dimensionless.lossy.panels.plans import (
     TRIALS,
     Plan,
     revised,
-    why_not,
     with_length,
 )
 from carom.dimensionless.lossy.panels.record import Trace, note_numbers
@@ -80,7 +80,7 @@ def run(
     work.values[SPEED, 0], work.values[PSI, 0] = 1.0, psi
     slips = psi > 1.0 or (psi == 1.0 and chi <= 0.5)
     set_ring(work, SLIPS if slips else STICKS, 1 if slips else 0, 0)
-    motion = Motion(Loss.VISCOUS.value, Stage.LOADING.value, alpha, 1.0, chi)
+    motion = Motion(Stage.LOADING.value, alpha, chi)
     pieces, natural, from_change = 0, FIRST, False
     for number in range(MAX_PANELS):
         plan = Plan(natural, EVEN, natural, from_change, NOTHING, False, False, 0.0)

@@ -7,9 +7,10 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.dimensionless.fields.profile import Profile, coefficients, radii, stacked
+from carom.dimensionless.lossy.layout import NUMBERS
 from carom.dimensionless.lossy.panels.pieces import A0, PANEL, R0, R1, SIGN, X0, X1
 from carom.dimensionless.lossy.panels.plans import TOLERANCE
-from carom.dimensionless.lossy.panels.record import NUMBERS, new_record
+from carom.dimensionless.lossy.panels.record import new_record
 from carom.dimensionless.lossy.panels.work import (
     FRONT,
     LAID_RADIUS,

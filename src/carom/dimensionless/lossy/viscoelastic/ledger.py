@@ -134,7 +134,7 @@ def ring_moments(
     work: Arrays, motion: Motion, panel: Panel, x: float, now: State, at: Front, time: float
 ) -> Moments:
     """Return what the ledger needs to know of h in the ring, at a place of a panel."""
-    ring, alpha, edge = ring_of(work), motion.parameter, now.radius
+    ring, alpha, edge = ring_of(work), motion.alpha, now.radius
     plain, weighted, square, at_edge = 0.0, 0.0, 0.0, 0.0
     for i in range(ring.depth):
         row = work.passed[i]
@@ -157,7 +157,7 @@ def ring_moments(
 @kernel
 def loss_rate(motion: Motion, now: State, ring: Ring, at: Front, h: Moments) -> float:
     """Return the rate of viscous loss in shear by the clock, such that psi^2/2 is kinetic."""
-    alpha, v, a, b = motion.parameter, now.speed, at.radius, now.radius
+    alpha, v, a, b = motion.alpha, now.speed, at.radius, now.radius
     squared = now.psi * now.psi * a + v * v * (b - a) + 2.0 * v * h.plain + h.square
     rate = 7.5 * motion.chi * alpha * b * squared
     if motion.stage == Stage.UNLOADING.value:
@@ -186,7 +186,7 @@ def square_of_u(
     laid = force - moved(motion, now) * a - ring.sign * (limit * (b - a) - cubes(a, b))
     total = u * u * a + 2.0 * u * laid + squares_of_c(work, panel, x, at)
     total += squares(depth, a, b)
-    alpha = motion.parameter
+    alpha = motion.alpha
     return float(total - 2.0 * alpha * (depth * h.plain - h.weighted) + alpha * alpha * h.square)
 
 

@@ -83,7 +83,7 @@ def solve_panel(work: Arrays, motion: Motion, panel: Panel, before: Panel) -> bo
             rates[1, j] = -7.5 * motion.chi * b[j] * force(work, motion, panel, PLACES[j], now, at)
             rates[2, j] = -7.5 * motion.chi * b[j] * at.radius
         if iteration == 0:
-            factorise(work, panel, motion.parameter)
+            factorise(work, panel, motion.alpha)
         change = correct(work, panel, psi0)
         if change <= SETTLED * (1.0 + abs(psi0)):
             follow(work, motion, panel, u0)

@@ -1,9 +1,6 @@
 """What the record of a viscoelastic impact keeps of its tangential motion, and what shear loses."""
 
-from carom.dimensionless.lossy.panels.collocation import NODES, PLACES, integrate
-from carom.dimensionless.lossy.panels.newton import Panel, state_at_node
-from carom.dimensionless.lossy.panels.normal import Motion
-from carom.dimensionless.lossy.panels.record import (
+from carom.dimensionless.lossy.layout import (
     AT_D,
     AT_Q,
     AT_SHEAR_LOST,
@@ -13,9 +10,11 @@ from carom.dimensionless.lossy.panels.record import (
     SHEAR_LOST,
     SLIP,
     STICK,
-    Trace,
-    keep_normal,
 )
+from carom.dimensionless.lossy.panels.collocation import NODES, PLACES, integrate
+from carom.dimensionless.lossy.panels.newton import Panel, state_at_node
+from carom.dimensionless.lossy.panels.normal import Motion
+from carom.dimensionless.lossy.panels.record import Trace, keep_normal
 from carom.dimensionless.lossy.panels.work import TIME, Arrays
 from carom.dimensionless.lossy.viscoelastic.ledger import loss_rate, ring_moments, square_of_u
 from carom.dimensionless.lossy.viscoelastic.ring import (

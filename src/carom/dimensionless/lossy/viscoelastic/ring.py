@@ -57,7 +57,7 @@ def set_ring(work: Arrays, mode: int, sign: int, depth: int) -> None:
 @kernel
 def moved(motion: Motion, now: State) -> float:
     """Return T = U + alpha psi."""
-    return now.moved + motion.parameter * now.psi
+    return now.moved + motion.alpha * now.psi
 
 
 @kernel
@@ -84,7 +84,7 @@ def front(work: Arrays, motion: Motion, panel: Panel, now: State, time: float) -
         return Front(radius, x)
     if ring.mode == RETURNS:
         g, top = excess(ring.sign, now), ring.depth - 1
-        radius, x = returned(work, top, ring.sign, motion.parameter, time, g)
+        radius, x = returned(work, top, ring.sign, motion.alpha, time, g)
         return Front(max(radius, stuck), x)
     return Front(stuck, 0.0)
 

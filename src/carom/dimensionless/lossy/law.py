@@ -1,0 +1,59 @@
+"""What an impact loses energy to, free of units."""
+
+from enum import IntEnum
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from carom.dimensionless.elastic.phases import Status
+from carom.dimensionless.numerics.kernels import kernel
+from carom.quantities.refusals import refusal
+
+LARGEST_CHI = 1000.0  # beyond, few impacts are solved
+
+
+class Loss(IntEnum):
+    """What the impact loses energy to; the parameter that goes with it."""
+
+    VISCOUS = 1  # alpha, the loss time in units of d_max/V_1
+    PLASTIC = 2  # b at yield, (V_y/V_1)^(2/5)
+    RELAXING = 3  # the relaxation time in units of d_max/V_1, and the extra modulus E_0/E - 1
+
+
+class LossNumbers(NamedTuple):
+    """What the impact loses energy to, in numbers or arrays of them."""
+
+    loss: int
+    parameter: Any
+    extra: Any = 0.0
+
+
+class ScaleFreeLaw(Protocol):
+    """What an impact needs of a law of losses, free of units."""
+
+    def scale_free(self) -> LossNumbers:
+        """Return the loss and its parameters; InputError if they depend on the speed."""
+
+
+def scale_free(losses: Any) -> LossNumbers:
+    """Return what is given as a law of losses in numbers, or raise InputError."""
+    return checked_law(losses, "scale_free")()  # type: ignore[no-any-return]
+
+
+def checked_law(losses: Any, method: str) -> Any:
+    """Return a method of a law of losses, or raise InputError if this is none."""
+    found = getattr(losses, method, None)
+    if isinstance(losses, type) or not callable(found):
+        allowed = "must be a law of losses, e.g. carom.KelvinVoigt(restitution=0.9)"
+        raise refusal("losses", losses, allowed)
+    return found
+
+
+@kernel
+def why_not(psi: float, chi: float) -> int:
+    """Return the status of an impact that cannot be run, SOLVED if it can."""
+    if not np.isfinite(psi):
+        return Status.PSI_NOT_FINITE.value
+    if not (0.0 < chi < np.inf):
+        return Status.CHI_NOT_POSITIVE.value
+    return Status.TOO_MANY_PHASES.value if chi > LARGEST_CHI else Status.SOLVED.value

@@ -1,0 +1,79 @@
+"""One marched impact: a yielding sphere, or a standard linear solid."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import NoReturn
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from carom.dimensionless.elastic.phases import Kind
+from carom.dimensionless.lossy import layout
+from carom.dimensionless.lossy.law import LossNumbers
+from carom.dimensionless.lossy.solution import LossySolution, outcome, phases_told
+from carom.dimensionless.lossy.springs.rebounds import run
+from carom.dimensionless.lossy.springs.record import BACK, COLUMNS, FORTH
+from carom.dimensionless.lossy.springs.work import new_work
+from carom.dimensionless.numerics.arrays import Array
+from carom.dimensionless.states import Phase
+from carom.quantities.refusals import InputError
+
+SHORTEST = 10.0  # steps to the shortest phase that is told
+
+
+@dataclass(frozen=True, eq=False)
+class MarchedSolution(LossySolution):
+    """An impact marched over springs, its states to 1e-5; see LossySolution.
+
+    psi_out, extrapolated in the number of springs, is closer than the history.
+    """
+
+    _rows: Array = field(repr=False)
+
+    def _sampled(self, wanted: Array) -> Array:
+        return np.asarray(self._between(np.minimum(wanted, self._rows[-1, layout.AT_TIME])).T)
+
+    @cached_property
+    def _between(self) -> PchipInterpolator:
+        return PchipInterpolator(self._rows[:, layout.AT_TIME], self._rows[:, : layout.ROWS])
+
+    def _contact_at(self, time: float) -> NoReturn:
+        _refuse_fields()
+
+    def _touched(self, radii: Array) -> NoReturn:
+        _refuse_fields()
+
+
+def _refuse_fields() -> NoReturn:
+    raise InputError("losses: fields are not known of this solid; take KelvinVoigt, or no losses")
+
+
+def solve_by_marching(psi: float, chi: float, losses: LossNumbers) -> MarchedSolution:
+    """Solve one oblique impact of a yielding sphere or a standard linear solid."""
+    work, numbers = new_work(), np.zeros(layout.NUMBERS)
+    rows = np.zeros((len(work.motion), COLUMNS))
+    given = int(losses.loss), losses.parameter, losses.extra
+    status, steps = run(psi, chi, *given, work, rows, numbers)
+    kept = rows[: steps + 1].copy() if steps else rows[:0]
+    return MarchedSolution(
+        **outcome(psi, chi, status, numbers),
+        phases=_phases(kept, -1 if psi < 0.0 else 1),
+        losses=losses,
+        _rows=kept,
+        _scale=-1.0 if psi < 0.0 else 1.0,
+    )
+
+
+def _phases(rows: Array, mirror: int) -> tuple[Phase, ...]:
+    """Return the phases; the edge, where both limits meet, is a ring that is not told."""
+    if not len(rows):
+        return ()
+    return phases_told(_stretches(rows), mirror, SHORTEST * rows[-1, layout.AT_TIME] / len(rows))
+
+
+def _stretches(rows: Array) -> Iterator[tuple[float, int, int]]:
+    for row in rows[1:]:
+        forth, back = bool(row[FORTH]), bool(row[BACK])
+        kind = Kind.GROSS_SLIP if row[layout.AT_STUCK] == 0.0 else Kind.SLIP
+        yield row[layout.AT_TIME], kind if forth or back else Kind.STICK, forth - back

@@ -1,1 +1,0 @@
-"""The oblique impact of spheres that yield, panel by panel."""
