@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.lossy.law import Loss
+from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.panels.stages import viscous_loss
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.rebounds import regime_borders
@@ -13,7 +13,9 @@ from carom.dimensionless.rebounds import regime_borders
 def psi_out(psi, chi, e):
     psi, chi, e = np.broadcast_arrays(*map(np.atleast_1d, (psi, chi, e)))
     alpha = np.array([viscous_loss(each) for each in e])
-    return lossy_rebounds(psi.astype(float), chi.astype(float), Loss.VISCOUS, alpha).psi_out
+    return lossy_rebounds(
+        psi.astype(float), chi.astype(float), LossNumbers(Loss.VISCOUS, alpha)
+    ).psi_out
 
 
 @pytest.mark.parametrize("e", [0.1, 0.3, 0.6, 0.9, 0.99])
@@ -45,7 +47,9 @@ def test_chi_of_one_half(e):
 def test_small_losses_are_linear_in_alpha(psi, chi):
     elastic = carom.rebound(psi, chi)
     alpha = np.array([2e-3, 1e-3, 5e-4])
-    found = lossy_rebounds(np.full(3, psi), np.full(3, chi), Loss.VISCOUS, alpha).psi_out
+    found = lossy_rebounds(
+        np.full(3, psi), np.full(3, chi), LossNumbers(Loss.VISCOUS, alpha)
+    ).psi_out
     slopes = (found - elastic) / alpha
     assert abs(slopes[2] - slopes[1]) < 0.6 * abs(slopes[1] - slopes[0]) + 1e-3
     assert abs(2.0 * found[2] - found[1] - elastic) < 1e-4

@@ -12,10 +12,12 @@ from carom.dimensionless.twins.marching import (
     Phase,
     extrapolated,
     march,
+    march_on,
     march_phases,
     resolution,
     resolved,
 )
+from carom.dimensionless.twins.marching_motion import elastic
 
 Array = NDArray[np.float64]
 
@@ -178,3 +180,15 @@ def test_wrong_arguments_are_named(arguments: tuple[float, float], named: str) -
 def test_odd_springs_cannot_be_halved() -> None:
     with pytest.raises(ValueError, match="odd"):
         extrapolated(1.0, 1.0, 5, 20)
+
+
+def test_any_normal_motion_can_be_given() -> None:
+    """Gross slip throughout under limits D = b^2: psi_2 = psi_1 - (5/2) chi integral of b^3 dt."""
+    assert march_on(3.0, 1.44, elastic(2000)) == march(3.0, 1.44, 500, 2000)
+    angle = np.linspace(0.0, np.pi, 2001)
+    b, slow = np.sin(angle), 1.0 - 0.4 * np.cos(angle)
+    b[-1] = 0.0
+    time = 2.0 * (1.0 - np.cos(angle)) - 0.4 * b**2
+    motion = np.array([angle, time, 2.0 * b * slow, b, b**2, np.cos(angle) / slow]).T.copy()
+    chi = 1.2  # the integral of b^3 dt is that of 2 sin^4 (1 - 0.4 cos), 3 pi/4
+    assert march_on(20.0, chi, motion) == pytest.approx(20.0 - 1.875 * np.pi * chi, abs=1e-10)

@@ -10,7 +10,7 @@ import pytest
 
 import carom
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.law import Loss
+from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.panels.stages import viscous_loss
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.twins import rings
@@ -20,7 +20,7 @@ from carom.dimensionless.twins.marching_solid import extrapolated, march
 def psi_out(psi, chi, alpha):
     """Return psi_2 of impacts, all of which must be solved."""
     psi, chi, alpha = map(np.atleast_1d, (psi, chi, alpha))
-    found = lossy_rebounds(psi, chi, Loss.VISCOUS, alpha)
+    found = lossy_rebounds(psi, chi, LossNumbers(Loss.VISCOUS, alpha))
     assert np.all(found.status == Status.SOLVED)
     return found.psi_out
 
@@ -75,7 +75,7 @@ def test_coulombs_law_in_every_ring(e):
     alpha, errors = viscous_loss(e), []
     for psi, chi in ((0.5, 1.44), (1.5, 1.44), (3.0, 1.44), (1.2, 0.8), (2.5, 2.2)):
         exact = psi_out(psi, chi, alpha)[0]
-        found = [rings.march_rings(psi, chi, alpha, n) for n in (50, 100, 200)]
+        found = [rings.march_viscous(psi, chi, alpha, n) for n in (50, 100, 200)]
         assert rings.richardson(*found) == pytest.approx(exact, abs=1e-4), (psi, chi)
         errors.append(np.array(found) - exact)
     coarse, middle, fine = np.abs(errors).mean(axis=0)

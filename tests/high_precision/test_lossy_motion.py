@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.special import beta
 
-from carom.dimensionless.lossy.law import Loss
+from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.panels.stages import restitution, viscous_loss
 from carom.dimensionless.lossy.panels.work import new_work
 from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds
@@ -33,11 +33,11 @@ TABLE = np.array(
 def impacts(psi: float, chi: float = 1.44) -> LossyRebounds:
     """Return the impacts of the table at one psi_1."""
     rows = np.ones(len(TABLE))
-    return lossy_rebounds(psi * rows, chi * rows, Loss.VISCOUS.value, TABLE[:, 0])
+    return lossy_rebounds(psi * rows, chi * rows, LossNumbers(Loss.VISCOUS, TABLE[:, 0]))
 
 
 def test_restitution_of_the_normal_motion_alone() -> None:
-    found = [restitution(Loss.VISCOUS.value, alpha, WORK) for alpha in TABLE[:, 0]]
+    found = [restitution(alpha, WORK) for alpha in TABLE[:, 0]]
     assert found == pytest.approx(TABLE[:, 1], abs=1e-13)
 
 
@@ -53,7 +53,7 @@ def test_normal_motion_of_oblique_impacts(psi: float) -> None:
 def test_loss_and_restitution_are_inverse() -> None:
     """To 1e-10 over e in [0.001, 1], and alpha -> restitution -> alpha to 1e-9 of it."""
     wanted = np.concatenate([np.logspace(-3.0, 0.0, 60), 1.0 - np.logspace(-11, -1, 40)])
-    found = [restitution(Loss.VISCOUS.value, viscous_loss(e), WORK) for e in wanted]
+    found = [restitution(viscous_loss(e), WORK) for e in wanted]
     assert np.max(np.abs(found - wanted)) < 1e-12
     for alpha, e in TABLE[3:, :2]:
         assert viscous_loss(e) == pytest.approx(alpha, rel=1e-12)
@@ -61,7 +61,7 @@ def test_loss_and_restitution_are_inverse() -> None:
 
 def test_restitution_is_monotone() -> None:
     """e falls with alpha, from 1 at 0 to 0.0004 at 100."""
-    found = [restitution(Loss.VISCOUS.value, a, WORK) for a in (0.0, *np.logspace(-9, 2, 200))]
+    found = [restitution(a, WORK) for a in (0.0, *np.logspace(-9, 2, 200))]
     assert found[0] == pytest.approx(1.0, abs=1e-15)
     assert np.all(np.diff(found) < 0.0)
 
@@ -71,7 +71,7 @@ def test_first_loss() -> None:
     slope = 1.5 * beta(0.6, 1.5)
     assert slope == pytest.approx(1.89171, abs=5e-6)
     for alpha in (1e-6, 1e-7):
-        lost = 1.0 - restitution(Loss.VISCOUS.value, alpha, WORK)
+        lost = 1.0 - restitution(alpha, WORK)
         assert lost / alpha == pytest.approx(slope, abs=2.0 * slope**2 * alpha + 1e-8)
     for gap in (1e-7, 1e-13):
         e = 1.0 - gap

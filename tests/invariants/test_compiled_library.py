@@ -7,7 +7,7 @@ import pytest
 
 import carom
 from carom.dimensionless import interpolation
-from carom.dimensionless.lossy.law import Loss
+from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics import chebyshev, hertz, permutation, shared_library
 from carom.dimensionless.numerics.kernels import ENTRIES
@@ -64,7 +64,9 @@ def rebounds(rng):
         normal = carom.KelvinVoigt(restitution=e)
         carom.rebound(psi[some], chi[40:100], losses=normal, threads=1, return_status=True)
     for _ in range(5):
-        lossy_rebounds(psi[20:300], chi[20:300], Loss.VISCOUS, rng.uniform(1e-4, 2.0, 280))
+        lossy_rebounds(
+            psi[20:300], chi[20:300], LossNumbers(Loss.VISCOUS, rng.uniform(1e-4, 2.0, 280))
+        )
 
 
 def impacts(rng):

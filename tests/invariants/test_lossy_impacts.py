@@ -6,6 +6,7 @@ that differ in psi_1 alone come no further apart, |psi_2 - psi_2'| <= |psi_1 - p
 """
 
 import time
+from itertools import product
 
 import numpy as np
 import pytest
@@ -14,45 +15,42 @@ from scipy.integrate import cumulative_simpson, simpson
 
 import carom
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.law import Loss
+from carom.dimensionless.lossy.law import Loss, LossNumbers
+from carom.dimensionless.lossy.layout import NUMBERS, PSI_OUT
 from carom.dimensionless.lossy.panels.plans import TOLERANCE
-from carom.dimensionless.lossy.panels.record import NUMBERS, PSI_OUT, new_record
+from carom.dimensionless.lossy.panels.record import new_record
 from carom.dimensionless.lossy.panels.work import new_work
 from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds, outgoing
-from carom.dimensionless.lossy.solution import LossySolution, solve_with_losses
+from carom.dimensionless.lossy.solution import LossySolution
+from carom.dimensionless.lossy.solving import solve_with_losses
 from carom.dimensionless.twins.marching_motion import kelvin_voigt
 from carom.dimensionless.twins.marching_solid import march_history
 
 Array = NDArray[np.float64]
 
 PROMISED = 1e-8  # of psi_2, in max(1, psi_1)
-LOSSES = [Loss.VISCOUS, Loss.PLASTIC]
+LAW, LAWS = LossNumbers(Loss.VISCOUS, 0.3), tuple(Loss)
 
 
-def parameters(loss: Loss, rng: np.random.Generator, count: int) -> Array:
-    """Return losses of e from 0.5 to 1 (viscous), 0.25 to 1 (elastic-plastic)."""
-    return rng.uniform(0.0, 0.46, count) if loss is Loss.VISCOUS else rng.uniform(0.1, 0.99, count)
-
-
-def impacts(loss: Loss, seed: int, count: int) -> tuple[Array, Array, Array]:
-    """Return psi, chi and the loss parameter."""
+def impacts(seed: int, count: int) -> tuple[Array, Array, Array]:
+    """Return psi, chi and alpha, of e from 0.5 to 1."""
     rng = np.random.default_rng(seed)
     psi, chi = rng.uniform(0.0, 8.0, count), rng.uniform(0.3, 3.0, count)
-    return psi, chi, parameters(loss, rng, count)
+    return psi, chi, rng.uniform(0.0, 0.46, count)
 
 
-def solved(psi: Array, chi: Array, loss: Loss, parameter: Array) -> LossyRebounds:
+def solved(psi: Array, chi: Array, parameter: Array) -> LossyRebounds:
     """Return impacts, all of which must be solved."""
-    found = lossy_rebounds(psi, chi, loss.value, parameter)
+    found = lossy_rebounds(psi, chi, LossNumbers(Loss.VISCOUS, parameter))
     failed = np.flatnonzero(found.status != Status.SOLVED)
     assert failed.size == 0, [(psi[i], chi[i], parameter[i]) for i in failed[:5]]
     return found
 
 
-def histories(loss: Loss, seed: int, count: int) -> list[LossySolution]:
+def histories(seed: int, count: int) -> list[LossySolution]:
     return [
-        solve_with_losses(*map(float, (p, c)), loss, float(a))
-        for p, c, a in zip(*impacts(loss, seed, count), strict=True)
+        solve_with_losses(float(p), float(c), LossNumbers(Loss.VISCOUS, float(a)))
+        for p, c, a in zip(*impacts(seed, count), strict=True)
     ]
 
 
@@ -65,7 +63,7 @@ def test_without_losses_it_is_the_elastic_solver() -> None:
     work, record, numbers = new_work(), new_record(False), np.zeros(NUMBERS)
     found = np.empty(700)
     for i in range(700):  # lossy_rebounds would hand them to the elastic solver
-        given = psi[i], chi[i], Loss.NONE.value, 0.0, TOLERANCE, work, record, numbers
+        given = psi[i], chi[i], 0.0, TOLERANCE, work, record, numbers
         assert outgoing(*given)[0] == Status.SOLVED
         found[i] = numbers[PSI_OUT]
     error = np.abs(found - exact) / np.maximum(1.0, psi)
@@ -75,10 +73,10 @@ def test_without_losses_it_is_the_elastic_solver() -> None:
 
 def test_vanishing_losses_give_the_elastic_impact() -> None:
     """The difference is at most 6 alpha, in proportion to it, down to what is promised."""
-    psi, chi, _ = impacts(Loss.VISCOUS, 6, 300)
+    psi, chi, _ = impacts(6, 300)
     exact = carom.rebound(psi, chi)
     for alpha in (1e-4, 1e-6, 1e-8, 1e-11):
-        found = solved(psi, chi, Loss.VISCOUS, np.full(300, alpha))
+        found = solved(psi, chi, np.full(300, alpha))
         error = np.abs(found.psi_out - exact) / np.maximum(1.0, psi)
         assert np.max(error) < 6.0 * alpha + PROMISED
         assert np.median(error) < 1.2 * alpha + 1e-11
@@ -93,68 +91,65 @@ def test_lawful_corners_are_solved(psi: float, chi: float) -> None:
     assert carom.rebound(psi, chi, losses=carom.KelvinVoigt(restitution=1.0)) == pytest.approx(
         expected, abs=PROMISED
     )
-    tiny = solved(*(np.full(4, x) for x in (psi, chi)), Loss.VISCOUS, np.logspace(-14, -8, 4))
+    tiny = solved(*(np.full(4, x) for x in (psi, chi)), np.logspace(-14, -8, 4))
     assert tiny.psi_out == pytest.approx(np.full(4, expected), abs=5e-8)
-    solved(*(np.full(40, x) for x in (psi, chi)), Loss.PLASTIC, np.linspace(0.1, 1.0, 40))
 
 
-@pytest.mark.parametrize("loss", LOSSES)
-def test_opposite_approach_rebounds_oppositely(loss: Loss) -> None:
+def test_opposite_approach_rebounds_oppositely() -> None:
     """To the last bit, and all else is the same."""
-    psi, chi, parameter = impacts(loss, 7, 60)
+    psi, chi, parameter = impacts(7, 60)
     psi[:4] = 0.0, 1e-9, 1e-4, 1.0
-    forth, back = (solved(p, chi, loss, parameter) for p in (psi, -psi))
+    forth, back = (solved(p, chi, parameter) for p in (psi, -psi))
     assert np.array_equal(forth.psi_out, -back.psi_out)
     for one, other in zip(forth[1:], back[1:], strict=True):
         assert np.array_equal(one, other)
-    h, mirrored = (solve_with_losses(p, 1.44, loss, 0.3).history(50) for p in (2.0, -2.0))
+    h, mirrored = (
+        solve_with_losses(p, 1.44, LossNumbers(Loss.VISCOUS, 0.3)).history(50) for p in (2.0, -2.0)
+    )
     for name in ("psi", "displacement", "force"):
         assert np.array_equal(getattr(h, name), -getattr(mirrored, name))
     assert np.array_equal(h.dissipated, mirrored.dissipated)
 
 
-@pytest.mark.parametrize("loss", LOSSES)
 @pytest.mark.parametrize("psi", [0.7, 2.0, 3.4, 6.0])
-def test_opposite_approach_slips_oppositely(loss: Loss, psi: float) -> None:
+def test_opposite_approach_slips_oppositely(psi: float) -> None:
     """The same phases at the same times, every slip the other way."""
-    forth, back = (solve_with_losses(p, 1.44, loss, 0.3).phases for p in (psi, -psi))
+    forth, back = (
+        solve_with_losses(p, 1.44, LossNumbers(Loss.VISCOUS, 0.3)).phases for p in (psi, -psi)
+    )
     assert {phase.sign for phase in forth} & {-1, 1}
     assert [phase._replace(sign=-phase.sign) for phase in forth] == list(back)
 
 
-@pytest.mark.parametrize("loss", LOSSES)
-def test_impacts_come_no_further_apart(loss: Loss) -> None:
+def test_impacts_come_no_further_apart() -> None:
     """A jump in psi_1, wherever the structure changes, would break the contraction."""
     for chi, parameter in ((1.44, 0.2), (0.5, 0.35), (2.8, 0.05)):
         for start, step, count in ((0.0, 0.02, 401), (0.95, 4e-4, 251), (2.0, 1e-5, 201)):
             psi = start + step * np.arange(count)
             row = np.ones(count)
-            found = solved(psi, chi * row, loss, parameter * row).psi_out
+            found = solved(psi, chi * row, parameter * row).psi_out
             assert np.max(np.abs(np.diff(found)) - step) < 2.0 * PROMISED * (1.0 + psi[-1])
 
 
-@pytest.mark.parametrize("loss", LOSSES)
-def test_small_changes_of_chi_and_loss_change_little(loss: Loss) -> None:
-    psi, chi, parameter = impacts(loss, 8, 400)
-    base = solved(psi, chi, loss, parameter).psi_out
+def test_small_changes_of_chi_and_loss_change_little() -> None:
+    psi, chi, parameter = impacts(8, 400)
+    base = solved(psi, chi, parameter).psi_out
     for more in ((chi + 1e-7, parameter), (chi, parameter * (1.0 + 1e-7))):
-        moved = solved(psi, more[0], loss, more[1]).psi_out
+        moved = solved(psi, more[0], more[1]).psi_out
         assert np.max(np.abs(moved - base) / np.maximum(1.0, psi)) < 20e-7 + PROMISED
 
 
-@pytest.mark.parametrize("loss", LOSSES)
-def test_friction_bounds_the_impulse_and_energy_is_lost(loss: Loss) -> None:
+def test_friction_bounds_the_impulse_and_energy_is_lost() -> None:
     """|psi_1 - psi_2| <= 2 chi (1 + e), and |psi_2| <= |psi_1|."""
-    psi, chi, parameter = impacts(loss, 9, 800)
-    found = solved(psi, chi, loss, parameter)
+    psi, chi, parameter = impacts(9, 800)
+    found = solved(psi, chi, parameter)
     assert np.all(np.abs(psi - found.psi_out) <= 2.0 * chi * (1.0 + found.restitution) + 1e-9)
     assert np.all(np.abs(found.psi_out) <= psi + 1e-9)
 
 
-@pytest.mark.parametrize("loss", LOSSES)
-def test_ledgers_close_along_the_history(loss: Loss) -> None:
+def test_ledgers_close_along_the_history() -> None:
     """v^2 + stored + lost = 1; no work is taken back; springs let go end with nothing stored."""
-    for s in histories(loss, 10, 20):
+    for s in histories(10, 20):
         h = s.history(800)
         assert np.max(np.abs(h.speed**2 + h.normal_stored + h.normal_lost - 1.0)) < 1e-8
         assert np.min(np.diff(h.normal_lost)) > -1e-9
@@ -168,10 +163,9 @@ def test_ledgers_close_along_the_history(loss: Loss) -> None:
         assert abs(s.psi_in**2 - s.psi_out**2 - 2.0 * lost) < scale
 
 
-@pytest.mark.parametrize("loss", LOSSES)
-def test_histories_agree_with_themselves(loss: Loss) -> None:
+def test_histories_agree_with_themselves() -> None:
     """|Q| <= (2/3) P, dU = psi dt, dd = v dt, both impulses; largest values are not exceeded."""
-    for s in histories(loss, 11, 8):
+    for s in histories(11, 8):
         h = s.history(3001)
         assert np.max(np.abs(h.force) - 2.0 / 3.0 * h.normal_force) < 1e-6
         assert np.all(h.stick_radius <= h.contact_radius)
@@ -202,7 +196,7 @@ def test_histories_are_those_of_the_marching_method(impact: tuple[float, float, 
     What is lost the marching method knows to first order only, the rest to second.
     """
     psi, chi, alpha = impact
-    s = solve_with_losses(psi, chi, Loss.VISCOUS, alpha)
+    s = solve_with_losses(psi, chi, LossNumbers(Loss.VISCOUS, alpha))
     ledger = march_history(psi, chi, alpha, 1000, 4000)[:-3:20]
     h = s.at(ledger[:, 0])
     for name, column, factor, close in (
@@ -238,7 +232,7 @@ def test_small_psi_is_the_impact_without_slip(chi: float, alpha: float) -> None:
         slopes.append(psi)
     limit = (4.0 * slopes[1] - slopes[0]) / 3.0
     for psi in (1e-12, 1e-7, 5e-5):
-        found = solve_with_losses(psi, chi, Loss.VISCOUS, alpha).psi_out / psi
+        found = solve_with_losses(psi, chi, LossNumbers(Loss.VISCOUS, alpha)).psi_out / psi
         assert found == pytest.approx(limit, abs=2e-4)
 
 
@@ -251,21 +245,21 @@ def test_bad_input_is_told_and_takes_no_time() -> None:
     extreme = [(p, 1.44, 0.2) for p in (1e-300, 1e-12, 1e3, 1e6, 1e300)]
     extreme += [(1.5, c, 0.2) for c in (1e-300, 0.01, 60.0, 1e6, 1e300)]
     extreme += [(1.5, 1.44, a) for a in (np.nan, np.inf, -0.1, 1e-300, 90.0, 1e6)]
-    solved(np.ones(1), np.ones(1), Loss.VISCOUS, np.full(1, 0.1))  # compiles
-    for loss in LOSSES:
-        for status, cases in [*wrong.items(), (None, extreme)]:
-            for psi, chi, parameter in cases:
-                begun = time.process_time()
-                found = lossy_rebounds(*np.array([[psi], [chi]]), loss.value, np.array([parameter]))
-                assert time.process_time() - begun < 10.0
-                assert status is None or found.status[0] == status
-                rest = np.array([column[0] for column in found[:-1]])
-                assert np.all(np.isfinite(rest) == (found.status[0] == Status.SOLVED))
+    solved(np.ones(1), np.ones(1), np.full(1, 0.1))  # compiles
+    for status, cases in [*wrong.items(), (None, extreme)]:
+        for (psi, chi, parameter), law in product(cases, LAWS):
+            begun = time.process_time()
+            found = lossy_rebounds(*np.array([[psi], [chi]]), LossNumbers(law, parameter, 1.0))
+            assert time.process_time() - begun < 10.0
+            assert status is None or found.status[0] == status
+            rest = np.array([column[0] for column in found[:-1]])
+            assert np.all(np.isfinite(rest) == (found.status[0] == Status.SOLVED))
 
 
 @pytest.mark.parametrize("chi", [0.01, 0.2, 8.0, 30.0, 60.0])
 def test_bodies_of_any_inertia_are_solved(chi: float) -> None:
     psi = np.append(np.linspace(0.01, 8.0, 30), [20.0, 100.0, 1000.0])
-    for loss in LOSSES:
-        found = solved(psi, np.full(33, chi), loss, np.full(33, 0.2))
+    for law in LAWS:
+        found = lossy_rebounds(psi, np.full(33, chi), LossNumbers(law, 0.2, 1.0))
+        assert np.all(found.status == Status.SOLVED)
         assert np.all(np.abs(found.psi_out) < psi)

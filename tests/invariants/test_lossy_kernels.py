@@ -10,27 +10,29 @@ import numpy as np
 import pytest
 
 import carom
+from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.panels.collocation import INTEGRALS, NODES
 from carom.dimensionless.lossy.panels.newton import Panel, back_substitute, factorise
-from carom.dimensionless.lossy.law import Loss
 from carom.dimensionless.lossy.panels.work import RADIUS, new_work
 from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds
-from carom.dimensionless.lossy.solution import solve_with_losses
+from carom.dimensionless.lossy.solving import solve_with_losses
 from carom.dimensionless.numerics.kernels import plain
 
 IMPACTS = (
-    (0.4, 1.44, Loss.VISCOUS, 0.1),
-    (3.5, 1.44, Loss.VISCOUS, 0.4),
-    (-6.0, 1.0, Loss.VISCOUS, 0.2),
-    (1.0, 1.7, Loss.PLASTIC, 0.3),
-    (-2.5, 0.8, Loss.PLASTIC, 0.8),
+    (0.4, 1.44, (Loss.VISCOUS, 0.1, 0.0)),
+    (3.5, 1.44, (Loss.VISCOUS, 0.4, 0.0)),
+    (-6.0, 1.0, (Loss.VISCOUS, 0.2, 0.0)),
+    (1.0, 1.7, (Loss.PLASTIC, 0.3, 0.0)),
+    (-2.5, 0.8, (Loss.PLASTIC, 0.8, 0.0)),
+    (1.3, 1.4, (Loss.RELAXING, 0.5, 2.0)),
 )
 SCRIPT = """
 import json, sys
-from carom.dimensionless.lossy.solution import solve_with_losses
+from carom.dimensionless.lossy.law import LossNumbers
+from carom.dimensionless.lossy.solving import solve_with_losses
 found = []
-for impact in json.load(sys.stdin):
-    s = solve_with_losses(*impact)
+for psi, chi, losses in json.load(sys.stdin):
+    s = solve_with_losses(psi, chi, LossNumbers(*losses))
     h = s.history(7)
     found.append([s.psi_out, s.restitution, s.duration, s.max_force, s.max_penetration,
                   *h.force, *h.dissipated, *h.normal_lost, *h.stick_radius])
@@ -42,7 +44,7 @@ def results(**environment: str) -> np.ndarray:
     """Return numbers of all impacts, solved in a process of its own."""
     run = subprocess.run(
         [sys.executable, "-c", SCRIPT],
-        input=json.dumps([[p, c, int(loss), a] for p, c, loss, a in IMPACTS]),
+        input=json.dumps(IMPACTS),
         env=os.environ | environment,
         capture_output=True,
         text=True,
@@ -82,32 +84,32 @@ def same(first: LossyRebounds, second: LossyRebounds) -> bool:
     return all(np.array_equal(a, b, equal_nan=True) for a, b in zip(first, second, strict=True))
 
 
-@pytest.mark.parametrize("loss", [Loss.VISCOUS, Loss.PLASTIC])
+@pytest.mark.parametrize("loss", Loss)
 def test_threads_leave_every_bit(loss: Loss) -> None:
-    psi, chi, parameter = many(3, 333)
-    parameter = parameter if loss is Loss.VISCOUS else 0.05 + 2.0 * parameter
-    one = lossy_rebounds(psi, chi, loss.value, parameter, 1)
+    psi, chi, parameter = many(3, 333 if loss is Loss.VISCOUS else 66)
+    losses = LossNumbers(loss, 0.05 + 2.0 * parameter, parameter)
+    one = lossy_rebounds(psi, chi, losses, 1)
     for threads in (2, 3, 8, None):
-        assert same(one, lossy_rebounds(psi, chi, loss.value, parameter, threads))
+        assert same(one, lossy_rebounds(psi, chi, losses, threads))
 
 
 def test_impacts_do_not_depend_on_those_before_them() -> None:
     """Arrays are used again: in another order, among others, the bits are the same."""
     psi, chi, alpha = many(4, 60)
-    forth = lossy_rebounds(psi, chi, Loss.VISCOUS.value, alpha, 1)
-    back = lossy_rebounds(psi[::-1], chi[::-1], Loss.VISCOUS.value, alpha[::-1], 1)
+    forth = lossy_rebounds(psi, chi, LossNumbers(Loss.VISCOUS, alpha), 1)
+    back = lossy_rebounds(psi[::-1], chi[::-1], LossNumbers(Loss.VISCOUS, alpha[::-1]), 1)
     assert same(forth, LossyRebounds(*(column[::-1] for column in back)))
     psi[::2] = np.nan
     chi[1::4] = -1.0
-    broken = lossy_rebounds(psi, chi, Loss.VISCOUS.value, alpha, 1)
+    broken = lossy_rebounds(psi, chi, LossNumbers(Loss.VISCOUS, alpha), 1)
     assert same(LossyRebounds(*(c[3::4] for c in forth)), LossyRebounds(*(c[3::4] for c in broken)))
 
 
 @pytest.mark.parametrize("impact", IMPACTS, ids=str)
-def test_a_record_leaves_every_bit(impact: tuple[float, float, Loss, float]) -> None:
-    psi, chi, loss, parameter = impact
-    kept = solve_with_losses(psi, chi, loss, parameter)
-    bare = lossy_rebounds(np.array([psi]), np.array([chi]), loss.value, np.array([parameter]))
+def test_a_record_leaves_every_bit(impact: tuple[float, float, tuple[Loss, float, float]]) -> None:
+    psi, chi, losses = impact
+    kept = solve_with_losses(psi, chi, LossNumbers(*losses))
+    bare = lossy_rebounds(np.array([psi]), np.array([chi]), LossNumbers(*losses))
     for name in set(LossyRebounds._fields) - {"status"}:
         assert getattr(kept, name) == getattr(bare, name)[0], name
 

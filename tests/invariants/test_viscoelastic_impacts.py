@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.law import Loss
+from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.panels.stages import viscous_loss
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 
@@ -17,15 +17,16 @@ LOSSES = (0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 0.999, 0.9999)
 PROGRAM = """
 import json, sys
 import numpy as np
+from carom.dimensionless.lossy.law import LossNumbers
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 psi, chi, alpha = np.array(json.load(sys.stdin))
-print(json.dumps(lossy_rebounds(psi, chi, 1, alpha).psi_out.tolist()))
+print(json.dumps(lossy_rebounds(psi, chi, LossNumbers(1, alpha)).psi_out.tolist()))
 """
 
 
 def viscoelastic_rebounds(psi, chi, alpha, **more):
     """Return psi_2 and status."""
-    found = lossy_rebounds(psi, chi, Loss.VISCOUS, alpha, **more)
+    found = lossy_rebounds(psi, chi, LossNumbers(Loss.VISCOUS, alpha), **more)
     return found.psi_out, found.status
 
 
@@ -83,7 +84,7 @@ def test_events_beside_the_end_of_something(psi, chi, e):
 def test_no_energy_is_made_and_all_is_accounted_for():
     """Shear loses at least nothing, friction as well."""
     psi, chi, alpha, _ = impacts(1500, 4)
-    found = lossy_rebounds(psi, chi, Loss.VISCOUS, alpha)
+    found = lossy_rebounds(psi, chi, LossNumbers(Loss.VISCOUS, alpha))
     friction = 0.5 * (psi**2 - found.psi_out**2) - found.shear_lost
     assert np.all(found.shear_lost >= 0.0)
     assert np.min(friction / (1.0 + psi**2)) > -1e-9

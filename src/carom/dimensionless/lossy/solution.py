@@ -118,6 +118,8 @@ def phases_told(
             found[-1] = found[-1]._replace(end=end)
             continue
         if found:
-            found[-1] = found[-1]._replace(cause=CAUSES[found[-1].kind, name])
+            stops = name == "slip" and found[-1].sign == sign
+            cause = "slip stops" if stops else CAUSES[found[-1].kind, name]
+            found[-1] = found[-1]._replace(cause=cause)
         found.append(Phase(name, sign, start, end, "separation"))
     return tuple(found)

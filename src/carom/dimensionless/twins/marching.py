@@ -1,15 +1,11 @@
-"""The oblique impact by marching in time over springs: elastic bodies, and bodies that lose energy.
+"""The oblique impact of elastic bodies by marching in time over springs.
 
 The method of Maw, Barber & Fawcett (1976), Wear 38:101-114, a check on the exact solution that
 shares nothing with it: the contact is cut into annuli, time into steps, and in every step each
-annulus sticks or slips by its own Coulomb limit (see marching_springs). The normal motion
-(see marching_motion) is Hertz's, or with normal losses that of Kelvin-Voigt springs:
+annulus sticks or slips by its own Coulomb limit (see marching_springs). The normal motion (see
+marching_motion) is Hertz's, d'' = -(5/4) d^(3/2).
 
-    d'' = -(5/4) d^(3/2) for alpha = 0, else with the limit D = d + alpha v
-    d'' = -(5/4) (d^(3/2) + (3/2) alpha v sqrt(d)) while loading, -(5/4) D^(3/2) then.
-
-Units: d, D and x^2 in the elastic d_max, time and alpha in d_max/V_1, U and q in mu d_max/kappa,
-psi in mu V_1/kappa.
+Units: d and x^2 in d_max, time in d_max/V_1, U and q in mu d_max/kappa, psi in mu V_1/kappa.
 """
 
 from collections.abc import Iterable
@@ -29,12 +25,11 @@ Phase = tuple[str, int, float, float]
 
 KINDS = ("stick", "slip", "gross slip")
 RESOLUTION = 10.0  # of time, in units of 1/springs: about five springs met or released
-MAX_ALPHA = 100.0  # restitution 0.0004; more is refused
 
-NO_SLIPS, NO_LEDGER = np.empty((0, 0), np.int8), np.empty((0, 0))
+NO_SLIPS = np.empty((0, 0), np.int8)
 
 
-def _check(psi: float, chi: float, springs: int, steps: int, alpha: float) -> None:
+def _check(psi: float, chi: float, springs: int, steps: int) -> None:
     if not np.isfinite(psi):
         raise ValueError(f"psi: {psi:g} is not finite")
     if not 0.0 < chi < np.inf:
@@ -43,14 +38,6 @@ def _check(psi: float, chi: float, springs: int, steps: int, alpha: float) -> No
         raise ValueError(f"springs: {springs} is not positive")
     if steps < 1 or steps % (2 * springs):
         raise ValueError(f"steps: {steps} is not a multiple of 2 springs, {2 * springs}")
-    if not 0.0 <= alpha <= MAX_ALPHA:
-        raise ValueError(f"alpha: {alpha:g} is not between 0 and {MAX_ALPHA:g}")
-
-
-def _motion(alpha: float, steps: int) -> Array:
-    if alpha == 0.0:
-        return marching_motion.elastic(steps)
-    return marching_motion.kelvin_voigt(float(alpha), steps)
 
 
 def march_on(psi: float, chi: float, motion: Array, stride: int = 2) -> float:
@@ -66,37 +53,27 @@ def march_on(psi: float, chi: float, motion: Array, stride: int = 2) -> float:
     >>> round(march_on(4.0, 0.5, elastic(2000)), 9)
     2.0
     """
-    return float(
-        marching_springs.integrate(float(psi), float(chi), motion, stride, NO_SLIPS, NO_LEDGER)
-    )
+    return float(marching_springs.integrate(float(psi), float(chi), motion, stride, NO_SLIPS))
 
 
-def march(
-    psi: float, chi: float, springs: int = 500, steps: int = 2000, alpha: float = 0.0
-) -> float:
+def march(psi: float, chi: float, springs: int = 500, steps: int = 2000) -> float:
     """Return psi_2, the tangential velocity after the impact, to second order in both steps.
 
     psi_2 = psi_1 - (15/4) chi integral of Q dt
 
-    Dimensionless scalars; alpha, the loss time in d_max/V_1, is zero for elastic bodies. With four
-    steps a spring the error is about 0.3/springs^2 for chi in [1.1, 1.8]; it grows with chi, and
-    with alpha, most where alpha springs is about 2. Raises ValueError if psi is not finite, chi not
-    positive, alpha not in [0, 100], or `steps` not a multiple of 2 `springs`. Maw, Barber &
-    Fawcett (1976), Wear 38:101-114.
+    Dimensionless scalars. With four steps a spring the error is about 0.3/springs^2 for chi in
+    [1.1, 1.8]; it grows with chi. Raises ValueError if psi is not finite, chi not positive, or
+    `steps` not a multiple of 2 `springs`. Maw, Barber & Fawcett (1976), Wear 38:101-114.
 
     >>> from carom.dimensionless.twins.marching import march
     >>> round(march(4.0, 0.5), 9)
     2.0
-    >>> round(march(4.0, 0.5, alpha=0.1), 3)
-    2.166
     """
-    _check(psi, chi, springs, steps, alpha)
-    return march_on(psi, chi, _motion(alpha, steps), steps // (2 * springs))
+    _check(psi, chi, springs, steps)
+    return march_on(psi, chi, marching_motion.elastic(steps), steps // (2 * springs))
 
 
-def extrapolated(
-    psi: float, chi: float, springs: int = 4000, steps: int = 16000, alpha: float = 0.0
-) -> float:
+def extrapolated(psi: float, chi: float, springs: int = 4000, steps: int = 16000) -> float:
     """Return psi_2 by Richardson extrapolation over halved, hence even, `springs` and `steps`.
 
     psi_2 = (4 march(springs, steps) - march(springs/2, steps/2))/3
@@ -111,54 +88,29 @@ def extrapolated(
     """
     if springs % 2:
         raise ValueError(f"springs: {springs} is odd")
-    fine = march(psi, chi, springs, steps, alpha)
-    return (4.0 * fine - march(psi, chi, springs // 2, steps // 2, alpha)) / 3.0
-
-
-def march_history(
-    psi: float, chi: float, springs: int = 500, steps: int = 2000, alpha: float = 0.0
-) -> Array:
-    """Return time, psi, U, Q, integral of q^2 dx, and W at the ends of the steps, in columns.
-
-    psi^2/2 + (15/8) chi integral of q^2 dx + (15/4) chi W is constant; W never decreases.
-
-    Dimensionless, shape (steps + 1, 6). Raises ValueError as `march` does. Maw, Barber & Fawcett
-    (1976), Wear 38:101-114.
-
-    >>> from carom.dimensionless.twins.marching import march_history
-    >>> time, psi, u, force, stored, lost = march_history(1.0, 1.44, alpha=0.1).T
-    >>> kept = psi**2 / 2.0 + 3.75 * 1.44 * (stored / 2.0 + lost)
-    >>> bool(abs(kept - 0.5).max() < 1e-5)
-    True
-    """
-    _check(psi, chi, springs, steps, alpha)
-    ledger = np.zeros((steps + 1, 6))
-    ledger[0, 1] = psi
-    stride, motion = steps // (2 * springs), _motion(alpha, steps)
-    marching_springs.integrate(float(psi), float(chi), motion, stride, NO_SLIPS, ledger)
-    return ledger
+    fine = march(psi, chi, springs, steps)
+    return (4.0 * fine - march(psi, chi, springs // 2, steps // 2)) / 3.0
 
 
 def march_slips(
-    psi: float, chi: float, springs: int = 500, steps: int = 2000, alpha: float = 0.0
+    psi: float, chi: float, springs: int = 500, steps: int = 2000
 ) -> tuple[Array, Array, Slips]:
     """Return the times of the steps, the places of the springs, and the sign of slip of each.
 
-    slip is 1 where q = D - x^2, -1 where q = x^2 - D, 0 in stick, 2 where there is no contact.
+    slip is 1 where q = d - x^2, -1 where q = x^2 - d, 0 in stick, 2 where there is no contact.
 
-    Dimensionless; shapes (steps + 1,), (springs,), (steps + 1, springs). With losses slip may begin
-    at the centre, and both signs may slip at once. Raises ValueError as `march` does. Maw, Barber &
-    Fawcett (1976), Wear 38:101-114.
+    Dimensionless; shapes (steps + 1,), (springs,), (steps + 1, springs). Raises ValueError as
+    `march` does. Maw, Barber & Fawcett (1976), Wear 38:101-114.
 
     >>> from carom.dimensionless.twins.marching import march_slips
-    >>> times, x, slips = march_slips(3.0, 1.44, alpha=0.2)
-    >>> slips[400, :250:35]  # while loading, a belt at the edge sticks
-    array([1, 1, 1, 1, 1, 0, 2, 2], dtype=int8)
+    >>> times, x, slips = march_slips(0.5, 1.44)
+    >>> slips[1400, ::40]  # while unloading, a ring at the edge slips
+    array([ 0,  0,  0,  0,  0,  0, -1, -1,  2,  2,  2,  2,  2], dtype=int8)
     """
-    _check(psi, chi, springs, steps, alpha)
+    _check(psi, chi, springs, steps)
     slips = np.full((steps + 1, springs), OUTSIDE, np.int8)
-    stride, motion = steps // (2 * springs), _motion(alpha, steps)
-    marching_springs.integrate(float(psi), float(chi), motion, stride, slips, NO_LEDGER)
+    stride, motion = steps // (2 * springs), marching_motion.elastic(steps)
+    marching_springs.integrate(float(psi), float(chi), motion, stride, slips)
     return motion[:, 1], marching_springs.places(motion, stride)[:-1], slips
 
 

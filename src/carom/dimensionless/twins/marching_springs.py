@@ -82,27 +82,13 @@ def _mark(slips: Slips, q: Array, s: Array, limit: float) -> None:
 
 
 @kernel
-def _energies(
-    before: Array, q: Array, s: Array, weights: Array, step: float, limit: float
-) -> tuple[float, float]:
-    """Return the integrals of q^2, and of the limit D - x^2 times the slip in a step."""
-    stored, lost = 0.0, 0.0
-    for j in range(q.size):
-        stored += weights[j] * q[j] * q[j]
-        lost += weights[j] * abs(before[j] + step - q[j]) * (limit - s[j])
-    return stored, lost
-
-
-@kernel
-def integrate(
-    psi: float, chi: float, motion: Array, stride: int, slips: Slips, ledger: Array
-) -> float:
-    """Return psi after contact, kick-drift-kick; fill `slips` and `ledger` unless empty."""
+def integrate(psi: float, chi: float, motion: Array, stride: int, slips: Slips) -> float:
+    """Return psi after contact, kick-drift-kick; fill `slips` unless empty."""
     x = places(motion, stride)
     s = x * x
     weights, outer = weigh(x)
     q = np.zeros(outer.size)
-    u, force, lost = 0.0, 0.0, 0.0
+    u, force = 0.0, 0.0
     for i in range(motion.shape[0] - 1):
         at, t, clock, _, limit, growth = motion[i, :6]
         at_end, t_end, clock_end, edge_end, limit_end, _ = motion[i + 1, :6]
@@ -114,15 +100,10 @@ def integrate(
         u += step
         touching = np.searchsorted(x[: q.size], edge_end)
         inner, last = q[:touching], max(touching - 1, 0)
-        before = inner.copy() if ledger.size > 0 else inner
         whole = weights[last]
         weights[last] += share(x[last], edge_end) - outer[last]
         force = _stretch(inner, s, weights, step, u + to_upper, to_lower - u)
         psi -= kick * clock_end * force
-        if ledger.size > 0:
-            stored, slid = _energies(before, inner, s, weights, step, 0.5 * (limit + limit_end))
-            lost += slid
-            ledger[i + 1] = t_end, psi, u, force, stored, lost
         if slips.size > 0:
             _mark(slips[i + 1], inner, s, limit_end)
         weights[last] = whole

@@ -62,6 +62,8 @@ def march(
     lay_springs(motion, count, springs)
     state[:] = 0.0
     state[PSI], touching = psi, 0
+    if rows.shape[0] > 0:
+        record.keep_touch(psi, rows[0])
     for i in range(LONGEST * loading):
         met = touching
         if i == loading and law.loss == Loss.PLASTIC.value:
@@ -156,9 +158,6 @@ def keep(
 ) -> None:
     """Keep a row after a step, before the first the row of the touch."""
     now, row, turned = motion[i + 1], rows[i + 1], motion[loading]
-    if i == 0:
-        rows[0] = 0.0
-        rows[0, layout.AT_V], rows[0, layout.AT_PSI] = 1.0, rows[1, layout.AT_PSI]
     if law.loss != Loss.PLASTIC.value:
         stored = relaxing.stored(law.extra, now[EDGE], springs, touching)
     elif i < loading:

@@ -42,6 +42,13 @@ AT_LIMIT = 1e-9  # of the limit: a spring nearer to it slips
 
 
 @kernel
+def keep_touch(psi: float, row: Array) -> None:
+    """Keep the first touch."""
+    row[:] = 0.0
+    row[AT_V], row[AT_PSI] = 1.0, psi
+
+
+@kernel
 def keep_normal(now: Array, stored: float, row: Array) -> None:
     """Keep the normal motion after a step."""
     row[AT_TIME], row[AT_D], row[AT_V], row[AT_B] = now[TIME], now[DEPTH], now[SPEED], now[EDGE]

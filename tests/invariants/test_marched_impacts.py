@@ -1,0 +1,119 @@
+"""What holds for impacts marched over springs: yielding spheres, and standard linear solids."""
+
+import numpy as np
+import pytest
+from scipy.integrate import cumulative_simpson
+
+import carom
+from carom.dimensionless.elastic.phases import Status
+from carom.dimensionless.lossy.law import Loss, LossNumbers
+from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.lossy.solving import solve_with_losses
+
+LAWS = {
+    "yields late": LossNumbers(Loss.PLASTIC, 0.8),
+    "yields early": LossNumbers(Loss.PLASTIC, 0.4),
+    "relaxes fast": LossNumbers(Loss.RELAXING, 0.1, 2.0),
+    "relaxes slowly": LossNumbers(Loss.RELAXING, 3.0, 0.7),
+}
+PROMISED = {Loss.PLASTIC: 1e-5, Loss.RELAXING: 1e-6}  # of psi_2, in max(1, psi_1)
+
+laws = pytest.mark.parametrize("law", LAWS.values(), ids=LAWS.keys())
+
+
+def impacts(seed, count):
+    rng = np.random.default_rng(seed)
+    return rng.uniform(0.0, 8.0, count), rng.uniform(0.3, 3.0, count)
+
+
+@laws
+def test_friction_bounds_the_impulse_and_energy_is_lost(law):
+    """|psi_1 - psi_2| <= 2 chi (1 + e), reached where all slides, and |psi_2| <= |psi_1|.
+
+    In a yielding sphere the pressure jumps at the turning point, up at the centre, where springs
+    stick until they have caught up: a thousandth of the impulse at most.
+    """
+    psi, chi = impacts(9, 60)
+    found = lossy_rebounds(psi, chi, law)
+    most = 2.0 * chi * (1.0 + found.restitution)
+    assert np.all(found.status == Status.SOLVED)
+    assert np.all(np.abs(psi - found.psi_out) <= most + 1e-6)
+    assert np.all(np.abs(found.psi_out) <= psi + 1e-9)
+    far = psi > most + 1.0
+    short = (most - np.abs(psi - found.psi_out))[far] / most[far]
+    assert np.all((short >= -1e-7) & (short < (1e-3 if law.loss is Loss.PLASTIC else 1e-6)))
+    assert 5 < far.sum() < 40
+
+
+@laws
+def test_opposite_approach_rebounds_oppositely(law):
+    """To the last bit, and slips the other way at the same times."""
+    psi, chi = impacts(7, 12)
+    forth, back = (lossy_rebounds(p, chi, law) for p in (psi, -psi))
+    assert np.array_equal(forth.psi_out, -back.psi_out)
+    h, mirrored = (solve_with_losses(p, 1.44, law) for p in (2.0, -2.0))
+    assert [p._replace(sign=-p.sign) for p in h.phases] == list(mirrored.phases)
+    assert np.array_equal(h.history(50).force, -mirrored.history(50).force)
+
+
+@laws
+def test_impacts_come_no_further_apart(law):
+    """Springs that a limit cuts are a sweeping process (Moreau 1977): no jumps in psi_1."""
+    for start, step, count in ((0.0, 0.05, 101), (0.95, 4e-4, 60)):
+        psi = start + step * np.arange(count)
+        found = lossy_rebounds(psi, np.full(count, 1.44), law).psi_out
+        assert np.max(np.abs(np.diff(found)) - step) < 2.0 * PROMISED[law.loss] * (1.0 + psi[-1])
+
+
+@laws
+@pytest.mark.parametrize("psi", [0.3, 1.5, 4.0, 8.0])
+def test_ledgers_close_along_the_history(law, psi):
+    """v^2 + stored + lost = 1; no work is taken back; springs let go end with nothing stored."""
+    s = solve_with_losses(psi, 1.44, law)
+    h, scale = s.history(800), 1e-4 * (1.0 + psi**2)
+    assert np.max(np.abs(h.speed**2 + h.normal_stored + h.normal_lost - 1.0)) < 1e-4
+    assert np.min(np.diff(h.normal_lost)) > -1e-5
+    assert abs(h.normal_stored[-1]) < 1e-6
+    assert h.normal_lost[-1] == pytest.approx(1.0 - s.restitution**2, abs=1e-5)
+    assert np.min(np.diff(h.dissipated)) > -scale
+    assert np.min(np.diff(h.shear_lost)) > -1e-9
+    assert s.shear_lost == pytest.approx(h.shear_lost[-1], abs=scale)
+    lost = h.dissipated[-1] + h.shear_lost[-1]
+    assert abs(psi**2 - s.psi_out**2 - 2.0 * lost) < scale
+    if law.loss is Loss.PLASTIC:
+        assert s.shear_lost == 0.0
+
+
+@laws
+def test_histories_agree_with_themselves(law):
+    """dU = psi dt, dd = v dt; what ends a history is what an impact comes to."""
+    for psi, chi in zip(*impacts(11, 4), strict=True):
+        s = solve_with_losses(psi, chi, law)
+        h = s.history(3001)
+        assert np.max(np.abs(h.force) - 2.0 / 3.0 * h.normal_force) < 2e-5
+        assert np.all(h.stick_radius <= h.contact_radius + 1e-12)
+        assert h.time[-1] == s.duration
+        assert h.psi[-1] == pytest.approx(s.psi_out, abs=5e-5)
+        assert h.speed[-1] == pytest.approx(-s.restitution, abs=1e-5)
+        for rate, kept in ((h.psi, h.displacement), (h.speed, h.penetration)):
+            assert cumulative_simpson(rate, x=h.time, initial=0.0) == pytest.approx(kept, abs=1e-4)
+        assert h.penetration.max() == pytest.approx(s.max_penetration, rel=1e-4)
+        assert h.normal_force.max() == pytest.approx(s.max_force, rel=1e-4)
+
+
+@laws
+def test_phases_are_told(law):
+    """Stick from the touch below psi_1 = 1, slip to the end beyond what slides throughout."""
+    kinds = {psi: [p.kind for p in solve_with_losses(psi, 1.44, law).phases] for psi in (0.5, 9.0)}
+    assert kinds[0.5][0] == "stick"
+    assert kinds[0.5][-1] == "gross slip"
+    assert kinds[9.0] == ["gross slip"]
+
+
+def test_fields_of_marched_impacts_are_refused():
+    ball = carom.Sphere(radius="5 mm", material="nylon")
+    pair = carom.Pair(ball, carom.HalfSpace(material="nylon"), friction=0.2)
+    law = carom.StandardLinearSolid(1.5, "20 us")
+    hit = carom.impact(pair, normal_speed=1.0, tangential_speed=0.5, losses=law)
+    with pytest.raises(carom.InputError, match="fields are not known of this solid"):
+        hit.fields(0.5 * hit.duration)
