@@ -166,12 +166,11 @@ def test_springs_marched_plainly() -> None:
 def test_error_is_of_second_order_and_what_is_promised() -> None:
     """psi in [0, 8], chi in [0.3, 3], V_1 up to 10 V_y: 1e-5 max(1, psi_1)."""
     from carom.dimensionless.lossy.springs.march import Law, march
-    from carom.dimensionless.lossy.springs.record import COLUMNS
     from carom.dimensionless.lossy.springs.work import new_work
 
     rng = np.random.default_rng(7)
     psi, chi, y = rng.uniform(0, 8, 25), rng.uniform(0.3, 3, 25), rng.uniform(0.4, 0.999, 25)
-    work, numbers, rows = new_work(), np.zeros(9), np.zeros((0, COLUMNS))
+    work, numbers, rows = new_work(), np.zeros(9), np.zeros((0, 0))
     found = np.empty((25, 4))
     for i, (p, c, parameter) in enumerate(zip(psi, chi, y, strict=True)):
         for j, count in enumerate((100, 200, 400, 800)):

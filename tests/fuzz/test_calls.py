@@ -113,6 +113,10 @@ def tables():
         "KelvinVoigt": (carom.KelvinVoigt, {"restitution": 0.9}),
         "KelvinVoigt, time": (carom.KelvinVoigt, {"loss_time": 1e-6}),
         "ElasticPlastic": (carom.ElasticPlastic, {"yield_velocity": 0.1}),
+        "StandardLinearSolid": (
+            carom.StandardLinearSolid,
+            {"modulus_ratio": 1.5, "relaxation_time": 1e-5},
+        ),
         "impact": (carom.impact, {"pair": BALLS, **POLAR, **MOTION}),
         "impact, components": (carom.impact, {"pair": BALLS, **CARTESIAN, **MOTION}),
         "impact, losses": (carom.impact, {"pair": PAIR, **CARTESIAN, "losses": LOSSY}),

@@ -1,13 +1,14 @@
 """The laws of normal loss as users meet them: units, refusals, how the loss follows the speed."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
 from scipy.special import beta
 
 import carom
-from carom.bodies.losses import yield_velocity
+from carom.bodies.losses import LossLaw, yield_velocity
 from carom.dimensionless.lossy.law import Loss
 from carom.quantities.refusals import InputError
 
@@ -32,7 +33,7 @@ def test_loss_time_is_read_with_its_unit() -> None:
 
 def test_loss_time_is_in_units_of_the_elastic_impact() -> None:
     """alpha = tau V_1/d_max."""
-    loss, alpha = carom.KelvinVoigt(loss_time="2 us").loss(STEEL, 0.7)
+    loss, alpha, _ = carom.KelvinVoigt(loss_time="2 us").loss(STEEL, 0.7)
     scales = STEEL.scales(0.7)
     assert loss == Loss.VISCOUS
     assert alpha == pytest.approx(2e-6 * 0.7 / scales.length, rel=1e-12)
@@ -40,7 +41,7 @@ def test_loss_time_is_in_units_of_the_elastic_impact() -> None:
 
 def test_yield_velocity_is_read_with_its_unit() -> None:
     law = carom.ElasticPlastic(yield_velocity="50 mm/s")
-    loss, y = law.loss(STEEL, 1.6)
+    loss, y, _ = law.loss(STEEL, 1.6)
     assert loss == Loss.PLASTIC
     assert y == pytest.approx((0.05 / 1.6) ** 0.4, rel=1e-14)
 
@@ -83,7 +84,7 @@ def test_wanted_restitution_is_what_comes_out(e: float, speed: float) -> None:
 
 def test_restitution_on_arrays_is_that_of_each() -> None:
     e = np.array([[0.5, 0.9], [0.9, 1.0]])
-    loss, alpha = carom.KelvinVoigt(restitution=e).loss(STEEL, np.ones((2, 2)))
+    loss, alpha, _ = carom.KelvinVoigt(restitution=e).loss(STEEL, np.ones((2, 2)))
     each = [carom.KelvinVoigt(restitution=x).loss(STEEL, 1.0)[1] for x in e.ravel()]
     assert loss == Loss.VISCOUS
     assert np.array_equal(alpha, np.reshape(each, (2, 2)))
@@ -175,9 +176,31 @@ def test_too_large_a_loss_time_is_refused_not_answered() -> None:
         hit(carom.KelvinVoigt(loss_time="1 s"))
 
 
-def test_fields_of_yielding_spheres_are_refused() -> None:
-    with pytest.raises(InputError, match=r"losses: fields of spheres that yield"):
-        hit(carom.ElasticPlastic(0.1)).contact(time=1e-6)
+@pytest.mark.parametrize("law", [carom.ElasticPlastic(0.1), carom.StandardLinearSolid(2.0, 1e-5)])
+def test_fields_of_marched_solids_are_refused(law: LossLaw) -> None:
+    with pytest.raises(InputError, match=r"losses: fields are not known of this solid"):
+        hit(law).contact(time=1e-6)
+
+
+def test_standard_linear_solid_is_in_units_of_the_elastic_impact() -> None:
+    law = carom.StandardLinearSolid(modulus_ratio=1.5, relaxation_time="20 us")
+    loss, theta, extra = law.loss(STEEL, 0.7)
+    assert (loss, extra) == (Loss.RELAXING, 0.5)
+    assert theta == pytest.approx(2e-5 / STEEL.scales(0.7).time, rel=1e-12)
+    assert law.describe() == {"modulus_ratio": 1.5, "relaxation_time": 2e-5}
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"modulus_ratio": 0.9, "relaxation_time": 1.0}, r"modulus_ratio: 0\.9 .* from 1 to 1000"),
+        ({"modulus_ratio": 2.0, "relaxation_time": "2 mm"}, r"relaxation_time: '2 mm' .* in s"),
+        ({"modulus_ratio": 2.0, "relaxation_time": -1.0}, r"relaxation_time: -1\.0 .* zero or"),
+    ],
+)
+def test_what_is_no_standard_linear_solid_is_refused(given: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        carom.StandardLinearSolid(**given)
 
 
 @pytest.mark.parametrize(
@@ -206,7 +229,7 @@ def test_validity_says_what_is_assumed_of_losses() -> None:
     told = {f.name: f for f in hit(carom.KelvinVoigt(restitution=0.8)).validity.findings}
     assert told["e"].value == pytest.approx(0.8)
     assert "as viscous in shear as in compression" in told["e"].verdict
-    for ratio, words in ((2.0, "by up to 0.08"), (10.0, "by up to 0.32"), (11.0, "not studied")):
+    for ratio, words in ((2.0, "by up to 0.05"), (10.0, "by up to 0.05"), (11.0, "not studied")):
         law = carom.ElasticPlastic(yield_velocity=1.0 / ratio)
         told = {f.name: f for f in hit(law).validity.findings}
         assert told["V_1/V_y"].value == pytest.approx(ratio)

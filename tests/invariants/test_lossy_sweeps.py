@@ -281,7 +281,7 @@ ANGLE = Grid({"angle": [0.1, 0.2]})
 @pytest.mark.parametrize(
     ("case", "design", "message"),
     [
-        ({"restitution": 0.9, "loss_time": 1e-6}, ANGLE, "not both; both tell what the normal"),
+        ({"restitution": 0.9, "loss_time": 1e-6}, ANGLE, "not both; both tell what the impact"),
         ({"restitution": 0.9}, Grid({"yield_velocity": [1.0]}), "not both"),
         ({"yield_velocity": "material"}, Grid({"loss_time": [1e-6]}), "not both"),
         ({"restitution": 1.1}, ANGLE, r"restitution: 1\.1 .* from 0\.001 to 1"),

@@ -214,10 +214,13 @@ class StandardLinearSolid:
     >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="nylon")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="nylon"), friction=0.2)
-    >>> law = carom.StandardLinearSolid(modulus_ratio=1.5, relaxation_time="20 us")
-    >>> hit = carom.impact(pair, normal_speed=1.0, tangential_speed=0.5, losses=law)
-    >>> round(hit.normal_restitution, 4)
-    0.8
+    >>> law = carom.StandardLinearSolid(modulus_ratio=1.5, relaxation_time="50 us")
+    >>> for speed in (0.01, 1.0, 100.0):
+    ...     hit = carom.impact(pair, normal_speed=speed, tangential_speed=0.5 * speed, losses=law)
+    ...     print(round(hit.normal_restitution, 3))
+    0.804
+    0.859
+    0.927
     """
 
     modulus_ratio: Any

@@ -9,11 +9,11 @@ from typing import NoReturn
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from carom.dimensionless.elastic.phases import Kind
+from carom.dimensionless.elastic.phases import Kind, Status
 from carom.dimensionless.lossy import layout
 from carom.dimensionless.lossy.law import LossNumbers
 from carom.dimensionless.lossy.solution import LossySolution, outcome, phases_told
-from carom.dimensionless.lossy.springs.rebounds import run
+from carom.dimensionless.lossy.springs.rebounds import run, trace
 from carom.dimensionless.lossy.springs.record import BACK, COLUMNS, FORTH
 from carom.dimensionless.lossy.springs.work import new_work
 from carom.dimensionless.numerics.arrays import Array
@@ -25,7 +25,7 @@ SHORTEST = 10.0  # steps to the shortest phase that is told
 
 @dataclass(frozen=True, eq=False)
 class MarchedSolution(LossySolution):
-    """An impact marched over springs, states to 5e-5, energies to 1e-4; see LossySolution.
+    """An impact marched over springs, states to 1e-5, energies to 1e-4; see LossySolution.
 
     psi_out, extrapolated in the number of springs, is closer than the history.
     """
@@ -54,15 +54,16 @@ def solve_by_marching(psi: float, chi: float, losses: LossNumbers) -> MarchedSol
     """Solve one oblique impact of a yielding sphere or a standard linear solid."""
     work, numbers = new_work(), np.zeros(layout.NUMBERS)
     rows = np.zeros((len(work.motion), COLUMNS))
-    given = int(losses.loss), losses.parameter, losses.extra
-    status, steps = run(psi, chi, *given, work, rows, numbers)
-    kept = rows[: steps + 1].copy() if steps else rows[:0]
+    given = psi, chi, int(losses.loss), losses.parameter, losses.extra
+    status = run(*given, work, numbers)
+    steps = trace(*given, work, rows) if status == Status.SOLVED else -1
+    kept = rows[: steps + 1].copy()
     return MarchedSolution(
         **outcome(psi, chi, status, numbers),
         phases=_phases(kept, -1 if psi < 0.0 else 1),
         losses=losses,
         _rows=kept,
-        _scale=-1.0 if psi < 0.0 else 1.0,
+        _first=abs(psi) or 1.0,
     )
 
 

@@ -14,7 +14,6 @@ from carom.dimensionless.lossy.panels.plans import TOLERANCE
 from carom.dimensionless.lossy.panels.record import Trace, new_record
 from carom.dimensionless.lossy.panels.work import Arrays, new_work
 from carom.dimensionless.lossy.springs import rebounds as springs
-from carom.dimensionless.lossy.springs.record import COLUMNS
 from carom.dimensionless.lossy.springs.work import new_work as new_springs
 from carom.dimensionless.lossy.viscoelastic import impacts as viscoelastic
 from carom.dimensionless.lossy.viscoelastic.impacts import NEVER
@@ -125,8 +124,8 @@ def lossy_rebounds(
         if losses.loss == Loss.VISCOUS:
             fill(*given, parameters[part], tolerance, new_work(), new_record(False), *out)
             return
-        loss, rows = int(losses.loss), np.zeros((0, COLUMNS))
-        springs.fill(*given, loss, parameters[part], extras[part], new_springs(), rows, *out)
+        law = int(losses.loss), parameters[part], extras[part]
+        springs.fill(psis[part], chis[part], *law, new_springs(), *out)
 
     in_blocks(block, lossy.size, BLOCK, SMALLEST_BLOCK, threads)
     numbers[lossy], status[lossy] = found, codes

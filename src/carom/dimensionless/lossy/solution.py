@@ -53,7 +53,11 @@ class LossySolution(Trajectory):
     max_radius: float
     shear_lost: float
     losses: LossNumbers = field(repr=False)
-    _scale: float = field(repr=False)  # psi_1, and all that is tangential, over that of the record
+    _first: float = field(repr=False)  # psi_1 of the record, all of which is scaled by it
+
+    @property
+    def _scale(self) -> float:
+        return self.psi_in / self._first
 
     @abstractmethod
     def _sampled(self, wanted: Array) -> Array:
@@ -67,7 +71,7 @@ class LossySolution(Trajectory):
         """
         wanted = self._times_within(time)
         rows, scale = self._sampled(wanted), self._scale
-        first, psi = self.psi_in / scale, rows[layout.AT_PSI]
+        first, psi = self._first, rows[layout.AT_PSI]
         stored, shear = 1.875 * self.chi * rows[layout.AT_SQUARE], rows[layout.AT_SHEAR_LOST]
         return History(
             time=wanted,

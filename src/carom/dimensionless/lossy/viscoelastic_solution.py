@@ -137,5 +137,5 @@ def solve_viscoelastic(psi: float, chi: float, losses: LossNumbers) -> Viscoelas
         phases=phases_told(stretches, -1 if psi < 0.0 else 1, SHORTEST),
         losses=losses,
         _record=kept,
-        _scale=psi / first,
+        _first=first,
     )

@@ -6,7 +6,7 @@ surface follows from influence coefficients, those of the normal problem as Pois
 
     w' = psi in rings that stick,  |t| <= p,  psi' = -(15/4) chi Q,  Q = half the integral of t,
 
-    K t = w (elastic), w + alpha w' (Kelvin & Voigt), w + g m with m' = w' - m/theta (standard linear).
+    K t = w + alpha w' (Kelvin & Voigt), or w + g m, m' = w' - m/theta (g = 0: elastic).
 
 The pressure is given by its integral inside radii, averaged over each ring. Units of `marching`,
 tractions such that Q is that of the springs.

@@ -63,17 +63,7 @@ def _up_to_nodes(series: np.ndarray, pace: np.ndarray) -> np.ndarray:
     return chebyshev.chebval(PLACES, rise)
 
 
-def _backwards() -> np.ndarray:
-    """Return the weights that make the value at the first node of those at the others."""
-    weights = np.zeros(NODES)
-    for j in range(1, NODES):
-        others = np.delete(PLACES[1:], j - 1)
-        weights[j] = np.prod((PLACES[0] - others) / (PLACES[j] - others))
-    return weights
-
-
 CLOCKS = _clocks()
-BACKWARDS = _backwards()
 INTEGRALS = np.ascontiguousarray(np.swapaxes(_integrals(), 1, 2))
 
 
@@ -113,14 +103,6 @@ def slope(table: np.ndarray, panel: int, row: int, x: float) -> float:
     for k in range(DEGREE, 1, -1):
         last, one = one, k * table[panel, row, k] + 2.0 * x * one - last
     return float(table[panel, row, 1] + 2.0 * x * one - last)
-
-
-@kernel
-def begin_smoothly(values: np.ndarray) -> None:
-    """Put the value at the first node to what the others tend to."""
-    values[0] = 0.0
-    for j in range(1, NODES):
-        values[0] += BACKWARDS[j] * values[j]
 
 
 @kernel

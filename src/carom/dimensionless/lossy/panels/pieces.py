@@ -12,7 +12,6 @@ Pieces = NDArray[np.float64]
 SIGN, PANEL, X0, X1, R0, R1, A0, A1, W0, W1, S0, S1 = range(12)
 COLUMNS = 12
 MAX_PIECES = 400
-PARTS = 3  # into which a piece can be cut
 
 
 @kernel

@@ -5,13 +5,13 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.dimensionless.lossy.panels.collocation import NODES
-from carom.dimensionless.lossy.panels.pieces import COLUMNS, MAX_PIECES, PARTS
-from carom.dimensionless.numerics.arrays import Counts, Cube, Matrix, Vector
+from carom.dimensionless.lossy.panels.pieces import COLUMNS, MAX_PIECES
+from carom.dimensionless.numerics.arrays import Cube, Matrix, Vector
 
 MAX_PANELS = 600
 PASSED_COLUMNS, RING_NUMBERS = 7, 5
-# Series of a panel: b, U, integrals of U db and U^2 db, A and B as they are laid, v, psi; then, of
-# viscoelastic impacts alone, the radius at which memory is laid, time, the front of slip squared.
+# Series of a panel: b, U, integrals of U db and U^2 db, A and B as they are laid, v, psi; then the
+# radius at which memory is laid, time, the front of slip squared.
 RADIUS, MOVED, LAID, LAID_SQUARE, LAID_A, LAID_B, SPEED, PSI, LAID_RADIUS, TIME, FRONT = range(11)
 VALUES = 11
 
@@ -24,11 +24,8 @@ class Arrays(NamedTuple):
     rates: Matrix  # (3, NODES)
     matrix: Matrix  # (NODES, NODES)
     pieces: Matrix
-    spare: Matrix
-    parts: Matrix
-    zones: Counts  # (NODES,)
-    passed: Matrix  # what slip has passed, of viscoelastic impacts
-    ring: Vector  # their ring of slip
+    passed: Matrix  # what slip has passed
+    ring: Vector  # the ring of slip
 
 
 def new_work() -> Arrays:
@@ -39,9 +36,6 @@ def new_work() -> Arrays:
         rates=np.zeros((3, NODES)),
         matrix=np.zeros((NODES, NODES)),
         pieces=np.zeros((MAX_PIECES, COLUMNS)),
-        spare=np.zeros((MAX_PIECES, COLUMNS)),
-        parts=np.zeros((PARTS, COLUMNS)),
-        zones=np.zeros(NODES, dtype=np.int64),
         passed=np.zeros((MAX_PANELS, PASSED_COLUMNS)),
         ring=np.zeros(RING_NUMBERS),
     )

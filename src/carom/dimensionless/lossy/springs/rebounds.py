@@ -6,11 +6,11 @@ from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy import layout
 from carom.dimensionless.lossy.law import Loss, why_not
 from carom.dimensionless.lossy.springs.march import Law, march
-from carom.dimensionless.lossy.springs.work import Arrays
+from carom.dimensionless.lossy.springs.work import MOST_SPRINGS, Arrays
 from carom.dimensionless.numerics.arrays import Codes, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
-YIELDING, RELAXING = 200, 800  # springs, for 1e-5 and 1e-6
+YIELDING, RELAXING = 200, MOST_SPRINGS  # springs, for 1e-5 and 1e-6
 
 
 @kernel
@@ -21,31 +21,36 @@ def springs_of(loss: int) -> int:
 
 @entry_point()
 def run(
-    psi: float,
-    chi: float,
-    loss: int,
-    parameter: float,
-    extra: float,
-    work: Arrays,
-    rows: Matrix,
-    numbers: Vector,
-) -> tuple[int, int]:
-    """Run an impact of any psi_1; return its status and the number of steps.
+    psi: float, chi: float, loss: int, parameter: float, extra: float, work: Arrays, numbers: Vector
+) -> int:
+    """Run an impact of any psi_1; return its status.
 
-    Numbers are Richardson's (1911) of all springs and half of them, rows those of all.
+    Numbers are Richardson's (1911), of all springs and half of them.
     """
-    steps, status = 0, why_not(psi, chi)
+    status = why_not(psi, chi)
     if status == Status.SOLVED.value:
         law, count = Law(loss, parameter, extra), springs_of(loss)
-        half = march(abs(psi), chi, law, count // 2, work, rows[:0], work.coarse)
-        steps = march(abs(psi), chi, law, count, work, rows, numbers)
-        numbers[:] += (numbers - work.coarse) / 3.0
-        numbers[layout.PSI_OUT] *= np.copysign(1.0, psi)
-        if half == 0 or steps == 0 or not np.all(np.isfinite(numbers)):
+        half = march(abs(psi), chi, law, count // 2, work, work.no_rows, work.coarse)
+        whole = march(abs(psi), chi, law, count, work, work.no_rows, numbers)
+        if half == 0 or whole == 0:
             status = Status.UNRESOLVED.value
+        for j in range(numbers.size):
+            numbers[j] += (numbers[j] - work.coarse[j]) / 3.0
+            if not np.isfinite(numbers[j]):
+                status = Status.UNRESOLVED.value
+        numbers[layout.PSI_OUT] *= np.copysign(1.0, psi)
     if status != Status.SOLVED.value:
         numbers[:] = np.nan
-    return status, steps
+    return status
+
+
+@entry_point()
+def trace(
+    psi: float, chi: float, loss: int, parameter: float, extra: float, work: Arrays, rows: Matrix
+) -> int:
+    """Fill in a row for each step over the most springs; return the number of steps."""
+    law = Law(loss, parameter, extra)
+    return march(abs(psi), chi, law, MOST_SPRINGS, work, rows, work.coarse)
 
 
 @entry_point()
@@ -56,11 +61,9 @@ def fill(
     parameter: Vector,
     extra: Vector,
     work: Arrays,
-    rows: Matrix,
     numbers: Matrix,
     status: Codes,
 ) -> None:
     """Write what every impact comes to, and its status."""
     for i in range(psi.size):
-        given = psi[i], chi[i], loss, parameter[i], extra[i]
-        status[i], _ = run(*given, work, rows, numbers[i])
+        status[i] = run(psi[i], chi[i], loss, parameter[i], extra[i], work, numbers[i])

@@ -34,6 +34,7 @@ class Arrays(NamedTuple):
     springs: Matrix  # (SPRINGS, springs + 1)
     state: Vector  # (STATE,)
     coarse: Vector  # what the impact comes to with half the springs
+    no_rows: Matrix
 
 
 def new_work() -> Arrays:
@@ -43,6 +44,7 @@ def new_work() -> Arrays:
         springs=np.zeros((SPRINGS, MOST_SPRINGS + 1)),
         state=np.zeros(STATE),
         coarse=np.zeros(NUMBERS),
+        no_rows=np.zeros((0, 0)),
     )
 
 
