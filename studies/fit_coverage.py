@@ -22,17 +22,11 @@ from carom.fitting import fit
 
 TABLE = Path(__file__).with_name("fit_coverage.csv")
 SEED = 20261121
-RESTITUTION = 0.95
 SPEED, SPIN = 3.9, 15.0  # m/s; rad/s that nobody meant
 BALL = carom.Sphere(radius="2.5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.12)
 START = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.3)
-TRUTH = {
-    "friction": PAIR.friction,
-    "kappa": PAIR.kappa,
-    "spin_offset": SPIN,
-    "restitution": RESTITUTION,
-}
+TRUTH = {"friction": PAIR.friction, "kappa": PAIR.kappa, "spin_offset": SPIN}
 SIGMA = {"tangential_restitution": 0.01, "spin_out": 8.0, "rebound_angle": 0.006}
 SIGMA_ANGLE = 0.006  # rad
 
@@ -48,6 +42,12 @@ class Design:
     told: bool
     angle_errors: bool = False
     outliers: float = 0.0
+    restitution: float = 0.95
+
+    @property
+    def truth(self) -> dict[str, float]:
+        """The parameters that are to be found."""
+        return TRUTH | {"restitution": self.restitution}
 
 
 DESIGNS = (
@@ -55,14 +55,18 @@ DESIGNS = (
     Design("15 rows, errors from the scatter", tuple(np.linspace(4.0, 65.0, 15)), told=False),
     Design("15 rows, angles uncertain", tuple(np.linspace(4.0, 65.0, 15)), True, True),
     Design("40 rows, 5 % outliers", tuple(np.linspace(4.0, 65.0, 40)), False, False, 0.05),
+    *(
+        Design(f"15 rows, e = {e:g}", tuple(np.linspace(4.0, 65.0, 15)), True, restitution=e)
+        for e in (0.3, 0.5, 0.7)
+    ),
 )
 
 
 def truth(design: Design) -> dict[str, Array]:
     """Return what would be measured without noise."""
-    normal = carom.KelvinVoigt(restitution=RESTITUTION)
+    losses = carom.KelvinVoigt(restitution=design.restitution)
     hits = [
-        carom.impact(PAIR, speed=SPEED, angle=f"{angle} deg", spin=SPIN, losses=normal)
+        carom.impact(PAIR, speed=SPEED, angle=f"{angle} deg", spin=SPIN, losses=losses)
         for angle in design.angles
     ]
     return {name: np.array([getattr(hit, name) for hit in hits]) for name in SIGMA}
@@ -81,7 +85,7 @@ def measured(design: Design, exact: dict[str, Array], seed: int) -> dict[str, An
         data[name] = exact[name] + sigma * (random.normal(size=rows) + far)
         if design.told:
             data[f"{name}_error"] = np.full(rows, sigma)
-    data["normal_restitution"] = RESTITUTION + random.normal(0.0, 0.01, rows)
+    data["normal_restitution"] = design.restitution + random.normal(0.0, 0.01, rows)
     if design.told:
         data["normal_restitution_error"] = np.full(rows, 0.01)
     return data
@@ -92,10 +96,10 @@ def rows_of(design: Design, sets: int) -> Iterator[str]:
     exact = truth(design)
     intervals = []
     for seed in track(range(sets), design.name, transient=True):
-        found = fit(measured(design, exact, seed), pair=START, vary=list(TRUTH))
-        intervals.append([(found[name].low, found[name].high) for name in TRUTH])
+        found = fit(measured(design, exact, seed), pair=START, vary=list(design.truth))
+        intervals.append([(found[name].low, found[name].high) for name in design.truth])
     ends = np.array(intervals)
-    for place, (name, value) in enumerate(TRUTH.items()):
+    for place, (name, value) in enumerate(design.truth.items()):
         low, high = ends[:, place].T
         below, above = int((high < value).sum()), int((low > value).sum())
         inside = 100.0 * float(((low <= value) & (value <= high)).mean())

@@ -19,7 +19,7 @@ from law_figures import draw_figures
 from rich.progress import track
 
 import carom
-from carom.verify import CATALOGUE, Ranking, Tuning, rank, step_error, tune
+from carom.verify import CATALOGUE, Entry, Ranking, Tuning, rank, step_error, tune
 from carom.verify.benchmark import Bench, bench, steel_on_steel
 from carom.verify.engines.experiments import Experiment, psi_out
 from carom.verify.engines.lammps import Lammps
@@ -35,6 +35,7 @@ NUMBER = re.compile(r"\d+\.\d+")
 CHI = 1.4412  # of solid spheres with nu = 0.3
 CHIS = (7.0 / 6.0, CHI, 7.0 / 4.0)  # with nu = 1/2, 0.3, 0
 FEW = (20, 50, 200)  # steps per contact
+RESTITUTIONS = (0.9, 0.7, 0.5)
 DOUBLED = (1000, 2000, 4000, 8000, 16000, 32000)
 LOSSES = (0.9, 0.5, 0.1)
 SLOWLY, FAST = 1e-4, 0.1  # m/s
@@ -76,6 +77,31 @@ def ranked() -> str:
     return table(
         "law | used by | max | at psi_1 | rms | force | max, nu = 1/2 | max, nu = 0", rows()
     )
+
+
+def ranked_with_losses() -> str:
+    """Return the table of errors of damped laws, at three restitutions."""
+    extra = [
+        Entry(
+            "mindlin_rescale/force, xgammat 1",
+            carom.LammpsMindlin("mindlin_rescale/force", tangential_damping=1.0),
+            "LAMMPS",
+        ),
+        Entry("mindlin, xgammat 1", carom.LammpsMindlin(tangential_damping=1.0), "LAMMPS"),
+        Entry("mindlin, tsuji", carom.LammpsMindlin(damping="tsuji"), "LAMMPS"),
+    ]
+    entries = [entry for entry in (*CATALOGUE, *extra) if hasattr(entry.law, "restitution")]
+    worst = [
+        {s.entry.label: s for s in rank(entries, restitution=e).standings} for e in RESTITUTIONS
+    ]
+
+    def rows() -> Iterator[str]:
+        for label in worst[1]:
+            each = [at[label] for at in worst]
+            errors = " | ".join(f"{s.max_error:.3f} at {s.worst:g}" for s in each)
+            yield f"{label} | {each[0].entry.used_by} | {errors}"
+
+    return table("law | used by | max at psi_1, e = 0.9 | e = 0.7 | e = 0.5", rows())
 
 
 def sources() -> str:
@@ -181,6 +207,7 @@ def gains() -> str:
 
 LAWS: dict[str, Callable[[], str]] = {
     "ranking": ranked,
+    "losses": ranked_with_losses,
     "sources": sources,
     "steps": steps,
     "tuning": tuned,

@@ -1,5 +1,6 @@
 """The ranking of contact laws: six errors that were measured independently, and what it holds."""
 
+import dataclasses
 import json
 
 import numpy as np
@@ -210,3 +211,46 @@ def test_catalogue_names_each_law_once():
 def test_refused(options, message):
     with pytest.raises(carom.InputError, match=message):
         rank(**({"entries": FEW} | options))
+
+
+def test_damped_laws_are_compared_with_an_impact_of_the_same_restitution() -> None:
+    """Also where a damping misses what it is asked for, as LAMMPS' tsuji does at e = 0.7."""
+    psi = np.array([0.5, 2.0, 6.0])
+    laws = [carom.LammpsMindlin("mindlin"), carom.LammpsMindlin("mindlin", damping="tsuji")]
+    for law, left in zip(laws, (0.7, 0.7777), strict=True):
+        damped = dataclasses.replace(law, restitution=0.7)
+        exact = carom.rebound(psi, CHI, losses=carom.KelvinVoigt(restitution=left))
+        error = np.abs(damped.rebound(psi, CHI) - exact)
+        for standing in (
+            carom.verify.rank([damped], psi=psi, chi=CHI).standings[0],
+            carom.verify.rank(law, psi=psi, chi=CHI, restitution=0.7).standings[0],
+        ):
+            assert standing.restitution == pytest.approx(left, abs=1e-4)
+            assert standing.max_error == pytest.approx(error.max(), abs=1e-4)
+        tuned = carom.verify.tune([damped], psi=psi, chi=CHI).advice[0]
+        assert tuned.before == pytest.approx(error.max(), abs=1e-4)
+        errors = carom.verify.error_map(damped, psi, [CHI])
+        assert errors.max_error[0] == pytest.approx(error.max(), abs=1e-4)
+
+
+def test_sliding_impacts_of_damped_laws_have_the_force_of_the_exact_one() -> None:
+    """F_x = mu F_n in both; what differs is the shape of F_n, the more the more is lost."""
+    found = [force_error(carom.LammpsMindlin(restitution=e), 9.0, CHI).rms for e in (1.0, 0.9, 0.7)]
+    assert found[0] < 2e-3
+    assert 0.01 < found[1] < found[2] < 0.2
+
+
+def test_rankings_with_losses() -> None:
+    ranking = carom.verify.rank(psi=[0.5, 2.0], restitution=0.7)
+    assert {s.restitution for s in ranking.standings} == {0.7}
+    assert "Thornton, incremental" not in {s.entry.label for s in ranking.standings}
+    dataset = ranking.to_dataset()
+    assert dataset.psi_out_exact.dims == ("psi_in",)
+    mixed = carom.verify.rank(
+        [carom.LinearSpring(), carom.LinearSpring(restitution=0.7)], psi=[0.5, 2.0]
+    )
+    assert mixed.to_dataset().psi_out_exact.dims == ("law", "psi_in")
+    assert "e = 0.7" in str(mixed)
+    mixed.plot()
+    with pytest.raises(carom.InputError, match="Thornton, incremental has no damping"):
+        carom.verify.rank(carom.ThorntonLaw(), restitution=0.7)

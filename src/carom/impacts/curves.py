@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.law import ScaleFreeLaw
+from carom.dimensionless.lossy.law import ScaleFreeLaw, scale_free
 from carom.dimensionless.rebounds import rebound, regime_borders
 from carom.dimensionless.solution import solve
 from carom.io.labels import labelled_dataset
@@ -32,6 +32,7 @@ REGIMES = (
     "gross slip through maximum penetration, then microslip",
     "gross slip throughout",
 )
+BORDER = {"units": "1", "long_name": "psi_in at which the regime changes"}
 SIGNS = {0: "", 1: " +", -1: " -"}
 
 
@@ -80,15 +81,14 @@ def curve(
     psi : array_like
         psi_1.
     losses : KelvinVoigt, optional
-        What the impact loses energy to: a restitution is given. The `border` of regimes,
-        1, 2 chi, 4 chi - 1, is left out then, as it is that of elastic bodies.
+        What the impact loses energy to: a restitution e is given.
 
     Returns
     -------
     xarray.Dataset
         psi_out, contact_restitution and tangential_restitution, pure numbers along (chi, psi_in),
-        NaN with one RuntimeWarning where chi is too large for `rebound`; without losses also border
-        (chi, regime_border), the psi_1 at which the regime changes.
+        NaN with one RuntimeWarning where chi is too large for `rebound`; and border (chi,
+        regime_border), the psi_1 at which the regime changes, 1, 2 chi, 2 chi (1 + e) - e.
 
     Raises
     ------
@@ -109,7 +109,8 @@ def curve(
     nonzero = np.where(incoming == 0.0, 1e-12, incoming)
     outgoing = rebound(nonzero, rows, losses=losses)
     contact = outgoing / nonzero
-    wide, elastic = ("chi", "psi_in"), losses is None
+    wide, border = ("chi", "psi_in"), regime_borders(chis, _restitution(losses))
+    told: dict[str, Any] = {} if losses is None else {"losses": repr(losses)}
     return labelled_dataset(
         {
             "psi_out": (wide, np.where(incoming == 0.0, 0.0, outgoing)),
@@ -119,14 +120,14 @@ def curve(
                 1.0 - SOLID_SPHERE * (1.0 - contact),
                 {"note": "solid sphere without spin"},
             ),
-            **(_border(chis) if elastic else {}),
+            "border": (("chi", "regime_border"), border, BORDER),
         },
         {
             "chi": chis,
             "psi_in": incoming,
-            **({"regime_border": ("regime_border", list(REGIMES[1:]), {})} if elastic else {}),
+            "regime_border": ("regime_border", list(REGIMES[1:]), {}),
         },
-        {"title": "rebound curve"} | ({} if elastic else {"losses": repr(losses)}),
+        {"title": "rebound curve"} | told,
     )
 
 
@@ -139,23 +140,30 @@ def _axes(chi: Any, psi: Any) -> tuple[Array, Array]:
     return chis, incoming
 
 
-def _border(chis: Iterable[float]) -> dict[str, Any]:
-    meaning = {"units": "1", "long_name": "psi_in at which the regime changes"}
-    return {"border": (("chi", "regime_border"), [borders(chi) for chi in chis], meaning)}
+def _restitution(losses: ScaleFreeLaw | None) -> float:
+    """Return e of a law of losses, or raise InputError if it depends on the speed."""
+    if losses is None:
+        return 1.0
+    scale_free(losses)
+    return float(getattr(losses, "restitution", 1.0))
 
 
 @known_keywords
-def regime_map(psi: ArrayLike, chi: ArrayLike, *, progress: Progress = None) -> xr.Dataset:
+def regime_map(
+    psi: ArrayLike, chi: ArrayLike, *, losses: ScaleFreeLaw | None = None, progress: Progress = None
+) -> xr.Dataset:
     """Return which phases follow which for every psi_1 and chi, as a labelled dataset.
 
-    Bodies are elastic here, phases those of the exact impact (Maw, Barber & Fawcett 1976).
-    `sequence` (chi, psi_in) is the place of the sequence in `sequence_name`, the commonest first,
-    or -1 where an impact is not resolved. Beyond psi_1 = 4 chi - 1 the contact slips throughout.
+    Phases are those of the exact impact (Maw, Barber & Fawcett 1976). `sequence` (chi, psi_in) is
+    the place of the sequence in `sequence_name`, the commonest first, or -1 where an impact is not
+    resolved. Beyond psi_1 = 2 chi (1 + e) - e, e = 1 without losses, the contact slips throughout.
 
     Parameters
     ----------
     psi, chi : array_like
         Values along either axis; chi positive.
+    losses : KelvinVoigt, optional
+        What the impacts lose energy to: a restitution is given.
     progress : bool or callable, optional
         Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
         what is called with the rows of chi done so far and their number.
@@ -163,8 +171,8 @@ def regime_map(psi: ArrayLike, chi: ArrayLike, *, progress: Progress = None) -> 
     Returns
     -------
     xarray.Dataset
-        sequence (chi, psi_in), whole numbers, and sequence_name (sequence_name), the kinds of
-        phases in order with the sign of slip.
+        sequence (chi, psi_in), whole numbers, sequence_name (sequence_name), the kinds of phases
+        in order with the sign of slip, and the restitution.
 
     Raises
     ------
@@ -183,7 +191,7 @@ def regime_map(psi: ArrayLike, chi: ArrayLike, *, progress: Progress = None) -> 
     rows = []
     with advancing("map of regimes", len(chis), progress, unit="rows") as advance:
         for value in chis:
-            rows.append([_sequence(float(speed), float(value)) for speed in incoming])
+            rows.append([_sequence(float(speed), float(value), losses) for speed in incoming])
             advance(1)
     names = [name for name, _ in Counter(chain(*rows)).most_common() if name]
     places = {name: place for place, name in enumerate(names)} | {"": -1}
@@ -194,18 +202,19 @@ def regime_map(psi: ArrayLike, chi: ArrayLike, *, progress: Progress = None) -> 
                 ("chi", "psi_in"),
                 codes,
                 {"units": "1", "long_name": "sequence of phases, its place in sequence_name"},
-            )
+            ),
+            "restitution": _restitution(losses),
         },
         {"chi": chis, "psi_in": incoming, "sequence_name": ("sequence_name", names, {})},
         {"title": "map of regimes"},
     )
 
 
-def _sequence(psi: float, chi: float) -> str:
+def _sequence(psi: float, chi: float, losses: ScaleFreeLaw | None) -> str:
     """Return the phases of an impact in one line, or nothing if it is not resolved."""
-    if abs(psi) > borders(chi)[2]:
+    if abs(psi) > regime_borders(chi, _restitution(losses))[2]:
         return "gross slip " + ("+" if psi > 0.0 else "-")
-    solution = solve(psi, chi)
+    solution = solve(psi, chi) if losses is None else solve(psi, chi, losses=losses)
     if solution.status is not Status.SOLVED:
         return ""
     return ", ".join(f"{phase.kind}{SIGNS[phase.sign]}" for phase in solution.phases)

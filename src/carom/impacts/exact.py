@@ -57,7 +57,7 @@ class Impact(ImpactResult, InContact):
         """How far the assumptions of the theory hold, as numbers with a verdict."""
         found: tuple[Finding, ...] = ()
         if isinstance(self.solution, LossySolution):
-            found = (judge_losses(self.solution.losses, self.normal_restitution),)
+            found = (judge_losses(self.solution.losses, self.normal_restitution, self.pair.chi),)
         return judge(self.pair, self.normal_speed, self.duration, self.psi_in, found)
 
     @property

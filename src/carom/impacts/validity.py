@@ -13,7 +13,6 @@ YIELD_PRESSURE = 1.60  # p_0/Y at first yield of a sphere, von Mises (Johnson 19
 SLOW_CONTACT = 3.0  # contact time in transits of a wave through the sphere and back (Love 1927)
 WEAK_COUPLING = 0.01  # |Dundurs' beta|: what is left uncoupled is below a hundredth
 CLOSE_REBOUND = 0.01  # of psi_2, also against the full contact in three dimensions
-OTHER_SOLID = 0.2  # in psi_2, a standard linear solid of the same e against Kelvin & Voigt's
 FAST, YIELDED = 10.0, 0.05  # V_1/V_y up to which psi_2 is as close as this to rings of traction
 LATERAL, RADIAL, COUPLED = 0.008, 0.22, 0.8  # of its bound, studies/halfspace_study.csv
 
@@ -39,22 +38,30 @@ def judge(
     return Validity((*judge_contact(pair, normal_speed, duration), *losses, coupling, close))
 
 
-def judge_losses(losses: LossNumbers, restitution: float) -> Finding:
+def judge_losses(losses: LossNumbers, restitution: float, chi: float) -> Finding:
     """Return the finding on losses: which solid is assumed, and how much that may be in psi_2."""
-    if losses.loss == Loss.VISCOUS:
+    if losses.loss != Loss.PLASTIC:
+        solid = "is as viscous" if losses.loss == Loss.VISCOUS else "relaxes"
+        other = other_solid(restitution, chi)
         words = (
-            "a solid as viscous in shear as in compression: others of this e differ in psi_2 by"
-            f" up to {OTHER_SOLID:g}"
+            f"a solid that {solid} in shear as in compression:"
+            f" others of this e differ in psi_2 by up to {other:.1g}"
         )
-        return Finding("e", restitution, 1.0, None, words)
-    if losses.loss == Loss.RELAXING:
-        words = "a solid that relaxes in shear as in compression, in one time, is taken for granted"
         return Finding("e", restitution, 1.0, None, words)
     ratio = losses.parameter**-2.5
     off = f"off by up to {YIELDED:g}"
     known = f"psi_2 is {off}" if ratio <= FAST * (1.0 + 1e-9) else "beyond, that is not studied"
     words = f"Coulomb's law holds for springs, not for the pressure of a yielded sphere: {known}"
     return Finding("V_1/V_y", ratio, FAST, None, words)
+
+
+def other_solid(restitution: float, chi: float) -> float:
+    """Return by how much psi_2 of other solids of the same e may differ.
+
+    (1 - e) max(0.9, 2.1 chi - 1.4), an envelope of standard linear solids and yielding spheres
+    against Kelvin & Voigt's, psi_1 up to 4 chi + 1, chi from 0.3 to 5, e from 0.5; a guide beyond.
+    """
+    return (1.0 - restitution) * max(0.9, 2.1 * chi - 1.4)
 
 
 def judge_contact(pair: Pair, normal_speed: float, duration: float) -> tuple[Finding, ...]:

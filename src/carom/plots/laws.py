@@ -104,7 +104,9 @@ def _draw_rebounds(axis: Axes, dataset: xr.Dataset, rows: Any, styles: list[Any]
     order = np.argsort(dataset["psi_in"].values)
     psi = dataset["psi_in"].values[order]
     style.zero_line(axis)
-    axis.plot(psi, dataset["psi_out_exact"].values[order], **EXACT, **POINT)
+    exact = np.atleast_2d(dataset["psi_out_exact"].values)  # one, or one for each law
+    for curve in exact if len(exact) == 1 else exact[rows]:
+        axis.plot(psi, curve[order], **EXACT, **POINT)
     for row, stroke in zip(rows, styles, strict=True):
         out = dataset["psi_out"].values[row][order]
         axis.plot(psi, out, lw=0.9, zorder=3, **stroke, **POINT)

@@ -40,7 +40,7 @@ def plot_curve(dataset: xr.Dataset) -> Figure:
     """Draw psi_2 against psi_1, one line per chi, with the borders of the regimes if it has them.
 
     Of a single chi the regimes are bands, told by how the impact begins; of several, marks on the
-    lines are the borders. Curves of impacts with losses have none.
+    lines are the borders.
 
     Parameters
     ----------
@@ -161,7 +161,7 @@ def plot_regime_map(dataset: xr.Dataset) -> Figure:
     style.span(axis, psi, chi)
     axis.set(xlabel=style.label("psi_in"), ylabel=style.label("chi", room=44))
     _letter_regions(axis, dataset)
-    draw_borders(axis)
+    draw_borders(axis, float(dataset.get("restitution", 1.0)))
     patches = [
         Patch(fc=shades(int(count) - 1), ec="0.3", lw=0.4, label=f"{LETTERS[i]}  {_short(name)}")
         for i, (name, count) in enumerate(zip(names[: len(LETTERS)], counts, strict=False))
@@ -197,11 +197,13 @@ def _letter_regions(axis: Axes, dataset: xr.Dataset) -> None:
             text.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
 
 
-def draw_borders(axis: Axes) -> None:
-    """Draw the borders of the regimes over a map, 1, 2 chi and 4 chi - 1, with their names."""
+def draw_borders(axis: Axes, restitution: float = 1.0) -> None:
+    """Draw the borders of the regimes over a map, 1, 2 chi and 2 chi (1 + e) - e, with names."""
     (left, right), (bottom, top) = axis.get_xlim(), axis.get_ylim()
     chi = np.linspace(max(bottom, 0.5), top, 201)
-    lines = {r"$1$": 0.0 * chi + 1.0, r"$2\chi$": 2.0 * chi, r"$4\chi-1$": 4.0 * chi - 1.0}
+    slides = r"$4\chi-1$" if restitution == 1.0 else r"$2\chi(1+e)-e$"
+    lines = {r"$1$": 0.0 * chi + 1.0, r"$2\chi$": 2.0 * chi}
+    lines[slides] = 2.0 * chi * (1.0 + restitution) - restitution
     for dash, (name, psi) in zip(style.DASHES, lines.items(), strict=False):
         axis.plot(psi, chi, color="black", ls=dash, lw=1.0)
         inside = psi <= right

@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 from carom.bodies.cases import case_of
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import HalfSpace, Sphere
-from carom.dimensionless.rebounds import rebound
 from carom.io.progress import Progress, advancing
 from carom.io.tables import CASE
 from carom.laws.dem import ContactLaw, Law
@@ -22,10 +21,12 @@ from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, resu
 from carom.verify.engines.running import Engine, EngineError, EngineKilled, run
 from carom.verify.errors import (
     INCIDENCES,
+    exact_rebound,
     in_words,
     largest,
     law_rebound,
     laws_of,
+    left_restitution,
     root_mean_square,
 )
 
@@ -208,7 +209,8 @@ def _supported(engine: Engine, entries: Sequence[Entry]) -> list[Entry]:
 def _measured(entry: Entry, experiment: Experiment, outcomes: Outcomes, seconds: float) -> Measured:
     psi, pair = experiment.psi_in, experiment.pair
     given = psi_out(experiment, outcomes)
-    error = given - rebound(psi, pair.chi)
+    left = left_restitution(entry.law, pair.chi, pair.kappa)
+    error = given - exact_rebound(psi, pair.chi, left)
     same = law_rebound(entry.law, psi, pair.chi, pair.kappa, experiment.steps)
     worst = float(psi[int(np.argmax(np.abs(error)))])
     off = largest(given - same)

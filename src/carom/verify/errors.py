@@ -1,14 +1,14 @@
 """How far a contact law is from the exact impact: in psi_2, in its forces, in energy."""
 
 from collections.abc import Sequence
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from carom.bodies.losses import KelvinVoigt
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.numerics.hertz import DURATION
 from carom.dimensionless.rebounds import rebound
 from carom.dimensionless.solution import solve
 from carom.io.labels import labelled_dataset
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 INCIDENCES = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0)
 LARGEST, LARGEST_CHI = 1e9, 1e4  # psi_1, chi
 INSTANTS = 400  # at which forces are compared
+MISSED = 1e-3  # of the restitution asked for, less than which is rounding
 
 
 class ForceError(NamedTuple):
@@ -97,9 +98,33 @@ def in_words(psi: Sequence[float]) -> str:
     return f"at {len(psi)} incidences, psi_1 from {min(psi):g} to {max(psi):g}"
 
 
-def exact_rebound(psi: Array, chi: float) -> Array:
-    """Return the exact psi_2, or raise InputError where there is none."""
-    exact, status = rebound(psi, chi, return_status=True)
+def left_restitution(law: Law, chi: float, kappa: float | None) -> float:
+    """Return e that a law leaves: what its damping is asked for, unless it misses that."""
+    asked = float(getattr(law, "restitution", 1.0))
+    if asked == 1.0 or not isinstance(law, ContactLaw):
+        return asked
+    left = -float(law.history(0.0, chi, kappa=kappa)["normal_velocity"][-1])
+    return left if abs(left - asked) > MISSED else asked
+
+
+def damped(law: Law, restitution: float) -> Law:
+    """Return a law with the damping for a restitution, or raise InputError if it has none."""
+    if not hasattr(law, "restitution"):
+        raise refusal("restitution", restitution, f"{law.name} has no damping; leave it out")
+    return replace(law, restitution=restitution)  # type: ignore[call-arg]
+
+
+def losses_of(restitution: float) -> KelvinVoigt | None:
+    """Return the exact impact's law of losses for a restitution."""
+    return None if restitution == 1.0 else KelvinVoigt(restitution=restitution)
+
+
+def exact_rebound(psi: Array, chi: ArrayLike, restitution: float = 1.0) -> Array:
+    """Return the exact psi_2, or raise InputError where there is none.
+
+    With a restitution it is that of Kelvin-Voigt solids.
+    """
+    exact, status = rebound(psi, chi, losses=losses_of(restitution), return_status=True)
     if np.any(status):
         message = Status(int(np.max(status))).message
         raise refusal("chi", chi, f"the exact impact is {message}")
@@ -116,7 +141,8 @@ def error_map(
 ) -> "xr.Dataset":
     """Return the error of a contact law in psi_2 over psi_1 and chi, as a labelled dataset.
 
-    error = psi_2 of the law - psi_2(psi_1, chi); the exact one of Maw, Barber & Fawcett (1976).
+    error = psi_2 of the law - psi_2(psi_1, chi); the exact one of Maw, Barber & Fawcett (1976). A
+    law with damping is compared with Kelvin-Voigt solids of the e that it leaves.
 
     Parameters
     ----------
@@ -151,8 +177,8 @@ def error_map(
     top = 4.0 * float(chis.max())
     psis = np.linspace(0.0, top, 121) if psi is None else psi_line(psi)
     rows, wide = chis[:, np.newaxis], ("chi", "psi_in")
-    exact = rebound(psis, rows)
     own = None if kappa is None else positive("kappa", kappa)
+    exact = rebound(psis, rows, losses=losses_of(left_restitution(rule, float(chis[0]), own)))
     given = law_rebound(rule, psis, rows, own, steps)
     error = given - exact
     names = {"law": rule.name, "law_source": rule.source, "law_parameters": parameters(rule)}
@@ -182,7 +208,8 @@ def force_error(law: Law, psi: float, chi: float, *, kappa: float | None = None)
     """Return the error of the tangential force through an impact, at equal parts of its duration.
 
     (F_x - F_x,exact)/(mu P_max), both forces at the same part of their own contact's duration, as a
-    linear contact lasts longer than Hertz's. NaN for a law without a duration.
+    linear contact lasts longer than Hertz's. NaN for a law without a duration. A law with damping
+    is compared with the viscoelastic impact of the e that it leaves.
 
     Parameters
     ----------
@@ -219,7 +246,8 @@ def force_error(law: Law, psi: float, chi: float, *, kappa: float | None = None)
     parts = np.linspace(0.0, 1.0, INSTANTS)
     elapsed = history["time"] / history["time"][-1]
     force = np.interp(parts, elapsed, history["tangential_force"])
-    exact = 1.5 * solve(psi, chi).at(parts * DURATION).force
+    solution = solve(psi, chi, losses=losses_of(left_restitution(law, chi, kappa)))
+    exact = 1.5 * solution.at(parts * solution.duration).force
     return ForceError(largest(force - exact), root_mean_square(force - exact))
 
 

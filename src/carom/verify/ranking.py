@@ -12,12 +12,15 @@ from carom.io.citations import IMPACT, bibtex
 from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.laws.dem import ContactLaw, Law
+from carom.laws.dem.damping import damped_restitution
 from carom.plots.result import Result, card
+from carom.quantities.arrays import Array
 from carom.quantities.units import or_none
 from carom.verify.catalogue import CATALOGUE, Entry, as_entry
 from carom.verify.errors import (
     INCIDENCES,
     checked_chi,
+    damped,
     dashed,
     energy_gain,
     exact_rebound,
@@ -28,6 +31,7 @@ from carom.verify.errors import (
     largest,
     law_rebound,
     laws_of,
+    left_restitution,
     pure,
     root_mean_square,
 )
@@ -47,7 +51,8 @@ class Standing(NamedTuple):
 
     `worst` is the psi_1 at which psi_2 is off most; `force_error` the rms over the impact at which
     that is largest, in units of mu P_max; `energy_gain` the largest |psi_2| - |psi_1|; `step` the
-    fewest steps per contact whose own error is below that of the law, `fine_step` those below 0.01.
+    fewest steps per contact whose own error is below that of the law, `fine_step` those below 0.01;
+    `restitution` the e that the law leaves, and at which it is compared.
     """
 
     entry: Entry
@@ -58,6 +63,7 @@ class Standing(NamedTuple):
     energy_gain: float
     step: TimeSteps | None
     fine_step: TimeSteps | None
+    restitution: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -114,12 +120,14 @@ class Ranking(Result):
         Returns
         -------
         xarray.Dataset
-            psi_out (law, psi_in), psi_out_exact (psi_in), max_error, rms_error, force_error and
-            energy_gain (law), steps (law, step_kind), -1 where none suffice; chi and kappa.
+            psi_out (law, psi_in), psi_out_exact (psi_in; also of the law if their restitutions
+            differ), max_error, rms_error, force_error, energy_gain and restitution (law), steps
+            (law, step_kind), -1 where none suffice; chi and kappa.
         """
         laws = [standing.entry.law for standing in self.standings]
         given = [law_rebound(law, np.array(self.psi), self.chi, self.kappa) for law in laws]
-        exact = exact_rebound(np.array(self.psi), self.chi)
+        left = [standing.restitution for standing in self.standings]
+        exact = [exact_rebound(np.array(self.psi), self.chi, e) for e in left]
         steps = [
             [step.steps if step else -1 for step in (s.step, s.fine_step)] for s in self.standings
         ]
@@ -136,8 +144,9 @@ class Ranking(Result):
         return labelled_dataset(
             {
                 "psi_out": (("law", "psi_in"), np.array(given)),
-                "psi_out_exact": ("psi_in", exact, pure("psi_2 of the exact impact")),
+                "psi_out_exact": (*_without_copies(exact), pure("psi_2 of the exact impact")),
                 **errors,
+                "restitution": ("law", left, pure("restitution that the law leaves")),
                 "steps": (("law", "step_kind"), steps, pure("steps per contact, -1: none")),
                 "chi": self.chi,
                 "kappa": self.kappa,
@@ -151,17 +160,25 @@ class Ranking(Result):
         )
 
 
+def _without_copies(exact: list[Array]) -> tuple[tuple[str, ...], Array]:
+    """Return dimensions and values of the exact psi_2, once if it is the same for all laws."""
+    same = all(np.array_equal(each, exact[0]) for each in exact)
+    return (("psi_in",), exact[0]) if same else (("law", "psi_in"), np.array(exact))
+
+
 def rank(
     entries: Sequence[Entry | Law] = CATALOGUE,
     *,
     chi: float = CHI,
     kappa: float | None = None,
     psi: ArrayLike = INCIDENCES,
+    restitution: float | None = None,
     progress: Progress = None,
 ) -> Ranking:
     """Return how far contact laws are from the exact impact, the best first.
 
-    max |psi_2 of the law - psi_2(psi_1, chi)| over the incidences, and what `Standing` holds.
+    max |psi_2 of the law - psi_2(psi_1, chi)| over the incidences, and what `Standing` holds. A law
+    with damping is compared with Kelvin-Voigt solids (Kuwabara & Kono 1987) of the e it leaves.
 
     Parameters
     ----------
@@ -173,6 +190,8 @@ def rank(
         G*/E*; by default that of solid spheres, 4 chi/7.
     psi : array_like
         Incidences psi_1.
+    restitution : float, optional
+        e for which all laws are damped; those of the catalogue without damping are left out.
     progress : bool or callable, optional
         Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
         what is called with the laws done so far and their number.
@@ -187,7 +206,7 @@ def rank(
     Raises
     ------
     InputError
-        If there is no law, or a value is out of range.
+        If there is no law, one has no damping that is to have it, or a value is out of range.
 
     Examples
     --------
@@ -195,9 +214,14 @@ def rank(
     >>> best = carom.verify.rank(carom.verify.CATALOGUE[:2]).standings[0]
     >>> best.entry.label, round(best.max_error, 3)
     ('linear spring, k_t/k_n = kappa', 0.176)
+    >>> damped = carom.verify.rank(carom.LammpsMindlin("mindlin"), psi=[0.5, 2.0], restitution=0.7)
+    >>> round(damped.standings[0].max_error, 2)
+    0.27
     """
     ratio, psis = checked_chi(chi), incidences(psi)
     given = [as_entry(each) for each in laws_of("entries", entries)]
+    if restitution is not None:
+        given = _damped(given, damped_restitution("restitution", restitution))
     own = kappa_or_solid(kappa, ratio)
     standings = []
     with advancing("ranking", len(given), progress, unit="laws") as advance:
@@ -208,10 +232,20 @@ def rank(
     return Ranking(ratio, own, tuple(psis.tolist()), tuple(ordered))
 
 
+def _damped(entries: Sequence[Entry], restitution: float) -> list[Entry]:
+    """Return entries with laws damped, without those of the catalogue that have no damping."""
+    return [
+        entry._replace(law=damped(entry.law, restitution))
+        for entry in entries
+        if entry not in CATALOGUE or hasattr(entry.law, "restitution")
+    ]
+
+
 def _standing(entry: Entry, psi: Any, chi: float, kappa: float) -> Standing:
     law = entry.law
     given = law_rebound(law, psi, chi, kappa)
-    error = given - exact_rebound(psi, chi)
+    left = left_restitution(law, chi, kappa)
+    error = given - exact_rebound(psi, chi, left)
     most = largest(error)
     forces = [force_error(law, value, chi, kappa=kappa).rms for value in psi if value != 0.0]
     step = fine = None
@@ -226,6 +260,7 @@ def _standing(entry: Entry, psi: Any, chi: float, kappa: float) -> Standing:
         energy_gain(psi, given),
         step,
         fine,
+        left,
     )
 
 
@@ -235,6 +270,7 @@ def _record(standing: Standing) -> dict[str, Any]:
         "law": entry.label,
         "used_by": entry.used_by,
         "source": entry.law.source,
+        "restitution": standing.restitution,
         **{name: or_none(value) for name, value in numbers.items()},
         **told_steps(standing.step),
         "fine_steps": standing.fine_step.steps if standing.fine_step else None,
@@ -242,18 +278,21 @@ def _record(standing: Standing) -> dict[str, Any]:
 
 
 def _table(ranking: Ranking) -> str:
+    loses = any(s.restitution != 1.0 for s in ranking.standings)
     head = f"{'max':>7s} {'at':>5s} {'rms':>7s} {'force':>7s} {'steps':>6s} {'fine':>5s}"
     rows = [
         f"  {s.entry.label:32s} {s.max_error:7.3f} {s.worst:5.2f} {s.rms_error:7.3f}"
         f" {dashed(s.force_error, 7, '.3f')} {dashed(s.step and s.step.steps, 6, 'd')}"
         f" {dashed(s.fine_step and s.fine_step.steps, 5, 'd')}  {s.entry.used_by}"
         + (f"; gains energy, {s.energy_gain:.2g} in psi" if s.energy_gain > 1e-9 else "")
+        + (f"; e = {s.restitution:.4g}" if loses else "")
         for s in ranking.standings
     ]
     return "\n".join(
         [
             f"|error in psi_2| of contact laws, chi = {ranking.chi:g}, kappa = {ranking.kappa:.4g},"
             f" {in_words(ranking.psi)}",
+            *(["against viscoelastic bodies that are left the same e"] if loses else []),
             f"  {'':32s} {head}  used by",
             *rows,
             "force: rms error of the tangential force through the worst impact, in mu P_max",

@@ -23,6 +23,7 @@ from carom.verify.errors import (
     largest,
     law_rebound,
     laws_of,
+    left_restitution,
     root_mean_square,
 )
 from carom.verify.steps import TimeSteps, advised_steps, told_steps
@@ -201,11 +202,11 @@ def tune(
     own = kappa_or_solid(kappa, ratio)
     psis = np.linspace(0.0, 4.0 * ratio, 61)[1:] if psi is None else incidences(psi)
     one_of("measure", measure, MEASURES)
-    exact = exact_rebound(psis, ratio)
     advice = []
     given = laws_of("laws", laws)
     with advancing("tuning", len(given), progress, unit="laws") as advance:
         for law in map(as_law, given):
+            exact = exact_rebound(psis, ratio, left_restitution(law, ratio, own))
             advice.append(_advice(law, psis, exact, ratio, own, measure))
             advance(1)
     errors = [getattr(one, f"{measure}_error") for one in advice]

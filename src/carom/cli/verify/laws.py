@@ -24,6 +24,9 @@ def laws_command(
         list[str] | None, typer.Option(help="Incidence psi_1; repeat for several.")
     ] = None,
     law: Annotated[str | None, typer.Option(help="Only this law, e.g. mindlin_rescale.")] = None,
+    restitution: Annotated[
+        str | None, typer.Option(help="Damp all laws for this normal restitution, e.g. 0.9.")
+    ] = None,
     as_json: Json = False,
     plot: Plot = None,
     output: Annotated[str | None, typer.Option(help="Store the ranking: .csv or .nc.")] = None,
@@ -39,11 +42,14 @@ def laws_command(
 
     Example: carom verify laws
 
+    Damped, against the exact impact that loses as much: carom verify laws --restitution 0.7
+
     For shells on a wall: carom verify laws --chi 1.0294 --kappa 0.8235 --plot laws.png
 
     One law for all solid spheres: carom verify laws --law mindlin --map mindlin.png
     """
     from carom.io.files import FIGURES, TABLES
+    from carom.laws.dem.damping import damped_restitution
     from carom.verify.catalogue import named
     from carom.verify.errors import INCIDENCES
 
@@ -55,7 +61,9 @@ def laws_command(
     check_outputs((plot, FIGURES), (output, TABLES), (error_map, (*FIGURES, *TABLES)))
     incidences = [finite("psi_in", value) for value in psi or INCIDENCES]
     ratio = None if kappa is None else positive("kappa", kappa)
-    ranking = carom.verify.rank(named(law), chi=positive("chi", chi), kappa=ratio, psi=incidences)
+    e = None if restitution is None else damped_restitution("restitution", restitution)
+    size = positive("chi", chi)
+    ranking = carom.verify.rank(named(law), chi=size, kappa=ratio, psi=incidences, restitution=e)
     store(ranking, output, plot)
     if error_map is not None:
         stored(_store_map(ranking.standings[0].entry.law, error_map))
