@@ -260,23 +260,23 @@ def test_11_losses():
     assert carom.rebound(border - 0.01, 1.0, losses=law) > border - 0.01 - 3.4 + 1e-6
     assert carom.solve(5.0, 1.0, losses=law).shear_lost == pytest.approx(1.0 - 0.7**2)  # (11.8)
     y = 1e-3**0.4
-    turn = brentq(lambda f: y**5 + 2.5 * (y**3 * f + 0.75 * y * f * f) - 1, 0, 99)  # (11.13)
-    e = (y**3 + 1.5 * y * turn) / (turn + y * y) ** 0.25  # (11.12)
+    turn = brentq(lambda f: y**5 + 2.5 * (y**3 * f + 0.75 * y * f * f) - 1, 0, 99)  # (11.14)
+    e = (y**3 + 1.5 * y * turn) / (turn + y * y) ** 0.25  # (11.13)
     pair = carom.Pair(carom.Sphere(radius=0.005, material=STEEL), SPHERES.first, friction=0.2)
     hit = carom.impact(pair, normal_speed=1.0, losses=carom.ElasticPlastic(yield_velocity=1e-3))
     assert hit.normal_restitution == pytest.approx(e, rel=1e-10)
     assert e == pytest.approx(1.185 * 1e-3**0.25, rel=1e-3)
-    y, d = 0.6, 0.9  # the springs that yield bear the load (11.11)
+    y, d = 0.6, 0.9  # the springs that yield bear the load (11.12)
     springs = np.zeros((SPRINGS, 2001))
     springs[S] = np.linspace(0.0, np.sqrt(d), 2001) ** 2
     motion = np.array([[0.0] * 5, [1.0, d, 0.5, np.sqrt(d), 0.0]])
     press(y, motion[0], motion[1], 0.0, springs, 2001)
     load = 1.5 * np.trapezoid(springs[NEXT], np.sqrt(springs[S]))
-    assert load == pytest.approx(y**3 + 1.5 * y * (d - y * y), abs=1e-6)  # (11.14)
+    assert load == pytest.approx(y**3 + 1.5 * y * (d - y * y), abs=1e-6)  # (11.15)
 
 
 def test_11_slip_of_a_solid_that_relaxes():
-    """(11.10) and f = sigma N, integrated in small steps, for a limit that grows evenly."""
+    """(11.11) and f = sigma N, integrated in small steps, for a limit that grows evenly."""
     g, theta, limit, rate, m = 1.7, 0.4, 0.2, 0.3, 0.05
     step = step_of(g, theta, 0.5, 2.0, 2.0, 0.0)
     u, relaxed = stretched(limit - g * m, m, limit, limit + 0.5 * rate, rate, step)
@@ -284,7 +284,7 @@ def test_11_slip_of_a_solid_that_relaxes():
     for _ in range(n):
         m += 0.5 / n * (rate - m / theta) / (1 + g)
     assert relaxed == pytest.approx(m, abs=1e-5)
-    assert u + g * relaxed == pytest.approx(limit + 0.5 * rate, abs=1e-12)  # (11.9)
+    assert u + g * relaxed == pytest.approx(limit + 0.5 * rate, abs=1e-12)  # (11.10)
 
 
 def test_12_cattaneo_masing_and_the_loop():
