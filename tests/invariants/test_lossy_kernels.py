@@ -26,16 +26,25 @@ IMPACTS = (
     (-2.5, 0.8, (Loss.PLASTIC, 0.8, 0.0)),
     (1.3, 1.4, (Loss.RELAXING, 0.5, 2.0)),
 )
+SPRINGS = 40  # of marched impacts, few as Python is slow
 SCRIPT = """
 import json, sys
+import numpy as np
 from carom.dimensionless.lossy.law import LossNumbers
 from carom.dimensionless.lossy.solving import solve_with_losses
-found = []
+from carom.dimensionless.lossy.springs import rebounds, record, work
+found, springs = [], int(sys.argv[1])
 for psi, chi, losses in json.load(sys.stdin):
+    if losses[0] != 1:
+        scratch = work.new_work()
+        rows = np.zeros((len(scratch.motion), record.COLUMNS))
+        steps = rebounds.trace(psi, chi, *losses, springs, scratch, rows)
+        found += rows[:steps].ravel().tolist()
+        continue
     s = solve_with_losses(psi, chi, LossNumbers(*losses))
     h = s.history(7)
-    found.append([s.psi_out, s.restitution, s.duration, s.max_force, s.max_penetration,
-                  *h.force, *h.dissipated, *h.normal_lost, *h.stick_radius])
+    found += [s.psi_out, s.restitution, s.duration, s.max_force, s.max_penetration,
+              *h.force, *h.dissipated, *h.normal_lost, *h.stick_radius]
 print(json.dumps(found))
 """
 
@@ -43,7 +52,7 @@ print(json.dumps(found))
 def results(**environment: str) -> np.ndarray:
     """Return numbers of all impacts, solved in a process of its own."""
     run = subprocess.run(
-        [sys.executable, "-c", SCRIPT],
+        [sys.executable, "-c", SCRIPT, str(SPRINGS)],
         input=json.dumps(IMPACTS),
         env=os.environ | environment,
         capture_output=True,

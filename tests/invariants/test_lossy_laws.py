@@ -205,19 +205,23 @@ def test_c_header_is_the_law(law, tmp_path):
 
 
 def test_curve_of_impacts_with_losses(capsys, tmp_path, monkeypatch):
-    """The command prints what `rebound` gives, without the borders of elastic regimes; plots."""
+    """The command prints what `rebound` gives, and the borders of regimes at this e; plots."""
     monkeypatch.chdir(tmp_path)
     arguments = ["--chi", "1.44", "--chi", "2", "--restitution", "0.9", "--points", "7", "--json"]
     assert main(["curve", *arguments, "--plot", "curve.png"]) == 0
     rows = json.loads(capsys.readouterr().out)
     for row in rows:
-        assert "borders" not in row
+        assert [*row["borders"].values()] == pytest.approx(
+            [1.0, 2.0 * row["chi"], 2.0 * row["chi"] * 1.9 - 0.9]
+        )
         want = carom.rebound(row["psi_in"], row["chi"], losses=carom.KelvinVoigt(restitution=0.9))
         np.testing.assert_allclose(row["psi_out"], want, rtol=0.0, atol=1e-12)
     assert (tmp_path / "curve.png").stat().st_size > 1000
     from carom.plots import plot_curve
 
     axis = plot_curve(carom.curve(1.44, np.linspace(0.0, 6.0, 9), losses=LOSSES)).axes[0]
-    assert [text.get_text() for text in axis.get_legend().get_texts()] == [r"$\chi$ = 1.44"]
+    told = [text.get_text() for text in axis.get_legend().get_texts()]
+    assert told[0] == r"$\chi$ = 1.44"
+    assert len(told) == 5  # and the regimes, as without losses
     assert main(["curve", "--chi", "1.44", "--restitution", "1.5"]) == 2
     assert capsys.readouterr().err.startswith("carom: restitution: '1.5' cannot be used")

@@ -42,7 +42,7 @@ def curve_command(
         typer.Option(help="Print psi_2(psi_1) as source code: c. One function for each --chi."),
     ] = None,
 ) -> None:
-    """Tabulate psi_2, restitution and, without losses, the borders of the regimes against psi_1.
+    """Tabulate psi_2, restitution and the borders of the regimes against psi_1.
 
     Example: carom curve --chi 1.44 --chi 2 --plot curve.png
 
@@ -110,14 +110,12 @@ def _record(dataset: "xr.Dataset") -> list[dict[str, Any]]:
         part = dataset.isel(chi=index)
         regimes = {str(name): float(psi) for name, psi in _borders(part)}
         columns = {name: list(map(or_none, part[name].values)) for name in COLUMNS}
-        rows.append({"chi": float(chi)} | ({"borders": regimes} if regimes else {}) | columns)
+        rows.append({"chi": float(chi), "borders": regimes, **columns})
     return rows
 
 
 def _borders(part: "xr.Dataset") -> list[tuple[str, float]]:
-    """Return the regimes and where they begin; none of impacts with losses."""
-    if "border" not in part:
-        return []
+    """Return the regimes and where they begin."""
     return list(zip(part["regime_border"].values, part["border"].values, strict=True))
 
 

@@ -15,7 +15,7 @@ from carom.dimensionless.lossy.law import LossNumbers
 from carom.dimensionless.lossy.solution import LossySolution, outcome, phases_told
 from carom.dimensionless.lossy.springs.rebounds import run, trace
 from carom.dimensionless.lossy.springs.record import BACK, COLUMNS, FORTH
-from carom.dimensionless.lossy.springs.work import new_work
+from carom.dimensionless.lossy.springs.work import MOST_SPRINGS, new_work
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.states import Phase
 from carom.quantities.refusals import InputError
@@ -56,7 +56,7 @@ def solve_by_marching(psi: float, chi: float, losses: LossNumbers) -> MarchedSol
     rows = np.zeros((len(work.motion), COLUMNS))
     given = psi, chi, int(losses.loss), losses.parameter, losses.extra
     status = run(*given, work, numbers)
-    steps = trace(*given, work, rows) if status == Status.SOLVED else -1
+    steps = trace(*given, MOST_SPRINGS, work, rows) if status == Status.SOLVED else -1
     kept = rows[: steps + 1].copy()
     return MarchedSolution(
         **outcome(psi, chi, status, numbers),

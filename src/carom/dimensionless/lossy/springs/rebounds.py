@@ -46,11 +46,17 @@ def run(
 
 @entry_point()
 def trace(
-    psi: float, chi: float, loss: int, parameter: float, extra: float, work: Arrays, rows: Matrix
+    psi: float,
+    chi: float,
+    loss: int,
+    parameter: float,
+    extra: float,
+    count: int,
+    work: Arrays,
+    rows: Matrix,
 ) -> int:
-    """Fill in a row for each step over the most springs; return the number of steps."""
-    law = Law(loss, parameter, extra)
-    return march(abs(psi), chi, law, MOST_SPRINGS, work, rows, work.coarse)
+    """Fill in a row for each step over so many springs; return the number of steps."""
+    return march(abs(psi), chi, Law(loss, parameter, extra), count, work, rows, work.coarse)
 
 
 @entry_point()
