@@ -139,3 +139,23 @@ def test_same_seed_same_gas():
     first, again, other = (cool(None, 2000, 2, seed=seed) for seed in (5, 5, 6))
     np.testing.assert_array_equal(first, again)
     assert abs(first.ratio[-1] - other.ratio[-1]) > 1e-6
+
+
+def test_viscoelastic_spheres_begin_to_cool_as_maxwellian_ones():
+    """Exact at the start, by friction and (1 - e^2)/3 per collision of a sphere."""
+    e = 0.7
+    law = carom.ReboundLaw(PAIR.chi, losses=carom.KelvinVoigt(restitution=e))
+    gas = cool(law, N, 1)
+    cooled, ratio = rates(law, 0.0, PAIR, e)
+    first = gas.collisions < 0.15
+    slope = np.polyfit(gas.collisions[first], np.log(gas.translational[first]), 1)[0]
+    assert slope == pytest.approx(cooled, abs=0.06)
+    assert np.polyfit(gas.collisions[first], gas.ratio[first], 1)[0] == pytest.approx(
+        ratio, abs=0.03
+    )
+
+
+def test_a_gas_with_losses_keeps_more_of_its_energy_in_spin():
+    _, late, maxwellian = EXAMPLE["cool_with_losses"](5000, 0.8)
+    assert late == pytest.approx(maxwellian, rel=0.08)
+    assert maxwellian > EXAMPLE["lasting"](None, PAIR) + 0.1
