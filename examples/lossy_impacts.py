@@ -3,8 +3,9 @@
 
 Impacts that lose energy: what restitution does to the rebound, and speed to restitution.
 
-Viscoelastic spheres (Kelvin & Voigt) lose little in slow impacts, 1 - e ~ V^(1/5); metals that
-yield lose more the faster they strike, e ~ V^(-1/4) (Thornton 1997). Left: psi_2 against psi_1 for
+Viscoelastic spheres (Kelvin & Voigt) lose little in slow impacts, 1 - e ~ V^(1/5); a standard
+linear solid loses most where the contact lasts as long as it relaxes; metals that yield lose more
+the faster they strike, e ~ V^(-1/4) (Thornton 1997). Left: psi_2 against psi_1 for
 equal e at all speeds; crosses: springs with dashpots in small steps. What is lost in shear lets the
 ball spring back less; impacts slide throughout from psi_1 = 2 chi (1 + e) - e on, where the curves
 meet psi_1 - 2 chi (1 + e), the thin lines.
@@ -55,7 +56,7 @@ def thornton(ratio):
 
 
 @styled
-def draw(curves, marched, speeds, plastic, viscous):
+def draw(curves, marched, speeds, plastic, viscous, relaxing):
     """Draw psi_2 against psi_1, and restitution against speed."""
     figure, axes = new_figure(1, 2, width=DOUBLE, height=74.0)
     left, right = axes[0]
@@ -67,6 +68,8 @@ def draw(curves, marched, speeds, plastic, viscous):
     legend_above(left, 4)
     right.plot(speeds, plastic, color=BLACK, label="elastic-plastic, $V_y$ = 0.1 m/s")
     right.plot(speeds, viscous, color=BLUE, ls=DASHES[1], label=r"viscous, $\tau$ = 1 µs")
+    linear = r"standard linear, $E_0/E$ = 2, $\tau$ = 7 µs"
+    right.plot(speeds, relaxing, color=GREEN, ls=DASHES[2], label=linear)
     late = speeds[speeds > 1.0]
     right.plot(late, plastic[-1] * (late / late[-1]) ** -0.25, color=VERMILION, lw=0.6)
     right.text(3.0, 0.62, r"$V^{-1/4}$", color=VERMILION)
@@ -96,12 +99,15 @@ def main(folder: str | Path = ".") -> str:
     speeds = np.geomspace(0.05, 20.0, 41)
     plastic = restitutions(pair, speeds, carom.ElasticPlastic(yield_velocity="0.1 m/s"))
     viscous = restitutions(pair, speeds, carom.KelvinVoigt(loss_time="1 us"))
+    relaxing = restitutions(pair, speeds, carom.StandardLinearSolid(2.0, "7 us"))
+    assert 0 < np.argmin(relaxing) < speeds.size - 1, "relaxing bodies lose most in between"
     yields = speeds > 0.1
     np.testing.assert_allclose(plastic[yields], thornton(speeds[yields] / 0.1), rtol=1e-8)
     growth = np.log((1.0 - viscous[1]) / (1.0 - viscous[0])) / np.log(speeds[1] / speeds[0])
     assert 0.18 < growth < 0.2, "1 - e grows as V^(1/5), and a little more slowly"
 
-    save_figure(draw(curves, marched, speeds, plastic, viscous), Path(folder) / "lossy_impacts.png")
+    figure = draw(curves, marched, speeds, plastic, viscous, relaxing)
+    save_figure(figure, Path(folder) / "lossy_impacts.png")
     return (
         f"psi_2 at psi_1 = 3.5: {', '.join(f'{rebounds(3.5, e):.3f} (e = {e:g})' for e in WANTED)};"
         f" e at 20 m/s: {plastic[-1]:.3f} plastic, {viscous[-1]:.3f} viscous"

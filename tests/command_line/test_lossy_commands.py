@@ -18,6 +18,7 @@ LAWS = {
     "--loss-time 2us": carom.KelvinVoigt(loss_time="2 us"),
     "--yield-velocity 100mm/s": carom.ElasticPlastic(yield_velocity=0.1),
     "--yield-velocity material": carom.ElasticPlastic(),
+    "--relaxation-time 20us --modulus-ratio 1.5": carom.StandardLinearSolid(1.5, "20 us"),
 }
 CASE = """\
 friction = 0.2
@@ -189,3 +190,35 @@ def test_a_sweep_of_two_losses_is_refused(run):
     code, out, err = run("sweep", "case.toml")
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert "give it or restitution, not both" in err or "give it or loss_time, not both" in err
+
+
+@pytest.mark.parametrize(
+    ("flags", "message"),
+    [
+        (["--relaxation-time", "20 us"], "modulus_ratio: missing; it goes with relaxation_time"),
+        (["--modulus-ratio", "1.5"], "relaxation_time: missing; it goes with modulus_ratio"),
+        (
+            ["--relaxation-time", "20 us", "--modulus-ratio", "0.5"],
+            "modulus_ratio: '0.5' cannot be used; must be from 1 to 1000",
+        ),
+        (
+            ["--relaxation-time", "20 us", "--modulus-ratio", "2", "--restitution", "0.9"],
+            "relaxation_time: give it or restitution, not both",
+        ),
+    ],
+)
+def test_half_a_standard_linear_solid_is_refused(run, flags, message):
+    code, out, err = run(*BALL, *SPEED, *flags)
+    assert (code, out) == (2, "")
+    assert err.startswith(f"carom: {message}")
+
+
+def test_a_flag_replaces_the_standard_linear_solid_of_a_case(run):
+    text = CASE.replace('loss_time = "2 us"', 'relaxation_time = "20 us"\nmodulus_ratio = 1.5')
+    Path("solid.toml").write_text(text)
+    found = [run("impact", "solid.toml", *more, "--json") for more in ([], ["--restitution", "1"])]
+    laws = carom.StandardLinearSolid(1.5, "20 us"), None
+    for (code, out, _), law in zip(found, laws, strict=True):
+        hit = carom.impact(steel_on_steel(), speed=2.0, angle="30 deg", losses=law)
+        assert code == 0
+        assert json.loads(out)["result"] == hit.scalars()

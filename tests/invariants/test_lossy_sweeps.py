@@ -3,6 +3,7 @@
 import json
 import math
 import pickle
+from itertools import product
 
 import numpy as np
 import pytest
@@ -301,3 +302,19 @@ def test_what_is_no_sweep_with_losses_is_refused_in_a_line(case, design, message
 def test_a_design_of_two_losses_is_refused():
     with pytest.raises(InputError, match=r"restitution: give it or loss_time, not both"):
         Grid({"loss_time": [0.0], "restitution": [1.0]})
+
+
+def test_standard_linear_solids_are_those_of_impact():
+    """Relaxation time and ratio of moduli as inputs or values of the case, and speeds."""
+    case = {**BALL, "angle": "20 deg", "relaxation_time": "20 us"}
+    ratios, speeds = [1.0, 1.5, 4.0, 0.5], [0.2, 3.0]
+    design = Grid({"modulus_ratio": ratios, "speed": speeds})
+    problem = SweepProblem(case, design)
+    found = problem.block(whole(design))
+    for at, (ratio, speed) in enumerate(product(ratios[:3], speeds)):
+        require_same(problem, found, case, at, {"modulus_ratio": ratio, "speed": speed})
+    assert found["status"][3].tolist() == [PointStatus.OUT_OF_RANGE] * 2
+    assert found["normal_restitution"][0] == pytest.approx([1.0, 1.0])
+    for half in ({"relaxation_time": 1e-5}, {"modulus_ratio": 2.0}):
+        with pytest.raises(InputError, match="missing; it goes with"):
+            SweepProblem({**BALL, **half}, Grid({"angle": [0.1]}))
