@@ -1,4 +1,4 @@
-"""`carom impact` and `carom sweep` with losses of the normal motion, as a user would type them."""
+"""`carom impact` and `carom sweep` with losses, as a user would type them."""
 
 import json
 from pathlib import Path

@@ -9,6 +9,7 @@ import carom
 from carom.dimensionless import interpolation
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.lossy.solving import solve_with_losses
 from carom.dimensionless.numerics import chebyshev, hertz, permutation, shared_library
 from carom.dimensionless.numerics.kernels import ENTRIES
 
@@ -83,6 +84,15 @@ def impacts(rng):
         inside.slid(inside.radius * rng.uniform(0.0, 1.0, 3))
 
 
+def marched(rng):
+    for loss, low in ((Loss.PLASTIC, 0.2), (Loss.RELAXING, 0.05)):
+        parameter, extra = rng.uniform(low, 1.0, 6), rng.uniform(0.1, 4.0, 6)
+        psi, chi = rng.uniform(-6.0, 6.0, 6), rng.uniform(0.3, 2.5, 6)
+        lossy_rebounds(psi, chi, LossNumbers(loss, parameter, extra), 1)
+        solution = solve_with_losses(1.3, 1.44, LossNumbers(loss, parameter[0], extra[0]))
+        solution.at(0.5 * solution.duration)
+
+
 def contacts(rng):
     hit = carom.impact(PAIR, speed=2.0, angle=0.5)
     path = carom.load_path(PAIR, normal_force=10.0, tangential_force=[0.0, 1.5, -1.0, 0.5])
@@ -126,7 +136,7 @@ def numbers(rng):
 @pytest.mark.slow
 def test_the_library_gives_the_bits_of_numba(calls):
     rng = np.random.default_rng(20)
-    for work in (rebounds, impacts, contacts, laws, numbers):
+    for work in (rebounds, impacts, marched, contacts, laws, numbers):
         work(rng)
     never = [name for name, count in calls.items() if count == 0]
     assert not never

@@ -78,7 +78,7 @@ def check_case(
 ) -> None:
     """Raise InputError for all keys that are not known; `place` tells where a key of a table is.
 
-    Losses of the normal motion are refused, too, unless the caller can do with them.
+    Losses are refused, too, unless the caller can do with them.
     """
 
     def check(table: Mapping[str, Any], allowed: Iterable[str], name: str) -> None:

@@ -68,7 +68,7 @@ def rebound(
         How many threads to use, all cores by default. The result does not depend on it.
     return_status : bool
         Return also an array of `Status` values, one per impact.
-    losses : KelvinVoigt or ElasticPlastic, optional
+    losses : KelvinVoigt, optional
         What the impact loses energy to, free of units; by default nothing.
 
     Returns

@@ -327,7 +327,7 @@ def solve(
         psi_1 = kappa V_x / (mu V_1), any finite number.
     chi : float
         chi = (kappa/2) (m_n/m_t), positive.
-    losses : KelvinVoigt or ElasticPlastic, optional
+    losses : KelvinVoigt, optional
         What the impact loses energy to, free of units; by default nothing.
 
     Returns

@@ -90,7 +90,7 @@ def impact(
     spin, spin2 : float or str
         Spin of the first body, and of the second if it is a sphere, in rad/s; positive spin adds
         to the tangential speed of the contact point.
-    losses : KelvinVoigt or ElasticPlastic, optional
+    losses : KelvinVoigt, StandardLinearSolid or ElasticPlastic, optional
         What the impact loses energy to; by default nothing, the bodies are elastic.
     method : "exact", "halfspace" or BoundaryElements
         The theory, in which slip is parallel to x and unlike materials do not couple; or the full

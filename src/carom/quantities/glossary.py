@@ -88,7 +88,7 @@ GLOSSARY = {
         r"$\theta_c'$", "rad", "angle of rebound of the contact point, from the normal"
     ),
     "spin_offset": Quantity(r"$\delta\omega$", "rad/s", "initial spin besides what was meant"),
-    "loss_time": Quantity(r"$\tau$", "s", "time of loss of a Kelvin-Voigt sphere"),
+    "loss_time": Quantity(r"$\tau$", "s", "retardation time of a Kelvin-Voigt solid"),
     "relaxation_time": Quantity(
         r"$\tau_r$", "s", "relaxation time of a standard linear solid, at constant strain"
     ),
