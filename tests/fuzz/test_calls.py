@@ -225,7 +225,15 @@ def tables():
 
 OPEN = {  # NaN or infinity that the docstring tells
     *("law", "impulse", "dissipation", "convert", "convert, all", "Material", "error_map", "tune"),
-    *("KelvinVoigt", "KelvinVoigt, time", "ElasticPlastic", "rank", "step_error", "Grid, range"),
+    *(
+        "KelvinVoigt",
+        "KelvinVoigt, time",
+        "ElasticPlastic",
+        "StandardLinearSolid",
+        "rank",
+        "step_error",
+        "Grid, range",
+    ),
     *("RoughLaw", "sweep", "force_error", "memory", "Entry"),
 }
 

@@ -91,3 +91,16 @@ def test_impacts_with_units() -> None:
         hit = carom.impact(pair, normal_speed=speed, tangential_speed=0.3 * speed, losses=law)
         wanted = 1.0 if speed < 0.1 else closed_form(np.array([0.1 / speed]))[0]
         assert hit.normal_restitution == pytest.approx(wanted, abs=1e-9)
+
+
+def test_largest_pressure_is_on_the_true_radius() -> None:
+    """(3/2) P/(pi a^2) at the turning point, a^2 = R* d, below Hertz's of that load."""
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    law = carom.ElasticPlastic(yield_velocity="0.1 m/s")
+    hit = carom.impact(pair, normal_speed=1.0, tangential_speed=0.3, losses=law)
+    square = pair.effective_radius * hit.max_penetration
+    assert hit.max_pressure == pytest.approx(1.5 * hit.max_force / (np.pi * square), rel=1e-9)
+    assert hit.max_pressure < 0.8 * pair.scales(1.0).pressure
+    at_yield = pair.scales(0.1).pressure
+    assert at_yield < hit.max_pressure < 1.6 * at_yield

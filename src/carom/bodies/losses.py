@@ -207,7 +207,8 @@ class StandardLinearSolid:
     Notes
     -----
     Hunter (1960), J. Mech. Phys. Solids 8:219-234, and Ting (1966), J. Appl. Mech. 33:845-854, for
-    the normal contact. psi_2 to 1e-6 if tau is longer than 0.01 d_max/V_1, else to 1e-4.
+    the normal contact. psi_2 to 1e-6 for chi up to 3 if tau is longer than 0.01 d_max/V_1, else to
+    1e-4.
 
     Examples
     --------

@@ -83,6 +83,7 @@ class Solution(Trajectory):
     restitution: ClassVar[float] = 1.0
     max_penetration: ClassVar[float] = 1.0
     max_force: ClassVar[float] = 1.0
+    max_pressure: ClassVar[float] = 1.0
     shear_lost: ClassVar[float] = 0.0
 
     @property

@@ -111,6 +111,11 @@ class HalfspaceSolution:
         return float(self.column("contact_radius").max())
 
     @property
+    def max_pressure(self) -> float:
+        """Largest pressure of Hertz's theory at the largest force, in that of Hertz."""
+        return float(self.max_force ** (1.0 / 3.0))
+
+    @property
     def shear_lost(self) -> float:
         """Energy lost to viscosity in shear: none, the bodies are elastic."""
         return 0.0

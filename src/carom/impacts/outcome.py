@@ -97,9 +97,11 @@ class Outcome(Kinematics):
 
     @property
     def max_pressure(self) -> float:
-        """Largest contact pressure of Hertz's theory at the largest force, in Pa."""
-        cubed: float = self.solution.max_force ** (1.0 / 3.0)
-        return cubed * self.scales.pressure
+        """Largest contact pressure, in Pa: Hertz's at the largest force, on the true radius.
+
+        Of viscous bodies that of elastic ones under the same force.
+        """
+        return self.solution.max_pressure * self.scales.pressure
 
     def scalars(self) -> dict[str, float]:
         """Return the numbers of the result by name."""

@@ -76,6 +76,7 @@ class BlockSolution(NamedTuple):
     max_penetration: Any = 1.0
     max_force: Any = 1.0
     max_radius: Any = 1.0
+    max_pressure: Any = 1.0
     shear_lost: Any = 0.0
 
 

@@ -49,6 +49,11 @@ def checked_law(losses: Any, method: str) -> Any:
     return found
 
 
+def largest_pressure(loss: int, force: Any, radius: Any) -> Any:
+    """Return Hertz's pressure at the largest force, of a yielded sphere on its true radius."""
+    return force / radius**2 if loss == Loss.PLASTIC else np.cbrt(force)
+
+
 @kernel
 def why_not(psi: float, chi: float) -> int:
     """Return the status of an impact that cannot be run, SOLVED if it can."""

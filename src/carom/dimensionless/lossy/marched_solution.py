@@ -59,9 +59,8 @@ def solve_by_marching(psi: float, chi: float, losses: LossNumbers) -> MarchedSol
     steps = trace(*given, MOST_SPRINGS, work, rows) if status == Status.SOLVED else -1
     kept = rows[: steps + 1].copy()
     return MarchedSolution(
-        **outcome(psi, chi, status, numbers),
+        **outcome(psi, chi, losses, status, numbers),
         phases=_phases(kept, -1 if psi < 0.0 else 1),
-        losses=losses,
         _rows=kept,
         _first=abs(psi) or 1.0,
     )

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.law import Loss, LossNumbers
+from carom.dimensionless.lossy.law import Loss, LossNumbers, largest_pressure
 from carom.dimensionless.lossy.layout import PSI_OUT
 from carom.dimensionless.lossy.panels.plans import TOLERANCE
 from carom.dimensionless.lossy.panels.record import Trace, new_record
@@ -44,6 +44,7 @@ class LossyRebounds(NamedTuple):
     max_penetration: Array
     max_force: Array
     max_radius: Array
+    max_pressure: Array
     shear_lost: Array
     status: NDArray[np.int8]
 
@@ -129,13 +130,16 @@ def lossy_rebounds(
 
     in_blocks(block, lossy.size, BLOCK, SMALLEST_BLOCK, threads)
     numbers[lossy], status[lossy] = found, codes
+    force, radius = numbers[:, layout.STRONGEST], numbers[:, layout.WIDEST]
+    pressure = np.where(elastic, 1.0, largest_pressure(losses.loss, force, radius))
     return LossyRebounds(
         psi_out=numbers[:, PSI_OUT],
         restitution=numbers[:, layout.RESTITUTION],
         duration=numbers[:, layout.TIME],
         max_penetration=numbers[:, layout.DEEPEST],
-        max_force=numbers[:, layout.STRONGEST],
-        max_radius=numbers[:, layout.WIDEST],
+        max_force=force,
+        max_radius=radius,
+        max_pressure=np.where(status == Status.SOLVED, pressure, np.nan),
         shear_lost=numbers[:, layout.SHEAR_LOST],
         status=status,
     )

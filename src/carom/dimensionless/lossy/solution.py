@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from carom.dimensionless.elastic.phases import Kind, Status
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.law import LossNumbers
+from carom.dimensionless.lossy.law import LossNumbers, largest_pressure
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.states import KIND_NAMES, History, Phase, Trajectory
 
@@ -51,6 +51,7 @@ class LossySolution(Trajectory):
     max_penetration: float
     max_force: float
     max_radius: float
+    max_pressure: float
     shear_lost: float
     losses: LossNumbers = field(repr=False)
     _first: float = field(repr=False)  # psi_1 of the record, all of which is scaled by it
@@ -91,9 +92,14 @@ class LossySolution(Trajectory):
         )
 
 
-def outcome(psi: float, chi: float, status: int, numbers: Array) -> dict[str, Any]:
+def outcome(
+    psi: float, chi: float, losses: LossNumbers, status: int, numbers: Array
+) -> dict[str, Any]:
     """Return what a solution tells as numbers."""
+    force, radius = numbers[layout.STRONGEST], numbers[layout.WIDEST]
     return {
+        "losses": losses,
+        "max_pressure": float(largest_pressure(losses.loss, force, radius)),
         "psi_in": psi,
         "chi": chi,
         "status": Status(status),
@@ -101,8 +107,8 @@ def outcome(psi: float, chi: float, status: int, numbers: Array) -> dict[str, An
         "restitution": float(numbers[layout.RESTITUTION]),
         "duration": float(numbers[layout.TIME]),
         "max_penetration": float(numbers[layout.DEEPEST]),
-        "max_force": float(numbers[layout.STRONGEST]),
-        "max_radius": float(numbers[layout.WIDEST]),
+        "max_force": float(force),
+        "max_radius": float(radius),
         "shear_lost": float(numbers[layout.SHEAR_LOST]),
     }
 

@@ -133,9 +133,8 @@ def solve_viscoelastic(psi: float, chi: float, losses: LossNumbers) -> Viscoelas
         for rows, kind in zip(kept.rows, kept.kinds.tolist(), strict=True)
     )
     return ViscoelasticSolution(
-        **outcome(psi, chi, status, numbers),
+        **outcome(psi, chi, losses, status, numbers),
         phases=phases_told(stretches, -1 if psi < 0.0 else 1, SHORTEST),
-        losses=losses,
         _record=kept,
         _first=first,
     )

@@ -14,6 +14,12 @@ YIELDING, RELAXING = 200, MOST_SPRINGS  # springs, for 1e-5 and 1e-6
 
 
 @kernel
+def law_of(loss: int, parameter: float, extra: float) -> Law:
+    """Return what the impact loses energy to; a yielding sphere is elastic in shear."""
+    return Law(loss, parameter, 0.0 if loss == Loss.PLASTIC.value else extra)
+
+
+@kernel
 def springs_of(loss: int) -> int:
     """Return how many springs the contact is cut into."""
     return YIELDING if loss == Loss.PLASTIC.value else RELAXING
@@ -29,7 +35,7 @@ def run(
     """
     status = why_not(psi, chi)
     if status == Status.SOLVED.value:
-        law, count = Law(loss, parameter, extra), springs_of(loss)
+        law, count = law_of(loss, parameter, extra), springs_of(loss)
         half = march(abs(psi), chi, law, count // 2, work, work.no_rows, work.coarse)
         whole = march(abs(psi), chi, law, count, work, work.no_rows, numbers)
         if half == 0 or whole == 0:
@@ -56,7 +62,7 @@ def trace(
     rows: Matrix,
 ) -> int:
     """Fill in a row for each step over so many springs; return the number of steps."""
-    return march(abs(psi), chi, Law(loss, parameter, extra), count, work, rows, work.coarse)
+    return march(abs(psi), chi, law_of(loss, parameter, extra), count, work, rows, work.coarse)
 
 
 @entry_point()
