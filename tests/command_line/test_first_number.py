@@ -55,6 +55,11 @@ def test_with_the_library_no_compiler_is_loaded():
     python(BODIES + "\n".join(lines))
 
 
+@pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
+def test_an_elastic_impact_does_not_wait_for_scipy():
+    python(f"{BODIES}assert 'scipy' not in sys.modules")
+
+
 def test_common_units_do_not_wait_for_pint():
     program = (
         BODIES.replace("0.005", "'5 mm'").replace("=0.5", "='20 deg'").replace("2.0", "'2 m/s'")

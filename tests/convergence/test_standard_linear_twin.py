@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.lossy.springs.march import Law, march
+from carom.dimensionless.lossy.springs.march import march
 from carom.dimensionless.lossy.springs.work import new_work
 from carom.dimensionless.twins import rings
 
@@ -76,7 +76,7 @@ def test_error_is_of_second_order_and_what_is_promised() -> None:
     found = np.empty((8, 4))
     for i, given in enumerate(zip(theta, g, strict=True)):
         for j, count in enumerate((100, 200, 400, 800)):
-            march(psi[i], chi[i], Law(Loss.RELAXING, *given), count, work, rows, numbers)
+            march(psi[i], chi[i], LossNumbers(Loss.RELAXING, *given), count, work, rows, numbers)
             found[i, j] = numbers[0]
     fine = (4.0 * found[:, 3] - found[:, 2]) / 3.0
     errors = np.abs(found[:, :3] - fine[:, None])

@@ -165,7 +165,7 @@ def test_springs_marched_plainly() -> None:
 
 def test_error_is_of_second_order_and_what_is_promised() -> None:
     """psi in [0, 8], chi in [0.3, 3], V_1 up to 10 V_y: 1e-5 max(1, psi_1)."""
-    from carom.dimensionless.lossy.springs.march import Law, march
+    from carom.dimensionless.lossy.springs.march import march
     from carom.dimensionless.lossy.springs.work import new_work
 
     rng = np.random.default_rng(7)
@@ -174,7 +174,7 @@ def test_error_is_of_second_order_and_what_is_promised() -> None:
     found = np.empty((25, 4))
     for i, (p, c, parameter) in enumerate(zip(psi, chi, y, strict=True)):
         for j, count in enumerate((100, 200, 400, 800)):
-            march(p, c, Law(Loss.PLASTIC, parameter, 0.0), count, work, rows, numbers)
+            march(p, c, LossNumbers(Loss.PLASTIC, parameter, 0.0), count, work, rows, numbers)
             found[i, j] = numbers[0]
     fine = (4.0 * found[:, 3] - found[:, 2]) / 3.0
     errors = np.abs(found[:, :3] - fine[:, None])

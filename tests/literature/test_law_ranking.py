@@ -252,5 +252,7 @@ def test_rankings_with_losses() -> None:
     assert mixed.to_dataset().psi_out_exact.dims == ("law", "psi_in")
     assert "e = 0.7" in str(mixed)
     mixed.plot()
-    with pytest.raises(carom.InputError, match="Thornton, incremental has no damping"):
-        carom.verify.rank(carom.ThorntonLaw(), restitution=0.7)
+    of_catalogue = next(entry for entry in CATALOGUE if isinstance(entry.law, carom.ThorntonLaw))
+    for entry in (carom.ThorntonLaw(), of_catalogue):
+        with pytest.raises(carom.InputError, match="Thornton, incremental has no damping"):
+            carom.verify.rank([entry], restitution=0.7)

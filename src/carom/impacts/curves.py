@@ -188,10 +188,12 @@ def regime_map(
     gross slip +, stick, slip -, gross slip -
     """
     chis, incoming = _axes(chi, psi)
+    e = _restitution(losses)
     rows = []
     with advancing("map of regimes", len(chis), progress, unit="rows") as advance:
         for value in chis:
-            rows.append([_sequence(float(speed), float(value), losses) for speed in incoming])
+            slides = float(regime_borders(value, e)[2])
+            rows.append([_sequence(float(x), float(value), slides, losses) for x in incoming])
             advance(1)
     names = [name for name, _ in Counter(chain(*rows)).most_common() if name]
     places = {name: place for place, name in enumerate(names)} | {"": -1}
@@ -203,16 +205,16 @@ def regime_map(
                 codes,
                 {"units": "1", "long_name": "sequence of phases, its place in sequence_name"},
             ),
-            "restitution": _restitution(losses),
+            "restitution": e,
         },
         {"chi": chis, "psi_in": incoming, "sequence_name": ("sequence_name", names, {})},
         {"title": "map of regimes"},
     )
 
 
-def _sequence(psi: float, chi: float, losses: ScaleFreeLaw | None) -> str:
+def _sequence(psi: float, chi: float, slides: float, losses: ScaleFreeLaw | None) -> str:
     """Return the phases of an impact in one line, or nothing if it is not resolved."""
-    if abs(psi) > regime_borders(chi, _restitution(losses))[2]:
+    if abs(psi) > slides:
         return "gross slip " + ("+" if psi > 0.0 else "-")
     solution = solve(psi, chi) if losses is None else solve(psi, chi, losses=losses)
     if solution.status is not Status.SOLVED:

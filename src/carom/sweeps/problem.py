@@ -43,7 +43,9 @@ OUTPUTS = (
     "max_pressure",
 )
 OF_LOSSES = ("normal_restitution", "lost_energy", "shear_lost_energy")
-COSTLIER = 16  # an impact with losses than one without, about: blocks are smaller by so much
+# By what tells the losses: blocks are smaller by so much, as impacts cost more, and take seconds.
+COSTLIER = {None: 1, "yield_velocity": 50, "relaxation_time": 100}
+VISCOUS = 16
 
 
 class VariableInfo(NamedTuple):
@@ -105,7 +107,7 @@ class SweepProblem:
 
     def chunks(self) -> tuple[int, ...]:
         """Return the shape of the blocks into which the sweep is cut."""
-        return chunk_shape(self.design.shape, COSTLIER if self.loses else 1)
+        return chunk_shape(self.design.shape, COSTLIER.get(self._common.loss, VISCOUS))
 
     def block(self, box: Box, threads: int | None = 1) -> Values:
         """Return the outputs, sampled inputs and status of a box of points, in its shape.

@@ -191,7 +191,7 @@ def rank(
     psi : array_like
         Incidences psi_1.
     restitution : float, optional
-        e for which all laws are damped; those of the catalogue without damping are left out.
+        e for which all laws are damped; of the catalogue those without damping are left out.
     progress : bool or callable, optional
         Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
         what is called with the laws done so far and their number.
@@ -221,7 +221,10 @@ def rank(
     ratio, psis = checked_chi(chi), incidences(psi)
     given = [as_entry(each) for each in laws_of("entries", entries)]
     if restitution is not None:
-        given = _damped(given, damped_restitution("restitution", restitution))
+        if entries is CATALOGUE:
+            given = [entry for entry in given if hasattr(entry.law, "restitution")]
+        e = damped_restitution("restitution", restitution)
+        given = [entry._replace(law=damped(entry.law, e)) for entry in given]
     own = kappa_or_solid(kappa, ratio)
     standings = []
     with advancing("ranking", len(given), progress, unit="laws") as advance:
@@ -230,15 +233,6 @@ def rank(
             advance(1)
     ordered = sorted(standings, key=lambda s: (np.isnan(s.max_error), s.max_error, s.entry.label))
     return Ranking(ratio, own, tuple(psis.tolist()), tuple(ordered))
-
-
-def _damped(entries: Sequence[Entry], restitution: float) -> list[Entry]:
-    """Return entries with laws damped, without those of the catalogue that have no damping."""
-    return [
-        entry._replace(law=damped(entry.law, restitution))
-        for entry in entries
-        if entry not in CATALOGUE or hasattr(entry.law, "restitution")
-    ]
 
 
 def _standing(entry: Entry, psi: Any, chi: float, kappa: float) -> Standing:

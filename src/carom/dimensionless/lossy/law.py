@@ -21,7 +21,7 @@ class Loss(IntEnum):
 
 
 class LossNumbers(NamedTuple):
-    """What the impact loses energy to, in numbers or arrays of them."""
+    """What the impact loses energy to, in numbers or arrays of them; see Loss."""
 
     loss: int
     parameter: Any

@@ -4,10 +4,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import groupby
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from carom.dimensionless.elastic.phases import Kind, Status
 from carom.dimensionless.lossy import layout
@@ -19,6 +18,9 @@ from carom.dimensionless.lossy.springs.work import MOST_SPRINGS, new_work
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.states import Phase
 from carom.quantities.refusals import InputError
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PchipInterpolator
 
 SHORTEST = 10.0  # steps to the shortest phase that is told
 
@@ -36,7 +38,11 @@ class MarchedSolution(LossySolution):
         return np.asarray(self._between(np.minimum(wanted, self._rows[-1, layout.AT_TIME])).T)
 
     @cached_property
-    def _between(self) -> PchipInterpolator:
+    def _between(self) -> "PchipInterpolator":
+        from scipy.interpolate import (
+            PchipInterpolator,
+        )  # a third of a second, for these solids alone
+
         return PchipInterpolator(self._rows[:, layout.AT_TIME], self._rows[:, : layout.ROWS])
 
     def _contact_at(self, time: float) -> NoReturn:

@@ -6,12 +6,10 @@ f that of springs in shear (see stretch), whose Coulomb limit is what they bear 
 (see thornton, relaxing). Of second order in the number of springs.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.law import Loss
+from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.springs import record, relaxing, thornton
 from carom.dimensionless.lossy.springs.stretch import step_of, stretched
 from carom.dimensionless.lossy.springs.work import (
@@ -44,17 +42,9 @@ from carom.dimensionless.numerics.kernels import kernel
 NEVER = 1e300  # relaxation time of an elastic solid
 
 
-class Law(NamedTuple):
-    """What the impact loses energy to: y of a yielding sphere, or theta and g of a solid."""
-
-    loss: int
-    parameter: float
-    extra: float
-
-
 @kernel
 def march(
-    psi: float, chi: float, law: Law, count: int, work: Arrays, rows: Array, numbers: Array
+    psi: float, chi: float, law: LossNumbers, count: int, work: Arrays, rows: Array, numbers: Array
 ) -> int:
     """March an impact over so many springs; return the number of steps, 0 if it does not end."""
     loading, motion, springs, state = PER_SPRING * count, work.motion, work.springs, work.state
@@ -80,7 +70,7 @@ def march(
 
 
 @kernel
-def lay_motion(law: Law, count: int, motion: Array) -> float:
+def lay_motion(law: LossNumbers, count: int, motion: Array) -> float:
     """Fill in the loading, of a yielding sphere the whole motion; return a step of the clock."""
     if law.loss == Loss.PLASTIC.value:
         thornton.lay_motion(law.parameter, count, motion)
@@ -90,7 +80,7 @@ def lay_motion(law: Law, count: int, motion: Array) -> float:
 
 @kernel
 def press(
-    law: Law, i: int, h: float, motion: Array, springs: Array, last: int, touching: int
+    law: LossNumbers, i: int, h: float, motion: Array, springs: Array, last: int, touching: int
 ) -> int:
     """Fill in what springs bear before and after a step; return how many do after it."""
     loading, before, after = PER_SPRING * last, motion[i], motion[i + 1]
@@ -121,7 +111,13 @@ def let_go(springs: Array, touching: int, met: int, chi: float, extra: float, st
 
 @kernel
 def kick_and_stretch(
-    law: Law, chi: float, before: Array, after: Array, springs: Array, touching: int, state: Array
+    law: LossNumbers,
+    chi: float,
+    before: Array,
+    after: Array,
+    springs: Array,
+    touching: int,
+    state: Array,
 ) -> None:
     """Move the tangential state on by a step."""
     g, dt = law.extra, after[TIME] - before[TIME]
@@ -147,7 +143,7 @@ def kick_and_stretch(
 
 @kernel
 def keep(
-    law: Law,
+    law: LossNumbers,
     i: int,
     loading: int,
     motion: Array,

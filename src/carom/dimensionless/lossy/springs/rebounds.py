@@ -4,8 +4,8 @@ import numpy as np
 
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.law import Loss, why_not
-from carom.dimensionless.lossy.springs.march import Law, march
+from carom.dimensionless.lossy.law import Loss, LossNumbers, why_not
+from carom.dimensionless.lossy.springs.march import march
 from carom.dimensionless.lossy.springs.work import MOST_SPRINGS, Arrays
 from carom.dimensionless.numerics.arrays import Codes, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
@@ -14,9 +14,9 @@ YIELDING, RELAXING = 200, MOST_SPRINGS  # springs, for 1e-5 and 1e-6
 
 
 @kernel
-def law_of(loss: int, parameter: float, extra: float) -> Law:
+def law_of(loss: int, parameter: float, extra: float) -> LossNumbers:
     """Return what the impact loses energy to; a yielding sphere is elastic in shear."""
-    return Law(loss, parameter, 0.0 if loss == Loss.PLASTIC.value else extra)
+    return LossNumbers(loss, parameter, 0.0 if loss == Loss.PLASTIC.value else extra)
 
 
 @kernel
