@@ -5,11 +5,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 from scipy.special import beta
 
 import carom
 from carom.bodies.losses import LossLaw, yield_velocity
-from carom.dimensionless.lossy.law import Loss
+from carom.dimensionless.lossy.law import Loss, LossNumbers
+from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.impacts.validity import judge_losses
 from carom.quantities.refusals import InputError
 
 STEEL = carom.Pair(
@@ -229,6 +232,9 @@ def test_validity_says_what_is_assumed_of_losses() -> None:
     told = {f.name: f for f in hit(carom.KelvinVoigt(restitution=0.8)).validity.findings}
     assert told["e"].value == pytest.approx(0.8)
     assert "as viscous in shear as in compression" in told["e"].verdict
+    assert "by up to 0.35" in told["e"].verdict  # 0.2 (2.4 chi - 1.7), chi = 1.441
+    told = {f.name: f for f in hit(carom.KelvinVoigt(restitution=0.4)).validity.findings}
+    assert "not studied" in told["e"].verdict
     for ratio, words in ((2.0, "by up to 0.05"), (10.0, "by up to 0.05"), (11.0, "not studied")):
         law = carom.ElasticPlastic(yield_velocity=1.0 / ratio)
         told = {f.name: f for f in hit(law).validity.findings}
@@ -236,3 +242,20 @@ def test_validity_says_what_is_assumed_of_losses() -> None:
         assert words in told["V_1/V_y"].verdict
         assert told["V_1/V_y"].holds is None
     assert "e" not in {f.name for f in hit(None).validity.findings}
+
+
+@pytest.mark.parametrize(("chi", "e"), [(0.6, 0.99), (1.44, 0.7), (2.5, 0.99), (3.0, 0.95)])
+def test_other_solids_of_one_restitution_are_as_near_as_validity_says(chi: float, e: float) -> None:
+    """Yielding spheres, which are farthest off, against Kelvin & Voigt's at the same e."""
+    psi = np.linspace(0.2, 4.0 * chi + 1.0, 40)
+    one, many = np.ones(1), np.full(40, chi)
+
+    def of(y: float) -> float:
+        return float(lossy_rebounds(one, one, LossNumbers(Loss.PLASTIC, y)).restitution[0]) - e
+
+    yielding = LossNumbers(Loss.PLASTIC, brentq(of, 0.05, 0.9999))
+    viscous = carom.rebound(psi, chi, losses=carom.KelvinVoigt(restitution=e))
+    off = float(np.abs(lossy_rebounds(psi, many, yielding).psi_out - viscous).max())
+    told = judge_losses(LossNumbers(Loss.VISCOUS, 0.1), e, chi).verdict
+    most = float(told.rpartition(" ")[2])
+    assert 0.5 * most < off <= most

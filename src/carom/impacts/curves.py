@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import ScaleFreeLaw, scale_free
+from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.rebounds import rebound, regime_borders
 from carom.dimensionless.solution import solve
 from carom.io.labels import labelled_dataset
@@ -144,8 +145,8 @@ def _restitution(losses: ScaleFreeLaw | None) -> float:
     """Return e of a law of losses, or raise InputError if it depends on the speed."""
     if losses is None:
         return 1.0
-    scale_free(losses)
-    return float(getattr(losses, "restitution", 1.0))
+    one = np.ones(1)
+    return float(lossy_rebounds(one, one, scale_free(losses)).restitution[0])
 
 
 @known_keywords

@@ -13,6 +13,7 @@ YIELD_PRESSURE = 1.60  # p_0/Y at first yield of a sphere, von Mises (Johnson 19
 SLOW_CONTACT = 3.0  # contact time in transits of a wave through the sphere and back (Love 1927)
 WEAK_COUPLING = 0.01  # |Dundurs' beta|: what is left uncoupled is below a hundredth
 CLOSE_REBOUND = 0.01  # of psi_2, also against the full contact in three dimensions
+STUDIED, LEAST_STUDIED = (0.3, 5.0), 0.5  # chi, and e, for which solids of one e were compared
 FAST, YIELDED = 10.0, 0.05  # V_1/V_y up to which psi_2 is as close as this to rings of traction
 LATERAL, RADIAL, COUPLED = 0.008, 0.22, 0.8  # of its bound, studies/halfspace_study.csv
 
@@ -42,11 +43,8 @@ def judge_losses(losses: LossNumbers, restitution: float, chi: float) -> Finding
     """Return the finding on losses: which solid is assumed, and how much that may be in psi_2."""
     if losses.loss != Loss.PLASTIC:
         solid = "is as viscous" if losses.loss == Loss.VISCOUS else "relaxes"
-        other = other_solid(restitution, chi)
-        words = (
-            f"a solid that {solid} in shear as in compression:"
-            f" others of this e differ in psi_2 by up to {other:.1g}"
-        )
+        others = _others(losses.loss, restitution, chi)
+        words = f"a solid that {solid} in shear as in compression: {others}"
         return Finding("e", restitution, 1.0, None, words)
     ratio = losses.parameter**-2.5
     off = f"off by up to {YIELDED:g}"
@@ -55,13 +53,17 @@ def judge_losses(losses: LossNumbers, restitution: float, chi: float) -> Finding
     return Finding("V_1/V_y", ratio, FAST, None, words)
 
 
-def other_solid(restitution: float, chi: float) -> float:
-    """Return by how much psi_2 of other solids of the same e may differ.
+def _others(loss: int, restitution: float, chi: float) -> str:
+    """Return by how much psi_2 of other solids of the same e may differ, in words.
 
-    (1 - e) max(0.9, 2.1 chi - 1.4), an envelope of standard linear solids and yielding spheres
-    against Kelvin & Voigt's, psi_1 up to 4 chi + 1, chi from 0.3 to 5, e from 0.5; a guide beyond.
+    (1 - e) max(1.2, 2.4 chi - 1.7) from Kelvin & Voigt's, an envelope of standard linear solids and
+    yielding spheres, psi_1 up to 4 chi + 1; from a standard linear one twice that.
     """
-    return (1.0 - restitution) * max(0.9, 2.1 * chi - 1.4)
+    if not (STUDIED[0] <= chi <= STUDIED[1] and restitution >= LEAST_STUDIED):
+        return "how others of this e differ is not studied here"
+    most = (1.0 if loss == Loss.VISCOUS else 2.0) * (1.0 - restitution)
+    most *= max(1.2, 2.4 * chi - 1.7)
+    return f"others of this e differ in psi_2 by up to {most:.2g}"
 
 
 def judge_contact(pair: Pair, normal_speed: float, duration: float) -> tuple[Finding, ...]:

@@ -126,10 +126,8 @@ def _solve_with_losses(
     unknown = np.isnan(parameter) | np.isnan(extra)
     status[(status == PointStatus.SOLVED) & unknown] = PointStatus.NOT_A_NUMBER
     run = status == PointStatus.SOLVED
-    psi, losses = (
-        np.where(np.isfinite(psi), psi, 0.0),
-        LossNumbers(loss, parameter[run], extra[run]),
-    )
+    psi = np.where(np.isfinite(psi), psi, 0.0)
+    losses = LossNumbers(loss, parameter[run], extra[run])
     found = lossy_rebounds(psi[run], chi[run], losses, threads)
     for name in BlockSolution._fields:
         getattr(solution, name)[run] = getattr(found, name)
