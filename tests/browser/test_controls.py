@@ -9,10 +9,11 @@ pytestmark = pytest.mark.browser
 AFTER, BEFORE = f"ψ₂, {GLOSSARY['psi_out'].meaning}", f"ψ₁, {GLOSSARY['psi_in'].meaning}"
 
 
-def steel(friction=0.2, **motion):
+def steel(friction=0.2, restitution=1.0, **motion):
     ball = carom.Sphere(radius="5 mm", material="bearing-steel")
     pair = carom.Pair(ball, carom.HalfSpace(material="bearing-steel"), friction=friction)
-    return carom.impact(pair, **({"speed": 0.6, "angle": "30 deg"} | motion))
+    losses = None if restitution == 1.0 else carom.KelvinVoigt(restitution=restitution)
+    return carom.impact(pair, losses=losses, **({"speed": 0.6, "angle": "30 deg"} | motion))
 
 
 def shows(seen, hit):
@@ -38,7 +39,9 @@ def test_the_page_as_it_opens(visit):
 def test_sliders_moved_by_keys(visit):
     seen = visit()
     motion, words = {"angle": 30.0, "friction": 0.2, "speed": 0.6, "spin": 0.0}, {}
+    motion["restitution"] = 1.0
     moves = {"angle": (0.25, 3), "friction": (0.005, -2), "speed": (0.05, 2), "spin": (5.0, -4)}
+    moves["restitution"] = (0.01, -3)
     for name, (step, presses) in moves.items():
         seen.page.focus(f"#{name}-slider")
         for _ in range(abs(presses)):
@@ -50,6 +53,29 @@ def test_sliders_moved_by_keys(visit):
         hit = steel(**motion | {"angle": f"{motion['angle']} deg"})
         seen.until(lambda hit=hit: shows(seen, hit))
     assert sorted(seen.link().split("&")) == sorted(words.values())
+
+
+def test_losses_are_shown_wherever_the_impact_is(visit):
+    seen, law = visit("?law=mindlin&law=Thornton%2C+incremental"), "mindlin"
+    seen.page.fill("#restitution", "0.8")
+    hit = steel(restitution=0.8)
+    seen.until(lambda: shows(seen, hit))
+    energies = {name for name, _ in seen.traces("energies")}
+    assert {"normal losses", "losses in shear", "lost to friction"} <= energies
+    exact = seen.traces("rebounds")["exact", "lines"]
+    losses = carom.KelvinVoigt(restitution=0.8)
+    expected = carom.rebound(exact["x"], hit.pair.chi, losses=losses)
+    assert exact["y"] == pytest.approx(list(expected), abs=2e-5)
+    drawn = seen.laid_over(law)[law, "lines"]
+    damped = carom.LammpsMindlin("mindlin", restitution=0.8)
+    expected = damped.rebound(drawn["x"], hit.pair.chi, kappa=hit.pair.kappa)
+    assert drawn["y"] == pytest.approx(list(expected), abs=2e-5)
+    told = seen.page.locator("#results").inner_text()
+    assert "Thornton, incremental: has no damping" in told
+    assert f"{hit.shear_lost_energy * 1e6:.5g}\N{NO-BREAK SPACE}µJ" in told
+    seen.page.fill("#restitution", "1")
+    seen.until(lambda: shows(seen, steel()))
+    seen.laid_over(law, "Thornton, incremental")
 
 
 def test_numbers_typed_move_their_sliders(visit):

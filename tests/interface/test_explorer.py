@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from urllib.parse import urlencode
 
 import numpy as np
@@ -13,10 +14,12 @@ import carom
 
 pytest.importorskip("dash")
 
+from carom.explorer.answers import _with_laws
 from carom.explorer.charts import rebounds
-from carom.explorer.downloads import curve_figure, script
+from carom.explorer.downloads import WRITERS, curve_figure
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import impact_of, scene_of
+from carom.explorer.scripts import script
 from carom.explorer.views import CHOICES, KNOBS, LAWS, NUMBERS, OF_NUMBERS, View
 
 NUMBER = {name: st.floats(knob.least, knob.most) for name, knob in KNOBS.items()}
@@ -30,10 +33,22 @@ BODIES = [
     View(against="sphere", second_radius=7.5, second_material="soda-lime-glass", spin=300.0),
     View(against="cup", second_radius=25.0, angle=55.0, friction=0.45),
     View(friction=0.0),
+    View(restitution=0.7),
+    View(restitution=0.4, angle=55.0, spin=200.0, against="sphere", second_radius=7.5),
+    View(restitution=0.9, angle=12.0, against="cup", second_radius=25.0),
 ]
 NUMBERED = [
-    View(given=NUMBERS, psi=psi, chi=chi) for psi, chi in ((0.5, 1.44), (-2.0, 0.4), (9.0, 1.2))
+    View(given=NUMBERS, psi=psi, chi=chi, restitution=e)
+    for psi, chi, e in ((0.5, 1.44, 1.0), (-2.0, 0.4, 1.0), (9.0, 1.2, 1.0), (-1.5, 1.44, 0.6))
 ]
+
+
+def losses(view):
+    return None if view.restitution == 1.0 else carom.KelvinVoigt(restitution=view.restitution)
+
+
+def exactly(view, psi, chi):
+    return carom.rebound(psi, chi, losses=losses(view))
 
 
 @given(st.builds(View, law=SOME_LAWS, **NUMBER, **WORD))
@@ -96,27 +111,36 @@ def assert_coulomb(scene):
 @pytest.mark.parametrize("view", BODIES, ids=str)
 def test_scene_is_the_impact(view):
     scene, hit = scene_of(view), impact_of(view)
-    again = carom.impact(view.pair, speed=view.speed, angle=np.radians(view.angle), spin=view.spin)
+    motion = {"speed": view.speed, "angle": np.radians(view.angle), "spin": view.spin}
+    again = carom.impact(view.pair, losses=losses(view), **motion)
     np.testing.assert_allclose(scene.psi_out, again.psi_out, atol=1e-12)
     if np.isfinite(hit.psi_in):
-        exact = carom.rebound(scene.psi_in, scene.chi)
+        exact = exactly(view, scene.psi_in, scene.chi)
         np.testing.assert_allclose(scene.psi_out, exact, atol=1e-10 * max(1, abs(hit.psi_in)))
     np.testing.assert_allclose(sum(scene.energies.values()), 1.0, atol=1e-10)
     assert_coulomb(scene)
     assert scene.phases[0].start == 0.0
     assert scene.phases[-1].end == pytest.approx(1.0)
-    assert scene.contact.max() == pytest.approx(1.0)
+    assert scene.contact.max() == pytest.approx(1.0, abs=1e-12 if losses(view) is None else 1e-4)
 
 
-@pytest.mark.parametrize("view", [BODIES[0], BODIES[2], BODIES[3]], ids=str)
+@pytest.mark.parametrize("view", [BODIES[i] for i in (0, 2, 3, 6, 7, 8)], ids=str)
 def test_tractions_are_those_of_the_fields(view):
     scene, hit = scene_of(view), impact_of(view)
-    for row, share in ((15, 0.25), (30, 0.5), (45, 0.75)):
-        radius = scene.contact[round(200 * share)] * hit.max_radius
+    unit = hit.max_radius / hit.pair.effective_radius  # Hertz (1882): p_0 = (2 E*/pi) a/R*
+    unit *= 2.0 / np.pi * hit.pair.effective_modulus
+    for share in (0.2, 0.5, 0.8):
+        row = round(share * (len(scene.tractions) - 1))
+        at = round(200 * share)
+        radius = scene.contact[at] * hit.max_radius
         places = np.linspace(0.0, radius, scene.tractions.shape[1])[:-1]
         fields = hit.fields(share * hit.duration, points=np.column_stack([places, 0 * places]))
-        expected = fields.traction_x.values / (view.friction * hit.max_pressure)
+        expected = fields.traction_x.values / (view.friction * unit)
         np.testing.assert_allclose(scene.tractions[row][:-1], expected, atol=1e-9)
+        # the page's own formula of the pressure
+        root = np.sqrt(scene.contact[at] ** 2 - (places / hit.max_radius) ** 2)
+        pressed = root + 0.5 * scene.rim[at] / root
+        np.testing.assert_allclose(pressed, fields.pressure.values / unit, rtol=1e-9)
 
 
 def seen_from_second(view, stage):
@@ -131,12 +155,15 @@ def seen_from_second(view, stage):
 
 
 @pytest.mark.parametrize("view", [*BODIES, *NUMBERED], ids=str)
-def test_bodies_overlap_while_they_touch_and_only_then(view):
+def test_bodies_overlap_while_they_touch_and_elastic_ones_only_then(view):
     stage = scene_of(view).stage
     apart, _ = seen_from_second(view, stage)
     within = (stage.time > 1e-9) & (stage.time < 1.0 - 1e-9)
     assert np.all(apart[within] < 0.0)
-    assert np.all(apart[~within] >= -1e-9)
+    before = stage.time <= 1e-9
+    assert np.all(apart[~within & (before | (view.restitution == 1.0))] >= -1e-9)
+    if view.restitution < 1.0:  # viscous bodies part with a dent, which recovers afterwards
+        assert apart[~within & ~before][0] < -1e-4
     assert apart.min() < -1e-4
 
 
@@ -150,7 +177,8 @@ def test_balls_leave_as_the_impact_says(view):
     for end, leaves, sign in ((slice(0, 5), angle, -1), (slice(-5, None), hit.rebound_angle, 1)):
         slope = np.diff(along[end]) / (sign * np.diff(apart[end]))
         np.testing.assert_allclose(slope, np.tan(leaves), rtol=1e-6, atol=1e-9)
-    rise = np.diff(apart[-2:])[0] * view.radius * 1e-3 / hit.normal_speed  # s, magnified
+    leaving = view.restitution * hit.normal_speed
+    rise = np.diff(apart[-2:])[0] * view.radius * 1e-3 / leaving  # s, magnified
     turned = np.diff(first.turn[-2:])[0]
     np.testing.assert_allclose(turned, hit.spin_out * rise, rtol=1e-6, atol=1e-9)
     if view.against == "sphere":
@@ -162,7 +190,7 @@ def test_balls_leave_as_the_impact_says(view):
 @pytest.mark.parametrize("view", NUMBERED, ids=str)
 def test_scene_of_numbers_is_the_solution(view):
     scene = scene_of(view)
-    np.testing.assert_allclose(scene.psi_out, carom.rebound(view.psi, view.chi), atol=1e-10)
+    np.testing.assert_allclose(scene.psi_out, exactly(view, view.psi, view.chi), atol=1e-9)
     np.testing.assert_allclose(sum(scene.energies.values()), 1.0, atol=1e-10)
     assert_coulomb(scene)
     first = scene.stage.bodies[0]
@@ -171,20 +199,23 @@ def test_scene_of_numbers_is_the_solution(view):
     np.testing.assert_allclose(before, view.friction * view.psi / kappa, rtol=1e-6)
 
 
-@pytest.mark.parametrize("view", [BODIES[0], BODIES[2], NUMBERED[0]], ids=str)
+@pytest.mark.parametrize(
+    "view", [BODIES[0], BODIES[2], BODIES[6], NUMBERED[0], NUMBERED[3]], ids=str
+)
 def test_curves_go_through_the_present_point(view):
     scene = scene_of(view)
     psi, out = exact_curve(scene)
-    np.testing.assert_allclose(out, carom.rebound(psi, scene.chi), atol=1e-12)
+    np.testing.assert_allclose(out, exactly(view, psi, scene.chi), atol=1e-12)
     assert psi[0] <= scene.psi_in <= psi[-1]
     for law in law_curves(scene, ["mindlin", "rigid Coulomb", "Walton & Braun"]):
         entry = next(e for e in carom.verify.CATALOGUE if e.label == law.label)
-        expected = entry.law.rebound(scene.psi_in, scene.chi, kappa=scene.kappa)
+        damped = replace(entry.law, restitution=view.restitution)
+        expected = damped.rebound(scene.psi_in, scene.chi, kappa=scene.kappa)
         np.testing.assert_allclose(law.at, expected, atol=1e-9)
         if law.psi_in[0] <= scene.psi_in <= law.psi_in[-1]:  # drawn as far as the regimes go
             near = np.interp(scene.psi_in, law.psi_in, law.psi_out)
             np.testing.assert_allclose(near, expected, atol=0.02)
-        if law.force.size:
+        if law.force.size and view.restitution == 1.0:
             assert np.abs(law.force).max() <= scene.limit.max() * (1 + 1e-3)
 
 
@@ -218,7 +249,42 @@ def test_the_figure_of_the_curve_holds_laws_and_the_impact():
     assert told[-4:] == [*LAWS[:3], "this impact"]
 
 
-@pytest.mark.parametrize("view", [View(law=LAWS[:2], angle=41.5), NUMBERED[0]], ids=str)
+def test_laws_without_damping_are_not_laid_over_losses():
+    label = "Thornton, incremental"
+    view = View(law=("mindlin", label), restitution=0.8)
+    assert (view.laid_over, view.undamped) == (("mindlin",), (label,))
+    told = str(_with_laws(view, scene_of(view), law_curves(scene_of(view), view.laid_over))[1])
+    assert f"{label}: has no damping" in told
+    assert View(law=(label,)).laid_over == (label,)
+
+
+def test_laws_are_drawn_in_units_of_the_impact_with_losses():
+    """A linear spring without friction's limit in reach: its force is that of its own history."""
+    view = View(restitution=0.6, angle=0.0, spin=5.0, friction=0.9)
+    scene, hit = scene_of(view), impact_of(view)
+    (law,) = law_curves(scene, ["linear spring, k_t/k_n = kappa"])
+    told = carom.LinearSpring(restitution=0.6).history(
+        scene.psi_in, scene.chi, kappa=scene.kappa, steps=400
+    )
+    scales = hit.pair.scales(hit.normal_speed)
+    seconds = told["time"][::2] * scales.time
+    np.testing.assert_allclose(law.share * hit.duration, seconds, rtol=1e-12)
+    newtons = told["tangential_force"][::2] * view.friction * scales.force
+    of_scene = scene.force / hit.history(201).tangential_force.values
+    np.testing.assert_allclose(law.force, newtons * np.nanmedian(of_scene), rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    "view",
+    [
+        View(law=LAWS[:2], angle=41.5),
+        NUMBERED[0],
+        View(law=LAWS[3:4], angle=41.5, restitution=0.75),
+        View(given=NUMBERS, psi=1.5, restitution=0.9),
+        View(friction=0.0, restitution=0.9),
+    ],
+    ids=str,
+)
 def test_lines_of_python_give_the_same(view, tmp_path):
     scene = scene_of(view)
     ran = subprocess.run(
@@ -230,5 +296,24 @@ def test_lines_of_python_give_the_same(view, tmp_path):
     )
     told = [float(number) for number in re.findall(r"-?\d+\.\d+", ran.stdout)]
     assert any(tmp_path.glob("*.png"))
+    if not np.isfinite(scene.psi_out):
+        assert ran.stdout.startswith("inf inf ")
+        return
     for psi in (scene.psi_out, *(law.at for law in law_curves(scene, view.law))):
         assert psi == pytest.approx(min(told, key=lambda number: abs(number - psi)), abs=1e-9)
+
+
+@pytest.mark.parametrize("view", [BODIES[6], NUMBERED[3]], ids=str)
+def test_histories_with_losses_are_those_of_the_library(view, tmp_path):
+    file = tmp_path / "history.csv"
+    WRITERS["history.csv"](view, 0.5, file)
+    found = carom.read(file)
+    if view.in_numbers:
+        solution = carom.solve(view.psi, view.chi, losses=losses(view))
+        expected = {name: getattr(solution.history(201), name) for name in ("psi", "shear_lost")}
+    else:
+        history = impact_of(view).history(201)
+        expected = {name: history[name].values for name in ("contact_velocity", "shear_loss")}
+    for name, values in expected.items():
+        np.testing.assert_allclose(np.asarray(found[name]), values, atol=1e-9 * np.ptp(values))
+        assert np.ptp(values) > 0.0

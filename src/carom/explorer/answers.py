@@ -50,9 +50,9 @@ def connect_answers(app: Dash) -> None:
             raise PreventUpdate
         view = View.of(query)
         scene = scene_of(view)
-        laws = law_curves(scene, view.law, LAW_SECONDS, followers.joined())
-        figures, results = _with_laws(scene, laws)
-        slow = [label for label, law in zip(view.law, laws, strict=True) if law is None]
+        laws = law_curves(scene, view.laid_over, LAW_SECONDS, followers.joined())
+        figures, results = _with_laws(view, scene, laws)
+        slow = [label for label, law in zip(view.laid_over, laws, strict=True) if law is None]
         if slow:
             told = f"{', '.join(slow)}: not solved within {LAW_SECONDS:g} s; choose fewer at a time"
             results.append(html.P(told, className="carom-caution"))
@@ -73,19 +73,23 @@ def connect_answers(app: Dash) -> None:
 def _drawn(view: View) -> list[Any]:
     """Return what goes into `DRAWN`."""
     scene = scene_of(view)
-    laws = law_curves(scene, view.law, PROMPT)
-    late = [label for label, law in zip(view.law, laws, strict=True) if law is None]
-    return [*_with_laws(scene, laws), scene.moving(), view.query(), late]
+    laws = law_curves(scene, view.laid_over, PROMPT)
+    late = [label for label, law in zip(view.laid_over, laws, strict=True) if law is None]
+    return [*_with_laws(view, scene, laws), scene.moving(), view.query(), late]
 
 
-def _with_laws(scene: Scene, laws: list[LawCurve | None]) -> list[Any]:
+def _with_laws(view: View, scene: Scene, laws: list[LawCurve | None]) -> list[Any]:
     """Return what goes into `WITH_LAWS`."""
     figures = (
         charts.forces(scene, laws),
         charts.rebounds(scene, exact_curve(scene), laws),
         charts.energies(scene),
     )
-    return [figures, _table(scene, laws)]
+    results = _table(scene, laws)
+    if view.undamped:
+        told = f"{', '.join(view.undamped)}: has no damping, and is not laid over losses"
+        results.append(html.P(told, className="carom-caution"))
+    return [figures, results]
 
 
 def _table(scene: Scene, laws: list[LawCurve | None]) -> list[Any]:

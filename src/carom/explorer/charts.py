@@ -5,12 +5,12 @@ from typing import Any
 
 import numpy as np
 
+from carom.dimensionless.rebounds import regime_borders
 from carom.explorer.overlays import LawCurve
 from carom.explorer.scenes import OF_CONTACT, Scene
 from carom.explorer.stages import short
-from carom.impacts.curves import borders
 from carom.plots.bands import SIGNS, mirrored
-from carom.plots.impact import ENERGIES
+from carom.plots.impact import ENERGIES, LOST
 from carom.quantities.arrays import Array
 
 Figure = dict[str, Any]
@@ -41,8 +41,10 @@ ENERGY_FILLS = {  # colour and pattern
     "normal_elastic_energy": ("#ecd9a4", "/"),
     "tangential_elastic_energy": (ORANGE, ""),
     "frictional_work": ("#7d838b", "\\"),
+    "normal_loss": ("#e3b5cd", "x"),
+    "shear_loss": ("#b07aa1", "-"),
 }
-ENERGY_NAMES = {name: label for name, (label, *_) in ENERGIES.items()} | OF_CONTACT
+ENERGY_NAMES = {name: label for name, (label, *_) in (ENERGIES | LOST).items()} | OF_CONTACT
 HEADROOM = 1.25  # of the forces: above them the phases have their names
 ROOM = 1.12  # of the shares of energy: above them the phases have their names
 NAMED = 3  # laws that a legend has room for; of more the table of results is the key
@@ -130,13 +132,13 @@ def rebounds(scene: Scene, curve: tuple[Array, Array], laws: Laws = ()) -> Figur
         traces.append(_point(scene.psi_in, scene.psi_out, "this impact", VERMILION, "circle"))
     figure = axes_of(traces, "ψ₁ before", "ψ₂ after")
     figure["layout"]["showlegend"] = len(drawn) <= NAMED
-    figure["layout"] |= _bands(_regimes(scene.chi, psi), float(psi[0]), float(psi[-1]))
+    figure["layout"] |= _bands(_regimes(scene, psi), float(psi[0]), float(psi[-1]))
     figure["layout"]["xaxis"]["range"] = [float(psi[0]), float(psi[-1])]
     return figure
 
 
-def _regimes(chi: float, psi: Array) -> Iterator[tuple[float, float, str, str]]:
-    ends = [0.0, *borders(chi), np.inf]
+def _regimes(scene: Scene, psi: Array) -> Iterator[tuple[float, float, str, str]]:
+    ends = [0.0, *regime_borders(scene.chi, scene.restitution).tolist(), np.inf]
     for name, start, end in mirrored(REGIME_FILLS, ends, psi[0], psi[-1]):
         yield float(start), float(end), name, REGIME_FILLS[name]
 

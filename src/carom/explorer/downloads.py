@@ -1,4 +1,4 @@
-"""Files of a view: histories, pictures, and the lines of Python, each at an address of its own."""
+"""Files of a view: histories, pictures and lines of Python, each at an address of its own."""
 
 from collections.abc import Callable
 from math import isfinite
@@ -15,6 +15,7 @@ from carom.dimensionless.solution import solve
 from carom.explorer.limits import LAW_SECONDS, Busy, Turns
 from carom.explorer.overlays import LawCurve, exact_curve, followers, law_curves
 from carom.explorer.scenes import TIMES, Scene, impact_of, scene_of
+from carom.explorer.scripts import script
 from carom.explorer.views import View
 from carom.impacts.curves import curve
 from carom.impacts.exact import Impact
@@ -24,57 +25,8 @@ from carom.plots import plot_curve, plot_impact, plot_patch, save_figure
 from carom.plots.style import DASHES, LINES, MM, VERMILION, legend_above, styled
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.texts import Unreadable, read_text
+from carom.verify.errors import losses_of
 
-BODIES = """\
-import numpy as np
-
-import carom
-
-pair = carom.Pair({first}, {second}, friction={friction!r})
-hit = carom.impact(pair, speed={speed!r}, angle="{angle!r} deg", spin={spin!r})
-print(hit.psi_in, hit.psi_out, hit.rebound_angle, hit.spin_out)
-carom.save(hit.history(201), "history.csv")  # or .nc
-hit.plot("history.png")
-patch = hit.fields({time!r} * hit.duration)
-carom.plots.save_figure(carom.plots.plot_patch(patch), "patch.png")
-"""
-CURVE = """\
-most = max(4.5 * {chi}, 1.15 * abs({psi}))  # all regimes, and this impact
-psi = np.linspace(0.0, most, 241) * np.copysign(1.0, {psi})
-figure = carom.plots.plot_curve(carom.curve({chi}, np.sort(psi)))
-axis = figure.axes[0]
-shown = axis.get_legend().legend_handles
-shown += axis.plot({psi}, {out}, "o", label="this impact")
-"""
-SAVED = """\
-axis.legend(handles=shown)
-carom.plots.save_figure(figure, "curve.png")
-"""
-NUMBERS = """\
-import numpy as np
-
-import carom
-
-impact = carom.solve({psi!r}, {chi!r})
-print(impact.psi_out, impact.phases)
-history = impact.history(201)  # time, psi, force, radii, energies as arrays
-"""
-FREE = """\
-psi = np.linspace(0.0, 4.5 * {chi}, 241)  # all regimes; without friction there is no psi_1
-figure = carom.plots.plot_curve(carom.curve({chi}, psi))
-axis = figure.axes[0]
-shown = axis.get_legend().legend_handles
-"""
-LAWS = """\
-laws = {{entry.label: entry.law for entry in carom.verify.CATALOGUE}}
-for label in {labels!r}:
-    print(label, laws[label].rebound({psi}, {chi}, kappa={kappa}))
-    shown += axis.plot(psi, laws[label].rebound(psi, {chi}, kappa={kappa}), "--", label=label)
-"""
-DATA = """\
-found = carom.fit(carom.datasets.load({name!r}))  # pip install 'carom[fit]'
-print(found)
-"""
 KINDS = {
     ".csv": "text/csv; charset=utf-8",
     ".nc": "application/x-netcdf",
@@ -98,33 +50,6 @@ MEANINGS = {  # of the columns of `Solution.history`
 }
 ENTRY = 1.8  # mm that a law adds to the legend of the rebound curve
 _turns = Turns()  # besides, matplotlib's settings are those of the whole process
-
-
-def script(view: View, time: float) -> str:
-    """Return the lines for a view, fields at a time that is a share of the duration."""
-    names = {"psi": "hit.psi_in", "out": "hit.psi_out", "chi": "pair.chi", "kappa": "pair.kappa"}
-    rubs = view.in_numbers or view.friction > 0.0
-    if view.in_numbers:
-        names = {"psi": "impact.psi_in", "out": "impact.psi_out", "chi": "impact.chi"}
-        names["kappa"] = "None"
-    parts = [NUMBERS.format(psi=view.psi, chi=view.chi) if view.in_numbers else _bodies(view, time)]
-    parts.append((CURVE if rubs else FREE).format(**names))
-    if view.law:
-        parts.append(LAWS.format(labels=view.law, **names))
-    parts.append(SAVED)
-    if view.data:
-        parts.append(DATA.format(name=view.data))
-    return "".join(parts)
-
-
-def _bodies(view: View, time: float) -> str:
-    kinds = {"half-space": "HalfSpace", "sphere": "Sphere", "cup": "Cup"}
-    first = f'carom.Sphere(radius="{view.radius!r} mm", material={view.material!r})'
-    sized = f'radius="{view.second_radius!r} mm", ' if view.against != "half-space" else ""
-    second = f"carom.{kinds[view.against]}({sized}material={view.second_material!r})"
-    motion = {"speed": view.speed, "angle": view.angle, "spin": view.spin}
-    share = min(max(time, 0.0), 1.0)
-    return BODIES.format(first=first, second=second, friction=view.friction, time=share, **motion)
 
 
 def add_downloads(server: Flask) -> None:
@@ -166,7 +91,7 @@ def _picture(view: View, _: float, file: Path) -> None:
 
 def _curve(view: View, _: float, file: Path) -> None:
     scene = scene_of(view)
-    found = law_curves(scene, view.law, LAW_SECONDS, followers.joined())
+    found = law_curves(scene, view.laid_over, LAW_SECONDS, followers.joined())
     laws = [law for law in found if law is not None]
     if len(laws) < len(found):
         raise Busy
@@ -176,7 +101,9 @@ def _curve(view: View, _: float, file: Path) -> None:
 @styled
 def curve_figure(scene: Scene, laws: list[LawCurve]) -> Figure:
     """Return the rebound curve with the present point and the contact laws over it."""
-    figure = plot_curve(curve(scene.chi, exact_curve(scene)[0]))
+    figure = plot_curve(
+        curve(scene.chi, exact_curve(scene)[0], losses=losses_of(scene.restitution))
+    )
     axis = figure.axes[0]
     legend = axis.get_legend()
     entries: list[Any] = [] if legend is None else list(legend.legend_handles)
@@ -221,7 +148,7 @@ WRITERS: dict[str, Callable[[View, float, Path], None]] = {
 
 def dimensionless_history(view: View) -> xr.Dataset:
     """Return the history of an impact that psi_1 and chi tell, in the units of `carom.solve`."""
-    solution = solve(view.psi, view.chi)
+    solution = solve(view.psi, view.chi, losses=view.losses)
     history = solution.history(TIMES)
     columns = {
         name: ("time", getattr(history, name), {"long_name": meaning, "units": "1"})
@@ -229,5 +156,6 @@ def dimensionless_history(view: View) -> xr.Dataset:
     }
     time = ("time", history.time, {"long_name": "time, in d_max/V_1", "units": "1"})
     numbers = {"psi_in": view.psi, "chi": view.chi, "psi_out": solution.psi_out}
+    numbers |= {"restitution": view.restitution} if view.losses else {}
     title = {"title": "oblique impact, in the units of carom.solve"}
     return labelled_dataset({**columns, **numbers}, {"time": time}, title)

@@ -12,6 +12,7 @@ from carom.explorer.views import (
     KNOBS,
     NUMBERS,
     OF_BODIES,
+    OF_BOTH,
     OF_MOTION,
     OF_NUMBERS,
     View,
@@ -25,6 +26,7 @@ LABELS = {
     "second_radius": "Radius of the second body",
     "second_material": "Material of the second body",
     "friction": "Friction, µ",
+    "restitution": "Restitution, e (1: no losses but friction)",
     "speed": "Speed of approach, V",
     "angle": "Incidence from the normal",
     "spin": "Spin (positive: backspin)",
@@ -34,7 +36,7 @@ LABELS = {
     "data": "Measured rebounds that come along",
 }
 STORES = ("view", "scene", "query", "late", "figures", "carried", "file", "restored")
-CONTROLS = ("given", *OF_BODIES, "friction", *OF_MOTION, *OF_NUMBERS, "law", "data")
+CONTROLS = ("given", *OF_BODIES, *OF_BOTH, *OF_MOTION, *OF_NUMBERS, "law", "data")
 SLIDERS = tuple(name for name in CONTROLS if name in KNOBS and KNOBS[name].slider)
 FILES = {
     "history.csv": "History, CSV",
@@ -104,7 +106,7 @@ def _controls() -> list[Any]:
                 ),
                 html.Div(id="numbers", children=[_control(name, opens) for name in OF_NUMBERS]),
                 html.Div(id="motion", children=[_control(name, opens) for name in OF_MOTION]),
-                _control("friction", opens),
+                *(_control(name, opens) for name in OF_BOTH),
                 html.Div(id="bodies", children=[_control(name, opens) for name in OF_BODIES]),
                 html.Fieldset(
                     className="carom-field carom-laws",

@@ -9,7 +9,6 @@ from time import monotonic
 
 import numpy as np
 
-from carom.dimensionless.numerics.hertz import DURATION
 from carom.dimensionless.numerics.threads import available_cores
 from carom.dimensionless.rebounds import rebound
 from carom.explorer.limits import FOLLOWERS, LAW_SECONDS
@@ -17,8 +16,9 @@ from carom.explorer.scenes import Scene
 from carom.laws.dem.base import ContactLaw, Law
 from carom.quantities.arrays import Array
 from carom.verify.catalogue import named
+from carom.verify.errors import damped, losses_of
 
-POINTS, POINTS_OF_LAWS = 241, 61
+POINTS, POINTS_WITH_LOSSES, POINTS_OF_LAWS = 241, 121, 61
 BEYOND = 1.15  # of the present psi_1, that is shown
 STEPS = 400  # of a law's force in time
 EVERY = 2  # of these that is drawn
@@ -65,7 +65,7 @@ class LawCurve:
 
 def exact_curve(scene: Scene) -> tuple[Array, Array]:
     """Return psi_1 and psi_2 of the exact curve, over the present point and all regimes."""
-    return _exact(round(scene.chi, DIGITS), *_span(scene))
+    return _exact(round(scene.chi, DIGITS), scene.restitution, *_span(scene))
 
 
 def law_curves(
@@ -102,17 +102,19 @@ def _begun(scene: Scene, label: str) -> Future[LawCurve]:
 
 
 @lru_cache(maxsize=KEPT)
-def _exact(chi: float, low: float, high: float) -> tuple[Array, Array]:
-    psi = np.linspace(low, high, POINTS)
-    return psi, rebound(psi, chi)
+def _exact(chi: float, restitution: float, low: float, high: float) -> tuple[Array, Array]:
+    psi = np.linspace(low, high, POINTS if restitution == 1.0 else POINTS_WITH_LOSSES)
+    return psi, rebound(psi, chi, losses=losses_of(restitution))
 
 
 @lru_cache(maxsize=KEPT)
 def _of_law(scene: Scene, label: str) -> LawCurve:
     law = named(label)[0].law
+    if scene.restitution != 1.0:
+        law = damped(law, scene.restitution)
     low, high = _span(scene)
     grid = np.linspace(0.0, _regimes(scene.chi), POINTS_OF_LAWS)
-    half = _half(label, round(scene.chi, DIGITS), round(scene.kappa, DIGITS))
+    half = _half(law, round(scene.chi, DIGITS), round(scene.kappa, DIGITS))
     psi, out = np.concatenate([-grid[:0:-1], grid]), np.concatenate([-half[:0:-1], half])
     shown = (psi >= low) & (psi <= high)
     at, share, force = float("nan"), np.array([]), np.array([])
@@ -127,15 +129,15 @@ def _in_time(law: Law, scene: Scene) -> tuple[Array, Array]:
     if not isinstance(law, ContactLaw):
         return np.array([]), np.array([])  # a hard sphere has no contact to follow
     told = law.history(scene.psi_in, scene.chi, kappa=scene.kappa, steps=STEPS)
-    force = told["tangential_force"] * float(scene.limit.max())
-    return told["time"][::EVERY] / DURATION, force[::EVERY]
+    force = told["tangential_force"] * scene.force_scale
+    return told["time"][::EVERY] / scene.lasts, force[::EVERY]
 
 
 @lru_cache(maxsize=KEPT)
-def _half(label: str, chi: float, kappa: float) -> Array:
+def _half(law: Law, chi: float, kappa: float) -> Array:
     """Return psi_2 of a law over the regimes; beyond them every law slides."""
     grid = np.linspace(0.0, _regimes(chi), POINTS_OF_LAWS)
-    return np.asarray(named(label)[0].law.rebound(grid, chi, kappa=kappa, threads=1))
+    return np.asarray(law.rebound(grid, chi, kappa=kappa, threads=1))
 
 
 def _regimes(chi: float) -> float:

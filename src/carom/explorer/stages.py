@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from carom.bodies.shapes import Cup, Sphere
+from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution
 from carom.dimensionless.states import History
 from carom.impacts.curves import SOLID_SPHERE
@@ -62,7 +63,8 @@ def stage_of_bodies(hit: Impact, column: Mapping[str, Array]) -> MovingBodies:
     pair, radius, duration = hit.pair, hit.pair.first.radius, hit.duration
     time = column["time"] / duration
     along = _travelled(time, column["tangential_speed"], duration) / radius
-    closer = _continued(time, column["penetration"], hit.normal_speed, -hit.normal_speed, duration)
+    speed = column["normal_velocity"]
+    closer = _continued(time, column["penetration"], speed[0], speed[-1], duration)
     closer /= radius
     turns = [_travelled(time, column[name], duration) for name in ("spin", "spin2")]
     kind, size = _shape(pair.second, radius)
@@ -93,14 +95,16 @@ def _placed(kind: str, size: float, along: Array, closer: Array) -> Array:
     return np.column_stack([reach * np.sin(angle), reach * up])
 
 
-def stage_of_numbers(solution: Solution, history: History, friction: float) -> MovingBodies:
+def stage_of_numbers(
+    solution: Solution | LossySolution, history: History, friction: float
+) -> MovingBodies:
     """Return a solid sphere without spin on a plane, its friction given, as psi and chi move it."""
     time, duration = history.time / solution.duration, solution.duration
     slope = friction / (SOLID * solution.chi)
     lost = solution.psi_in - history.psi
     along = _travelled(time, slope * (solution.psi_in - SOLID_SPHERE * lost), duration)
     turn = _travelled(time, -slope * (1.0 - SOLID_SPHERE) * lost, duration)
-    closer = _continued(time, history.penetration, 1.0, -1.0, duration)
+    closer = _continued(time, history.penetration, 1.0, history.speed[-1], duration)
     magnified = _magnification("plane", 1.0, closer, along)
     still = np.zeros(along.size)
     first = Body("sphere", 1.0, magnified * along, 1.0 - magnified * closer, magnified * turn)

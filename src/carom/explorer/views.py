@@ -6,6 +6,7 @@ from functools import cached_property
 from typing import Any, NamedTuple, Self
 from urllib.parse import parse_qs, urlencode
 
+from carom.bodies.losses import KelvinVoigt
 from carom.bodies.materials import materials
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
@@ -14,13 +15,16 @@ from carom.explorer.limits import LONGEST_LINK
 from carom.quantities.refusals import InputError, nearest, refusal
 from carom.quantities.texts import Unreadable, read_text
 from carom.verify.catalogue import CATALOGUE
+from carom.verify.errors import losses_of
 
 BODIES, NUMBERS = "bodies", "numbers"
 OF_BODIES = ("radius", "material", "against", "second_radius", "second_material")
 OF_MOTION = ("speed", "angle", "spin")
 OF_NUMBERS = ("psi", "chi")
+OF_BOTH = ("friction", "restitution")
 AGAINST = ("half-space", "sphere", "cup")
 LAWS = tuple(entry.label for entry in CATALOGUE)
+UNDAMPED = tuple(each.label for each in CATALOGUE if not hasattr(each.law, "restitution"))
 LONGEST_NAME = 80  # characters of an unknown name that are shown
 PAGE_ONLY = ("time", "pace", "theme")  # what the page alone keeps of a link
 
@@ -53,6 +57,7 @@ KNOBS = {
     "radius": Knob("mm", 1e-3, 1e4, None),
     "second_radius": Knob("mm", 1e-3, 1e4, None),
     "friction": Knob("", 0.0, 10.0, (0.0, 1.0, 0.005)),
+    "restitution": Knob("", 0.05, 1.0, (0.3, 1.0, 0.01)),
     "speed": Knob("m/s", 1e-4, 1e3, (0.05, 10.0, 0.05)),
     "angle": Knob("deg", 0.0, 89.9, (0.0, 89.0, 0.25)),
     "spin": Knob("rad/s", -1e6, 1e6, (-1000.0, 1000.0, 5.0)),
@@ -79,6 +84,7 @@ class View:
     second_radius: float = 10.0
     second_material: str = "bearing-steel"
     friction: float = 0.2
+    restitution: float = 1.0
     speed: float = 0.6
     angle: float = 30.0
     spin: float = 0.0
@@ -145,6 +151,21 @@ class View:
             return HalfSpace(material=self.second_material)
         body = Sphere if self.against == "sphere" else Cup
         return body(radius=self.second_radius * 1e-3, material=self.second_material)
+
+    @property
+    def losses(self) -> KelvinVoigt | None:
+        """What the impact loses energy to besides friction."""
+        return losses_of(self.restitution)
+
+    @property
+    def undamped(self) -> tuple[str, ...]:
+        """The contact laws that have no damping, and cannot be laid over losses."""
+        return tuple(label for label in self.law if label in UNDAMPED and self.losses)
+
+    @property
+    def laid_over(self) -> tuple[str, ...]:
+        """The other contact laws, each with the damping for the restitution."""
+        return tuple(label for label in self.law if label not in self.undamped)
 
     @property
     def motion(self) -> dict[str, Any]:

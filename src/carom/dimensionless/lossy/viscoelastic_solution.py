@@ -5,6 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
+from carom.dimensionless.elastic.phases import Kind
 from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import Profile
 from carom.dimensionless.lossy import layout
@@ -127,6 +128,9 @@ def solve_viscoelastic(psi: float, chi: float, losses: LossNumbers) -> Viscoelas
     record, numbers = new_record(True), np.zeros(layout.NUMBERS)
     status, panels = outgoing(psi, chi, losses.parameter, TOLERANCE, new_work(), record, numbers)
     kept = Trace(record.rows[:panels].copy(), record.kinds[:panels].copy())
+    if psi == 0.0:  # solved as a limit; nothing moves along, and nothing slips
+        kept.kinds[:] = Kind.STICK, 0
+        kept.rows[:, layout.AT_STUCK] = kept.rows[:, layout.AT_B]
     first = float(kept.rows[0, layout.AT_PSI, 0]) if panels else 1.0
     stretches = (
         (float(rows[layout.AT_TIME, NODES - 1]), *kind)

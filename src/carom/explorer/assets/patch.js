@@ -7,6 +7,8 @@ Carom.patch = (() => {
   const SPACING = 0.25; // of slip arrows, in radii of the largest contact
   const NAME = [52, 12]; // pixels around the name of the slip, without arrows
   const THIN = 0.05; // ring without arrows
+  const ARROWS = "arrows: the first body slides on the second";
+  const UNBOUNDED = "viscous bodies being loaded: p is unbounded at the edge";
   const color = (name) => Carom.theme.color(name);
   let map = { text: "", stops: [] };
 
@@ -136,7 +138,11 @@ Carom.patch = (() => {
     const at = (x, q) => [map.x + x * map.unit, line.middle - q * half];
     drawAxes(pen, box, half);
     if (now.apart || now.contact <= 0) return;
-    const limit = (x) => Math.sqrt(Math.max(0, now.contact ** 2 - x ** 2));
+    pen.save(); // above the scale it goes on: viscous bodies press without bound at the edge
+    pen.beginPath();
+    pen.rect(0, line.top, box.width, line.height);
+    pen.clip();
+    const limit = (x) => Carom.scene.pressureAt(x, now.contact, now.rim);
     const along = Array.from({ length: 65 }, (_, i) => now.contact * Math.sin(((i - 32) / 64) * Math.PI));
     for (const side of [1, -1]) {
       path(pen, along.map((x) => at(x, side * limit(x))));
@@ -154,6 +160,7 @@ Carom.patch = (() => {
     pen.lineJoin = "round";
     pen.strokeStyle = color("accent");
     pen.stroke();
+    pen.restore();
     if (now.stick > 0) drawTies(pen, box, now);
   }
 
@@ -210,7 +217,7 @@ Carom.patch = (() => {
     pen.setLineDash([]);
     drawBar(pen, box);
     const foot = { align: "center", size: 11, color: color("muted") };
-    canvas.word(pen, "arrows: the first body slides on the second", sheet.width / 2, sheet.height - 4, foot);
+    canvas.word(pen, now.rim > 0 ? UNBOUNDED : ARROWS, sheet.width / 2, sheet.height - 4, foot);
     if (now.apart) {
       canvas.word(pen, "apart", box.map.x, box.map.y, { align: "center", size: 14, color: color("muted") });
     } else if (now.contact > 0) {

@@ -3,6 +3,7 @@ window.Carom = window.Carom || {};
 
 Carom.scene = (() => {
   const ROUNDING = 1e-9;
+  const HIGHEST = 9; // pressure that is drawn: at the edge it is infinite while viscous bodies load
   const SIGNS = { 1: " +", 0: "", "-1": " −" };
   let data = null;
   let rubs = false; // whether there is friction
@@ -36,8 +37,14 @@ Carom.scene = (() => {
     return Math.min(found, contact);
   }
 
+  // The pressure at a radius: Hertz's, and what loading adds towards the edge of viscous bodies.
+  function pressureAt(radius, contact, rim) {
+    const root = Math.sqrt(Math.max(0, contact ** 2 - radius ** 2));
+    return Math.min(root + (rim > 0 ? (0.5 * rim) / root : 0), HIGHEST);
+  }
+
   // Traction from the centre to the edge; where it slips it is friction times the pressure.
-  function tractionAt(share, contact, stick, sign) {
+  function tractionAt(share, contact, rim, stick, sign) {
     const rows = data.tractions;
     const place = share * (rows.length - 1);
     const low = Math.min(rows.length - 2, Math.floor(place));
@@ -45,16 +52,9 @@ Carom.scene = (() => {
     const count = rows[0].length;
     return Array.from({ length: count }, (_, i) => {
       const radius = (contact * i) / (count - 1);
-      if (rubs && sign && radius >= stick) return sign * Math.sqrt(contact ** 2 - radius ** 2);
+      if (rubs && sign && radius >= stick) return sign * pressureAt(radius, contact, rim);
       return (rows[low][i] || 0) * (1 - part) + (rows[low + 1][i] || 0) * part;
     });
-  }
-
-  // The tangential force as a share of friction times the largest normal force.
-  function forceOf(traction, contact) {
-    const step = contact / (traction.length - 1);
-    const sum = traction.reduce((total, value, i) => total + value * i * step, 0);
-    return sum * step * 3;
   }
 
   function at(share) {
@@ -62,7 +62,7 @@ Carom.scene = (() => {
     if (!phase) return { apart: true, phase: share < 0 ? "before" : "after" };
     const contact = between(data.contact, 0, 1, share);
     const stick = stickAt(share, phase, contact);
-    const traction = tractionAt(share, contact, stick, phase.sign);
+    const rim = between(data.rim, 0, 1, share);
     return {
       apart: false,
       kind: phase.kind,
@@ -70,8 +70,9 @@ Carom.scene = (() => {
       phase: phase.kind + SIGNS[phase.sign],
       contact,
       stick,
-      traction,
-      force: forceOf(traction, contact),
+      rim,
+      traction: tractionAt(share, contact, rim, stick, phase.sign),
+      force: between(data.force, 0, 1, share), // over friction times the largest normal force
     };
   }
 
@@ -101,6 +102,7 @@ Carom.scene = (() => {
       rubs = Boolean(data) && data.tractions.some((row) => row.some(Boolean));
     },
     data: () => data,
+    pressureAt,
     at,
     bodiesAt,
     told,

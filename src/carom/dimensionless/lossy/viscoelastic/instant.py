@@ -8,6 +8,7 @@ import numpy as np
 
 from carom.dimensionless.fields.profile import Profile, coefficients, radii, stacked
 from carom.dimensionless.lossy.layout import NUMBERS
+from carom.dimensionless.lossy.panels.collocation import NODES, place
 from carom.dimensionless.lossy.panels.pieces import A0, PANEL, R0, R1, SIGN, X0, X1
 from carom.dimensionless.lossy.panels.plans import TOLERANCE
 from carom.dimensionless.lossy.panels.record import new_record
@@ -36,7 +37,7 @@ from carom.dimensionless.lossy.viscoelastic.ring import (
 )
 from carom.dimensionless.numerics.arrays import Array
 
-BISECTIONS = 50
+OF_SLOPE = np.polynomial.chebyshev.chebder(np.eye(NODES))  # of a series on a panel
 RESOLVED, NARROW = 1e-10, 1e-6  # of a series on a panel; panels that are not halved any more
 
 Read = Callable[[Array], tuple[Array, Array]]  # value and slope in s, at radii
@@ -149,21 +150,15 @@ class Instant:
         return stacked(edges, rows, rim)
 
     def _at(self, panel: int, row: int, x: Array | float) -> Array:
-        return np.asarray(np.polynomial.chebyshev.chebval(x, self.work.series[panel, row]))
+        return np.asarray(_terms(x) @ self.work.series[panel, row])
 
     def _slope(self, panel: int, row: int, x: Array) -> Array:
-        series = np.polynomial.chebyshev.chebder(self.work.series[panel, row])
-        return np.asarray(np.polynomial.chebyshev.chebval(x, series))
+        return np.asarray(_terms(x)[..., :-1] @ (OF_SLOPE @ self.work.series[panel, row]))
 
     def _place(self, panel: int, row: int, levels: Array, x0: float, x1: float) -> Array:
         """Return where a monotone row passes levels between two places."""
-        low, high = np.full(levels.shape, x0), np.full(levels.shape, x1)
-        rises = self._at(panel, row, x1) > self._at(panel, row, x0)
-        for _ in range(BISECTIONS):
-            middle = 0.5 * (low + high)
-            below = (self._at(panel, row, middle) < levels) == rises
-            low, high = np.where(below, middle, low), np.where(below, high, middle)
-        return np.asarray(0.5 * (low + high))
+        series = self.work.series
+        return np.array([place(series, panel, row, level, x0, x1) for level in levels.tolist()])
 
     def _sticking(self, count: int) -> Iterator[Stretch]:
         """Yield the pieces that stick, from the centre outwards."""
@@ -244,6 +239,11 @@ class Instant:
             return excess * decay, change * decay / self._slope(n, FRONT, x)
 
         return read
+
+
+def _terms(x: Array | float) -> Array:
+    """Return the Chebyshev polynomials at places of a panel, shape (..., NODES)."""
+    return np.asarray(np.cos(np.multiply.outer(np.arccos(x), np.arange(NODES))))
 
 
 def _nothing(r: Array) -> tuple[Array, Array]:
