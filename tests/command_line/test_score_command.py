@@ -67,6 +67,19 @@ def test_exit_code_is_the_verdict(capsys, added, code, word):
     assert run(capsys, file, "--chi", str(CHI), "--tolerance", "0.001")[0] == 1
 
 
+def test_damped_results_are_compared_with_what_loses_as_much(capsys):
+    damped = {"psi_1": PSI, "psi_2": carom.rebound(PSI, CHI, losses=carom.KelvinVoigt(0.8))}
+    file = table(damped)
+    assert run(capsys, file, "--chi", str(CHI))[0] == 1
+    code, out, _ = run(capsys, file, "--chi", str(CHI), "--restitution", "0.8", "--json")
+    told = json.loads(out)
+    assert (code, told["passed"], told["restitution"]) == (0, True, 0.8)
+    with open("damped.toml", "w") as stream:
+        stream.write("restitution = 0.8\n" + CASE)
+    code, out, _ = run(capsys, file, "--case", "damped.toml", "--json")
+    assert json.loads(out)["restitution"] == 0.8
+
+
 def test_table_tells_points_phases_and_audit(capsys):
     columns = psi_columns()
     columns["psi_2"][2] = 1.5
@@ -212,6 +225,7 @@ def test_records_that_are_no_whole_contact_are_refused(capsys, hit, change, mess
         (("good.csv", "--chi", "1.4", "--case", "ball.toml"), "chi: given twice"),
         (("good.csv", "--case", "none.toml"), "case file: 'none.toml' cannot be read"),
         (("good.csv", "--ki", "1.4"), "--ki"),
+        (("good.csv", "--chi", "1.4", "--restitution", "0"), "restitution: '0' cannot be used"),
         (("good.csv", "--chi", "1.4", "--output", "good.csv"), "it is the file of results"),
     ],
 )

@@ -175,6 +175,8 @@ def attempt(seed, folder, pictures=True):
     table = spoilt(rng, table)
     if rng.random() < 0.2:
         given["tolerance"] = float(rng.choice([1e-12, 1e-3, 0.5, 1e6, 0.0, np.nan]))
+    if rng.random() < 0.2:
+        given["restitution"] = rng.choice([1.0, 0.9, 0.3, 1e-3, 1e-7, 0.0, 2.0, np.nan])
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         try:

@@ -30,6 +30,10 @@ def score_command(
     chi: Annotated[
         str | None, typer.Option(help="chi of psi_1, psi_2 if there is no such column, e.g. 1.44.")
     ] = None,
+    restitution: Annotated[
+        str | None,
+        typer.Option(help="What a damped normal contact is to leave, e.g. 0.9; also in the case."),
+    ] = None,
     tolerance: Annotated[
         str,
         typer.Option(
@@ -54,6 +58,8 @@ def score_command(
     Example: carom verify score rebounds.csv --chi 1.44 --plot score.png
 
     Velocities or forces: carom verify score results.csv --case examples/steel_ball.toml
+
+    Damped, against solids that leave as much: add --restitution 0.9
     """
     from carom.io.files import FIGURES, TABLES
 
@@ -61,8 +67,9 @@ def score_command(
     check_outputs((plot, FIGURES), (output, TABLES))
     score = carom.verify.score(
         results,
-        case=None if case is None else told_case(case),
+        case=None if case is None else told_case(case, losses=True),
         chi=chi,
+        restitution=restitution,
         tolerance=tolerance,
         columns=named_values("column", column, "omega=spin_out"),
     )

@@ -9,11 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from carom.bodies.cases import check_case, motion_of, pair_of, read_case
-from carom.bodies.pairs import Pair, alike
-from carom.bodies.shapes import describe
+from carom.bodies.pairs import Pair
 from carom.impacts.exact import Impact
-from carom.impacts.solve import impact
 from carom.io.columns import Results, in_units, others
 from carom.io.tables import read_table
 from carom.quantities.arrays import Array
@@ -21,6 +18,7 @@ from carom.quantities.faults import Faults
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError, nearest, refusal
 from carom.quantities.units import number, positive
+from carom.verify.scoring.cases import Given, given_of
 from carom.verify.scoring.histories import NAMES as HISTORY, score_history
 from carom.verify.scoring.points import (
     compared,
@@ -36,7 +34,6 @@ __all__ = ["TOLERANCE", "Score", "score"]
 
 TOLERANCE = 0.01  # in psi_2: a hundredth of the largest psi_1 that sticks from the first touch
 FEWEST = 3  # points
-ROUNDED = 0.01  # part of chi by which a number that is told may be rounded
 DIMENSIONLESS = ("psi_in", "psi_out", "chi")
 
 
@@ -46,13 +43,15 @@ def score(
     *,
     case: str | Path | Mapping[str, Any] | Pair | Impact | None = None,
     chi: float | str | None = None,
+    restitution: float | str | None = None,
     tolerance: float | str = TOLERANCE,
     columns: Mapping[str, str] | None = None,
 ) -> Score:
     """Score a user's own results of oblique impacts against the exact answer.
 
     The error is psi_2 - psi_2(psi_1, chi), psi = kappa V_x/(mu V_1), absolute; the exact psi_2 is
-    that of Maw, Barber & Fawcett (1976). The columns tell what the results are: a rebound curve
+    that of Maw, Barber & Fawcett (1976); with a restitution, that of Kelvin-Voigt solids that leave
+    it. The columns tell what the results are: a rebound curve
     (psi_1, psi_2, chi); velocities (normal_speed and tangential_speed, or speed and angle; spin,
     spin2; after: tangential_speed_out, spin_out, and normal_speed_out, spin2_out if known); or the
     history of forces of one impact (time, normal_force, tangential_force, contact_velocity if
@@ -74,6 +73,9 @@ def score(
         motion, too: a case with speeds, or an Impact.
     chi : float, optional
         For psi_1 and psi_2 if there is no column of that name.
+    restitution : float, optional
+        What the normal impact is to leave, if the contact is damped; by default what the case says,
+        or 1.
     tolerance : float
         Largest |error in psi_2| that passes. It is also the limit of what the audit finds, in units
         of psi; of the errors of forces, in units of mu P_max and P_max; of the duration, relative.
@@ -115,23 +117,9 @@ def score(
         unused = others(table, known, faults)
         given = in_units(table, known, faults=faults)
         faults.settle()
-        found = scored[kind](given, _case(case, chi, table.case), chi, limit)
+        found = scored[kind](given, given_of(case, chi, table.case, restitution), chi, limit)
     told = (f"columns that were not used: {', '.join(unused)}",) if unused else ()
     return replace(found, notes=(*found.notes, *told))
-
-
-def _case(case: Any, chi: Any, own: Any) -> Any:
-    """Return what was given as a case, or what the file holds; both must have the same bodies."""
-    if own is None:
-        return case
-    if chi is not None:
-        if abs(positive("chi", chi) / _pair(own).chi - 1.0) > ROUNDED:
-            allowed = f"the bodies of the results have {_pair(own).chi:.4g}; leave it out"
-            raise refusal("chi", chi, allowed)
-        return case
-    if case is not None and not alike(_pair(case), _pair(own), friction=True):
-        raise InputError("case: its bodies are not those of the results; leave it out")
-    return own if case is None else case
 
 
 def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
@@ -151,21 +139,21 @@ def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
     )
 
 
-def _score_psi(results: Results, case: Any, chi: Any, limit: float) -> Score:
+def _score_psi(results: Results, case: Given, chi: Any, limit: float) -> Score:
     results.require("psi_in", "psi_out")
     results.require_rows(FEWEST)
     chis = _chis(results, case, chi)
     before, after = results["psi_in"], results["psi_out"]
     refuse_large(before, after, results)
     change = (after - before) * (after + before)
-    points = compared(before, after, chis, change, results)
-    elastic = np.ones(len(results))
-    audit = energy_audit(points, elastic, "in psi^2", limit), friction_audit(points, elastic, limit)
+    points = compared(before, after, chis, case.restitution, change, results)
+    left, unit = np.full(len(results), case.restitution), np.ones(len(results))
+    audit = energy_audit(points, unit, "in psi^2", limit), friction_audit(points, left, limit)
     return Score("psi", limit, points, audit, notes_on(points))
 
 
-def _chis(results: Results, case: Any, chi: Any) -> Array:
-    ways = [name for name, way in (("--chi", chi), ("--case", case)) if way is not None]
+def _chis(results: Results, case: Given, chi: Any) -> Array:
+    ways = [name for name, way in (("--chi", chi), ("--case", case.case)) if way is not None]
     if "chi" in results.columns:
         if ways:
             raise InputError(f"chi: the results have a column chi; leave {ways[0]} out")
@@ -176,61 +164,17 @@ def _chis(results: Results, case: Any, chi: Any) -> Array:
             f"chi: {'given twice' if ways else 'missing'}; give a column chi, --chi, e.g. 1.44, or "
             "--case with the bodies"
         )
-    value = positive("chi", chi) if chi is not None else _pair(case).chi
+    value = positive("chi", chi) if chi is not None else case.pair.chi
     return np.full(len(results), value)
 
 
-def _score_velocities(results: Results, case: Any, _: Any, limit: float) -> Score:
+def _score_velocities(results: Results, case: Given, _: Any, limit: float) -> Score:
     results.require_rows(FEWEST)
-    pair = _pair(case)
-    points, audit, notes = score_velocities(results, pair, limit)
-    return Score("velocities", limit, points, audit, notes, inputs=_inputs(pair))
+    points, audit, notes = score_velocities(results, case.pair, case.restitution, limit)
+    return Score("velocities", limit, points, audit, notes, inputs=case.inputs)
 
 
-def _score_history(results: Results, case: Any, _: Any, limit: float) -> Score:
-    hit = _impact(case)
-    points, audit, notes, forces = score_history(results, hit, limit)
+def _score_history(results: Results, case: Given, _: Any, limit: float) -> Score:
+    hit = case.impact
+    points, audit, notes, forces = score_history(results, hit, case.restitution, limit)
     return Score("history", limit, points, audit, notes, forces, hit.inputs())
-
-
-def _pair(case: Any) -> Pair:
-    """Return the bodies of whatever is given as a case."""
-    _check_elastic(case)
-    if isinstance(case, Pair | Impact):
-        pair = case.pair if isinstance(case, Impact) else case
-    else:
-        pair = pair_of(_content(case))
-    if pair.friction == 0.0:
-        raise refusal("friction", 0.0, "psi is infinite without friction; nothing can be scored")
-    return pair
-
-
-def _impact(case: Any) -> Impact:
-    """Return the impact that a case describes."""
-    _check_elastic(case)
-    if isinstance(case, Impact):
-        return case
-    if isinstance(case, Pair):
-        raise InputError("case: a history needs the motion, too; give a case or an Impact")
-    content = _content(case)
-    hit: Impact = impact(_pair(content), **motion_of(content))
-    return hit
-
-
-def _check_elastic(case: Any) -> None:
-    if isinstance(case, Impact) and case.losses is not None:
-        raise refusal("case", case, "it has losses; scores are against elastic impacts")
-
-
-def _content(case: Any) -> Mapping[str, Any]:
-    if case is None:
-        raise InputError("case: missing; give the bodies, --case with a file as for carom impact")
-    if isinstance(case, str | Path):
-        return read_case(Path(case))
-    check_case(case)
-    return dict(case)
-
-
-def _inputs(pair: Pair) -> dict[str, Any]:
-    bodies = {"first": describe(pair.first), "second": describe(pair.second)}
-    return {**bodies, "friction": pair.friction}

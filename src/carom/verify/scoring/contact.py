@@ -7,12 +7,14 @@ from numpy.typing import NDArray
 
 from carom.bodies.pairs import Scales
 from carom.dimensionless.numerics import hertz
+from carom.impacts.exact import Impact
 from carom.io.columns import Mask, Results
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError
 
 FEWEST = 20  # rows with a force
-SMALL = 0.1  # of the peak: what the first and last force may be
+INSTANTS, RESOLVED = 100, 1e-12  # among which the peak is looked for; of a time in d_max/V_1
+SMALL = 0.1  # of the peak: what the first and last force of elastic bodies may be
 FACTORS = {1e3: "m", 1e6: "u", 1e9: "n", 1e-3: "k", 1e-6: "M"}  # prefix by the factor of numbers
 LIKE = 1.5  # how near a factor is to one of them
 FAR = 30.0  # a ratio to Hertz's time that no law of contact explains
@@ -33,11 +35,11 @@ class Samples(NamedTuple):
     end: float
 
 
-def contact_samples(results: Results, scales: Scales) -> Samples:
+def contact_samples(results: Results, hit: Impact) -> Samples:
     """Return the forces while the bodies touch.
 
-    The first touch lies between the last row without force and the first with one, where Hertz's
-    law has that force; so does the last.
+    The first touch lies between the last row without force and the first with one, as long before
+    as the exact impact takes to that force; so does the last.
 
     Raises InputError if the record has no such part, starts late, ends early, has too few rows in
     it, or is in another unit.
@@ -45,17 +47,17 @@ def contact_samples(results: Results, scales: Scales) -> Samples:
     time, force = results["time"], results["normal_force"]
     _check_order(results)
     first, last = _ends(results)
-    _check_units(time[first : last + 1], force, scales)
+    _check_units(time[first : last + 1], force, hit.scales)
     peak = float(force.max())
-    _check_ends(results, first, last, peak)
+    _check_ends(results, first, last, peak, hit)
     count = last - first + 1
     if count < FEWEST:
         raise InputError(
             f"results: {count} rows with a normal force; a history needs at least {FEWEST}, "
             "record more often"
         )
-    delays = [_since_touch(float(force[i]), scales) for i in (first, last)]
-    touch, end = float(time[first]) - delays[0], float(time[last]) + delays[1]
+    touch = float(time[first]) - _since_touch(float(force[first]), hit)
+    end = float(time[last]) + _until_parting(float(force[last]), hit)
     if first > 0:
         touch = max(touch, float(time[first - 1]))
     if last + 1 < len(results):
@@ -63,10 +65,28 @@ def contact_samples(results: Results, scales: Scales) -> Samples:
     return _framed(results, first, last, touch, end)
 
 
-def _since_touch(force: float, scales: Scales) -> float:
-    """Return the time from the touch until Hertz's force has this value."""
-    penetration = min((force / scales.force) ** (2.0 / 3.0), 0.5**0.4)
-    return float(hertz.elapsed(penetration)) * scales.time
+def _since_touch(force: float, hit: Impact) -> float:
+    """Return the time from the touch until the exact force has this value."""
+    return _when(force, hit, 0.0)
+
+
+def _until_parting(force: float, hit: Impact) -> float:
+    """Return the time until the bodies part, from when the exact force has this value."""
+    return hit.duration - _when(force, hit, hit.solution.duration)
+
+
+def _when(force: float, hit: Impact, end: float) -> float:
+    """Return when the exact force, between one end of the contact and its peak, has a value."""
+    from scipy.optimize import brentq
+
+    exact = hit.solution.history(INSTANTS)
+    peak = float(exact.time[np.argmax(exact.normal_force)])
+
+    def excess(time: float) -> float:
+        return float(hit.solution.at(time).normal_force[0]) - force / hit.scales.force
+
+    time = peak if excess(peak) <= 0.0 else brentq(excess, end, peak, xtol=RESOLVED)
+    return time * hit.scales.time
 
 
 def _framed(results: Results, first: int, last: int, touch: float, end: float) -> Samples:
@@ -102,11 +122,15 @@ def _ends(results: Results) -> tuple[int, int]:
     return first, last
 
 
-def _check_ends(results: Results, first: int, last: int, peak: float) -> None:
+def _check_ends(results: Results, first: int, last: int, peak: float, hit: Impact) -> None:
     """Raise InputError if the record does not start at the first touch and end at the last."""
-    for place, what in ((first, "start at the first touch"), (last, "go on to the last touch")):
+    exact = hit.solution.history(FEWEST + 1).normal_force / hit.solution.max_force
+    for place, what, soon in (
+        (first, "start at the first touch", exact[1]),
+        (last, "go on to the last touch", exact[-2]),
+    ):
         share = float(results["normal_force"][place]) / peak
-        if share > SMALL:
+        if share > max(SMALL, soon):  # forces of viscous bodies rise steeply
             raise InputError(
                 f"normal_force: the history does not {what}; in {results.one(place)} it is "
                 f"{100 * share:.0f} % of the peak; record from before the touch until they part"

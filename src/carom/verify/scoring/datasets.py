@@ -4,10 +4,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.impacts.curves import borders, curve
+from carom.dimensionless.rebounds import regime_borders
+from carom.impacts.curves import curve
 from carom.io.labels import flags, labelled, labelled_dataset
 from carom.quantities.glossary import GLOSSARY
-from carom.verify.errors import pure
+from carom.verify.errors import losses_of, pure
 from carom.verify.scoring.histories import Forces
 from carom.verify.scoring.record import ScoreRecord
 from carom.verify.scoring.report import verdict
@@ -19,6 +20,7 @@ CURVES = 5  # chi of which the exact curve is part of the dataset
 SMOOTH = 401  # psi_1 of such a curve
 NUMBERS = {
     "tolerance": "largest error that passes",
+    "restitution": "restitution of the exact impacts",
     "max_error": "largest |error in psi_2|",
     "rms_error": "root mean square of the errors in psi_2",
     "mean_error": "mean error in psi_2",
@@ -40,7 +42,7 @@ def score_dataset(score: ScoreRecord) -> "xr.Dataset":
     passed = {"passed": ((), np.int8(score.passed), flags(("failed", "passed")))}
     variables = {**_points(score), **_findings(score), **numbers, **passed}
     points, words = score.points, {"long_name": f"{score.points.word} of the results"}
-    names = {"long_name": "phases of the exact impact for psi_1 > 0"}
+    names = {"long_name": "phases of the exact impact for psi_1 > 0, with losses its regime"}
     coords = {
         "row": ("point", points.rows, words),
         "sequence_name": ("sequence_name", list(points.sequence_names), names),
@@ -91,7 +93,8 @@ def _curves(score: ScoreRecord) -> dict[str, Any]:
         return {}
     low, high = min(0.0, float(points.psi_in.min())), max(0.0, float(points.psi_in.max()))
     psi = np.linspace(low, high, SMOOTH)
-    exact = curve(chis.tolist(), psi)["psi_out"].values.ravel()
+    e = points.restitution
+    exact = curve(chis.tolist(), psi, losses=losses_of(e))["psi_out"].values.ravel()
     lines = {
         "curve_chi": ("curve", np.repeat(chis, SMOOTH), pure(GLOSSARY["chi"].meaning)),
         "curve_psi_in": ("curve", np.tile(psi, chis.size), pure("psi_1")),
@@ -100,7 +103,7 @@ def _curves(score: ScoreRecord) -> dict[str, Any]:
     if chis.size > 1:
         return lines
     words = pure("|psi_1| at which the regime changes")
-    return lines | {"border": ("regime_border", list(borders(float(chis[0]))), words)}
+    return lines | {"border": ("regime_border", regime_borders(float(chis[0]), e), words)}
 
 
 def _history(forces: Forces) -> "xr.Dataset":

@@ -5,7 +5,6 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.bodies.pairs import Scales
-from carom.dimensionless.numerics import hertz
 from carom.impacts.exact import Impact
 from carom.io.columns import Results
 from carom.io.labels import Finding
@@ -65,8 +64,8 @@ def forces_of(hit: Impact, samples: Samples) -> Forces:
     after = np.zeros(time.size - samples.time.size)
     normal = np.concatenate([samples.normal_force, after])
     tangential = np.concatenate([samples.tangential_force, after])
-    exact = hit.solution.at(np.clip(time / scales.time, 0.0, hertz.DURATION))
-    exact_normal = exact.penetration**1.5 * scales.force
+    exact = hit.solution.at(np.clip(time / scales.time, 0.0, hit.solution.duration))
+    exact_normal = exact.normal_force * scales.force
     exact_tangential = exact.force * scales.tangential_force
     off_normal, off_tangential = normal - exact_normal, tangential - exact_tangential
     impulse = np.concatenate([[0.0], np.cumsum(np.diff(time) * _middles(off_tangential))])
@@ -82,7 +81,7 @@ def forces_of(hit: Impact, samples: Samples) -> Forces:
         normal_error=off_normal / scales.force,
         tangential_error=off_tangential / (pair.friction * scales.force),
         psi=exact.psi - impulse / (pair.tangential_mass * scales.tangential_speed),
-        restitution=1.0 + normal_impulse / (pair.normal_mass * hit.normal_speed),
+        restitution=hit.normal_restitution + normal_impulse / (pair.normal_mass * hit.normal_speed),
         duration_error=samples.end / hit.duration - 1.0,
         peak_error=float(normal.max() - exact_normal.max()) / scales.force,
     )
@@ -93,7 +92,7 @@ def _middles(values: Array) -> Array:
 
 
 def score_history(
-    results: Results, hit: Impact, limit: float
+    results: Results, hit: Impact, expected: float, limit: float
 ) -> tuple[Points, tuple[Finding, ...], tuple[str, ...], Forces]:
     """Return the one point that a history makes, what is found, notes, and the forces.
 
@@ -103,18 +102,18 @@ def score_history(
     if hit.pair.friction == 0.0:
         raise InputError("friction: without friction psi is infinite; there is nothing to score")
     _refuse_large(results, hit.scales)
-    forces = forces_of(hit, contact_samples(results, hit.scales))
+    forces = forces_of(hit, contact_samples(results, hit))
     change = np.array([_energy_change(forces)])
     before, after = np.array([hit.psi_in]), forces.psi[-1:]
     one = Results({}, np.array([1]), "impact")
     refuse_large(before, after, one)
-    points = compared(before, after, np.array([hit.pair.chi]), change, one)
+    points = compared(before, after, np.array([hit.pair.chi]), expected, change, one)
     unit = 0.5 * hit.pair.tangential_mass * np.array([hit.scales.tangential_speed]) ** 2
     findings = (
         _off("tangential force", forces, forces.tangential_error, "mu P_max", limit),
         _off("normal force", forces, forces.normal_error, "P_max", limit),
         _share("peak force", forces.peak_error, "of P_max", limit),
-        _share("duration", forces.duration_error, "of Hertz's", limit),
+        _share("duration", forces.duration_error, "of the exact one", limit),
         _cone_audit(results, forces, limit),
         _work_audit(forces, limit),
         energy_audit(points, unit, "J", limit),

@@ -1,7 +1,7 @@
 """Results as points psi_2(psi_1, chi), the exact answer to each, and the errors."""
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -9,13 +9,15 @@ from numpy.typing import NDArray
 
 from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
-from carom.impacts.curves import regime_map
+from carom.dimensionless.rebounds import rebound, regime_borders
+from carom.impacts.curves import REGIMES, regime_map
 from carom.io.columns import Results
 from carom.io.labels import Finding
 from carom.io.progress import advancing
 from carom.io.tables import SHOWN, named
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError
+from carom.verify.errors import losses_of
 
 CHUNK = 1 << 16  # impacts after which the bar moves
 LARGEST = 1e9  # of |psi|: there rounding is as large as errors that matter
@@ -39,11 +41,13 @@ class Points:
     """Rebounds of a user and the exact ones; `energy_change` is that after less that before.
 
     It is in J, or in units of m_t (mu V_1/kappa)^2/2 where all is dimensionless: psi_2^2 - psi_1^2.
+    With losses the regimes of the exact impacts stand for the sequences of their phases.
     """
 
     psi_in: Array
     psi_out: Array
     chi: Array
+    restitution: float
     exact: Array
     sequence: NDArray[np.int64]
     sequence_names: tuple[str, ...]
@@ -78,7 +82,7 @@ class Points:
     @property
     def groups(self) -> tuple[Group, ...]:
         """The errors by the sequence of phases of the exact impact, by rising |psi_1|."""
-        places = range(len(self.sequence_names))
+        places = np.unique(self.sequence).tolist()
         members = {place: self.sequence == place for place in places}
         order = sorted(places, key=lambda place: np.abs(self.psi_in[members[place]]).min())
         return tuple(self.group(self.sequence_names[i], members[i]) for i in order)
@@ -93,32 +97,54 @@ def refuse_large(psi_in: Array, psi_out: Array, results: Results) -> None:
 
 
 def compared(
-    psi_in: Array, psi_out: Array, chi: Array, energy_change: Array, results: Results
+    psi_in: Array,
+    psi_out: Array,
+    chi: Array,
+    restitution: float,
+    energy_change: Array,
+    results: Results,
 ) -> Points:
-    """Return results beside the exact rebounds of Maw, Barber & Fawcett (1976).
+    """Return results beside the exact rebounds of Maw, Barber & Fawcett (1976), or with losses.
 
     Raises InputError for a row of which the exact rebound is not known.
     """
-    exact, status, codes = _solved(psi_in, chi)
+    exact, status, codes = _solved(psi_in, chi, restitution)
     if (status != Status.SOLVED).any():
         bad = status != Status.SOLVED
         reason = Status(int(status[bad][0])).message
         raise InputError(f"results: no exact answer for {results.named(bad)}; {reason}")
-    sequence, names = _sequences(psi_in, chi, codes)
+    if restitution == 1.0:
+        sequence, names = _sequences(psi_in, chi, codes)
+    else:
+        sequence, names = codes, REGIMES
     rows, word = results.rows, results.word
-    return Points(psi_in, psi_out, chi, exact, sequence, names, energy_change, rows, word)
+    given = psi_in, psi_out, chi, restitution
+    return Points(*given, exact, sequence, names, energy_change, rows, word)
 
 
-def _solved(psi: Array, chi: Array) -> tuple[Array, NDArray[np.int8], NDArray[np.int64]]:
+def _solved(
+    psi: Array, chi: Array, restitution: float
+) -> tuple[Array, NDArray[np.int8], NDArray[np.int64]]:
     """Return the exact rebounds, their status and codes of phases, chunk by chunk."""
+    one = solved if restitution == 1.0 else partial(_with_losses, restitution=restitution)
     parts = []
     with advancing("exact rebounds", psi.size, unit="impacts") as advance:
         for start in range(0, psi.size, CHUNK):
             part = slice(start, start + CHUNK)
-            parts.append(solved(np.array(psi[part]), np.array(chi[part])))
+            parts.append(one(np.array(psi[part]), np.array(chi[part])))
             advance(parts[-1][0].size)
     exact, status, codes = map(np.concatenate, zip(*parts, strict=True))
     return exact, status, codes
+
+
+def _with_losses(
+    psi: Array, chi: Array, restitution: float
+) -> tuple[Array, NDArray[np.int8], NDArray[np.int64]]:
+    """Return the exact rebounds with losses, their status and regimes."""
+    losses = losses_of(restitution)
+    exact, status = rebound(psi, chi, losses=losses, return_status=True)
+    borders = regime_borders(chi, restitution)
+    return exact, status, np.sum(np.abs(psi)[:, np.newaxis] > borders, axis=1)
 
 
 def _sequences(
@@ -175,27 +201,33 @@ def friction_audit(points: Points, restitution: Array, limit: float) -> Finding:
 
 
 def restitution_audit(points: Points, restitution: Array, limit: float) -> Finding:
-    """Return whether the normal impact is elastic, as in the exact answer."""
-    off = np.abs(restitution - 1.0)
+    """Return whether the normal impact leaves as much as the exact one."""
+    expected = points.restitution
+    off, elastic = np.abs(restitution - expected), expected == 1.0
     name, value, worst = "restitution error", float(off.max()), int(np.argmax(off))
     if value <= limit:
-        return Finding(name, value, limit, True, "the normal impact is elastic")
+        verdict = "the normal impact is elastic" if elastic else f"e = {expected:g}, as it is to be"
+        return Finding(name, value, limit, True, verdict)
     where = f"in {points.named(off > limit)}, most in {points.one(worst)}"
-    verdict = f"e = {restitution[worst]:.6g}, not 1, {where}; let the normal contact be undamped"
+    advice = "let the normal contact be undamped, or say what it is to leave, restitution="
+    advice = advice if elastic else "adapt the damping of the normal contact"
+    verdict = f"e = {restitution[worst]:.6g}, not {expected:g}, {where}; {advice}"
     return Finding(name, value, limit, False, verdict)
 
 
 def notes_on(points: Points) -> tuple[str, ...]:
     """Return what may be wrong with all points: the sign of psi_2, or chi.
 
-    Who slips throughout loses 4 chi of psi_1: that tells the chi of the results.
+    Who slips throughout loses 2 (1 + e) chi of psi_1: that tells the chi of the results.
     """
     notes = []
     if 2.0 * np.linalg.norm(points.psi_out + points.exact) < np.linalg.norm(points.error):
         notes.append("psi_2 has the opposite sign? Before and after count along the same axis")
-    slides = np.abs(points.psi_in) > np.maximum(4.0 * points.chi, 1.0)
-    ratio = np.abs(points.psi_in - points.psi_out)[slides] / (4.0 * points.chi[slides])
+    most = 2.0 * (1.0 + points.restitution) * points.chi
+    slides = np.abs(points.psi_in) > np.maximum(most, 1.0)
+    ratio = np.abs(points.psi_in - points.psi_out)[slides] / most[slides]
     if ratio.size > 1 and np.ptp(ratio) < SAME and abs(ratio[0] - 1.0) > SAME:
         times = f"{ratio[0]:.4g} times"
-        notes.append(f"in gross slip psi_1 - psi_2 is {times} 4 chi: is chi {times} as large?")
+        factor = f"{2.0 * (1.0 + points.restitution):g} chi"
+        notes.append(f"in gross slip psi_1 - psi_2 is {times} {factor}: is chi {times} as large?")
     return tuple(notes)

@@ -28,6 +28,11 @@ class ScoreRecord:
         return self.points.group("all", self.points.psi_in == self.points.psi_in)
 
     @property
+    def restitution(self) -> float:
+        """Restitution of the exact impacts."""
+        return self.points.restitution
+
+    @property
     def max_error(self) -> float:
         """Largest |error in psi_2|."""
         return self.overall.max_error

@@ -31,6 +31,8 @@ def _points(score: ScoreRecord) -> list[str]:
     points = score.points
     shown = np.arange(points.rows.size)
     title = "psi_2 against the exact answer"
+    if score.restitution != 1.0:
+        title += f" with e = {score.restitution:g}"
     if shown.size > LISTED:
         shown = np.sort(np.argsort(-np.abs(points.error))[:LISTED])
         title += f", the worst {LISTED} of {points.rows.size} points"

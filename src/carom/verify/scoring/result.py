@@ -39,8 +39,8 @@ class Score(ScoreRecord, Result):
         Returns
         -------
         dict
-            passed, tolerance, failures, kind, max_error, rms_error, mean_error, points by column,
-            phases, audit, notes.
+            passed, tolerance, failures, kind, restitution, max_error, rms_error, mean_error, points
+            by column, phases, audit, notes.
         """
         points = self.points
         columns = {
@@ -52,7 +52,7 @@ class Score(ScoreRecord, Result):
             "error": points.error,
             "energy_change": points.energy_change,
         }
-        names = ("kind", "max_error", "rms_error", "mean_error")
+        names = ("kind", "restitution", "max_error", "rms_error", "mean_error")
         return {
             "passed": self.passed,
             "tolerance": self.tolerance,

@@ -57,24 +57,24 @@ class Velocities(NamedTuple):
 
 
 def score_velocities(
-    results: Results, pair: Pair, limit: float
+    results: Results, pair: Pair, expected: float, limit: float
 ) -> tuple[Points, tuple[Finding, ...], tuple[str, ...]]:
     """Return the points that velocities make, what is found of them, and notes.
 
+    `expected` is the restitution of the exact impacts.
     Raises InputError for columns that are missing, rows that are no impact, or wrong units.
     """
     _refuse_second_spin(results, pair)
     before = _before(results)
-    after, notes = _after(results, pair, before)
+    after, notes = _after(results, pair, before, expected)
     normal = before.normal_speed
     name = "normal_speed" if "normal_speed" in results.columns else "speed"
     results.refuse(name, (normal < SLOWEST) | (normal > FASTEST), "check its unit")
     psi = before.psi(pair, normal), after.psi(pair, normal)
     refuse_large(*psi, results)
     momentum = momentum_audit(results, pair, before.tangential, after.tangential, normal, limit)
-    points = compared(
-        *psi, np.full(len(results), pair.chi), after.energy(pair) - before.energy(pair), results
-    )
+    chi, change = np.full(len(results), pair.chi), after.energy(pair) - before.energy(pair)
+    points = compared(*psi, chi, expected, change, results)
     unit: Any = 0.5 * pair.tangential_mass * pair.scales(normal).tangential_speed ** 2
     restitution = after.normal_speed / normal
     findings = (
@@ -110,15 +110,19 @@ def _speeds(results: Results) -> tuple[Any, Any]:
     return components(speed, angle)
 
 
-def _after(results: Results, pair: Pair, before: Velocities) -> tuple[Velocities, tuple[str, ...]]:
+def _after(
+    results: Results, pair: Pair, before: Velocities, expected: float
+) -> tuple[Velocities, tuple[str, ...]]:
     results.require("tangential_speed_out", "spin_out")
     notes = []
-    normal = results.get("normal_speed_out", before.normal_speed)
+    normal = results.get("normal_speed_out", expected * before.normal_speed)
     if "normal_speed_out" in results.columns:
         receding = "must be positive: the bodies must recede after the impact"
         results.refuse("normal_speed_out", normal <= 0.0, receding)
     else:
-        notes.append("normal_speed_out is not given: taken as normal_speed, e = 1")
+        times = "" if expected == 1.0 else f"{expected:g} "
+        taken = f"taken as {times}normal_speed, e = {expected:g}"
+        notes.append(f"normal_speed_out is not given: {taken}")
     spin = results["spin_out"]
     spin2 = results.get("spin2_out", 0.0 * spin)
     if isinstance(pair.second, Sphere) and "spin2_out" not in results.columns:

@@ -1,0 +1,104 @@
+"""What results are scored against: bodies, their motion, and the restitution they leave."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from carom.bodies.cases import check_case, losses_of, motion_of, pair_of, read_case
+from carom.bodies.losses import KelvinVoigt, LossLaw
+from carom.bodies.pairs import Pair, alike
+from carom.bodies.shapes import describe
+from carom.impacts.exact import Impact
+from carom.impacts.solve import impact
+from carom.quantities.refusals import InputError, refusal
+from carom.quantities.units import positive
+from carom.verify import errors
+
+ROUNDED = 0.01  # part of chi by which a number that is told may be rounded
+
+
+@dataclass(frozen=True)
+class Given:
+    """What is given as a case, and the restitution of the exact impact."""
+
+    case: Any
+    restitution: float = 1.0
+
+    @cached_property
+    def pair(self) -> Pair:
+        """The bodies; InputError without friction, for which psi is infinite."""
+        if isinstance(self.case, Pair | Impact):
+            pair = self.case.pair if isinstance(self.case, Impact) else self.case
+        else:
+            pair = pair_of(_content(self.case))
+        if pair.friction == 0.0:
+            allowed = "psi is infinite without friction; nothing can be scored"
+            raise refusal("friction", 0.0, allowed)
+        return pair
+
+    @cached_property
+    def impact(self) -> Impact:
+        """The exact impact; InputError if there is no motion."""
+        if isinstance(self.case, Impact):
+            return self.case
+        if isinstance(self.case, Pair):
+            raise InputError("case: a history needs the motion, too; give a case or an Impact")
+        motion = motion_of(_content(self.case))
+        hit: Impact = impact(self.pair, losses=errors.losses_of(self.restitution), **motion)
+        return hit
+
+    @property
+    def inputs(self) -> dict[str, Any]:
+        """The bodies, as results tell them."""
+        bodies = {"first": describe(self.pair.first), "second": describe(self.pair.second)}
+        return {**bodies, "friction": self.pair.friction}
+
+
+def given_of(case: Any, chi: Any, own: Any, restitution: Any) -> Given:
+    """Return what is given as a case, or what the file holds; both must have the same bodies."""
+    chosen = _chosen(case, chi, own)
+    return Given(chosen, _restitution(chosen, restitution))
+
+
+def _chosen(case: Any, chi: Any, own: Any) -> Any:
+    if own is None:
+        return case
+    bodies = Given(own).pair
+    if chi is not None:
+        if abs(positive("chi", chi) / bodies.chi - 1.0) > ROUNDED:
+            allowed = f"the bodies of the results have {bodies.chi:.4g}; leave it out"
+            raise refusal("chi", chi, allowed)
+        return case
+    if case is not None and not alike(Given(case).pair, bodies, friction=True):
+        raise InputError("case: its bodies are not those of the results; leave it out")
+    return own if case is None else case
+
+
+def _restitution(case: Any, restitution: Any) -> float:
+    """Return the restitution that is given, or that of the case, or 1."""
+    own = _losses(case)
+    if own is not None and (not isinstance(own, KelvinVoigt) or own.restitution is None):
+        allowed = "scores take Kelvin-Voigt solids with one restitution; give restitution="
+        raise refusal("losses", own, allowed)
+    if restitution is None:
+        return 1.0 if own is None else float(own.restitution)
+    if own is not None or isinstance(case, Impact):
+        raise refusal("restitution", restitution, "the case tells its own; leave one of them out")
+    return float(KelvinVoigt(restitution=restitution).restitution)
+
+
+def _losses(case: Any) -> LossLaw | None:
+    if isinstance(case, Impact):
+        return case.losses
+    return None if case is None or isinstance(case, Pair) else losses_of(_content(case))
+
+
+def _content(case: Any) -> Mapping[str, Any]:
+    if case is None:
+        raise InputError("case: missing; give the bodies, --case with a file as for carom impact")
+    if isinstance(case, str | Path):
+        return read_case(Path(case), losses=True)
+    check_case(case, losses=True)
+    return dict(case)

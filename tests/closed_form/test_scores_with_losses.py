@@ -1,0 +1,166 @@
+"""Scores of damped results against viscoelastic impacts of the same restitution."""
+
+import numpy as np
+import pytest
+
+import carom
+from carom.impacts.curves import REGIMES
+from carom.verify import score
+
+CHI = 1.4412
+PAIR = carom.Pair(
+    carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), friction=0.2
+)
+BODIES = {
+    "friction": 0.2,
+    "first": {"radius": "5 mm", "material": "steel"},
+    "second": {"kind": "half-space", "material": "steel"},
+}
+MOTION = {"speed": 2.0, "angle": "35 deg", "spin": 50.0}
+
+
+def viscous(e):
+    return carom.KelvinVoigt(restitution=e)
+
+
+def curve(psi, e):
+    return {"psi_1": psi, "psi_2": carom.rebound(psi, CHI, losses=viscous(e))}
+
+
+def velocities(e, number=12):
+    rng = np.random.default_rng(1)
+    hits = [
+        carom.impact(
+            PAIR,
+            speed=rng.uniform(0.1, 5.0),
+            angle=rng.uniform(0.0, 1.4),
+            spin=rng.uniform(-300.0, 300.0),
+            losses=viscous(e),
+        )
+        for _ in range(number)
+    ]
+    names = ("normal_speed", "tangential_speed", "spin", "tangential_speed_out", "spin_out")
+    found = {name: [getattr(hit, name) for hit in hits] for name in names}
+    return found | {"normal_speed_out": [e * hit.normal_speed for hit in hits]}
+
+
+def forces(hit, rows=31, shift=0.4):
+    """Exact forces at instants that miss the first and the last touch, in a record around them."""
+    times = (np.arange(rows) + shift) / rows * hit.duration
+    state = hit.solution.at(times / hit.scales.time)
+    before = times[0] - np.arange(4.0, 0.0, -1.0) * times[1]
+    after = times[-1] + np.arange(1.0, 4.0) * times[1]
+    found = {
+        "normal_force": state.normal_force * hit.scales.force,
+        "tangential_force": state.force * hit.scales.tangential_force,
+    }
+    columns = {n: np.concatenate([np.zeros(4), f, np.zeros(3)]) for n, f in found.items()}
+    return columns | {"time": 1.0 + np.concatenate([before, times, after])}
+
+
+@pytest.mark.parametrize("e", [0.95, 0.7, 0.3])
+def test_exact_results_score_zero(e):
+    psi = np.linspace(-7.0, 7.0, 41)
+    results = (
+        score(curve(psi, e), chi=CHI, restitution=e),
+        score(velocities(e), case=PAIR, restitution=e),
+    )
+    for result in results:
+        assert result.passed
+        assert result.restitution == e
+        assert result.max_error <= 1e-11 * np.abs(result.points.psi_in).max()
+        assert max(finding.value for finding in result.audit) <= 1e-9
+        assert result.notes == ()
+
+
+@pytest.mark.parametrize("e", [0.9, 0.5])
+@pytest.mark.parametrize("angle", ["5 deg", "35 deg", "80 deg"])
+def test_exact_histories_score_zero(angle, e):
+    hit = carom.impact(PAIR, speed=2.0, angle=angle, spin=50.0, losses=viscous(e))
+    result = score(forces(hit), case=hit)
+    assert result.passed
+    assert result.restitution == e
+    assert result.max_error <= 1e-8
+    assert {f.name for f in result.audit if f.value > 1e-8} == set()
+    assert result.forces.samples.touch == pytest.approx(1.0, abs=1e-8 * hit.duration)
+
+
+def test_sliding_throughout_is_known_in_closed_form():
+    """psi_1 - psi_2 = 2 (1 + e) chi from psi_1 = 2 chi (1 + e) - e on."""
+    e = 0.6
+    border = 2.0 * CHI * (1.0 + e) - e
+    psi = border + np.array([1e-6, 3.0, 6.0])
+    given = {"psi_1": psi, "psi_2": psi - 2.0 * (1.0 + e) * CHI}
+    result = score(given, chi=CHI, restitution=e)
+    assert result.max_error < 1e-12
+    assert [group.name for group in result.groups] == [REGIMES[3]]
+    note = score(given, chi=1.1 * CHI, restitution=e).notes[0]
+    assert note == (
+        "in gross slip psi_1 - psi_2 is 0.9091 times 3.2 chi: is chi 0.9091 times as large?"
+    )
+
+
+def test_groups_are_the_regimes():
+    psi = [0.5, 1.5, 2.5, 3.2, 4.0, 6.0]  # borders at 1, 2.88 and 3.82 for e = 1/2
+    result = score(curve(psi, 0.5), chi=CHI, restitution=0.5)
+    assert [(group.name, group.points) for group in result.groups] == list(
+        zip(REGIMES, (1, 2, 1, 2), strict=True)
+    )
+    assert result.to_dataset().restitution == 0.5
+    assert "with e = 0.5" in str(result)
+    drawn = result.to_dataset()
+    exact = carom.rebound(drawn.curve_psi_in.values, CHI, losses=viscous(0.5))
+    np.testing.assert_allclose(drawn.curve_psi_out.values, exact, atol=1e-12)
+    np.testing.assert_allclose(drawn.border.values, [1.0, 2.0 * CHI, 3.0 * CHI - 0.5], rtol=1e-12)
+
+
+def test_a_damped_law_has_the_error_of_the_ranking():
+    law = carom.LammpsMindlin("mindlin_rescale/force", restitution=0.7)
+    psi = np.array(carom.verify.rank([law], chi=CHI).psi)
+    result = score({"psi_1": psi, "psi_2": law.rebound(psi, CHI)}, chi=CHI, restitution=0.7)
+    expected = carom.verify.rank([law], chi=CHI).standings[0].max_error
+    assert result.max_error == pytest.approx(expected, abs=1e-9)
+    assert not result.passed
+
+
+def test_another_restitution_is_named():
+    given = velocities(0.7)
+    result = score(given, case=PAIR, restitution=0.8)
+    (audit,) = (f for f in result.audit if f.name == "restitution error")
+    assert audit.value == pytest.approx(0.1, abs=1e-12)
+    assert "e = 0.7, not 0.8" in audit.verdict
+    assert "adapt the damping" in audit.verdict
+    elastic = score(given, case=PAIR)
+    assert "restitution error" in elastic.failures
+    del given["normal_speed_out"]
+    assert score(given, case=PAIR, restitution=0.7).notes == (
+        "normal_speed_out is not given: taken as 0.7 normal_speed, e = 0.7",
+    )
+
+
+def test_the_case_tells_the_restitution_as_well():
+    hit = carom.impact(PAIR, **MOTION, losses=viscous(0.8))
+    case = BODIES | MOTION | {"restitution": 0.8}
+    given = forces(hit)
+    for one in (score(given, case=case), score(given, case=BODIES | MOTION, restitution="80 %")):
+        assert one.restitution == 0.8
+        assert one.max_error <= 1e-8
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"case": PAIR, "restitution": 0.0}, "restitution: 0"),
+        ({"case": PAIR, "restitution": 1.1}, "restitution: 1.1"),
+        ({"case": PAIR, "restitution": "high"}, "restitution: 'high'"),
+        ({"case": BODIES | {"restitution": 0.9}, "restitution": 0.9}, "leave one of them out"),
+        ({"case": carom.impact(PAIR, **MOTION), "restitution": 0.9}, "leave one of them out"),
+        ({"case": BODIES | {"loss_time": "1 us"}}, "Kelvin-Voigt solids with one restitution"),
+        ({"case": BODIES | {"yield_velocity": "1 m/s"}}, "Kelvin-Voigt solids"),
+    ],
+)
+def test_what_cannot_be_compared_is_refused(given, message):
+    with pytest.raises(carom.InputError) as error:
+        score(velocities(0.9, number=3), **given)
+    assert message in str(error.value)
+    assert "\n" not in str(error.value)
