@@ -1,11 +1,17 @@
 """Which solid do measured rebounds prefer? AICc of Kharaz's balls, and published e and beta_0.
 
-python studies/real_losses.py    half a minute, prints two tables for docs/choosing.md
+python studies/real_losses.py    a minute, prints three tables for docs/choosing.md
 
 Kharaz et al. (2001): friction, kappa and the loss are fitted to all angles, spins and restitutions
-for bodies without loss, viscoelastic ones and yielding spheres. beta_0, the largest -psi_2/psi_1 of
-solid spheres (chi = 1.44), of each solid at the e of Foerster et al. (1994), Phys. Fluids 6:1108.
+for bodies without loss, viscoelastic ones and yielding spheres. beta_0, the largest -psi_2/psi_1,
+of each solid at some e, and at the e of published pairs: those of M. Y. Louge's laboratory, Cornell,
+"Fall 1999 Impact Parameter Chart" (glass and acetate are those of Foerster et al. 1994, Phys. Fluids
+6:1108), and Joseph & Hunt (2004), J. Fluid Mech. 510:71, p. 78. Both were read in a public copy of
+the numbers, github.com/svenviktorjonsson/rigid-body-collisions. Elastic constants are not theirs:
+chi follows from Poisson's ratios of handbooks.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,11 +24,51 @@ from carom.dimensionless.lossy.rebounds import is_elastic, lossy_rebounds
 
 CHI, RADIUS = 1.44, 2.5e-3
 PSI = np.linspace(0.8, 4.5, 149)
+GIGA = 1e9
 MEASURED = ("tangential_restitution", "spin_out", "rebound_angle")
-PUBLISHED = {"glass": (0.97, 0.44), "cellulose acetate": (0.87, 0.43)}
 STIFFER = 6.0  # E_0/E of the solid that relaxes slowly
 
 Array = NDArray[np.float64]
+
+
+class Published(NamedTuple):
+    """Two bodies, and e and beta_0 with their errors, as published."""
+
+    bodies: str
+    materials: tuple[carom.Material, carom.Material]
+    e: float
+    e_error: float
+    beta: float
+    beta_error: float
+
+    @property
+    def chi(self) -> float:
+        """Return (kappa/2)(m_n/m_t) of a solid sphere."""
+        ball = carom.Sphere(radius=1e-3, material=self.materials[0])
+        return float(carom.Pair(ball, carom.HalfSpace(material=self.materials[1]), 0.1).chi)
+
+
+def polymer(young: float, poisson: float) -> carom.Material:
+    """Return a material; of like ones only Poisson's ratio matters here."""
+    return carom.Material(young=young * GIGA, poisson=poisson, density=1200.0)
+
+
+GLASS, STEEL = carom.material("soda-lime-glass"), carom.material("bearing-steel")
+ALUMINIUM, POM = carom.material("aluminium"), carom.material("pom")
+ACETATE, URETHANE, ZERODUR = polymer(2.0, 0.4), polymer(0.01, 0.49), polymer(90.3, 0.24)
+PUBLISHED = (
+    Published("glass, glass", (GLASS, GLASS), 0.97, 0.01, 0.44, 0.07),
+    Published("fresh glass, like", (GLASS, GLASS), 0.922, 0.021, 0.37, 0.07),
+    Published("spent glass, like", (GLASS, GLASS), 0.972, 0.015, 0.25, 0.08),
+    Published("chrome steel, like", (STEEL, STEEL), 1.0, 0.01, 0.54, 0.05),
+    Published("steel, Zerodur", (STEEL, ZERODUR), 0.97, 0.02, 0.34, 0.07),
+    Published("glass, Zerodur", (GLASS, ZERODUR), 0.97, 0.02, 0.39, 0.06),
+    Published("glass, aluminium", (GLASS, ALUMINIUM), 0.831, 0.009, 0.31, 0.06),
+    Published("acetate, like", (ACETATE, ACETATE), 0.87, 0.02, 0.43, 0.06),
+    Published("acetate, aluminium", (ACETATE, ALUMINIUM), 0.891, 0.003, 0.39, 0.07),
+    Published("Delrin, like", (POM, POM), 0.97, 0.01, 0.54, 0.1),
+    Published("polyurethane, like", (URETHANE, URETHANE), 0.6, 0.05, 0.3, 0.02),
+)
 
 
 def restitution(losses: LossNumbers) -> float:
@@ -56,10 +102,18 @@ def relaxing(e: float) -> LossNumbers:
 SOLIDS = {"viscous": viscous, "yields": yielding, "relaxes slowly": relaxing}
 
 
-def spring_back(losses: LossNumbers) -> float:
+def spring_back(losses: LossNumbers | None, chi: float = CHI) -> float:
     """Return the largest -psi_2/psi_1."""
-    found = lossy_rebounds(PSI, np.full(PSI.size, CHI), losses)
+    if losses is None:
+        return float(np.max(-carom.rebound(PSI, chi) / PSI))
+    found = lossy_rebounds(PSI, np.full(PSI.size, chi), losses)
     return float(np.max(-found.psi_out / PSI))
+
+
+def at_restitution(e: float, chi: float = CHI) -> Array:
+    """Return the largest -psi_2/psi_1 without a loss in shear or anywhere, and of each solid."""
+    solids = [solid(e) if e < 1.0 else None for solid in SOLIDS.values()]
+    return np.array([spring_back(losses, chi) for losses in (None, *solids)])
 
 
 def predicted(parameters: Array, solid: str, data: dict[str, Array]) -> dict[str, Array]:
@@ -114,11 +168,18 @@ def main() -> None:
         print(f"{solid:16s} {friction:8.4f} {kappa:7.3f} {lost:8.4f} {aicc:8.1f}")
     print("\nlargest -psi_2/psi_1   " + "  ".join(SOLIDS))
     for e in (0.97, 0.95, 0.9, 0.87, 0.8, 0.7):
-        row = "  ".join(f"{spring_back(solid(e)):.3f}" for solid in SOLIDS.values())
-        told = ", ".join(
-            f"{name} {beta}" for name, (known, beta) in PUBLISHED.items() if known == e
-        )
-        print(f"e = {e:<5g}              {row}   {told}")
+        print(f"e = {e:<5g}              {'  '.join(f'{v:.3f}' for v in at_restitution(e)[1:])}")
+    print("\npublished               chi     e       beta_0      elastic  " + "  ".join(SOLIDS))
+    off = []
+    for each in PUBLISHED:
+        found = at_restitution(each.e, each.chi)
+        off.append(((found - each.beta) / each.beta_error) ** 2)
+        row = "    ".join(f"{value:.3f}" for value in found)
+        measured = f"{each.beta:.2f} +- {each.beta_error:.2f}"
+        print(f"{each.bodies:20s} {each.chi:6.3f}  {each.e:5.3f}  {measured}   {row}")
+    for part, name in ((off, "all"), (off[:-1], "without polyurethane")):
+        row = "    ".join(f"{value:.1f}" for value in np.sum(part, axis=0))
+        print(f"sum of ((beta_0 - published)/error)^2, {len(part)} pairs, {name}: {row}")
 
 
 if __name__ == "__main__":
