@@ -4,11 +4,11 @@ python studies/real_losses.py    a minute, prints three tables for docs/choosing
 
 Kharaz et al. (2001): friction, kappa and the loss are fitted to all angles, spins and restitutions
 for bodies without loss, viscoelastic ones and yielding spheres. beta_0, the largest -psi_2/psi_1,
-of each solid at some e, and at the e of published pairs: those of M. Y. Louge's laboratory, Cornell,
-"Fall 1999 Impact Parameter Chart" (glass and acetate are those of Foerster et al. 1994, Phys. Fluids
-6:1108), and Joseph & Hunt (2004), J. Fluid Mech. 510:71, p. 78. Both were read in a public copy of
-the numbers, github.com/svenviktorjonsson/rigid-body-collisions. Elastic constants are not theirs:
-chi follows from Poisson's ratios of handbooks.
+of each solid at some e, and at the e of published pairs: those of M. Y. Louge's laboratory at
+Cornell, "Fall 1999 Impact Parameter Chart" (glass and acetate: Foerster et al. 1994, Phys. Fluids
+6:1108), and of Joseph & Hunt (2004), J. Fluid Mech. 510:71, p. 78. Both were read in a public copy
+of the numbers, github.com/svenviktorjonsson/rigid-body-collisions. Elastic constants are not
+theirs: chi follows from Poisson's ratios of handbooks.
 """
 
 from typing import NamedTuple
@@ -43,7 +43,7 @@ class Published(NamedTuple):
 
     @property
     def chi(self) -> float:
-        """Return (kappa/2)(m_n/m_t) of a solid sphere."""
+        """(kappa/2)(m_n/m_t) of a solid sphere."""
         ball = carom.Sphere(radius=1e-3, material=self.materials[0])
         return float(carom.Pair(ball, carom.HalfSpace(material=self.materials[1]), 0.1).chi)
 
