@@ -155,8 +155,8 @@ def test_the_case_tells_the_restitution_as_well():
         ({"case": PAIR, "restitution": "high"}, "restitution: 'high'"),
         ({"case": BODIES | {"restitution": 0.9}, "restitution": 0.9}, "leave one of them out"),
         ({"case": carom.impact(PAIR, **MOTION), "restitution": 0.9}, "leave one of them out"),
-        ({"case": BODIES | {"loss_time": "1 us"}}, "Kelvin-Voigt solids with one restitution"),
-        ({"case": BODIES | {"yield_velocity": "1 m/s"}}, "Kelvin-Voigt solids"),
+        ({"case": BODIES | {"loss_time": "1 us"}}, "solids of one restitution at all speeds"),
+        ({"case": BODIES | {"yield_velocity": "1 m/s"}}, "give that instead"),
     ],
 )
 def test_what_cannot_be_compared_is_refused(given, message):

@@ -147,10 +147,17 @@ def test_without_a_yield_strength_there_is_no_yield_velocity(run):
 
 def test_commands_about_elastic_impacts_refuse_a_case_with_losses(run):
     """They say where it stands, rather than to leave it aside."""
+    code, _, err = run("verify", "tune", "case.toml")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "loss_time: of no use in case.toml, line 4; this is for elastic impacts" in err
+
+
+def test_scores_refuse_a_case_whose_losses_depend_on_the_speed(run):
     Path("data.csv").write_text("psi_in,psi_out\n1,-0.2\n2,-0.8\n3,-1.3\n")
     code, _, err = run("verify", "score", "data.csv", "--case", "case.toml")
     assert (code, err.count("\n")) == (2, 1)
-    assert "loss_time: of no use in case.toml, line 4; this is for elastic impacts" in err
+    assert "losses: KelvinVoigt(restitution=None, loss_time=2e-06) cannot be used" in err
+    assert "one restitution at all speeds" in err
 
 
 def test_a_case_has_one_loss_or_none():

@@ -80,7 +80,7 @@ def _restitution(case: Any, restitution: Any) -> float:
     """Return the restitution that is given, or that of the case, or 1."""
     own = _losses(case)
     if own is not None and (not isinstance(own, KelvinVoigt) or own.restitution is None):
-        allowed = "scores take Kelvin-Voigt solids with one restitution; give restitution="
+        allowed = "scores are against solids of one restitution at all speeds; give that instead"
         raise refusal("losses", own, allowed)
     if restitution is None:
         return 1.0 if own is None else float(own.restitution)
