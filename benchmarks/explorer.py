@@ -29,6 +29,8 @@ KINDS = {
     "three laws, the same bodies": (BODIES, LAWS, False),
     "all laws, other bodies each time": (BODIES, ALL, True),
     "numbers": (NUMBERS, (), False),
+    "bodies, with losses": (BODIES | {"restitution": 0.8}, (), False),
+    "numbers, with losses": (NUMBERS | {"restitution": 0.8}, (), False),
 }
 
 
