@@ -1,0 +1,68 @@
+// carom/springs.hpp: the tangential force of a contact by springs that remember their slip.
+//
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The contact of spheres is that of independent springs at distances x from its middle, s = x^2/R
+// (method of dimensionality reduction; Popov & Hess 2015). At the penetration d a spring is pressed
+// by d - s and bears what friction allows, |q| <= d - s, q = (kappa/mu) u its deflection u in units
+// in which Coulomb's law has no coefficient:
+//
+//     F_n = 2 E* int_0^b (d - s) dx,    F_t = 2 E* mu int_0^b q dx,    s(b) = d.
+//
+// In a step springs that stick follow the bodies, q + dq, and all are cut back to their limit. With
+// losses the bodies are Kelvin & Voigt's: what the springs bear is q + tau q', within D - s,
+// D = d + tau d'. A spring that is let go recovers freely and is met again where the surfaces meet.
+// Springs lie at x = k h. Between them q is taken as linear in s, up to the edge; lengths are in
+// units of h^2/R here, so that s = k^2.
+#ifndef CAROM_SPRINGS_HPP
+#define CAROM_SPRINGS_HPP
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+
+/// What a contact remembers besides its springs: losses, energies.
+enum Parts : unsigned { elastic = 0, viscous = 1, ledger = 2 };
+
+namespace springs {
+
+/// Part of a cell from k to the edge beta that a force falling to zero there keeps at k.
+inline double inner_share(double k, double beta) {
+    const double width = beta - k;
+    return width > 0.0 ? width * (2.0 * beta + k) / (3.0 * (beta + k)) : 0.0;
+}
+
+/// Weights of the springs in an integral over x of what is linear in s between them.
+template <int N, class Real> struct Weights {
+    Real at[N];
+    constexpr Weights() : at() {
+        for (int k = 0; k < N; ++k) {
+            const double after = (3.0 * k + 2.0) / (6.0 * k + 3.0);
+            const double before = k == 0 ? 0.0 : (3.0 * k - 2.0) / (6.0 * k - 3.0);
+            at[k] = static_cast<Real>(after + before);
+        }
+    }
+};
+
+/// Take every other spring: the lattice is twice as wide, and its unit of length four times.
+template <int N, class Real> void coarsen(Real (&line)[N]) {
+    for (int k = 0; k < N / 2; ++k) line[k] = line[2 * k] / 4;
+    for (int k = N / 2; k < N; ++k) line[k] = 0;
+}
+
+/// Put a spring between any two of the inner half, linear in s.
+template <int N, class Real> void refine(Real (&line)[N]) {
+    Real old[N / 2 + 1];
+    for (int k = 0; k <= N / 2; ++k) old[k] = line[k];
+    for (int k = 0; k < N; ++k) {
+        const int j = k / 2;
+        const Real part = k % 2 ? (static_cast<Real>(j) + Real(0.25)) / (2 * j + 1) : Real(0);
+        line[k] = 4 * (old[j] + part * (old[j + 1] - old[j]));
+    }
+}
+
+}  // namespace springs
+}  // namespace carom
+
+#endif
