@@ -44,6 +44,7 @@ from .laws.dem import (
     LammpsMindlin as LammpsMindlin,
     LiggghtsHertz as LiggghtsHertz,
     LinearSpring as LinearSpring,
+    MemoryLaw as MemoryLaw,
     StrongeLaw as StrongeLaw,
     ThorntonLaw as ThorntonLaw,
     WaltonBraunLaw as WaltonBraunLaw,

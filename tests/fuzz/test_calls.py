@@ -74,6 +74,7 @@ def tables():
     SLIDING = {"tangential_damping": 0.5, "restitution": 0.9}
     LAWS = {
         carom.LinearSpring: {"stiffness_ratio": 0.3, **SLIDING},
+        carom.MemoryLaw: {"springs": 16, "restitution": 0.9, "viscous_shear": True},
         carom.HertzLinearHistory: {"stiffness": 0.8, **SLIDING},
         carom.LammpsMindlin: {
             "variant": "mindlin",

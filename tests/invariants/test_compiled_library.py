@@ -12,6 +12,7 @@ from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.lossy.solving import solve_with_losses
 from carom.dimensionless.numerics import chebyshev, hertz, permutation, shared_library
 from carom.dimensionless.numerics.kernels import ENTRIES
+from carom.laws.dem import lattice
 
 pytestmark = pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
 STEEL = carom.material("steel")
@@ -112,6 +113,11 @@ def laws(rng):
         law.rebound(psi, 1.44)
         law.rebound(psi, 1.44, steps=100)
         law.history(0.7, 1.44)
+    for law in (carom.MemoryLaw(16), carom.MemoryLaw(16, restitution=0.8)):
+        law.rebound(psi, 1.44, steps=40)
+        law.history(0.7, 1.44, steps=40)
+    memory, load = np.zeros(lattice.places(16)), np.empty(3)
+    lattice.step(memory, 16, 0.1, np.array([1.0, 0.5, 0.2]), 0.1, 0.2, 0.2, load)
     mixed = carom.MixtureLaw(1.4, 1.45)
     mixed(psi, 1.42)
     for kind in (np.float32, np.float64):

@@ -4,8 +4,8 @@ Examples
 --------
 >>> import carom
 >>> best = carom.verify.rank().standings[0]
->>> best.entry.label, round(best.max_error, 2)
-('Thornton, incremental', 0.16)
+>>> best.entry.label, round(best.max_error, 3)
+('exact, 32 springs', 0.001)
 """
 
 import lazy_loader

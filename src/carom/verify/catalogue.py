@@ -55,6 +55,7 @@ CATALOGUE = (
     Entry("Stronge, bilinear", dem.StrongeLaw(), "bilinear compliance, k_t/k_n = kappa"),
     Entry("Walton's hard spheres, 0.4", dem.HardSphere(0.4), "event-driven codes, beta_0 = 0.4"),
     Entry("rigid Coulomb", dem.HardSphere(), "impulse-based codes"),
+    Entry("exact, 32 springs", dem.MemoryLaw(32), "any code, with carom/contact.hpp"),
 )
 
 

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "springs.hpp"
 
@@ -190,7 +191,7 @@ Now now_of(Contact<N, Real, P>& c, const Pair& pair, const Motion& m) {
     return now;
 }
 
-/// Return s at the edge: it shrinks to where nothing presses, and grows to where surfaces meet.
+/// Return s at the edge: it grows to where surfaces meet, and never beyond where they press.
 template <int N, class Real, unsigned P>
 double edge_of(const Contact<N, Real, P>& c, const Now& now) {
     if constexpr ((P & viscous) == 0) {
@@ -203,11 +204,14 @@ double edge_of(const Contact<N, Real, P>& c, const Now& now) {
             const double s = double(k + 1) * (k + 1);
             const double pressed = k + 1 < N ? c.pressed[k + 1] * now.keep : 0.0;
             const double there = now.depth - s - pressed;
-            if (there < 0.0) return edge + (s - edge) * here / (here - there);
+            if (there < 0.0) {
+                edge += (s - edge) * here / (here - there);
+                break;
+            }
             edge = s;
             here = there;
         }
-        return edge;
+        return std::min(edge, now.limit);
     }
 }
 

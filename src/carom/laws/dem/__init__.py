@@ -3,6 +3,7 @@
 from carom.laws.dem.base import ContactLaw, Law
 from carom.laws.dem.hard import HardSphere
 from carom.laws.dem.incremental import ThorntonLaw, WaltonBraunLaw
+from carom.laws.dem.memory import MemoryLaw
 from carom.laws.dem.mindlin import EdemHertzMindlin, LammpsMindlin, LiggghtsHertz, YadeMindlin
 from carom.laws.dem.springs import HertzLinearHistory, LinearSpring, StrongeLaw
 from carom.laws.dem.status import LawStatus
@@ -17,6 +18,7 @@ __all__ = [
     "LawStatus",
     "LiggghtsHertz",
     "LinearSpring",
+    "MemoryLaw",
     "StrongeLaw",
     "ThorntonLaw",
     "WaltonBraunLaw",

@@ -150,9 +150,9 @@ class ContactLaw(Law):
 
     largest_chi: ClassVar[float] = 1e6  # which an adaptive impact takes a tenth of a second for
 
-    @abstractmethod
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
+        raise NotImplementedError(f"{self.name} is more than coefficients")
 
     def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
         law = self.coefficients(chi, kappa)
@@ -163,6 +163,11 @@ class ContactLaw(Law):
             nothing = np.empty((0, len(HISTORY)))
             stepped_rebounds(law, psi, steps, np.empty(REMEMBERED), nothing, out)
         return out
+
+    def _recorded(self, psi: float, chi: float, kappa: float, steps: int, record: Array) -> int:
+        """Write what happens in equal steps; return their number, -1 if the bodies do not part."""
+        law = self.coefficients(chi, kappa)
+        return stepped(law, psi, steps, np.empty(REMEMBERED), record)[0]
 
     def history(
         self, psi: float, chi: float, *, kappa: float | None = None, steps: int = 1000
@@ -199,9 +204,9 @@ class ContactLaw(Law):
         """
         counted("steps", steps, FEWEST_STEPS)
         chi, psi = positive("chi", chi), finite("psi", psi, "1")
-        law = self.coefficients(chi, SOLID * chi if kappa is None else positive("kappa", kappa))
+        own = SOLID * chi if kappa is None else positive("kappa", kappa)
         record = np.empty((PATIENCE * steps + 2, len(HISTORY)))
-        count, _ = stepped(law, abs(psi), steps, np.empty(REMEMBERED), record)
+        count = self._recorded(abs(psi), chi, own, steps, record)
         if count < 0 or not np.all(np.isfinite(record[:count])):
             raise refusal("steps", steps, "the bodies do not part; take more steps")
         columns = {name: record[:count, i].copy() for i, name in enumerate(HISTORY)}

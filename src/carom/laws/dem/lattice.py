@@ -1,0 +1,224 @@
+"""The exact contact law, a step at a time: springs on a lattice that remember their slip.
+
+The plain twin of `carom/contact.hpp`, in the units of Hertz's impact: springs at x = k h, s = x^2,
+are pressed by d - s and deflected by q, |q| <= d - s (method of dimensionality reduction; Popov &
+Hess 2015). What Kelvin & Voigt's springs bear is q + alpha q', within D - s, D = d + alpha d'.
+"""
+
+import numpy as np
+
+from carom.dimensionless.numerics.arrays import Matrix, Vector
+from carom.dimensionless.numerics.hertz import DURATION
+from carom.dimensionless.numerics.kernels import entry_point, kernel
+from carom.laws.dem.coefficients import ELASTIC_PULL
+from carom.laws.dem.stepping import PATIENCE
+from carom.quantities.arrays import Array
+
+# What is remembered: the spacing, 0 while apart; s at the edge; velocities of the step before, then
+# two deflections of each spring, and how far it is pressed that was let go.
+SPACING, EDGE, SPEED, ALONG, ACROSS, FIRST = range(6)
+MARGIN = 1.04  # of the lattice beyond the impact that is expected
+COARSER, FINER = 1.0, 0.0625  # of the depth that the lattice holds, where it is made so
+MOST_LEVELS = 64
+
+
+@kernel
+def places(springs: int) -> int:
+    """Return how many numbers a contact remembers."""
+    return FIRST + 3 * springs
+
+
+@kernel
+def widen(memory: Array, springs: int) -> None:
+    """Leave out every other spring."""
+    memory[SPACING] *= 2.0
+    for line in range(3):
+        row = memory[FIRST + line * springs : FIRST + (line + 1) * springs]
+        for k in range(springs):
+            row[k] = row[2 * k] if 2 * k < springs else 0.0
+
+
+@kernel
+def narrow(memory: Array, springs: int) -> None:
+    """Put springs between those of the inner half, linear in s."""
+    memory[SPACING] *= 0.5
+    for line in range(3):
+        row = memory[FIRST + line * springs : FIRST + (line + 1) * springs]
+        for k in range(springs - 1, 0, -1):  # what is read is not yet written
+            low = k // 2
+            if k % 2 == 0:
+                row[k] = row[low]
+            else:
+                part = (low + 0.25) / (2.0 * low + 1.0)
+                row[k] = row[low] + part * (row[low + 1] - row[low])
+
+
+@kernel
+def cell(low: float, high: float) -> float:
+    """Return the integral over x from low to high of what falls from 1 to 0, linear in s."""
+    return (high - low) * (2.0 * high + low) / (3.0 * (high + low)) if high > low else 0.0
+
+
+@kernel
+def grown_edge(memory: Array, springs: int, d: float, before: float, left: float) -> float:
+    """Return s where the surfaces meet again, those let go having recovered to this part."""
+    h, edge = memory[SPACING], memory[EDGE]
+    gap = d - edge - left * max(before - edge, 0.0)
+    k = int(np.sqrt(edge) / h)
+    for _ in range(springs + 1):
+        if gap <= 0.0:
+            break
+        k += 1
+        s = (k * h) ** 2
+        pressed = memory[FIRST + 2 * springs + k] if k < springs else 0.0
+        beyond = d - s - left * pressed
+        if beyond < 0.0:
+            return float(edge + (s - edge) * gap / (gap - beyond))
+        edge, gap = s, beyond
+    return float(edge)
+
+
+@kernel
+def length(x: float, y: float, most: float) -> float:
+    """Return the part of a vector that is not longer than this."""
+    size = np.hypot(x, y)
+    return most / size if size > most else 1.0
+
+
+@entry_point()
+def step(
+    memory: Vector,
+    springs: int,
+    d: float,
+    motion: Vector,
+    dt: float,
+    alpha: float,
+    shear_alpha: float,
+    load: Vector,
+) -> None:
+    """Bring a contact to the end of a step; write the normal force and both tangential ones.
+
+    `motion` holds the velocities in the middle of the step: of approach, along and across.
+    """
+    load[:] = 0.0
+    if d <= 0.0:
+        memory[:] = 0.0
+        return
+    v, slide, aside = motion[0], motion[1], motion[2]
+    if memory[SPACING] == 0.0:
+        memory[:] = 0.0
+        memory[SPACING] = np.sqrt(MARGIN * max(abs(v) ** 0.8, d)) / springs
+        memory[SPEED], memory[ALONG], memory[ACROSS] = v, slide, aside
+    for level in range(MOST_LEVELS):
+        holds = (springs * memory[SPACING]) ** 2
+        if level == 0 and v < 0.0 and d < FINER * holds:
+            narrow(memory, springs)
+        elif d > COARSER * holds:
+            widen(memory, springs)
+        else:
+            break
+    h, before = memory[SPACING], d - v * dt
+    depth, left, drag, drag_aside, edge = d, 0.0, 0.0, 0.0, d
+    if alpha > 0.0:
+        speed = v + 0.5 * (v - memory[SPEED])
+        if speed > 0.0:  # the mean of alpha v b, which rises like the root of the time at first
+            low = max(d - 0.5 * speed * dt, 0.0) if before > 0.0 else 0.0
+            speed = ((d + 0.5 * speed * dt) ** 1.5 - low**1.5) / (1.5 * dt * np.sqrt(d))
+        depth += alpha * speed
+        left = np.exp(-dt / alpha)
+        drag = shear_alpha * (slide + 0.5 * (slide - memory[ALONG]))
+        drag_aside = shear_alpha * (aside + 0.5 * (aside - memory[ACROSS]))
+        if depth < memory[EDGE]:
+            edge = max(depth, 0.0)
+        else:
+            edge = min(grown_edge(memory, springs, d, before, left), depth)
+    memory[SPEED], memory[ALONG], memory[ACROSS] = v, slide, aside
+    load[0] = 1.5 * max(np.sqrt(edge) * (depth - edge / 3.0), 0.0)
+    kept = left if shear_alpha > 0.0 else 0.0
+    rim, last = np.sqrt(edge), 0
+    for k in range(springs):
+        s, pressed = (k * h) ** 2, FIRST + 2 * springs + k
+        free = left * memory[pressed]
+        was, now = max(before - s, memory[pressed], 0.0), max(d - s, free, 0.0)
+        memory[pressed] = now if alpha > 0.0 else 0.0
+        q, r = memory[FIRST + k], memory[FIRST + springs + k]
+        if s >= edge:
+            memory[FIRST + k], memory[FIRST + springs + k] = kept * q, kept * r
+            continue
+        last = k
+        share = min((d - s) / (d - before), 1.0) if d > before else 1.0
+        most = max(now - left * was, 0.0) if kept > 0.0 else depth - s
+        to, aside_to = (1.0 - kept) * q + share * slide * dt, (1.0 - kept) * r + share * aside * dt
+        part = length(to, aside_to, most)
+        memory[FIRST + k] = kept * q + part * to
+        memory[FIRST + springs + k] = kept * r + part * aside_to
+    for k in range(last + 1 if rim > 0.0 else 0):
+        s, x = (k * h) ** 2, k * h
+        q, r = memory[FIRST + k] + drag, memory[FIRST + springs + k] + drag_aside
+        part = length(q, r, depth - s)
+        weight = x - (k - 1) * h - cell(x - h, x) if k > 0 else 0.0
+        if k < last:
+            weight += cell(x, x + h)
+        else:
+            weight += cell(x, rim)
+            rest = rim - x - cell(x, rim)
+            outer = length(drag, drag_aside, max(depth - edge, 0.0))
+            load[1] += 1.5 * rest * outer * drag
+            load[2] += 1.5 * rest * outer * drag_aside
+        load[1] += 1.5 * weight * part * q
+        load[2] += 1.5 * weight * part * r
+    memory[EDGE] = edge
+
+
+@entry_point()
+def impact(
+    psi: float,
+    chi: float,
+    steps: int,
+    alpha: float,
+    shear_alpha: float,
+    springs: int,
+    memory: Vector,
+    load: Vector,
+    record: Matrix,
+) -> tuple[int, float]:
+    """Return how many rows of the record are filled and psi_2; -1 if the bodies do not part.
+
+    Velocity Verlet, as `stepping.stepped`; memory has the places of `places`, load three.
+    """
+    dt = DURATION / steps
+    memory[:], load[:] = 0.0, 0.0
+    d, v, motion = 0.0, 1.0, load[3:]
+    for i in range(PATIENCE * steps):
+        if i < record.shape[0]:
+            record[i, 0], record[i, 1], record[i, 2] = i * dt, d, v
+            record[i, 3], record[i, 4], record[i, 5] = psi, load[0], load[1]
+        v -= 0.5 * dt * ELASTIC_PULL * load[0]
+        psi -= dt * ELASTIC_PULL * chi * load[1]
+        d += dt * v
+        motion[0], motion[1], motion[2] = v, psi, 0.0
+        step(memory, springs, d, motion, dt, alpha, shear_alpha, load[:3])
+        if v < 0.0 and load[0] <= 0.0:
+            return i + 1, psi
+        v -= 0.5 * dt * ELASTIC_PULL * load[0]
+        psi -= dt * ELASTIC_PULL * chi * load[1]
+    return -1, np.nan
+
+
+@entry_point()
+def impacts(
+    psi: Vector,
+    chi: float,
+    steps: int,
+    alpha: float,
+    shear_alpha: float,
+    springs: int,
+    memory: Vector,
+    load: Vector,
+    nothing: Matrix,
+    out: Vector,
+) -> None:
+    """Write psi_2 of each impact, NaN where the bodies do not part; `nothing` has no rows."""
+    given = chi, steps, alpha, shear_alpha, springs, memory, load, nothing
+    for i in range(psi.size):
+        out[i] = impact(psi[i], *given)[1] if np.isfinite(psi[i]) else np.nan

@@ -1,0 +1,92 @@
+"""The exact law of contact as codes can step it: springs that remember their slip."""
+
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from carom.laws.dem import lattice
+from carom.laws.dem.base import ContactLaw
+from carom.laws.dem.stepping import HISTORY
+from carom.quantities.arrays import Array
+from carom.quantities.refusals import flag, refusal
+from carom.quantities.units import counted
+
+FEWEST, MOST = 8, 4096  # springs
+CONVERGED = 2000  # steps that stand for a law without steps: what they cost is below 2e-6
+LOADS = 6  # numbers that a kernel wants for forces and velocities
+
+
+def read_springs(name: str, value: Any) -> int:
+    """Return a number of springs, or raise InputError."""
+    springs = counted(name, value, FEWEST, MOST)
+    if springs % 4:
+        raise refusal(name, value, "must be a multiple of 4, e.g. 16, 32 or 64")
+    return springs
+
+
+@dataclass(frozen=True)
+class MemoryLaw(ContactLaw):
+    """The exact contact law in steps: springs that keep what slip has left in them.
+
+    |q(s)| <= d - s in all springs, F_t = 2 E* mu int_0^b q dx, s = x^2/R* (Barber 1979; method of
+    dimensionality reduction, Popov & Hess 2015); exact in the limit of many springs and small
+    steps, of second order in both. With a restitution Kelvin & Voigt's solid. In C++ it is
+    carom/contact.hpp, to be found under `carom.get_include()`.
+
+    Parameters
+    ----------
+    springs : int
+        How many, a multiple of 4 from 8 to 4096; 32 reach 0.001 in psi_2, 64 a quarter of it.
+    restitution : float
+        e of the normal direction, above 0 and at most 1.
+    viscous_shear : bool
+        Whether shear loses energy, too, as in a solid; if not, Coulomb's law holds for the whole
+        contact but not at every point of it.
+
+    Raises
+    ------
+    InputError
+        If a parameter is out of range.
+
+    Examples
+    --------
+    >>> import carom
+    >>> law = carom.MemoryLaw(springs=32)
+    >>> round(law.rebound(1.5, 1.4412, steps=100), 3), round(carom.rebound(1.5, 1.4412), 3)
+    (-0.428, -0.428)
+    """
+
+    name: ClassVar[str] = "exact, by springs"
+    source: ClassVar[str] = "Barber (1979); Popov & Hess (2015), method of dimensionality reduction"
+
+    springs: int = 32
+    restitution: float = 1.0
+    viscous_shear: bool = True
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        object.__setattr__(self, "springs", read_springs("springs", self.springs))
+        object.__setattr__(self, "viscous_shear", flag("viscous_shear", self.viscous_shear))
+
+    def _losses(self) -> tuple[float, float]:
+        """Return alpha in compression and in shear."""
+        if self.restitution == 1.0:
+            return 0.0, 0.0
+        from carom.dimensionless.lossy.panels.stages import viscous_loss
+
+        alpha = viscous_loss(self.restitution)
+        return alpha, alpha if self.viscous_shear else 0.0
+
+    def _memory(self) -> Array:
+        return np.empty(lattice.places(self.springs))
+
+    def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
+        out, nothing = np.empty(psi.size), np.empty((0, len(HISTORY)))
+        given = chi, steps or CONVERGED, *self._losses(), self.springs, self._memory()
+        lattice.impacts(psi, *given, np.empty(LOADS), nothing, out)
+        return out
+
+    def _recorded(self, psi: float, chi: float, kappa: float, steps: int, record: Array) -> int:
+        given = chi, steps, *self._losses(), self.springs, self._memory()
+        return lattice.impact(psi, *given, np.empty(LOADS), record)[0]

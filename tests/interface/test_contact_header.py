@@ -1,0 +1,343 @@
+"""The exact contact law in C++ and C: its figures, its Python twin, its ledger, what it refuses."""
+
+import ctypes
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import carom
+from carom.dimensionless.lossy.panels.stages import viscous_loss
+from carom.dimensionless.twins.marching_contact import drive
+from carom.laws.dem import lattice
+
+COMPILER = shutil.which("c++")
+pytestmark = pytest.mark.skipif(COMPILER is None, reason="no C++ compiler on this machine")
+ROOT = Path(__file__).parents[2]
+INCLUDE = Path(carom.get_include())
+STRICT = ("-Wall", "-Wextra", "-pedantic", "-Werror")
+FAST = ("-O2", "-fno-math-errno", "-fno-trapping-math")
+ELASTIC, VISCOUS, LEDGER = 0, 1, 2
+RADIUS, FRICTION, KAPPA, MASS = 1e3, 0.3, 0.8, 16.0 / 15.0  # so that d_max = V_1 = 1
+MODULUS = RADIUS**-0.5
+LARGEST = 4.0 / 3.0  # normal force of the elastic impact
+PSI, CHI, PHASES = np.linspace(0.0, 6.0, 64), (1.0, 1.2, 1.4412, 1.75), (0.0, 0.25, 0.5, 0.75)
+DURATION = 2.9432751843247047
+STEEL = carom.Material(young=210e9, poisson=0.3, density=7850.0)
+
+
+class BodyPair(ctypes.Structure):
+    _fields_ = [
+        *((name, ctypes.c_double) for name in ("modulus", "radius", "stiffness_ratio", "friction")),
+        *((name, ctypes.c_double) for name in ("mass", "retardation")),
+        ("viscous_shear", ctypes.c_int),
+    ]
+
+
+class Motion(ctypes.Structure):
+    _fields_ = [
+        (name, ctypes.c_double)
+        for name in ("penetration", "approach", "slide_x", "slide_y", "step")
+    ]
+
+
+class Load(ctypes.Structure):
+    _fields_ = [(name, ctypes.c_double) for name in ("normal", "x", "y", "friction", "viscosity")]
+
+
+def built(folder, source, *options, name="program"):
+    target = folder / name
+    command = [COMPILER, "-std=c++17", *STRICT, *options, f"-I{INCLUDE}", source, "-o", target]
+    subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True)
+    return target
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("contact")
+
+
+@pytest.fixture(scope="module")
+def library(folder):
+    shared = ("-shared", "-fPIC", *FAST)
+    found = ctypes.CDLL(str(built(folder, INCLUDE / "carom/contact.cpp", *shared, name="c.so")))
+    found.carom_contact_size.restype = ctypes.c_size_t
+    found.carom_contact_message.restype = ctypes.c_char_p
+    return found
+
+
+@pytest.fixture(scope="module")
+def program(folder):
+    return built(folder, ROOT / "tests/cpp/impacts.cpp", *FAST)
+
+
+def run(program, kind, rows):
+    text = "\n".join(" ".join(map(repr, row)) for row in rows)
+    ran = subprocess.run([program, kind], input=text, capture_output=True, text=True, check=True)
+    return np.array([float(word) for word in ran.stdout.split()])
+
+
+def worst(program, kind, steps, e=1.0, chis=CHI):
+    """Return the largest |psi_2 - exact| over incidences and phases of the first touch."""
+    alpha, losses = (0.0, None) if e == 1.0 else (viscous_loss(e), carom.KelvinVoigt(e))
+    rows = [
+        (steps, psi, chi, phase, alpha, 1)
+        for chi in chis
+        for psi in PSI.tolist()
+        for phase in PHASES
+    ]
+    found = run(program, kind, rows).reshape(len(chis), PSI.size, len(PHASES))
+    exact = np.array([carom.rebound(PSI, chi, losses=losses) for chi in chis])
+    return float(np.abs(found - exact[:, :, np.newaxis]).max())
+
+
+@pytest.mark.parametrize(
+    ("kind", "bounds"),
+    [
+        ("32 single", {50: 2.5e-3, 100: 1.3e-3, 200: 1e-3, 400: 1e-3}),
+        ("32 double", {100: 1.3e-3}),
+        ("64 single", {100: 6.5e-4, 200: 3.5e-4, 400: 3.5e-4}),
+    ],
+)
+def test_impacts_are_as_near_as_promised(program, kind, bounds):
+    for steps, bound in bounds.items():
+        assert 0.1 * bound < worst(program, kind, steps) <= bound
+
+
+@pytest.mark.parametrize("e", [0.9, 0.7])
+def test_impacts_with_losses_are_those_of_one_viscoelastic_solid(program, e):
+    assert worst(program, "32 viscous", 50, e) <= 4e-3
+    assert worst(program, "32 viscous", 100, e) <= 1.5e-3
+
+
+@pytest.mark.parametrize(("kind", "e"), [("1024 double", 1.0), ("1024 viscous", 0.7)])
+def test_many_springs_converge_with_the_second_order(program, kind, e):
+    """From 25 to 200 steps by 2^(3 order); the limit is the exact impact, not something near it."""
+    first, last = (worst(program, kind, steps, e, chis=(1.4412,)) for steps in (25, 200))
+    assert np.log2(first / last) / 3.0 > 1.9
+    assert last < 4e-4
+
+
+def test_sliding_throughout_needs_no_springs(program):
+    """psi_2 = psi_1 - 2 chi (1 + e), e that of the steps."""
+    (found,) = run(program, "32 viscous", [(400, 9.0, 1.2, 0.3, 0.2, 1)])
+    exact = carom.solve(9.0, 1.2, losses=carom.KelvinVoigt(0.71238)).psi_out
+    assert found == pytest.approx(exact, abs=2e-4)
+
+
+class Stepped:
+    """A contact of the C interface in the units of Hertz's impact, and its twin in Python."""
+
+    def __init__(self, library, springs, alpha=0.0, shear_alpha=0.0, parts=None):
+        self.library, self.springs = library, springs
+        self.parts = (VISCOUS if alpha else ELASTIC) if parts is None else parts
+        self.alpha, self.shear_alpha = alpha, shear_alpha
+        self.memory = ctypes.create_string_buffer(library.carom_contact_size(springs, self.parts))
+        both = int(shear_alpha > 0.0)
+        self.pair = BodyPair(MODULUS, RADIUS, KAPPA, FRICTION, MASS, alpha, both)
+        self.own, self.load = np.zeros(lattice.places(springs)), Load()
+
+    def step(self, d, v, slide, aside, dt):
+        unit = FRICTION / KAPPA
+        motion = Motion(d, v, slide * unit, aside * unit, dt)
+        given = (self.memory, self.springs, self.parts, *map(ctypes.byref, (self.pair, motion)))
+        status = self.library.carom_contact_advance(*given, ctypes.byref(self.load))
+        assert status == 0
+        scale = LARGEST * np.array([1.0, FRICTION, FRICTION])
+        return np.array([self.load.normal, self.load.x, self.load.y]) / scale
+
+    def twin(self, d, v, slide, aside, dt):
+        load = np.empty(3)
+        motion = np.array([v, slide, aside])
+        given = d, motion, dt, self.alpha, self.shear_alpha, load
+        lattice.step(self.own, self.springs, *given)
+        return load
+
+
+@pytest.mark.parametrize(
+    ("springs", "alpha", "shear_alpha"),
+    [(16, 0.0, 0.0), (32, 0.0, 0.0), (64, 0.0, 0.0), (32, 0.2, 0.2), (32, 0.2, 0.0)],
+)
+def test_header_and_twin_agree_on_random_steps(library, springs, alpha, shear_alpha):
+    """10,000 steps of paths that load, unload, part and meet again, in any direction."""
+    both = Stepped(library, springs, alpha, shear_alpha)
+    rng = np.random.default_rng(springs + int(100 * alpha))
+    d, v, slide, aside = -0.01, 1.0, 0.0, 0.0
+    apart = touches = 0
+    for _ in range(10_000):
+        dt = rng.uniform(0.005, 0.05)
+        v = 0.9 * v + rng.normal(0.0, 0.5) - 0.5 * max(d, 0.0)
+        v = abs(v) if d < -0.05 else v
+        slide, aside = 0.95 * slide + rng.normal(0.0, 0.7), 0.95 * aside + rng.normal(0.0, 0.7)
+        d += v * dt
+        found, expected = both.step(d, v, slide, aside, dt), both.twin(d, v, slide, aside, dt)
+        np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-11)
+        assert np.hypot(found[1], found[2]) <= found[0] * (1.0 + 1e-9) + 1e-12
+        apart, touches = apart + (d <= 0.0), touches + (found[0] > 0.0)
+    assert min(apart, touches) > 200
+
+
+def impact(contact, psi, chi, steps, v=1.0):
+    """Return psi_2, e, the work on the contact, what it lost and the least loss of a step."""
+    dt, d, load = DURATION / steps, 0.0, np.zeros(3)
+    work = lost = least = 0.0
+    unit = FRICTION / KAPPA
+    for _ in range(8 * steps):
+        before = load
+        v -= 0.625 * dt * load[0]
+        psi -= 1.25 * dt * chi * load[1]
+        d += dt * v
+        load = contact.step(d, v, psi, 0.0, dt)
+        forces = 0.5 * dt * (before + load) * LARGEST
+        work += forces[1] * FRICTION * psi * unit + (forces[0] * v if contact.alpha else 0.0)
+        losses = contact.load.friction, contact.load.viscosity
+        lost, least = lost + sum(losses), min(least, *losses)
+        v -= 0.625 * dt * load[0]
+        psi -= 1.25 * dt * chi * load[1]
+        if d <= 0.0:
+            break
+    return psi, -v, work, lost, least
+
+
+@pytest.mark.parametrize("alpha", [0.0, 0.2])
+@pytest.mark.parametrize("psi", [0.7, 1.5, 3.0, 7.0])
+def test_the_ledger_closes_to_rounding(library, psi, alpha):
+    """Work of the forces = losses, once the bodies are apart; with losses no step gives energy."""
+    parts = LEDGER | (VISCOUS if alpha else 0)
+    out, e, work, lost, least = impact(
+        Stepped(library, 64, alpha, alpha, parts), psi, 1.4412, steps=200
+    )
+    assert work == pytest.approx(lost, abs=1e-13)
+    assert least > (-1e-8 if alpha else -1.5e-3) * work
+    unit = 0.5 * 0.5 * KAPPA * MASS / 1.4412 * (FRICTION / KAPPA) ** 2
+    kinetic = unit * (psi**2 - out**2) + (0.5 * MASS * (1.0 - e**2) if alpha else 0.0)
+    assert work == pytest.approx(kinetic, abs=3e-6)
+
+
+def test_what_is_booked_too_early_falls_with_the_second_order(library):
+    """Springs at the edge rub a little too much, which the last step gives back: as 1/N^2."""
+    coarse, fine = (
+        max(
+            -least / work
+            for _, _, work, _, least in (
+                impact(Stepped(library, springs, parts=LEDGER), psi, 1.4412, 800)
+                for psi in (0.3, 0.7, 1.5, 3.0, 7.0)
+            )
+        )
+        for springs in (16, 64)
+    )
+    assert fine < 1.5e-3
+    assert 12.0 < coarse / fine < 20.0
+
+
+def test_a_contact_that_is_loaded_again_meets_what_is_left(library):
+    """Springs let go recover freely and are met where the surfaces meet, as by the twin, a march
+    of the first order: the difference halves with the step."""
+    alpha, differences = 0.3, []
+    for count in (3000, 6000):
+        times = np.linspace(0.0, 6.0, count + 1)
+        begun = 1.0 - np.exp(-8.0 * times)
+        depth = (0.6 - 0.42 * np.cos(2.4 * times)) * begun + 0.05 * np.sin(9.0 * times)
+        moved = 0.4 * np.sin(3.1 * times)
+        load, force, _ = drive(times, depth, moved, alpha, springs=1600)
+        contact, dt = Stepped(library, 64, alpha, alpha), times[1]
+        speeds = np.diff(depth) / dt, np.diff(moved) / dt
+        rows = zip(depth[1:], *speeds, strict=True)
+        found = np.array([contact.step(d, v, slide, 0.0, dt)[:2] for d, v, slide in rows])
+        off = np.abs(found - np.stack([load, 1.5 * force], axis=1))
+        differences.append(np.quantile(off, 0.9, axis=0))
+    assert np.all(differences[1] < 2e-3)
+    assert np.all((differences[0] / differences[1] > 1.8) & (differences[0] / differences[1] < 2.3))
+
+
+@pytest.mark.parametrize(
+    ("pair", "motion", "status"),
+    [
+        ({"friction": -0.1}, {}, 1),
+        ({"modulus": 0.0}, {}, 1),
+        ({"mass": float("nan")}, {}, 1),
+        ({"retardation": float("inf")}, {}, 1),
+        ({}, {"approach": float("nan")}, 2),
+        ({}, {"slide_y": float("inf")}, 2),
+        ({}, {"step": 0.0}, 2),
+        ({}, {"penetration": 2e3}, 2),
+        ({}, {"penetration": float("nan")}, 2),
+    ],
+)
+def test_bad_input_changes_nothing(library, pair, motion, status):
+    contact = Stepped(library, 32)
+    contact.step(0.1, 1.0, 0.5, 0.2, 0.1)
+    kept, loaded = bytes(contact.memory), bytes(contact.load)
+    wrong = Motion(0.2, 1.0, 0.5, 0.0, 0.1)
+    for target, values in ((contact.pair, pair), (wrong, motion)):
+        for name, value in values.items():
+            setattr(target, name, value)
+    given = (contact.memory, 32, 0, *map(ctypes.byref, (contact.pair, wrong, contact.load)))
+    assert library.carom_contact_advance(*given) == status
+    assert (bytes(contact.memory), bytes(contact.load)) == (kept, loaded)
+    told = library.carom_contact_message(status).decode()
+    assert "must be" in told
+    assert "\n" not in told
+
+
+def test_kinds_that_are_not_offered(library):
+    assert library.carom_contact_size(32, 0) == 8 * (2 + 2 * 32)
+    assert library.carom_contact_size(32, VISCOUS) == 8 * (2 + 3 * 32 + 6)
+    assert library.carom_contact_size(33, 0) == library.carom_contact_size(32, 9) == 0
+    contact = Stepped(library, 32)
+    given = (contact.memory, 33, 0, *map(ctypes.byref, (contact.pair, Motion(), contact.load)))
+    assert library.carom_contact_advance(*given) == 3
+    assert b"16, 32 or 64" in library.carom_contact_message(3)
+
+
+def test_without_friction_there_is_no_shear(library):
+    contact = Stepped(library, 32, 0.1, 0.1)
+    contact.pair.friction = 0.0
+    load = contact.step(0.3, 0.5, 1.0, 1.0, 0.1)
+    assert load[0] > 0.0
+    assert (contact.load.x, contact.load.y) == (0.0, 0.0)
+
+
+@pytest.fixture(scope="module")
+def exact():
+    ball = carom.Sphere(radius=5e-3, material=STEEL)
+    pair = carom.Pair(ball, carom.HalfSpace(material=STEEL), friction=0.2)
+    return carom.impact(pair, speed=0.6, angle="20 deg")
+
+
+def told(program):
+    text = subprocess.run([program], capture_output=True, text=True, check=True).stdout
+    return [float(word) for word in re.findall(r"-?\d+\.\d+", text)]
+
+
+def test_the_example_in_c_gives_the_impact(folder, exact):
+    objects = built(folder, INCLUDE / "carom/contact.cpp", "-c", *FAST, name="contact.o")
+    target, source = folder / "contact", ROOT / "examples/c/contact.c"
+    command = ["cc", "-std=c99", *STRICT, source, objects, f"-I{INCLUDE}", "-lm", "-o", target]
+    subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True)
+    assert told(target) == pytest.approx(
+        [np.degrees(exact.rebound_angle), exact.spin_out], rel=2e-4
+    )
+
+
+def test_the_example_in_space_gives_the_impact(folder, exact):
+    """To the part by which the ball is flattened, which the theory leaves out of its levers."""
+    target = built(folder, ROOT / "examples/cpp/impact.cpp", *FAST, name="impact")
+    flat = exact.max_penetration / 5e-3
+    assert told(target) == pytest.approx(
+        [np.degrees(exact.rebound_angle), -exact.spin_out], rel=3.0 * flat
+    )
+
+
+def test_sanitizers_are_silent(folder):
+    checked = ("-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+    try:
+        program = built(folder, ROOT / "tests/cpp/impacts.cpp", *checked, name="checked")
+    except subprocess.CalledProcessError:
+        pytest.skip("this compiler has no sanitizers")
+    rows = [(50, psi, 1.4, 0.3, 0.2, both) for psi in (0.0, 0.5, 2.0, 8.0) for both in (0, 1)]
+    for kind in ("16 single", "32 double", "32 viscous", "1024 viscous"):
+        assert np.all(np.isfinite(run(program, kind, rows)))
