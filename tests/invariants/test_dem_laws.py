@@ -24,6 +24,7 @@ PASSIVE = [  # no spring stiffens while it is stretched, or what it gains it has
     carom.StrongeLaw(restitution=0.7),
     carom.WaltonBraunLaw(),
     carom.WaltonBraunLaw(restitution=0.7),
+    carom.MemoryLaw(32, restitution=0.7),
 ]
 ELASTIC = [
     *(law for law in PASSIVE if getattr(law, "restitution", 1.0) == 1.0),
@@ -38,6 +39,7 @@ CONTACTS = [
     carom.LammpsMindlin("mindlin", restitution=0.7, damping="tsuji"),
     carom.EdemHertzMindlin(0.9),
     carom.ThorntonLaw(),
+    carom.MemoryLaw(32),  # which gives energy back as exactly as its springs are many
 ]
 LAWS = [*CONTACTS, carom.HardSphere(0.4, 0.9)]
 
@@ -216,7 +218,8 @@ def test_laws_are_records_with_a_source(law):
 PROGRAM = """
 import json, carom
 laws = [carom.LinearSpring(0.5, 0.9, 0.4), carom.LammpsMindlin("mindlin_rescale/force"),
-        carom.LiggghtsHertz(0.7), carom.WaltonBraunLaw(restitution=0.8), carom.ThorntonLaw()]
+        carom.LiggghtsHertz(0.7), carom.WaltonBraunLaw(restitution=0.8), carom.ThorntonLaw(),
+        carom.MemoryLaw(16), carom.MemoryLaw(16, restitution=0.8)]
 print(json.dumps([[law.rebound([0.7, 2.5], 1.4, steps=80).tolist() for law in laws],
                   [law.rebound([0.7], 1.4).tolist() for law in (laws[2], laws[4])]]))
 """

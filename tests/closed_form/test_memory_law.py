@@ -1,0 +1,89 @@
+"""The exact contact law in steps: how near it is, its order, and what it refuses."""
+
+import numpy as np
+import pytest
+
+import carom
+
+PSI, CHIS = np.linspace(0.0, 6.0, 64), (1.0, 1.2, 1.4412, 1.75)
+
+
+def worst(springs, steps, e=1.0):
+    """Return the largest |psi_2 - exact|."""
+    law = carom.MemoryLaw(springs, restitution=e)
+    losses = None if e == 1.0 else carom.KelvinVoigt(e)
+    return max(
+        np.abs(law.rebound(PSI, chi, steps=steps) - carom.rebound(PSI, chi, losses=losses)).max()
+        for chi in CHIS
+    )
+
+
+@pytest.mark.parametrize(
+    ("springs", "steps", "e", "bound"),
+    [
+        (32, 50, 1.0, 2.5e-3),
+        (32, 100, 1.0, 1.3e-3),
+        (32, 400, 1.0, 1e-3),
+        (64, 100, 1.0, 6.5e-4),
+        (64, 400, 1.0, 3.5e-4),
+        (32, 50, 0.9, 4e-3),
+        (32, 100, 0.7, 1.5e-3),
+    ],
+)
+def test_rebounds_are_as_near_as_promised(springs, steps, e, bound):
+    assert 0.2 * bound < worst(springs, steps, e) <= bound
+
+
+@pytest.mark.parametrize("e", [1.0, 0.7])
+def test_the_order_is_the_second_in_steps_and_springs(e):
+    by_steps = [worst(1024, steps, e) for steps in (25, 400)]
+    assert np.log2(by_steps[0] / by_steps[1]) / 4.0 > 1.9
+    by_springs = [worst(springs, 2000, e) for springs in (16, 128)]
+    assert np.log2(by_springs[0] / by_springs[1]) / 3.0 > 1.8
+
+
+def test_without_steps_only_the_springs_are_left():
+    law = carom.MemoryLaw(256)
+    off = np.abs(law.rebound(PSI, 1.4412) - carom.rebound(PSI, 1.4412)).max()
+    assert off < 2e-5
+
+
+def test_sliding_throughout_is_exact_but_for_the_steps():
+    """psi_2 = psi_1 - 2 chi (1 + e) (Barber 1979, (33)); e of the steps themselves."""
+    history = carom.MemoryLaw(16).history(9.0, 1.2, steps=100)
+    e = -history["normal_velocity"][-1]
+    assert history["psi"][-1] == pytest.approx(9.0 - 2.4 * (1.0 + e), abs=2e-3)
+    np.testing.assert_allclose(
+        history["tangential_force"], history["normal_force"], atol=1e-12
+    )  # mu N
+
+
+@pytest.mark.parametrize("e", [0.9, 0.5])
+def test_it_leaves_the_restitution_it_is_made_for(e):
+    speed = carom.MemoryLaw(32, restitution=e).history(0.0, 1.2, steps=400)["normal_velocity"]
+    assert -speed[-1] == pytest.approx(e, abs=2e-4)
+
+
+def test_losses_in_compression_alone_leave_shear_elastic():
+    """Less springs back at the same e where shear is viscous, too."""
+    both, one = (
+        carom.MemoryLaw(64, restitution=0.7, viscous_shear=shear).rebound(0.9, 1.4412, steps=200)
+        for shear in (True, False)
+    )
+    exact = carom.rebound(0.9, 1.4412, losses=carom.KelvinVoigt(0.7))
+    assert both == pytest.approx(exact, abs=1e-3)
+    assert abs(one - exact) > 0.02
+
+
+def test_it_is_first_in_the_ranking():
+    ranking = carom.verify.rank()
+    assert ranking.standings[0].entry.law == carom.MemoryLaw(32)
+    assert ranking.standings[0].max_error < 1e-3
+    assert ranking.standings[0].force_error < 5e-3
+
+
+@pytest.mark.parametrize("springs", [4, 4100, 33, 32.5, "many", None])
+def test_numbers_of_springs_that_cannot_be_are_refused(springs):
+    with pytest.raises(carom.InputError, match=r"^springs: ") as error:
+        carom.MemoryLaw(springs)
+    assert "\n" not in str(error.value)
