@@ -341,3 +341,37 @@ def test_sanitizers_are_silent(folder):
     rows = [(50, psi, 1.4, 0.3, 0.2, both) for psi in (0.0, 0.5, 2.0, 8.0) for both in (0, 1)]
     for kind in ("16 single", "32 double", "32 viscous", "1024 viscous"):
         assert np.all(np.isfinite(run(program, kind, rows)))
+
+
+def test_no_motion_whatever_leaves_the_law(library):
+    """Sizes, speeds and jumps over many decades: forces are finite, within Coulomb's law, and
+    what is too much is told by a status."""
+    rng = np.random.default_rng(5)
+
+    def any_size(low, high):
+        return float(10.0 ** rng.uniform(low, high))
+
+    refused = 0
+    for _ in range(300):
+        parts, springs = int(rng.integers(4)), int(rng.choice([16, 32, 64]))
+        memory = ctypes.create_string_buffer(library.carom_contact_size(springs, parts))
+        radius, speed, step = any_size(-9, 9), any_size(-9, 3), any_size(-12, 1)
+        friction = rng.choice([0.0, any_size(-6, 2)])
+        given = any_size(-3, 12), radius, rng.uniform(0.5, 1.0), friction, any_size(-15, 6)
+        pair, load, d = BodyPair(*given, any_size(-12, 3), int(rng.integers(2))), Load(), 0.0
+        for _ in range(60):
+            v, slide, aside = speed * rng.normal(size=3) * 10.0 ** rng.choice([0, 0, -6, 6], 3)
+            jumps = radius * any_size(-18, 1) * rng.choice([1.0, 1.0, -1.0])
+            d = d + v * step if rng.random() < 0.9 else jumps
+            motion = Motion(d, v, slide, aside, step)
+            arguments = memory, springs, parts, *map(ctypes.byref, (pair, motion, load))
+            if library.carom_contact_advance(*arguments):
+                assert d >= radius
+                refused, d = refused + 1, 0.0
+                continue
+            told = np.array([load.normal, load.x, load.y, load.friction, load.viscosity])
+            kept = np.frombuffer(memory.raw, dtype=np.float64)
+            assert np.all(np.isfinite(told))
+            assert np.all(np.isfinite(kept))
+            assert np.hypot(load.x, load.y) <= friction * load.normal * (1.0 + 1e-9)
+    assert refused > 50

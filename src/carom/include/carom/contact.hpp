@@ -382,8 +382,11 @@ Status advance(Contact<N, Real, P>& contact, const Pair& pair, const Motion& mot
     if (pair.friction > 0.0 || (P & viscous) != 0) {
         springs::Sums sums = springs::march(contact, now, edge, pair.viscous_shear);
         springs::trim(contact, now, edge, sums);
-        load.x = scale * pair.friction * sums.x;
-        load.y = scale * pair.friction * sums.y;
+        const double most = pair.friction * load.normal;  // but for rounding it holds already
+        const double x = scale * pair.friction * sums.x, y = scale * pair.friction * sums.y;
+        const double part = springs::cut(x, y, most);
+        load.x = part * x;
+        load.y = part * y;
         const double energy = scale * now.unit * pair.friction * pair.friction / pair.stiffness_ratio;
         load.friction = energy * sums.friction;
         load.viscosity = energy * sums.viscosity;

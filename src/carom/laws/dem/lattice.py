@@ -167,6 +167,9 @@ def step(
             load[2] += 1.5 * rest * outer * drag_aside
         load[1] += 1.5 * weight * part * q
         load[2] += 1.5 * weight * part * r
+    part = length(load[1], load[2], load[0])  # but for rounding it holds already
+    load[1] *= part
+    load[2] *= part
     memory[EDGE] = edge
 
 
