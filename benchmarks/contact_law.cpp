@@ -1,5 +1,5 @@
 // Time of the exact contact law and of Hertz-Mindlin (mindlin_rescale/force) per contact and step,
-// bare, in ns: what a pair of bodies costs once it is known to touch. Made and run by contact_law.py.
+// bare, in ns: what a pair of bodies costs once it is known to touch. Run by contact_law.py.
 #include <carom/contact.hpp>
 #include <chrono>
 #include <cstdio>
@@ -72,8 +72,8 @@ template <int N, class Real, unsigned P> double exact(const Paths& paths) {
     const carom::Pair pair{1e10, 5e-3, 0.83, 0.3, 1e-3, (P & carom::viscous) ? 2e-7 : 0.0, true};
     return time_of([&](int i, int k) {
         carom::Load load{};
-        carom::advance(all[i], pair, {paths.depth[k], paths.approach[k], paths.slide[k], 0.02, step},
-                       load);
+        const double depth = paths.depth[k], approach = paths.approach[k];
+        carom::advance(all[i], pair, {depth, approach, paths.slide[k], 0.02, step}, load);
         return load.x;
     });
 }

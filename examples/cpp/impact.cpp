@@ -20,8 +20,8 @@ int main(int count, char** words) {
         carom::pair_of(steel, steel, {radius, mass}, {INFINITY, INFINITY}, mu);
 
     const double speed = 0.6, angle = 20.0 * pi / 180.0;
-    carom::Body ball{{0, 0, radius}, {speed * std::sin(angle), 0, -speed * std::cos(angle)}, {}, radius};
-    const double normal = speed * std::cos(angle);
+    const double along = speed * std::sin(angle), normal = speed * std::cos(angle);
+    carom::Body ball{{0, 0, radius}, {along, 0, -normal}, {}, radius};
     const double deepest =
         std::pow(15.0 * mass * normal * normal / (16.0 * pair.modulus * std::sqrt(radius)), 0.4);
     const double step = 2.943275 * deepest / normal / steps;

@@ -1,5 +1,5 @@
 // Two spheres that meet in space, a line of input each: velocities and spins of both, and whether
-// memory and encounter are those of the other side in every second step. Prints both after the impact.
+// memory and encounter are those of the other side in every second step. Prints both afterwards.
 #include <carom/contact_in_space.hpp>
 #include <cstdio>
 
@@ -8,7 +8,8 @@ using namespace carom;
 namespace {
 constexpr double pi = 3.14159265358979323846, steps = 400.0;
 const Material steel{210e9, 0.3}, glass{70e9, 0.25};
-const Size sizes[2] = {{5e-3, 4.0 / 3.0 * pi * 1.25e-7 * 7850.0}, {8e-3, 4.0 / 3.0 * pi * 5.12e-7 * 2500.0}};
+const Size sizes[2] = {{5e-3, 4.0 / 3.0 * pi * 1.25e-7 * 7850.0},
+                       {8e-3, 4.0 / 3.0 * pi * 5.12e-7 * 2500.0}};
 
 void kick(Body& body, const Size& size, double step, double sign, const Action& action,
           const Vector& torque) {
@@ -43,7 +44,8 @@ int main() {
             if (turns != 0 && i % 2 == 1) {  // by the other body's side
                 mirror(contact);
                 Action seen{};
-                if (advance(contact, pair, encounter(other, one, step), seen) != Status::ok) return 1;
+                const Encounter turned = encounter(other, one, step);
+                if (advance(contact, pair, turned, seen) != Status::ok) return 1;
                 mirror(contact);
                 action.force = {-seen.force[0], -seen.force[1], -seen.force[2]};
                 action.torque = seen.other_torque;

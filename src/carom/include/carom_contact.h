@@ -8,7 +8,7 @@
  *         -I$INCLUDE $INCLUDE/carom/contact.cpp
  *
  * $INCLUDE is what `python -c "import carom; print(carom.get_include())"` prints. Of every contact
- * keep carom_contact_size(springs, parts) bytes, all zero before the first touch, aligned as doubles.
+ * keep carom_contact_size(springs, parts) bytes, aligned as doubles, zero before the first touch.
  */
 #ifndef CAROM_CONTACT_H
 #define CAROM_CONTACT_H

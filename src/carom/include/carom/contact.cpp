@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../carom_contact.h"
 
+#include <type_traits>
+
 #include "contact.hpp"
 
 namespace {

@@ -72,7 +72,9 @@ struct ContactInSpace : Contact<N, Real, P> {
 inline Pair pair_of(Material one, Material other, Size first, Size second, double friction,
                     double retardation = 0.0) {
     const auto soft = [](Material m) { return (1.0 - m.poisson * m.poisson) / m.young; };
-    const auto lax = [](Material m) { return (2.0 - m.poisson) * (1.0 + m.poisson) / (2.0 * m.young); };
+    const auto lax = [](Material m) {
+        return (2.0 - m.poisson) * (1.0 + m.poisson) / (2.0 * m.young);
+    };
     Pair pair{};
     pair.modulus = 1.0 / (soft(one) + soft(other));
     pair.stiffness_ratio = (soft(one) + soft(other)) / (lax(one) + lax(other));
@@ -129,7 +131,8 @@ Status advance(ContactInSpace<N, Real, P>& contact, const Pair& pair, const Enco
     const Vector axis = springs::carried(contact.axis, e.normal, apart ? 0.0 : e.spin * e.step);
     const Vector other = cross(e.normal, axis);
     const double approach = -dot(e.velocity, e.normal);
-    const Motion motion{e.penetration, approach, dot(e.velocity, axis), dot(e.velocity, other), e.step};
+    const Motion motion{e.penetration, approach, dot(e.velocity, axis), dot(e.velocity, other),
+                        e.step};
     Load load{};
     Contact<N, Real, P>& springs_only = contact;
     const Status status = advance(springs_only, pair, motion, load);

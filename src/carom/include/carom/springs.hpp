@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace carom {
 
@@ -60,6 +61,26 @@ template <int N, class Real> void refine(Real (&line)[N]) {
         const Real part = k % 2 ? (static_cast<Real>(j) + Real(0.25)) / (2 * j + 1) : Real(0);
         line[k] = 4 * (old[j] + part * (old[j + 1] - old[j]));
     }
+}
+
+// By value, unlike those of the standard library: so that loops become vectors.
+template <class Real> Real larger(Real a, Real b) { return a > b ? a : b; }
+template <class Real> Real smaller(Real a, Real b) { return a < b ? a : b; }
+
+/// Factor that cuts a vector back to a length; without a branch, so that loops become vectors.
+template <class Real> Real cut(Real x, Real y, Real most) {
+    const Real square = larger(x * x + y * y, std::numeric_limits<Real>::min());
+    return smaller(most / std::sqrt(square), Real(1));
+}
+
+/// Sum of a line, by halves.
+template <int N, class Real> Real total(const Real (&line)[N]) {
+    constexpr int lanes = N % 16 == 0 ? 16 : 4;
+    Real part[lanes] = {}, sum = 0;
+    for (int first = 0; first < N; first += lanes)
+        for (int lane = 0; lane < lanes; ++lane) part[lane] += line[first + lane];
+    for (Real each : part) sum += each;
+    return sum;
 }
 
 }  // namespace springs

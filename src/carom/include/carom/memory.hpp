@@ -1,0 +1,82 @@
+// carom/memory.hpp: what a contact remembers, and the lattice on which its springs stand.
+//
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef CAROM_MEMORY_HPP
+#define CAROM_MEMORY_HPP
+
+#include <algorithm>
+#include <cmath>
+
+#include "pair.hpp"
+#include "springs.hpp"
+
+namespace carom {
+
+namespace springs {
+template <int N, class Real, bool> struct Recovery {};
+template <int N, class Real> struct Recovery<N, Real, true> {
+    Real pressed[N];  ///< how far springs are pressed that were let go
+    Real approach, slide_x, slide_y;  ///< velocities of the step before
+    Real limit, drag_x, drag_y;  ///< D and tau q' then
+};
+template <class Real, bool> struct Ledger {};
+template <class Real> struct Ledger<Real, true> {
+    Real stored;  ///< work done on the contact that is not lost
+    Real normal, shear_x, shear_y;  ///< forces of the step before
+    Real power;  ///< that dashpots took in compression then
+};
+}  // namespace springs
+
+/// The memory of a contact: N springs; plain numbers, all zeros while the bodies are apart.
+template <int N, class Real = double, unsigned P = elastic>
+struct Contact : springs::Recovery<N, Real, (P & viscous) != 0>,
+                 springs::Ledger<Real, (P & ledger) != 0> {
+    static_assert(N >= 8 && N <= 4096 && N % 4 == 0, "8 to 4096 springs, a multiple of 4");
+    Real spacing;  ///< of the springs; 0 while the bodies are apart
+    Real edge;     ///< s at the edge of the contact, in spacing^2/R*
+    Real x[N], y[N];  ///< deflections of the springs, in spacing^2/R* times mu/kappa
+};
+
+namespace springs {
+
+template <int N, class Real, unsigned P>
+void scale_lattice(Contact<N, Real, P>& c, void (*change)(Real (&)[N]), Real wider) {
+    change(c.x);
+    change(c.y);
+    c.spacing *= wider;
+    c.edge /= wider * wider;
+    if constexpr ((P & viscous) != 0) {
+        change(c.pressed);
+        for (Real* each : {&c.limit, &c.drag_x, &c.drag_y}) *each /= wider * wider;
+    }
+}
+
+/// Give springs their places at the first touch: so that the impact is to fill them.
+template <int N, class Real, unsigned P>
+void begin(Contact<N, Real, P>& c, const Pair& pair, const Motion& m) {
+    constexpr double margin = 1.04;
+    c = Contact<N, Real, P>{};
+    const double energy = 0.9375 * pair.mass * m.approach * m.approach;
+    const double deepest = std::pow(energy / (pair.modulus * std::sqrt(pair.radius)), 0.4);
+    const double reach = margin * std::max(deepest, m.penetration);
+    c.spacing = static_cast<Real>(std::sqrt(pair.radius * reach) / N);
+    if constexpr ((P & viscous) != 0) {
+        c.approach = static_cast<Real>(m.approach);
+        c.slide_x = static_cast<Real>(m.slide_x);
+        c.slide_y = static_cast<Real>(m.slide_y);
+    }
+}
+
+/// Widen the lattice if the contact has outgrown it, refine it if it has shrunk to a quarter.
+template <int N, class Real, unsigned P>
+void fit_lattice(Contact<N, Real, P>& c, const Pair& pair, const Motion& m) {
+    const auto reach = [&] { return double(c.spacing) * c.spacing / pair.radius * N * N; };
+    const bool shrinks = m.approach < 0.0 && m.penetration < reach() / 16.0;
+    if (shrinks) scale_lattice(c, refine<N, Real>, Real(0.5));
+    while (m.penetration > reach()) scale_lattice(c, coarsen<N, Real>, Real(2));
+}
+
+}  // namespace springs
+}  // namespace carom
+
+#endif
