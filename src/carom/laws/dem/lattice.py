@@ -22,7 +22,6 @@ COARSER, FINER = 1.0, 0.0625  # of the depth that the lattice holds, where it is
 MOST_LEVELS = 64
 
 
-@kernel
 def places(springs: int) -> int:
     """Return how many numbers a contact remembers."""
     return FIRST + 3 * springs
