@@ -1,5 +1,7 @@
 """Scores of damped results against viscoelastic impacts of the same restitution."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -145,6 +147,19 @@ def test_the_case_tells_the_restitution_as_well():
     for one in (score(given, case=case), score(given, case=BODIES | MOTION, restitution="80 %")):
         assert one.restitution == 0.8
         assert one.max_error <= 1e-8
+
+
+def test_the_results_tell_the_restitution_as_well(tmp_path):
+    """In their comment, also where chi or other bodies are given; two that differ are refused."""
+    own, file = BODIES | {"restitution": 0.8}, tmp_path / "own.csv"
+    rows = zip(*curve(np.array([0.5, 1.5, 3.0, 5.0]), 0.8).values(), strict=True)
+    lines = ["psi_1,psi_2", *(f"{float(psi)!r},{float(out)!r}" for psi, out in rows)]
+    file.write_text(f"# case: {json.dumps(own)}\n" + "\n".join(lines))
+    for given in ({}, {"chi": PAIR.chi}, {"case": BODIES}, {"case": own}, {"case": PAIR}):
+        assert score(file, **given).restitution == 0.8
+    for case in (BODIES | {"restitution": 0.9}, carom.impact(PAIR, **MOTION)):
+        with pytest.raises(carom.InputError, match=r"^restitution: case and results tell 0\.8 and"):
+            score(file, case=case)
 
 
 @pytest.mark.parametrize(

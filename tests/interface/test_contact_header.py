@@ -61,7 +61,7 @@ def folder(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def library(folder):
+def functions(folder):
     shared = ("-shared", "-fPIC", *FAST)
     found = ctypes.CDLL(str(built(folder, INCLUDE / "carom/contact.cpp", *shared, name="c.so")))
     found.carom_contact_size.restype = ctypes.c_size_t
@@ -131,11 +131,11 @@ def test_sliding_throughout_needs_no_springs(program):
 class Stepped:
     """A contact of the C interface in the units of Hertz's impact, and its twin in Python."""
 
-    def __init__(self, library, springs, alpha=0.0, shear_alpha=0.0, parts=None):
-        self.library, self.springs = library, springs
+    def __init__(self, functions, springs, alpha=0.0, shear_alpha=0.0, parts=None):
+        self.functions, self.springs = functions, springs
         self.parts = (VISCOUS if alpha else ELASTIC) if parts is None else parts
         self.alpha, self.shear_alpha = alpha, shear_alpha
-        self.memory = ctypes.create_string_buffer(library.carom_contact_size(springs, self.parts))
+        self.memory = ctypes.create_string_buffer(functions.carom_contact_size(springs, self.parts))
         both = int(shear_alpha > 0.0)
         self.pair = BodyPair(MODULUS, RADIUS, KAPPA, FRICTION, MASS, alpha, both)
         self.own, self.load = np.zeros(lattice.places(springs)), Load()
@@ -144,7 +144,7 @@ class Stepped:
         unit = FRICTION / KAPPA
         motion = Motion(d, v, slide * unit, aside * unit, dt)
         given = (self.memory, self.springs, self.parts, *map(ctypes.byref, (self.pair, motion)))
-        status = self.library.carom_contact_advance(*given, ctypes.byref(self.load))
+        status = self.functions.carom_contact_advance(*given, ctypes.byref(self.load))
         assert status == 0
         scale = LARGEST * np.array([1.0, FRICTION, FRICTION])
         return np.array([self.load.normal, self.load.x, self.load.y]) / scale
@@ -161,9 +161,9 @@ class Stepped:
     ("springs", "alpha", "shear_alpha"),
     [(16, 0.0, 0.0), (32, 0.0, 0.0), (64, 0.0, 0.0), (32, 0.2, 0.2), (32, 0.2, 0.0)],
 )
-def test_header_and_twin_agree_on_random_steps(library, springs, alpha, shear_alpha):
+def test_header_and_twin_agree_on_random_steps(functions, springs, alpha, shear_alpha):
     """10,000 steps of paths that load, unload, part and meet again, in any direction."""
-    both = Stepped(library, springs, alpha, shear_alpha)
+    both = Stepped(functions, springs, alpha, shear_alpha)
     rng = np.random.default_rng(springs + int(100 * alpha))
     d, v, slide, aside = -0.01, 1.0, 0.0, 0.0
     apart = touches = 0
@@ -204,11 +204,11 @@ def impact(contact, psi, chi, steps, v=1.0):
 
 @pytest.mark.parametrize("alpha", [0.0, 0.2])
 @pytest.mark.parametrize("psi", [0.7, 1.5, 3.0, 7.0])
-def test_the_ledger_closes_to_rounding(library, psi, alpha):
+def test_the_ledger_closes_to_rounding(functions, psi, alpha):
     """Work of the forces = losses, once the bodies are apart; with losses no step gives energy."""
     parts = LEDGER | (VISCOUS if alpha else 0)
     out, e, work, lost, least = impact(
-        Stepped(library, 64, alpha, alpha, parts), psi, 1.4412, steps=200
+        Stepped(functions, 64, alpha, alpha, parts), psi, 1.4412, steps=200
     )
     assert work == pytest.approx(lost, abs=1e-13)
     assert least > (-1e-8 if alpha else -1.5e-3) * work
@@ -217,13 +217,13 @@ def test_the_ledger_closes_to_rounding(library, psi, alpha):
     assert work == pytest.approx(kinetic, abs=3e-6)
 
 
-def test_what_is_booked_too_early_falls_with_the_second_order(library):
+def test_what_is_booked_too_early_falls_with_the_second_order(functions):
     """Springs at the edge rub a little too much, which the last step gives back: as 1/N^2."""
     coarse, fine = (
         max(
             -least / work
             for _, _, work, _, least in (
-                impact(Stepped(library, springs, parts=LEDGER), psi, 1.4412, 800)
+                impact(Stepped(functions, springs, parts=LEDGER), psi, 1.4412, 800)
                 for psi in (0.3, 0.7, 1.5, 3.0, 7.0)
             )
         )
@@ -233,7 +233,7 @@ def test_what_is_booked_too_early_falls_with_the_second_order(library):
     assert 12.0 < coarse / fine < 20.0
 
 
-def test_a_contact_that_is_loaded_again_meets_what_is_left(library):
+def test_a_contact_that_is_loaded_again_meets_what_is_left(functions):
     """Springs let go recover freely and are met where the surfaces meet, as by the twin, a march
     of the first order: the difference halves with the step."""
     alpha, differences = 0.3, []
@@ -243,7 +243,7 @@ def test_a_contact_that_is_loaded_again_meets_what_is_left(library):
         depth = (0.6 - 0.42 * np.cos(2.4 * times)) * begun + 0.05 * np.sin(9.0 * times)
         moved = 0.4 * np.sin(3.1 * times)
         load, force, _ = drive(times, depth, moved, alpha, springs=1600)
-        contact, dt = Stepped(library, 64, alpha, alpha), times[1]
+        contact, dt = Stepped(functions, 64, alpha, alpha), times[1]
         speeds = np.diff(depth) / dt, np.diff(moved) / dt
         rows = zip(depth[1:], *speeds, strict=True)
         found = np.array([contact.step(d, v, slide, 0.0, dt)[:2] for d, v, slide in rows])
@@ -267,8 +267,8 @@ def test_a_contact_that_is_loaded_again_meets_what_is_left(library):
         ({}, {"penetration": float("nan")}, 2),
     ],
 )
-def test_bad_input_changes_nothing(library, pair, motion, status):
-    contact = Stepped(library, 32)
+def test_bad_input_changes_nothing(functions, pair, motion, status):
+    contact = Stepped(functions, 32)
     contact.step(0.1, 1.0, 0.5, 0.2, 0.1)
     kept, loaded = bytes(contact.memory), bytes(contact.load)
     wrong = Motion(0.2, 1.0, 0.5, 0.0, 0.1)
@@ -276,25 +276,25 @@ def test_bad_input_changes_nothing(library, pair, motion, status):
         for name, value in values.items():
             setattr(target, name, value)
     given = (contact.memory, 32, 0, *map(ctypes.byref, (contact.pair, wrong, contact.load)))
-    assert library.carom_contact_advance(*given) == status
+    assert functions.carom_contact_advance(*given) == status
     assert (bytes(contact.memory), bytes(contact.load)) == (kept, loaded)
-    told = library.carom_contact_message(status).decode()
+    told = functions.carom_contact_message(status).decode()
     assert "must be" in told
     assert "\n" not in told
 
 
-def test_kinds_that_are_not_offered(library):
-    assert library.carom_contact_size(32, 0) == 8 * (2 + 2 * 32)
-    assert library.carom_contact_size(32, VISCOUS) == 8 * (2 + 3 * 32 + 6)
-    assert library.carom_contact_size(33, 0) == library.carom_contact_size(32, 9) == 0
-    contact = Stepped(library, 32)
+def test_kinds_that_are_not_offered(functions):
+    assert functions.carom_contact_size(32, 0) == 8 * (2 + 2 * 32)
+    assert functions.carom_contact_size(32, VISCOUS) == 8 * (2 + 3 * 32 + 6)
+    assert functions.carom_contact_size(33, 0) == functions.carom_contact_size(32, 9) == 0
+    contact = Stepped(functions, 32)
     given = (contact.memory, 33, 0, *map(ctypes.byref, (contact.pair, Motion(), contact.load)))
-    assert library.carom_contact_advance(*given) == 3
-    assert b"16, 32 or 64" in library.carom_contact_message(3)
+    assert functions.carom_contact_advance(*given) == 3
+    assert b"16, 32 or 64" in functions.carom_contact_message(3)
 
 
-def test_without_friction_there_is_no_shear(library):
-    contact = Stepped(library, 32, 0.1, 0.1)
+def test_without_friction_there_is_no_shear(functions):
+    contact = Stepped(functions, 32, 0.1, 0.1)
     contact.pair.friction = 0.0
     load = contact.step(0.3, 0.5, 1.0, 1.0, 0.1)
     assert load[0] > 0.0
@@ -343,7 +343,7 @@ def test_sanitizers_are_silent(folder):
         assert np.all(np.isfinite(run(program, kind, rows)))
 
 
-def test_no_motion_whatever_leaves_the_law(library):
+def test_no_motion_whatever_leaves_the_law(functions):
     """Sizes, speeds and jumps over many decades: forces are finite, within Coulomb's law, and
     what is too much is told by a status."""
     rng = np.random.default_rng(5)
@@ -354,7 +354,7 @@ def test_no_motion_whatever_leaves_the_law(library):
     refused = 0
     for _ in range(300):
         parts, springs = int(rng.integers(4)), int(rng.choice([16, 32, 64]))
-        memory = ctypes.create_string_buffer(library.carom_contact_size(springs, parts))
+        memory = ctypes.create_string_buffer(functions.carom_contact_size(springs, parts))
         radius, speed, step = any_size(-9, 9), any_size(-9, 3), any_size(-12, 1)
         friction = rng.choice([0.0, any_size(-6, 2)])
         given = any_size(-3, 12), radius, rng.uniform(0.5, 1.0), friction, any_size(-15, 6)
@@ -365,7 +365,7 @@ def test_no_motion_whatever_leaves_the_law(library):
             d = d + v * step if rng.random() < 0.9 else jumps
             motion = Motion(d, v, slide, aside, step)
             arguments = memory, springs, parts, *map(ctypes.byref, (pair, motion, load))
-            if library.carom_contact_advance(*arguments):
+            if functions.carom_contact_advance(*arguments):
                 assert d >= radius
                 refused, d = refused + 1, 0.0
                 continue

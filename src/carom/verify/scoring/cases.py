@@ -1,13 +1,13 @@
 """What results are scored against: bodies, their motion, and the restitution they leave."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from carom.bodies.cases import check_case, losses_of, motion_of, pair_of, read_case
-from carom.bodies.losses import KelvinVoigt, LossLaw
+from carom.bodies.losses import KelvinVoigt
 from carom.bodies.pairs import Pair, alike
 from carom.bodies.shapes import describe
 from carom.impacts.exact import Impact
@@ -59,7 +59,7 @@ class Given:
 def given_of(case: Any, chi: Any, own: Any, restitution: Any) -> Given:
     """Return what is given as a case, or what the file holds; both must have the same bodies."""
     chosen = _chosen(case, chi, own)
-    return Given(chosen, _restitution(chosen, restitution))
+    return Given(chosen, _restitution((chosen, own), restitution))
 
 
 def _chosen(case: Any, chi: Any, own: Any) -> Any:
@@ -76,23 +76,30 @@ def _chosen(case: Any, chi: Any, own: Any) -> Any:
     return own if case is None else case
 
 
-def _restitution(case: Any, restitution: Any) -> float:
-    """Return the restitution that is given, or that of the case, or 1."""
-    own = _losses(case)
-    if own is not None and (not isinstance(own, KelvinVoigt) or own.restitution is None):
-        allowed = "scores are against solids of one restitution at all speeds; give that instead"
-        raise refusal("losses", own, allowed)
+def _restitution(cases: Iterable[Any], restitution: Any) -> float:
+    """Return the restitution that is given, or that of the cases, or 1."""
+    told = {each for each in map(_told, cases) if each is not None}
+    if len(told) > 1:
+        both = " and ".join(f"{each:g}" for each in sorted(told))
+        raise InputError(f"restitution: case and results tell {both}; leave one of them out")
     if restitution is None:
-        return 1.0 if own is None else float(own.restitution)
-    if own is not None or isinstance(case, Impact):
+        return told.pop() if told else 1.0
+    if told:
         raise refusal("restitution", restitution, "the case tells its own; leave one of them out")
     return float(KelvinVoigt(restitution=restitution).restitution)
 
 
-def _losses(case: Any) -> LossLaw | None:
-    if isinstance(case, Impact):
-        return case.losses
-    return None if case is None or isinstance(case, Pair) else losses_of(_content(case))
+def _told(case: Any) -> float | None:
+    """Return the restitution that a case tells, or None; an impact always does."""
+    if case is None or isinstance(case, Pair):
+        return None
+    losses = case.losses if isinstance(case, Impact) else losses_of(_content(case))
+    if losses is None:
+        return 1.0 if isinstance(case, Impact) else None
+    if isinstance(losses, KelvinVoigt) and losses.restitution is not None:
+        return float(losses.restitution)
+    allowed = "scores are against solids of one restitution at all speeds; give that instead"
+    raise refusal("losses", losses, allowed)
 
 
 def _content(case: Any) -> Mapping[str, Any]:
