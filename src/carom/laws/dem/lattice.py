@@ -5,6 +5,8 @@ are pressed by d - s and deflected by q, |q| <= d - s (method of dimensionality 
 Hess 2015). What Kelvin & Voigt's springs bear is q + alpha q', within D - s, D = d + alpha d'.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from carom.dimensionless.numerics.arrays import Matrix, Vector
@@ -20,6 +22,21 @@ SPACING, EDGE, SPEED, ALONG, ACROSS, FIRST = range(6)
 MARGIN = 1.04  # of the lattice beyond the impact that is expected
 COARSER, FINER = 1.0, 0.0625  # of the depth that the lattice holds, where it is made so
 MOST_LEVELS = 64
+
+
+class Now(NamedTuple):
+    """What all springs share at the end of a step.
+
+    `before` is d at its beginning, `depth` D; of what springs let go are pressed, and deflected, the
+    parts `left` and `kept` remain after the step.
+    """
+
+    d: float
+    before: float
+    depth: float
+    edge: float
+    left: float
+    kept: float
 
 
 def places(springs: int) -> int:
@@ -84,6 +101,78 @@ def length(x: float, y: float, most: float) -> float:
     return most / size if size > most else 1.0
 
 
+@kernel
+def fit_lattice(memory: Array, springs: int, d: float, v: float) -> None:
+    """Give springs their places at the touch, and others as the contact grows or shrinks."""
+    if memory[SPACING] == 0.0:
+        memory[SPACING] = np.sqrt(MARGIN * max(abs(v) ** 0.8, d)) / springs
+    for level in range(MOST_LEVELS):
+        holds = (springs * memory[SPACING]) ** 2
+        if level == 0 and v < 0.0 and d < FINER * holds:
+            narrow(memory, springs)
+        elif d > COARSER * holds:
+            widen(memory, springs)
+        else:
+            break
+
+
+@kernel
+def speed_at_end(memory: Array, d: float, before: float, v: float, dt: float) -> float:
+    """Return d' for the dashpots: at the end of the step, while loading its mean around there.
+
+    The mean is that of d' b, which rises like the root of the time at first.
+    """
+    speed = v + 0.5 * (v - memory[SPEED])
+    if speed <= 0.0:
+        return float(speed)
+    low = max(d - 0.5 * speed * dt, 0.0) if before > 0.0 else 0.0
+    return float(((d + 0.5 * speed * dt) ** 1.5 - low**1.5) / (1.5 * dt * np.sqrt(d)))
+
+
+@kernel
+def move(memory: Array, springs: int, now: Now, moved: tuple[float, float]) -> None:
+    """Let springs follow the bodies, as far as friction allows."""
+    h, rises = memory[SPACING], now.d - now.before
+    for k in range(springs):
+        s, pressed = (k * h) ** 2, FIRST + 2 * springs + k
+        was = max(now.before - s, memory[pressed], 0.0)
+        is_ = max(now.d - s, now.left * memory[pressed], 0.0)
+        memory[pressed] = is_ if now.left > 0.0 else 0.0
+        q, r = memory[FIRST + k], memory[FIRST + springs + k]
+        memory[FIRST + k], memory[FIRST + springs + k] = now.kept * q, now.kept * r
+        if s >= now.edge:
+            continue
+        share = min((now.d - s) / rises, 1.0) if rises > 0.0 else 1.0
+        most = max(is_ - now.left * was, 0.0) if now.kept > 0.0 else now.depth - s
+        x, y = (1.0 - now.kept) * q + share * moved[0], (1.0 - now.kept) * r + share * moved[1]
+        part = length(x, y, most)
+        memory[FIRST + k] += part * x
+        memory[FIRST + springs + k] += part * y
+
+
+@kernel
+def pull(memory: Array, springs: int, now: Now, drag: tuple[float, float]) -> tuple[float, float]:
+    """Return the integrals of what springs and dashpots bear, up to the edge."""
+    h, rim, along, across = memory[SPACING], np.sqrt(now.edge), 0.0, 0.0
+    for k in range(springs):
+        x = k * h
+        if x * x >= now.edge:
+            break
+        last = k + 1 == springs or ((k + 1) * h) ** 2 >= now.edge
+        q, r = memory[FIRST + k] + drag[0], memory[FIRST + springs + k] + drag[1]
+        weight = x - (k - 1) * h - cell(x - h, x) if k > 0 else 0.0
+        weight += cell(x, rim if last else x + h)
+        part = weight * length(q, r, now.depth - x * x)
+        along += part * q
+        across += part * r
+        if last:
+            rest = rim - x - cell(x, rim)
+            rest *= length(drag[0], drag[1], max(now.depth - now.edge, 0.0))
+            along += rest * drag[0]
+            across += rest * drag[1]
+    return along, across
+
+
 @entry_point()
 def step(
     memory: Vector,
@@ -106,70 +195,28 @@ def step(
     v, slide, aside = motion[0], motion[1], motion[2]
     if memory[SPACING] == 0.0:
         memory[:] = 0.0
-        memory[SPACING] = np.sqrt(MARGIN * max(abs(v) ** 0.8, d)) / springs
         memory[SPEED], memory[ALONG], memory[ACROSS] = v, slide, aside
-    for level in range(MOST_LEVELS):
-        holds = (springs * memory[SPACING]) ** 2
-        if level == 0 and v < 0.0 and d < FINER * holds:
-            narrow(memory, springs)
-        elif d > COARSER * holds:
-            widen(memory, springs)
-        else:
-            break
-    h, before = memory[SPACING], d - v * dt
-    depth, left, drag, drag_aside, edge = d, 0.0, 0.0, 0.0, d
+    fit_lattice(memory, springs, d, v)
+    before, depth, left, edge, drag = d - v * dt, d, 0.0, d, (0.0, 0.0)
     if alpha > 0.0:
-        speed = v + 0.5 * (v - memory[SPEED])
-        if speed > 0.0:  # the mean of alpha v b, which rises like the root of the time at first
-            low = max(d - 0.5 * speed * dt, 0.0) if before > 0.0 else 0.0
-            speed = ((d + 0.5 * speed * dt) ** 1.5 - low**1.5) / (1.5 * dt * np.sqrt(d))
-        depth += alpha * speed
+        depth += alpha * speed_at_end(memory, d, before, v, dt)
         left = np.exp(-dt / alpha)
-        drag = shear_alpha * (slide + 0.5 * (slide - memory[ALONG]))
-        drag_aside = shear_alpha * (aside + 0.5 * (aside - memory[ACROSS]))
-        if depth < memory[EDGE]:
-            edge = max(depth, 0.0)
-        else:
+        drag = (
+            shear_alpha * (slide + 0.5 * (slide - memory[ALONG])),
+            shear_alpha * (aside + 0.5 * (aside - memory[ACROSS])),
+        )
+        edge = max(depth, 0.0)
+        if depth >= memory[EDGE]:
             edge = min(grown_edge(memory, springs, d, before, left), depth)
-    memory[SPEED], memory[ALONG], memory[ACROSS] = v, slide, aside
+    memory[SPEED], memory[ALONG], memory[ACROSS], memory[EDGE] = v, slide, aside, edge
+    now = Now(d, before, depth, edge, left, left if shear_alpha > 0.0 else 0.0)
+    move(memory, springs, now, (slide * dt, aside * dt))
+    along, across = pull(memory, springs, now, drag)
     load[0] = 1.5 * max(np.sqrt(edge) * (depth - edge / 3.0), 0.0)
-    kept = left if shear_alpha > 0.0 else 0.0
-    rim, last = np.sqrt(edge), 0
-    for k in range(springs):
-        s, pressed = (k * h) ** 2, FIRST + 2 * springs + k
-        free = left * memory[pressed]
-        was, now = max(before - s, memory[pressed], 0.0), max(d - s, free, 0.0)
-        memory[pressed] = now if alpha > 0.0 else 0.0
-        q, r = memory[FIRST + k], memory[FIRST + springs + k]
-        if s >= edge:
-            memory[FIRST + k], memory[FIRST + springs + k] = kept * q, kept * r
-            continue
-        last = k
-        share = min((d - s) / (d - before), 1.0) if d > before else 1.0
-        most = max(now - left * was, 0.0) if kept > 0.0 else depth - s
-        to, aside_to = (1.0 - kept) * q + share * slide * dt, (1.0 - kept) * r + share * aside * dt
-        part = length(to, aside_to, most)
-        memory[FIRST + k] = kept * q + part * to
-        memory[FIRST + springs + k] = kept * r + part * aside_to
-    for k in range(last + 1 if rim > 0.0 else 0):
-        s, x = (k * h) ** 2, k * h
-        q, r = memory[FIRST + k] + drag, memory[FIRST + springs + k] + drag_aside
-        part = length(q, r, depth - s)
-        weight = x - (k - 1) * h - cell(x - h, x) if k > 0 else 0.0
-        if k < last:
-            weight += cell(x, x + h)
-        else:
-            weight += cell(x, rim)
-            rest = rim - x - cell(x, rim)
-            outer = length(drag, drag_aside, max(depth - edge, 0.0))
-            load[1] += 1.5 * rest * outer * drag
-            load[2] += 1.5 * rest * outer * drag_aside
-        load[1] += 1.5 * weight * part * q
-        load[2] += 1.5 * weight * part * r
+    load[1], load[2] = 1.5 * along, 1.5 * across
     part = length(load[1], load[2], load[0])  # but for rounding it holds already
     load[1] *= part
     load[2] *= part
-    memory[EDGE] = edge
 
 
 @entry_point()
@@ -186,7 +233,8 @@ def impact(
 ) -> tuple[int, float]:
     """Return how many rows of the record are filled and psi_2; -1 if the bodies do not part.
 
-    Velocity Verlet, as `stepping.stepped`; memory has the places of `places`, load three.
+    Velocity Verlet, as `stepping.stepped`; memory has the places of `places`, load six: forces,
+    and room for the motion.
     """
     dt = DURATION / steps
     memory[:], load[:] = 0.0, 0.0
