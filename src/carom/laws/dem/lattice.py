@@ -27,8 +27,8 @@ MOST_LEVELS = 64
 class Now(NamedTuple):
     """What all springs share at the end of a step.
 
-    `before` is d at its beginning, `depth` D; of what springs let go are pressed, and deflected, the
-    parts `left` and `kept` remain after the step.
+    `before` is d at its beginning, `depth` D; of what springs let go are pressed and deflected by,
+    the parts `left` and `kept` remain after the step.
     """
 
     d: float
