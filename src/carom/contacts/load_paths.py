@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import isfinite
 from numbers import Integral
 from typing import TYPE_CHECKING, Any
 
@@ -14,12 +13,14 @@ from carom import plots
 from carom.bodies.pairs import ContactScales, Pair
 from carom.bodies.shapes import describe
 from carom.contacts.contact import Contact
+from carom.contacts.following import followed
 from carom.contacts.in_contact import InContact
 from carom.contacts.load_steps import Given, Steps, read_steps
 from carom.dimensionless.load_paths import paths
 from carom.dimensionless.load_paths.memory import SLOPE, profile_of
 from carom.io.citations import LOADS, bibtex
 from carom.io.labels import labelled_dataset
+from carom.io.progress import Progress, advancing
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
@@ -44,17 +45,15 @@ COLUMNS = (
 )
 
 
-BEYOND = "floating point cannot hold the forces of it; check the units"
-
-
 @dataclass(frozen=True, eq=False)
 class LoadPath(InContact, Result):
     """A contact after each step of a load path; made by `load_path`. SI units, shapes (n,).
 
     A step is a straight line in penetration and displacement. `frictional_work` is the energy lost
     so far, `tangential_elastic_energy` what is stored; both together are the work of F_x. U is
-    the displacement since the start, F_x positive where it opposes a growing U. The theory is that
-    of Mindlin & Deresiewicz (1953), J. Appl. Mech. 20:327.
+    the displacement since the start, F_x positive where it opposes a growing U; with two directions
+    they have the shape (n, 2). The theory is that of Mindlin & Deresiewicz (1953), J. Appl. Mech.
+    20:327.
 
     Examples
     --------
@@ -90,6 +89,7 @@ class LoadPath(InContact, Result):
         penetration: Given = None,
         tangential_force: Given = None,
         displacement: Given = None,
+        progress: Progress = None,
     ) -> LoadPath:
         """Return the path continued, in the same or another control.
 
@@ -99,6 +99,8 @@ class LoadPath(InContact, Result):
         ----------
         normal_force, penetration, tangential_force, displacement : array_like, float or str
             As of `load_path`, from where the path ends.
+        progress : bool or callable, optional
+            As of `load_path`.
 
         Returns
         -------
@@ -121,7 +123,7 @@ class LoadPath(InContact, Result):
         (3, True)
         """
         more = read_steps(self.pair, normal_force, penetration, tangential_force, displacement)
-        return _followed(self.pair, self._steps.followed_by(more))
+        return _load_path(self.pair, self._steps.followed_by(more), progress)
 
     def cite(self) -> str:
         """Return what to cite for this result, as BibTeX.
@@ -144,6 +146,9 @@ class LoadPath(InContact, Result):
 
     def contact(self, step: int = -1) -> Contact:
         k = self._step(step)
+        if self.displacement.ndim == 2:
+            allowed = "what happens inside a contact is told of paths in one direction alone"
+            raise refusal("step", step, allowed)
         d, u = self.penetration[: k + 1], self.displacement[: k + 1]
         if not d[k] > 0.0:
             raise refusal("step", step, "the bodies do not press on each other then")
@@ -201,15 +206,20 @@ class LoadPath(InContact, Result):
         Returns
         -------
         xarray.Dataset
-            Along `step`: penetration, displacement, contact_radius and stick_radius in m,
-            normal_force and tangential_force in N, frictional_work and tangential_elastic_energy in
-            J; and friction.
+            Along `step`, in two directions also along `direction`: penetration, displacement,
+            contact_radius and stick_radius in m, normal_force and tangential_force in N,
+            frictional_work and tangential_elastic_energy in J; and friction.
         """
         count = {"units": "1", "long_name": "step of the load path"}
+        columns = {name: getattr(self, name) for name in COLUMNS}
+        dims = ("step", "direction")
+        coords: dict[str, Any] = {"step": ("step", np.arange(len(self)), count)}
+        if self.displacement.ndim == 2:
+            coords["direction"] = ("direction", ["x", "y"], {"long_name": "direction"})
         return labelled_dataset(
-            {name: ("step", getattr(self, name)) for name in COLUMNS}
+            {name: (dims[: values.ndim], values) for name, values in columns.items()}
             | {"friction": self.pair.friction},
-            {"step": ("step", np.arange(len(self)), count)},
+            coords,
             {"title": "load path", "inputs": self.inputs()},
         )
 
@@ -249,6 +259,7 @@ def load_path(
     penetration: Given = None,
     tangential_force: Given = None,
     displacement: Given = None,
+    progress: Progress = None,
 ) -> LoadPath:
     """Follow a quasi-static load path of a contact exactly, slip and memory included.
 
@@ -292,54 +303,10 @@ def load_path(
         allowed = "a load path needs friction; without it there is no tangential force to follow"
         raise refusal("friction", pair.friction, allowed)
     steps = read_steps(pair, normal_force, penetration, tangential_force, displacement)
-    return _followed(pair, steps)
+    return _load_path(pair, steps, progress)
 
 
-def _followed(pair: Pair, steps: Steps) -> LoadPath:
-    scales = _scales(pair, float(steps.penetration.max()))
-    with np.errstate(all="ignore"):
-        path = paths.follow_path(*steps.dimensionless(scales))
-    normal = np.maximum(steps.penetration / scales.length, 0.0) ** 1.5 * scales.force
-    if path.refused != paths.INSIDE:
-        n, most = path.refused, pair.friction * normal[path.refused]
-        allowed = f"step {n}: Coulomb's law allows at most {most:g} N at F_z = {normal[n]:g} N"
-        raise refusal("tangential_force", float(steps.target[n]), allowed)
-    with np.errstate(all="ignore"):
-        columns = _columns(path.results, scales)
-    if not all(np.all(np.isfinite(values)) for values in columns.values()):
-        raise refusal("penetration", float(steps.penetration.max()), BEYOND)
-    return LoadPath(
-        pair,
-        penetration=steps.penetration,
-        normal_force=normal,
-        contact_radius=np.sqrt(np.maximum(steps.penetration / scales.length, 0.0)) * scales.radius,
-        **columns,
-        scales=scales,
-        _steps=steps,
-    )
-
-
-def _columns(results: Array, scales: ContactScales) -> dict[str, Array]:
-    """Return what a path has come to after each step, in SI units."""
-    energy = scales.tangential_force * scales.tangential_length
-    return {
-        "displacement": results[:, paths.DISPLACEMENT] * scales.tangential_length,
-        "tangential_force": results[:, paths.TRACTION] * scales.tangential_force,
-        "stick_radius": results[:, paths.STICK] * scales.radius,
-        "frictional_work": results[:, paths.WORK] * energy,
-        "tangential_elastic_energy": results[:, paths.STORED] * energy,
-    }
-
-
-def _scales(pair: Pair, deepest: float) -> ContactScales:
-    """Return the scales of the deepest penetration; of any, where the bodies never touch."""
-    try:
-        scales = pair.contact_scales(deepest if deepest > 0.0 else pair.effective_radius)
-        energy = scales.tangential_force * scales.tangential_length
-        values = [scales.length, scales.force, scales.tangential_length, energy]
-        fits = all(isfinite(value) and value > 0.0 for value in values)
-    except OverflowError:
-        fits = False
-    if not fits:
-        raise refusal("penetration", deepest, BEYOND)
-    return scales
+def _load_path(pair: Pair, steps: Steps, progress: Progress) -> LoadPath:
+    with advancing("load path", len(steps.target), progress, unit="steps") as advance:
+        scales, columns = followed(pair, steps, advance)
+    return LoadPath(pair, penetration=steps.penetration, **columns, scales=scales, _steps=steps)

@@ -13,7 +13,10 @@ Given = ArrayLike | str | None
 
 
 class Steps(NamedTuple):
-    """Steps of a path: penetrations in m, and displacements in m or, by force, forces in N."""
+    """Steps of a path: penetrations in m, and displacements in m or, by force, forces in N.
+
+    Targets have the shape (n,) or, in two directions, (n, 2).
+    """
 
     penetration: Array
     target: Array
@@ -21,9 +24,12 @@ class Steps(NamedTuple):
 
     def followed_by(self, more: "Steps") -> "Steps":
         """Return these steps and then more of them."""
+        targets = [self.target, more.target]
+        if self.target.ndim != more.target.ndim:  # what had one direction goes along x
+            targets = [t if t.ndim == 2 else t[:, None] * [1.0, 0.0] for t in targets]
         return Steps(
             np.append(self.penetration, more.penetration),
-            np.append(self.target, more.target),
+            np.concatenate(targets),
             np.append(self.by_force, more.by_force),
         )
 
@@ -34,7 +40,8 @@ class Steps(NamedTuple):
     def dimensionless(self, scales: ContactScales) -> "Steps":
         """Return the steps as plain numbers: penetrations d, displacements U and forces Q."""
         unit = np.where(self.by_force, scales.tangential_force, scales.tangential_length)
-        return Steps(self.penetration / scales.length, self.target / unit, self.by_force)
+        target = (self.target.T / unit).T
+        return Steps(self.penetration / scales.length, target, self.by_force)
 
 
 def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved: Given) -> Steps:
@@ -42,14 +49,15 @@ def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved
     along_the_same(
         normal_force=normal, penetration=depth, tangential_force=tangential, displacement=moved
     )
-    across = _one_of(normal_force=normal, penetration=depth)
-    along = _one_of(tangential_force=tangential, displacement=moved)
-    sizes = {values.size for _, values in (across, along) if values.ndim}
+    across = _one_of(1, normal_force=normal, penetration=depth)
+    along = _one_of(2, tangential_force=tangential, displacement=moved)
+    sizes = {len(values) for _, values in (across, along) if values.ndim} - {1}
     if len(sizes) > 1:
         allowed = f"must be as many as those of {across[0]}, {across[1].size}, or a single one"
-        raise refusal(along[0], f"an array of {along[1].size} values", allowed)
+        raise refusal(along[0], f"an array of {len(along[1])} values", allowed)
     n = max(sizes, default=1)
-    d, target = np.broadcast_to(across[1], n).copy(), np.broadcast_to(along[1], n).copy()
+    d = np.broadcast_to(across[1], n).copy()
+    target = np.broadcast_to(along[1], (n, *along[1].shape[1:])).copy()
     if across[0] == "normal_force":
         if np.any(d < 0.0):
             at = int(np.argmax(d < 0.0))
@@ -59,23 +67,25 @@ def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved
     return Steps(d, target, np.full(n, along[0] == "tangential_force"))
 
 
-def _one_of(**controls: Given) -> tuple[str, Array]:
+def _one_of(most: int, **controls: Given) -> tuple[str, Array]:
     given = {name: value for name, value in controls.items() if value is not None}
     if len(given) != 1:
         raise InputError(
             f"load path: give {' or '.join(controls)}, {'not both' if given else 'one of them'}"
         )
     name, value = next(iter(given.items()))
-    return name, _values(name, value)
+    return name, _values(name, value, most)
 
 
-def _values(name: str, given: ArrayLike | str) -> Array:
+def _values(name: str, given: ArrayLike | str, most: int) -> Array:
     """Return a control as numbers in SI units, without a dimension if it is a single one."""
     allowed = "must be numbers in SI units, or texts with a unit, a single one or a list"
+    if most == 2:
+        allowed += ", or of shape (n, 2), along x and y"
     values = numbers(name, given, allowed)
-    if values.ndim > 1 or values.size == 0:
+    if values.ndim > most or values.size == 0 or (values.ndim == 2 and values.shape[1] != 2):
         raise refusal(name, values, allowed)
     if not np.all(np.isfinite(values)):
-        at = int(np.argmin(np.isfinite(values)))
-        raise refusal(name, float(values.flat[at]), f"step {at}: it must be finite")
+        at = tuple(int(i) for i in np.argwhere(~np.isfinite(values))[0])
+        raise refusal(name, float(values[at]), f"step {at[0] if at else 0}: it must be finite")
     return values

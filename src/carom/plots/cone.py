@@ -1,4 +1,4 @@
-"""The path of the forces, F_x against F_z, inside the cone of friction."""
+"""The path of the forces inside the cone of friction, or inside its circle."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -31,7 +31,8 @@ ARROWS = 8  # on a path without phases
 def plot_cone(dataset: xr.Dataset) -> Figure:
     """Draw F_x against F_z inside Coulomb's cone, |F_x| <= mu F_z, for an impact or a load path.
 
-    The parts of an impact are marked by phase; arrows point on in time.
+    The parts of an impact are marked by phase; arrows point on in time. A load path of two
+    directions is drawn along the contact, F_y against F_x in units of mu F_z.
 
     Parameters
     ----------
@@ -58,6 +59,8 @@ def plot_cone(dataset: xr.Dataset) -> Figure:
     >>> [text.get_text() for text in axis.get_legend().get_texts()[1:]]
     ['gross slip', 'stick', 'slip']
     """
+    if "direction" in dataset.dims:
+        return _draw_circle(dataset)
     figure, axis = style.single_axis(height=70.0)
     limit = 1.08 * float(dataset["friction"]) * float(dataset["normal_force"].max())
     normal, unit, _ = style.scaled(dataset, "normal_force")
@@ -71,12 +74,39 @@ def plot_cone(dataset: xr.Dataset) -> Figure:
         for ends in _apart(_arrows(part / edge, 1 if kind != "load path" else ARROWS)):
             _arrow(axis, ends * edge, PATHS[kind]["color"])
         if kind == "load path":
-            axis.plot(*part[0], "o", mfc="white", color=style.BLUE, ms=6.0, label="start")
-            axis.plot(*part[-1], "o", color=style.BLUE, ms=3.0, label="end")
+            _mark_ends(axis, part)
     axis.set_xlabel(style.label("normal_force", unit))
     axis.set_ylabel(style.label("tangential_force", tangential_unit))
     style.legend_above(axis, 4)
     return figure
+
+
+def _draw_circle(dataset: xr.Dataset) -> Figure:
+    """Draw the force along the contact inside Coulomb's circle."""
+    figure, axis = style.single_axis(height=86.0)
+    force = dataset["tangential_force"].transpose("step", "direction").values
+    most = float(dataset["friction"]) * dataset["normal_force"].values[:, None]
+    points = np.divide(force, most, out=np.zeros(force.shape), where=most > 0.0)
+    turn = np.linspace(0.0, 2.0 * np.pi, 181)
+    circle = np.column_stack([np.cos(turn), np.sin(turn)])
+    axis.fill(*circle.T, color="0.94", lw=0, zorder=0)
+    axis.plot(*circle.T, color="0.45", lw=0.8, label=r"$\mu F_z$")
+    axis.plot(*points.T, **PATHS["load path"], label="load path")
+    for ends in _apart(_arrows(points, ARROWS)):
+        _arrow(axis, ends, PATHS["load path"]["color"])
+    _mark_ends(axis, points)
+    axis.set_aspect("equal")
+    axis.set_xticks([-1.0, -0.5, 0.0, 0.5, 1.0])
+    axis.set_yticks([-1.0, -0.5, 0.0, 0.5, 1.0])
+    axis.set_xlabel(r"tangential force, $F_x/\mu F_z$")
+    axis.set_ylabel(r"tangential force, $F_y/\mu F_z$")
+    style.legend_above(axis, 4)
+    return figure
+
+
+def _mark_ends(axis: Axes, points: Array) -> None:
+    axis.plot(*points[0], "o", mfc="white", color=style.BLUE, ms=6.0, label="start")
+    axis.plot(*points[-1], "o", color=style.BLUE, ms=3.0, label="end")
 
 
 def _draw_cone(axis: Axes, normal: float, tangential: float) -> None:

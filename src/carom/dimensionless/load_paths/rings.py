@@ -38,14 +38,14 @@ class Rings(NamedTuple):
 @lru_cache(maxsize=KEPT)
 def rings_within(h: float, edge: float) -> Rings:
     """Return the springs at x = k h within an edge; between them q is linear in s."""
-    x = np.arange(SPRINGS) * h
+    x = np.arange(SPRINGS, dtype=np.float64) * h
     x = x[x < edge]
     ends, inner = np.append(x[1:], edge), x[:, None]
     far = np.sqrt(np.maximum(ends**2 - inner**2, 0.0))
     near = np.sqrt(np.maximum(x**2 - inner**2, 0.0))
     fall = (np.eye(x.size) - np.eye(x.size, k=1)) / (ends**2 - x**2)[:, None]
     slopes = np.triu(far - near) @ fall
-    reach = np.linalg.inv(slopes)
+    reach = np.asarray(np.linalg.inv(slopes), np.float64)
     weights = (ends - x) * (2.0 * ends + x) / (3.0 * (ends + x))
     weights[1:] += (ends - x - weights)[:-1]
     compliance = reach.T @ (weights[:, None] * reach)

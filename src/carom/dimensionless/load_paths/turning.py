@@ -4,6 +4,7 @@ A step is straight in depth and displacement. It is cut into parts until twice a
 same; what they differ by corrects them to second order.
 """
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -28,6 +29,8 @@ RESULTS = 7
 
 EVEN = 1e-3  # of Coulomb's limit: what twice as many parts may differ by
 MOST_PARTS = 256
+Advance = Callable[[int], object]
+
 CLOSE, FOUND = 1e-9, 1e-6  # likewise: where the search for a force ends, what it must be
 
 
@@ -37,20 +40,19 @@ class Taken(NamedTuple):
     parts: State
     halves: State
 
-    def even(self, deepest: float) -> bool:
+    def even(self, before: State) -> bool:
         """Return whether both come to the same."""
         force, work = self.halves.force - self.parts.force, self.halves.work - self.parts.work
+        deepest, way = max(before.depth, self.halves.depth), self.halves.moved - before.moved
         most = EVEN * limit(deepest)
-        return bool(np.hypot(*force) <= most and abs(work) <= most * deepest)
+        return bool(np.hypot(*force) <= most and abs(work) <= most * (deepest + np.hypot(*way)))
 
     def corrected(self) -> State:
         """Return what parts of no length would come to."""
-        depth, moved, *_ = self.halves
-        springs, force, work = (
-            2.0 * two - one for one, two in zip(self.parts[2:], self.halves[2:], strict=True)
-        )
-        force = cut(force[None], np.array([limit(depth)]))[0]
-        return State(depth, moved, springs, force, work)
+        one, two = self
+        force = cut((2.0 * two.force - one.force)[None], np.array([limit(two.depth)]))[0]
+        springs, work = 2.0 * two.springs - one.springs, 2.0 * two.work - one.work
+        return two._replace(springs=springs, force=force, work=work)
 
 
 def taken(state: State, h: float, depth: float, moved: Array, count: int) -> Taken:
@@ -60,9 +62,9 @@ def taken(state: State, h: float, depth: float, moved: Array, count: int) -> Tak
 
 def move(state: State, h: float, depth: float, moved: Array) -> State:
     """Return the contact after a step to a depth and a displacement."""
-    deepest, count = max(state.depth, depth), 1
+    count = 1
     now = taken(state, h, depth, moved, count)
-    while not now.even(deepest) and count < MOST_PARTS:
+    while not now.even(state) and count < MOST_PARTS:
         count *= 2
         now = Taken(now.halves, steps(state, h, depth, moved, 2 * count))
     return now.corrected()
@@ -72,9 +74,11 @@ def push(state: State, h: float, depth: float, wanted: Array) -> State | None:
     """Return the contact after a step to a depth and a force; None if none has been found."""
     from scipy.optimize import root
 
-    most, deepest = limit(depth), max(state.depth, depth)
+    most = limit(depth)
     if depth <= 0.0:  # a force lets go
         return move(state, h, depth, state.moved - state.springs[0])
+    if np.hypot(*wanted) > (1.0 - FOUND) * most:  # springs that turn come to it nowhere
+        return None
 
     def lacks(moved: Array, count: int) -> Array:
         return (taken(state, h, depth, moved, count).corrected().force - wanted) / most
@@ -83,7 +87,7 @@ def push(state: State, h: float, depth: float, wanted: Array) -> State | None:
     while True:
         moved = root(lacks, moved, (count,), "hybr", options={"xtol": CLOSE}).x
         now = taken(state, h, depth, moved, count)
-        if now.even(deepest) or count >= MOST_PARTS:
+        if now.even(state) or count >= MOST_PARTS:
             break
         count *= 2
     found = now.corrected()
@@ -100,22 +104,26 @@ def first_guess(state: State, h: float, depth: float, wanted: Array) -> Array:
     slip = (there.springs - state.springs)[inside]
     back = slip[np.argmin(np.hypot(slip[:, 0], slip[:, 1]))] if inside.any() else np.zeros(2)
     there = taken(state, h, depth, state.moved + back, 1).corrected()
-    return there.moved + (wanted - there.force) / edge
+    return np.asarray(there.moved + (wanted - there.force) / edge)
 
 
-def follow_turning(depths: Array, targets: Array, by_force: NDArray[np.bool_]) -> tuple[Array, int]:
+def follow_turning(
+    depths: Array, targets: Array, by_force: NDArray[np.bool_], advance: Advance
+) -> tuple[Array, int]:
     """Follow a path by springs; return a row of results for each step, and the step refused."""
     results = np.full((depths.size, RESULTS), np.nan)
     h = float(np.sqrt(max(depths.max(), 0.0))) / SPRINGS
-    state: State | None = apart(0.0, np.zeros(2), 0.0)
+    state = apart(0.0, np.zeros(2), 0.0)
     for n, (depth, target, forced) in enumerate(zip(depths, targets, by_force, strict=True)):
         if forced and np.hypot(*target) > limit(depth) * (1.0 + ROUNDING):
             return results, n
-        state = (push if forced else move)(state, h, float(depth), target)
-        if state is None:
+        there = (push if forced else move)(state, h, float(depth), target)
+        if there is None:
             return results, n
+        state = there
         results[n, :STICK] = *state.moved, *state.force
         results[n, STICK:] = stick_radius(state, h), stored(state, h), state.work
+        advance(1)
     return results, INSIDE
 
 
@@ -127,14 +135,17 @@ def direction_of(targets: Array) -> Array | None:
     return along if np.all(np.abs(aside) <= ROUNDING * size) else None
 
 
-def follow_path(depths: Array, targets: Array, by_force: NDArray[np.bool_]) -> tuple[Array, int]:
+def follow_path(
+    depths: Array, targets: Array, by_force: NDArray[np.bool_], advance: Advance
+) -> tuple[Array, int]:
     """Follow a path to depths d and wanted (U_x, U_y) or, where `by_force`, (Q_x, Q_y).
 
-    Targets have the shape (n, 2). Returns a row of results for each step, and the step refused.
+    Targets have the shape (n, 2); `advance` is called after each step that turns. Returns a row of
+    results for each step, and the step refused, or INSIDE.
     """
     along = direction_of(targets)
     if along is None:
-        return follow_turning(depths, targets, by_force)
+        return follow_turning(depths, targets, by_force, advance)
     path = paths.follow_path(depths, targets @ along, by_force)
     results = np.empty((depths.size, RESULTS))
     results[:, U_X : U_Y + 1] = np.outer(path.results[:, paths.DISPLACEMENT], along)

@@ -57,7 +57,7 @@ def step(state: State, h: float, depth: float, moved: Array) -> State:
 
 
 def steps(state: State, h: float, depth: float, moved: Array, count: int) -> State:
-    """Return the contact after a straight way in equal steps, cut where the bodies touch or part."""
+    """Return the contact after a straight way in equal steps; bodies touch and part between two."""
     shares = np.arange(1, count) / count
     depths = state.depth + shares * (depth - state.depth)
     if depth * state.depth < 0.0:

@@ -1,0 +1,68 @@
+"""What a load path comes to after each of its steps, in SI units."""
+
+from collections.abc import Callable
+from math import isfinite
+
+import numpy as np
+
+from carom.bodies.pairs import ContactScales, Pair
+from carom.contacts.load_steps import Steps
+from carom.dimensionless.load_paths import paths, turning
+from carom.quantities.arrays import Array
+from carom.quantities.refusals import InputError, refusal
+
+BEYOND = "floating point cannot hold the forces of it; check the units"
+
+
+def followed(
+    pair: Pair, steps: Steps, advance: Callable[[int], object]
+) -> tuple[ContactScales, dict[str, Array]]:
+    """Return the scales of a path, and its columns, or raise InputError."""
+    scales = _scales(pair, float(steps.penetration.max()))
+    with np.errstate(all="ignore"):
+        depths, targets, by_force = steps.dimensionless(scales)
+        if targets.ndim == 1:
+            results, _, refused = paths.follow_path(depths, targets, by_force)
+            moved, force, rest = results[:, 0], results[:, 1], results[:, 2:]
+        else:
+            results, refused = turning.follow_path(depths, targets, by_force, advance)
+            moved, force, rest = results[:, :2], results[:, 2:4], results[:, 4:]
+        depths = np.maximum(depths, 0.0)
+        normal = depths**1.5 * scales.force
+        if refused != paths.INSIDE:
+            raise _refused(steps, refused, pair.friction, float(normal[refused]))
+        energy = scales.tangential_force * scales.tangential_length
+        columns = {
+            "displacement": moved * scales.tangential_length,
+            "normal_force": normal,
+            "tangential_force": force * scales.tangential_force,
+            "contact_radius": np.sqrt(depths) * scales.radius,
+            "stick_radius": rest[:, 0] * scales.radius,
+            "tangential_elastic_energy": rest[:, 1] * energy,
+            "frictional_work": rest[:, 2] * energy,
+        }
+    if not all(np.all(np.isfinite(values)) for values in columns.values()):
+        raise refusal("penetration", float(steps.penetration.max()), BEYOND)
+    return scales, columns
+
+
+def _refused(steps: Steps, n: int, friction: float, normal: float) -> InputError:
+    wanted, most = steps.target[n], friction * normal
+    allowed = f"step {n}: Coulomb's law allows at most {most:g} N at F_z = {normal:g} N"
+    if float(np.linalg.norm(wanted)) <= most:
+        allowed += ", as near to it give displacements"
+    return refusal("tangential_force", wanted.tolist(), allowed)
+
+
+def _scales(pair: Pair, deepest: float) -> ContactScales:
+    """Return the scales of the deepest penetration; of any, where the bodies never touch."""
+    try:
+        scales = pair.contact_scales(deepest if deepest > 0.0 else pair.effective_radius)
+        energy = scales.tangential_force * scales.tangential_length
+        values = [scales.length, scales.force, scales.tangential_length, energy]
+        fits = all(isfinite(value) and value > 0.0 for value in values)
+    except OverflowError:
+        fits = False
+    if not fits:
+        raise refusal("penetration", deepest, BEYOND)
+    return scales
