@@ -67,10 +67,14 @@ template <int N, class Real> void refine(Real (&line)[N]) {
 template <class Real> Real larger(Real a, Real b) { return a > b ? a : b; }
 template <class Real> Real smaller(Real a, Real b) { return a < b ? a : b; }
 
+/// One over the length of a vector.
+template <class Real> Real over_length(Real x, Real y) {
+    return 1 / std::sqrt(larger(x * x + y * y, std::numeric_limits<Real>::min()));
+}
+
 /// Factor that cuts a vector back to a length; without a branch, so that loops become vectors.
 template <class Real> Real cut(Real x, Real y, Real most) {
-    const Real square = larger(x * x + y * y, std::numeric_limits<Real>::min());
-    return smaller(most / std::sqrt(square), Real(1));
+    return smaller(most * over_length(x, y), Real(1));
 }
 
 /// Sum of a line, by halves.

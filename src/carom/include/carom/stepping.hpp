@@ -100,6 +100,7 @@ Sums march(Contact<N, Real, P>& c, const Now& now, double edge, bool viscous_she
     const Real rises = depth - before, touch = rises > 0 ? 1 / rises : Real(0);
     const Real least = rises > 0 ? Real(0) : Real(1), both = viscous_shear ? Real(1) : Real(0);
     const Real keep = Real(now.keep), kept = viscous_shear ? keep : Real(0);
+    const Real plain = kept > 0 ? Real(0) : Real(1);  // with losses q + tau q' is what turns
     const Real moved_x = Real(now.moved_x), moved_y = Real(now.moved_y);
     const Real drag_x = Real(now.drag_x), drag_y = Real(now.drag_y), rim = Real(edge);
     Real along[N], across[N], rubbed[N], dragged[N];
@@ -117,10 +118,14 @@ Sums march(Contact<N, Real, P>& c, const Now& now, double edge, bool viscous_she
             const Real grown = larger(smaller(is - larger(was, Real(0)) * keep, inside), Real(0));
             most = both * grown + (1 - both) * bearable;
         }
-        const Real to_x = x0 * (1 - kept) + share * moved_x;
-        const Real to_y = y0 * (1 - kept) + share * moved_y;
-        const Real part = cut(to_x, to_y, most);
-        const Real x = to_x * part + x0 * kept, y = to_y * part + y0 * kept;
+        const Real free_x = x0 * (1 - kept), free_y = y0 * (1 - kept);
+        const Real to_x = free_x + share * moved_x, to_y = free_y + share * moved_y;
+        const Real inverse = over_length(to_x, to_y), part = smaller(most * inverse, Real(1));
+        // a cut turns springs too little, by half of what it takes of their part aside
+        const Real less = plain * smaller(part, Real(0.5)) * (1 - part);
+        const Real ahead = part + less * (free_x * to_x + free_y * to_y) * inverse * inverse;
+        const Real x = ahead * to_x - less * free_x + x0 * kept;
+        const Real y = ahead * to_y - less * free_y + y0 * kept;
         c.x[k] = x;
         c.y[k] = y;
         Real bears_x = x, bears_y = y;
@@ -166,7 +171,7 @@ void trim(const Contact<N, Real, P>& c, const Now& now, double edge, Sums& sums)
     const double s = double(last) * last, inner = inner_share(last, beta);
     if (!(edge > s)) return;
     const double x = c.x[last] + now.drag_x, y = c.y[last] + now.drag_y;
-    const double part = cut(x, y, std::max(now.limit - s, 0.0));
+    const double part = (P & viscous) ? cut(x, y, std::max(now.limit - s, 0.0)) : 1.0;
     const double less = inner - (3.0 * last + 2.0) / (6.0 * last + 3.0);
     const double outer = (beta - last - inner) *
                          cut(now.drag_x, now.drag_y, std::max(now.limit - edge, 0.0));

@@ -102,6 +102,16 @@ def length(x: float, y: float, most: float) -> float:
 
 
 @kernel
+def to_right(q: float, r: float, x: float, y: float) -> float:
+    """Return how far (q, r) reaches to the right of (x, y), in lengths of it.
+
+    A cut turns springs too little, by half of what it takes of this.
+    """
+    square = x * x + y * y
+    return (q * y - r * x) / square if square > 0.0 else 0.0
+
+
+@kernel
 def fit_lattice(memory: Array, springs: int, d: float, v: float) -> None:
     """Give springs their places at the touch, and others as the contact grows or shrinks."""
     if memory[SPACING] == 0.0:
@@ -144,10 +154,12 @@ def move(memory: Array, springs: int, now: Now, moved: tuple[float, float]) -> N
             continue
         share = min((now.d - s) / rises, 1.0) if rises > 0.0 else 1.0
         most = max(is_ - now.left * was, 0.0) if now.kept > 0.0 else now.depth - s
-        x, y = (1.0 - now.kept) * q + share * moved[0], (1.0 - now.kept) * r + share * moved[1]
+        q, r = (1.0 - now.kept) * q, (1.0 - now.kept) * r
+        x, y = q + share * moved[0], r + share * moved[1]
         part = length(x, y, most)
-        memory[FIRST + k] += part * x
-        memory[FIRST + springs + k] += part * y
+        left = min(part, 0.5) * (1.0 - part) * to_right(q, r, x, y) if now.kept == 0.0 else 0.0
+        memory[FIRST + k] += part * x - left * y
+        memory[FIRST + springs + k] += part * y + left * x
 
 
 @kernel
@@ -162,7 +174,7 @@ def pull(memory: Array, springs: int, now: Now, drag: tuple[float, float]) -> tu
         q, r = memory[FIRST + k] + drag[0], memory[FIRST + springs + k] + drag[1]
         weight = x - (k - 1) * h - cell(x - h, x) if k > 0 else 0.0
         weight += cell(x, rim if last else x + h)
-        part = weight * length(q, r, now.depth - x * x)
+        part = weight * (length(q, r, now.depth - x * x) if now.left > 0.0 else 1.0)
         along += part * q
         across += part * r
         if last:
