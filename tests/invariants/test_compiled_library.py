@@ -105,6 +105,7 @@ def contacts(rng):
         hit.stress(time * hit.duration, x=[0.0, 1e-4], z=[0.0, 1e-4])
     path.fields(2)
     path.radial(1)
+    carom.load_path(PAIR, normal_force=10.0, displacement=[[1e-7, 0.0], [1e-7, 1e-7]])
 
 
 def laws(rng):

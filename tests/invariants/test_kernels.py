@@ -27,6 +27,7 @@ normal = rng.uniform(1.0, 9.0, 40)
 path = carom.load_path(
     pair, normal_force=normal, tangential_force=0.2 * normal * rng.uniform(-1.0, 1.0, 40)
 )
+aside = carom.load_path(pair, normal_force=normal[:5], displacement=rng.normal(0.0, 1e-7, (5, 2)))
 
 def values(dataset, unit):
     return [(dataset[name] / unit[dataset[name].units]).values.ravel().tolist() for name in dataset]
@@ -44,6 +45,7 @@ print(json.dumps({
                                    poisson=0.3).tolist() for t in (0.6, 0.8)],
     "angles": [list(angle) for angle in hit.slip_angles],
     "path": values(path.to_dataset(), unit | {"J": scale.force * scale.tangential_length}),
+    "turning": values(aside.to_dataset(), unit | {"J": scale.force * scale.tangential_length}),
     "slip": values(path.fields(points=reach).drop_vars("zone"), unit),
     "times": [hertz.penetration_and_speed(t) for t in (0.1, 1.0, 1.47, 2.9)],
 }))
