@@ -288,3 +288,72 @@ def test_what_cannot_be_followed():
     assert cattaneo_mindlin(PAIR, "1 N", "0.1 N") == cattaneo_mindlin(PAIR, 1.0, 0.1)
     with pytest.raises(InputError, match="amplitude: "):
         loop_energy(PAIR, 1.0, -0.1)
+
+
+ASIDE = np.array([0.6, -0.8])
+
+
+@pytest.mark.parametrize(
+    "tangential",
+    [
+        {"displacement": np.array([1e-7, 4e-7, -2e-7])},
+        {"tangential_force": np.array([1.0, 4.0, -3.0])},
+    ],
+)
+def test_two_directions_on_one_line_are_exact(tangential):
+    """A path along a line at any angle is that of one direction, turned."""
+    name, values = next(iter(tangential.items()))
+    plain = load_path(PAIR, normal_force=[20.0, 30.0, 15.0], **tangential)
+    turned = load_path(PAIR, normal_force=[20.0, 30.0, 15.0], **{name: np.outer(values, ASIDE)})
+    for column in ("displacement", "tangential_force"):
+        expected = np.outer(getattr(plain, column), ASIDE)
+        atol = 1e-13 * np.abs(expected).max()
+        np.testing.assert_allclose(getattr(turned, column), expected, rtol=0, atol=atol)
+    for column in ("stick_radius", "frictional_work", "tangential_elastic_energy", "normal_force"):
+        np.testing.assert_allclose(getattr(turned, column), getattr(plain, column), rtol=1e-12)
+
+
+def test_a_path_of_two_directions_goes_in_and_out(tmp_path):
+    """Shapes; its dataset is stored, and taken as what drives the next path."""
+    bent = load_path(PAIR, normal_force="20 N", displacement=[["0.2 um", "0 um"], [2e-7, 1e-7]])
+    assert bent.displacement.shape == bent.tangential_force.shape == (2, 2)
+    kept = read(save(bent, tmp_path / "bent.nc"))
+    assert kept["tangential_force"].dims == ("step", "direction")
+    for given in (kept["displacement"], kept["displacement"].T):
+        again = load_path(PAIR, normal_force=kept["normal_force"], displacement=given)
+        np.testing.assert_array_equal(again.tangential_force, bent.tangential_force)
+    longer = load_path(PAIR, normal_force=20.0, displacement=2e-7).then(
+        normal_force=20.0, displacement=[[2e-7, 1e-7]]
+    )
+    np.testing.assert_array_equal(longer.tangential_force, bent.tangential_force)
+    one = load_path(PAIR, normal_force=[10.0, 20.0, 30.0], tangential_force=[[0.1, 0.2]])
+    assert one.displacement.shape == (3, 2)
+
+
+def test_what_two_directions_cannot_be():
+    bent = load_path(PAIR, normal_force=20.0, displacement=[[2e-7, 0.0], [2e-7, 1e-7]])
+    wrong = {
+        r"step 1: Coulomb's law allows at most 6 N": [[0.0, 0.0], [6.0, 1.0]],
+        r"as near to it give displacements": [[1.0, 0.0], [0.0, 6.0]],
+        r"an array of shape \(1, 3\) cannot be used; .* or of shape \(n, 2\)": [[1.0, 0.0, 0.0]],
+        r"step 1: it must be finite": [[0.0, 0.0], [1.0, np.nan]],
+        r"an array of 2 values cannot be used; must be as many": [[0.0, 0.0], [1.0, 0.0]],
+    }
+    for words, force in wrong.items():
+        load = [20.0, 20.0, 20.0] if "as many" in words else 20.0
+        with pytest.raises(InputError, match=words):
+            load_path(PAIR, normal_force=load, tangential_force=force)
+    for look in (bent.contact, bent.fields, bent.radial, bent.stress):
+        with pytest.raises(InputError, match=r"step: -1 cannot be used; .* in one direction alone"):
+            look()
+
+
+def test_progress_of_a_path_that_turns():
+    told = []
+    load_path(
+        PAIR,
+        normal_force=20.0,
+        displacement=[[2e-7, 0.0], [2e-7, 1e-7]],
+        progress=lambda done, total: told.append((done, total)),
+    )
+    assert told == [(1, 2), (2, 2)]

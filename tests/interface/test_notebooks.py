@@ -161,6 +161,8 @@ def test_what_was_used_is_cited():
     assert entries(yielding.cite())[-1] == "thornton1997"
     path = carom.load_path(PAIR, penetration=[1e-6], displacement=[0.0])
     assert "mindlin1953" in entries(path.cite())
+    aside = path.then(normal_force=10.0, tangential_force=[[0.0, 0.5]])
+    assert entries(aside.cite())[-1] == "moreau1977"
     assert "kalker1990" in entries(carom.impact(PAIR, **MOTION, method=TINY).cite())
     assert entries(carom.ReboundLaw(1.44).cite()) == list(IMPACT)
     table = {"psi_1": [0.5, 1.0, 2.0], "psi_2": [0.0, 0.0, 0.0]}

@@ -238,6 +238,19 @@ def test_cone_takes_a_load_path_without_phases(history):
     assert {"start", "end"} <= set(lines(axis))
 
 
+def test_cone_of_two_directions_is_a_circle(hit):
+    """F/(mu F_z) along the contact, inside the circle of radius one; a straight path, too."""
+    moved = [[1e-7, 0.0], [1e-7, 1e-7], [0.0, 1e-7]]
+    path = carom.load_path(hit.pair, normal_force=[5.0, 10.0, 10.0], displacement=moved)
+    axis = path.plot().axes[0]
+    drawn = np.column_stack(lines(axis)["load path"].get_data())
+    limit = hit.pair.friction * path.normal_force[:, None]
+    np.testing.assert_allclose(drawn, path.tangential_force / limit, rtol=1e-13)
+    circle = np.hypot(*lines(axis)[r"$\mu F_z$"].get_data())
+    np.testing.assert_allclose(circle, 1.0, rtol=1e-13)
+    assert {"start", "end"} <= set(lines(axis))
+
+
 def test_arrows_of_a_path_that_is_retraced_do_not_coincide(hit):
     swing = 1.6 * np.sin(np.linspace(0.0, 4.0 * np.pi, 201))
     path = carom.load_path(hit.pair, normal_force=10.0, tangential_force=swing)

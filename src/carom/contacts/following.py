@@ -11,6 +11,7 @@ from carom.dimensionless.load_paths import paths, turning
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError, refusal
 
+ROUNDING = 1e-12
 BEYOND = "floating point cannot hold the forces of it; check the units"
 
 
@@ -49,7 +50,7 @@ def followed(
 def _refused(steps: Steps, n: int, friction: float, normal: float) -> InputError:
     wanted, most = steps.target[n], friction * normal
     allowed = f"step {n}: Coulomb's law allows at most {most:g} N at F_z = {normal:g} N"
-    if float(np.linalg.norm(wanted)) <= most:
+    if float(np.linalg.norm(wanted)) <= most * (1.0 + ROUNDING):
         allowed += ", as near to it give displacements"
     return refusal("tangential_force", wanted.tolist(), allowed)
 

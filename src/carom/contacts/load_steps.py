@@ -1,6 +1,6 @@
 """What drives a load path: its steps, read from forces or displacements and checked."""
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -8,6 +8,9 @@ from numpy.typing import ArrayLike, NDArray
 from carom.bodies.pairs import ContactScales, Pair
 from carom.quantities.arrays import Array, along_the_same, numbers
 from carom.quantities.refusals import InputError, refusal
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Given = ArrayLike | str | None
 
@@ -46,8 +49,12 @@ class Steps(NamedTuple):
 
 def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved: Given) -> Steps:
     """Return the steps that the four controls describe, or raise InputError."""
+    tangential, moved = _directions_last(tangential), _directions_last(moved)
     along_the_same(
-        normal_force=normal, penetration=depth, tangential_force=tangential, displacement=moved
+        normal_force=normal,
+        penetration=depth,
+        tangential_force=_first_direction(tangential),
+        displacement=_first_direction(moved),
     )
     across = _one_of(1, normal_force=normal, penetration=depth)
     along = _one_of(2, tangential_force=tangential, displacement=moved)
@@ -65,6 +72,19 @@ def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved
         unit = pair.contact_scales(1.0).force
         d = np.cbrt(d / unit) ** 2
     return Steps(d, target, np.full(n, along[0] == "tangential_force"))
+
+
+def _directions_last(given: Given) -> Given:
+    """Return an array of xarray's with its dimension `direction` as the last one."""
+    if "direction" in getattr(given, "dims", ()):
+        return cast("xr.DataArray", given).transpose(..., "direction")
+    return given
+
+
+def _first_direction(given: Given) -> Given:
+    if "direction" in getattr(given, "dims", ()):
+        return cast("xr.DataArray", given).isel(direction=0)
+    return given
 
 
 def _one_of(most: int, **controls: Given) -> tuple[str, Array]:

@@ -8,6 +8,7 @@ from carom.io.version import __version__
 
 IMPACT = ("carom", "barber1979", "maw1976")  # the theory of impacts
 LOADS = ("carom", "mindlin1953", "maw1976")
+TURNING = "moreau1977"
 ELEMENTS = ("carom", "kalker1990", "love1929")
 FITS = (*IMPACT, "newville2014")
 SAMPLES = ("foremanmackey2013",)
