@@ -20,7 +20,7 @@ ROOT = Path(__file__).parents[2]
 INCLUDE = Path(carom.get_include())
 STRICT = ("-Wall", "-Wextra", "-pedantic", "-Werror")
 FAST = ("-O2", "-fno-math-errno", "-fno-trapping-math")
-ELASTIC, VISCOUS, LEDGER = 0, 1, 2
+ELASTIC, VISCOUS, LEDGER, SINGLE = 0, 1, 2, 4
 RADIUS, FRICTION, KAPPA, MASS = 1e3, 0.3, 0.8, 16.0 / 15.0  # so that d_max = V_1 = 1
 MODULUS = RADIUS**-0.5
 LARGEST = 4.0 / 3.0  # normal force of the elastic impact
@@ -157,6 +157,20 @@ class Stepped:
         return load
 
 
+@pytest.mark.parametrize("alpha", [0.0, 0.2])
+def test_single_precision_differs_by_its_rounding(functions, alpha):
+    """The same steps in half the memory: forces within 2e-5 of the largest, and not the same."""
+    kinds = [(VISCOUS if alpha else ELASTIC) | precision for precision in (0, SINGLE)]
+    double, single = (Stepped(functions, 32, alpha, alpha, parts=kind) for kind in kinds)
+    times = np.linspace(0.0, np.pi, 200)
+    rows = zip(np.sin(times), np.cos(times), strict=True)
+    off = [
+        np.abs(double.step(*step) - single.step(*step)).max()
+        for step in ((d, v, 1.5 * v, 0.4 - d, times[1]) for d, v in rows)
+    ]
+    assert 1e-9 < max(off) < 2e-5
+
+
 @pytest.mark.parametrize(
     ("springs", "alpha", "shear_alpha"),
     [(16, 0.0, 0.0), (32, 0.0, 0.0), (64, 0.0, 0.0), (32, 0.2, 0.2), (32, 0.2, 0.0)],
@@ -286,6 +300,7 @@ def test_bad_input_changes_nothing(functions, pair, motion, status):
 def test_kinds_that_are_not_offered(functions):
     assert functions.carom_contact_size(32, 0) == 8 * (2 + 2 * 32)
     assert functions.carom_contact_size(32, VISCOUS) == 8 * (2 + 3 * 32 + 6)
+    assert functions.carom_contact_size(32, VISCOUS | SINGLE) == 4 * (2 + 3 * 32 + 6)
     assert functions.carom_contact_size(33, 0) == functions.carom_contact_size(32, 9) == 0
     contact = Stepped(functions, 32)
     given = (contact.memory, 33, 0, *map(ctypes.byref, (contact.pair, Motion(), contact.load)))

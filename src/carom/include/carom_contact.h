@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: BSD-3-Clause
  *
- * What carom/contact.hpp is for C++, in double precision; to be compiled with your program:
+ * What carom/contact.hpp is for C++; to be compiled with your program:
  *
  *     c++ -std=c++17 -O3 -march=native -fno-math-errno -fno-trapping-math -c
  *         -I$INCLUDE $INCLUDE/carom/contact.cpp
@@ -19,8 +19,8 @@
 extern "C" {
 #endif
 
-/* What a contact remembers besides its springs; add what is wanted. */
-enum carom_parts { CAROM_ELASTIC = 0, CAROM_VISCOUS = 1, CAROM_LEDGER = 2 };
+/* What a contact remembers besides its springs, and how precisely; add what is wanted. */
+enum carom_parts { CAROM_ELASTIC = 0, CAROM_VISCOUS = 1, CAROM_LEDGER = 2, CAROM_SINGLE = 4 };
 
 enum carom_contact_status {
     CAROM_CONTACT_OK = 0,

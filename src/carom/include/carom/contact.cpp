@@ -9,24 +9,29 @@
 
 namespace {
 
+template <int N, class Real, class Work> bool of_parts(unsigned parts, Work work) {
+    using namespace carom;
+    switch (parts) {
+        case elastic: return work(static_cast<Contact<N, Real, elastic>*>(nullptr)), true;
+        case viscous: return work(static_cast<Contact<N, Real, viscous>*>(nullptr)), true;
+        case ledger: return work(static_cast<Contact<N, Real, ledger>*>(nullptr)), true;
+        case viscous | ledger:
+            return work(static_cast<Contact<N, Real, viscous | ledger>*>(nullptr)), true;
+        default: return false;
+    }
+}
+
+template <int N, class Work> bool of_precision(unsigned parts, Work work) {
+    if ((parts & CAROM_SINGLE) != 0) return of_parts<N, float>(parts - CAROM_SINGLE, work);
+    return of_parts<N, double>(parts, work);
+}
+
 /// Call `work` with a contact of this kind; false if there is none.
 template <class Work> bool with_kind(int springs, unsigned parts, Work work) {
-    using namespace carom;
-    const auto of_parts = [&](auto count) {
-        constexpr int n = decltype(count)::value;
-        switch (parts) {
-            case elastic: return work(static_cast<Contact<n, double, elastic>*>(nullptr)), true;
-            case viscous: return work(static_cast<Contact<n, double, viscous>*>(nullptr)), true;
-            case ledger: return work(static_cast<Contact<n, double, ledger>*>(nullptr)), true;
-            case viscous | ledger:
-                return work(static_cast<Contact<n, double, viscous | ledger>*>(nullptr)), true;
-            default: return false;
-        }
-    };
     switch (springs) {
-        case 16: return of_parts(std::integral_constant<int, 16>{});
-        case 32: return of_parts(std::integral_constant<int, 32>{});
-        case 64: return of_parts(std::integral_constant<int, 64>{});
+        case 16: return of_precision<16>(parts, work);
+        case 32: return of_precision<32>(parts, work);
+        case 64: return of_precision<64>(parts, work);
         default: return false;
     }
 }
