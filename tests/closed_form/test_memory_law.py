@@ -7,6 +7,7 @@ import carom
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.laws.dem import lattice
+from carom.laws.dem.coefficients import ELASTIC_PULL
 
 PSI, CHIS = np.linspace(0.0, 6.0, 64), (1.0, 1.2, 1.4412, 1.75)
 
@@ -43,6 +44,26 @@ def test_the_order_is_the_second_in_steps_and_springs(e):
     assert np.log2(by_steps[0] / by_steps[1]) / 4.0 > 1.9
     by_springs = [worst(springs, 2000, e) for springs in (16, 128)]
     assert np.log2(by_springs[0] / by_springs[1]) / 3.0 > 1.8
+
+
+def left_with(phase, steps, alpha, psi=3.0, chi=1.4412):
+    """Return psi_2 of an impact by velocity Verlet, touched at this part of a step."""
+    memory, load, dt = np.zeros(lattice.places(64)), np.zeros(3), DURATION / steps
+    d, v = -phase * dt, 1.0
+    for _ in range(4 * steps):
+        v, psi = v - 0.5 * dt * ELASTIC_PULL * load[0], psi - dt * ELASTIC_PULL * chi * load[1]
+        d += dt * v
+        lattice.step(memory, 64, d, np.array([v, psi, 0.0]), dt, alpha, alpha, load)
+        if v < 0.0 and load[0] <= 0.0:
+            break
+        v, psi = v - 0.5 * dt * ELASTIC_PULL * load[0], psi - dt * ELASTIC_PULL * chi * load[1]
+    return psi
+
+
+@pytest.mark.parametrize("alpha", [0.0, 0.2])
+def test_a_touch_just_before_the_end_of_a_step_is_one_at_its_end(alpha):
+    """Dashpots bear their mean over a step, along as across: without it psi_2 is off by 0.002."""
+    assert left_with(1.0 - 1e-9, 50, alpha) == pytest.approx(left_with(0.0, 50, alpha), abs=2e-5)
 
 
 def turned(steps, springs=64):

@@ -16,6 +16,7 @@ from carom.cli.curve import curve_command
 from carom.cli.explore import explore_command
 from carom.cli.fit import fit_command
 from carom.cli.impact import impact_command
+from carom.cli.lammps import app as lammps_app
 from carom.cli.materials import materials_command
 from carom.cli.once import Commands
 from carom.cli.sweep import sweep_command
@@ -38,6 +39,7 @@ app.command("fit")(fit_command)
 app.command("explore")(explore_command)
 app.command("materials")(materials_command)
 app.add_typer(verify_app)
+app.add_typer(lammps_app)
 
 
 @app.callback(invoke_without_command=True)

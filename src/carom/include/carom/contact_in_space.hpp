@@ -116,12 +116,20 @@ template <class Real> Vector carried(Real (&axis)[3], const Vector& normal, doub
         length = std::sqrt(dot(x, x));
     }
     const Vector y = cross(normal, x);
-    const double c = std::cos(angle) / length, s = std::sin(angle) / length;
+    const double half = 0.5 * angle, scale = 1.0 / (length * (1.0 + half * half));
+    const double c = (1.0 - half * half) * scale, s = 2.0 * half * scale;  // angle + O(angle^3)
     for (int i = 0; i < 3; ++i) axis[i] = static_cast<Real>(c * x[i] + s * y[i]);
     return {c * x[0] + s * y[0], c * x[1] + s * y[1], c * x[2] + s * y[2]};
 }
 
 }  // namespace springs
+
+/// Set the torques that a force has on the bodies.
+inline void turn(Action& action, const Encounter& e) {
+    const Vector side = cross(action.force, e.normal);
+    action.torque = {e.arm * side[0], e.arm * side[1], e.arm * side[2]};
+    action.other_torque = {e.other_arm * side[0], e.other_arm * side[1], e.other_arm * side[2]};
+}
 
 /// Bring a contact in space to the end of a step and return what it does to the bodies.
 template <int N, class Real, unsigned P>
@@ -141,9 +149,7 @@ Status advance(ContactInSpace<N, Real, P>& contact, const Pair& pair, const Enco
     action.force = plus(action.force, load.normal, e.normal);
     action.force = plus(action.force, -load.x, axis);
     action.force = plus(action.force, -load.y, other);
-    const Vector turn = cross(action.force, e.normal);
-    action.torque = {e.arm * turn[0], e.arm * turn[1], e.arm * turn[2]};
-    action.other_torque = {e.other_arm * turn[0], e.other_arm * turn[1], e.other_arm * turn[2]};
+    turn(action, e);
     action.friction = load.friction;
     action.viscosity = load.viscosity;
     return Status::ok;

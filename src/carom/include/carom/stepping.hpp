@@ -38,19 +38,20 @@ Now now_of(Contact<N, Real, P>& c, const Pair& pair, const Motion& m) {
     }
     if constexpr ((P & viscous) != 0) {
         if (pair.retardation > 0.0) {
-            double approach = 1.5 * m.approach - 0.5 * c.approach;
+            double approach = 1.5 * m.approach - 0.5 * c.approach, mean = 1.0;
             const double half = 0.5 * approach * m.step / now.unit;
-            if (half > 0.0) {  // mean of tau d' b, which goes like the root of the time at first
+            if (half > 0.0) {  // mean of d' b and q' b: b goes like the root of the time at first
                 const double to = now.depth + half;
                 const double from = now.before > 0.0 ? std::max(now.depth - half, 0.0) : 0.0;
                 const double rise = to * std::sqrt(to) - from * std::sqrt(from);
-                approach = rise * now.unit / (1.5 * m.step * std::sqrt(now.depth));
+                mean = rise * now.unit / (1.5 * m.step * std::sqrt(now.depth)) / approach;
+                approach *= mean;
             }
             now.approach = approach;
             now.limit += pair.retardation * approach / now.unit;
             now.keep = std::exp(-m.step / pair.retardation);
             if (pair.friction > 0.0 && pair.viscous_shear) {
-                const double drag = slope * pair.retardation;
+                const double drag = slope * pair.retardation * mean;
                 now.drag_x = drag * (1.5 * m.slide_x - 0.5 * c.slide_x);
                 now.drag_y = drag * (1.5 * m.slide_y - 0.5 * c.slide_y);
             }

@@ -127,16 +127,15 @@ def fit_lattice(memory: Array, springs: int, d: float, v: float) -> None:
 
 
 @kernel
-def speed_at_end(memory: Array, d: float, before: float, v: float, dt: float) -> float:
-    """Return d' for the dashpots: at the end of the step, while loading its mean around there.
+def mean_at_end(speed: float, d: float, before: float, dt: float) -> float:
+    """Return the mean of b around the end of the step, while loading, over b there.
 
-    The mean is that of d' b, which rises like the root of the time at first.
+    So much more dashpots bear at first, where b rises like the root of the time.
     """
-    speed = v + 0.5 * (v - memory[SPEED])
     if speed <= 0.0:
-        return float(speed)
+        return 1.0
     low = max(d - 0.5 * speed * dt, 0.0) if before > 0.0 else 0.0
-    return float(((d + 0.5 * speed * dt) ** 1.5 - low**1.5) / (1.5 * dt * np.sqrt(d)))
+    return float(((d + 0.5 * speed * dt) ** 1.5 - low**1.5) / (1.5 * dt * np.sqrt(d) * speed))
 
 
 @kernel
@@ -211,11 +210,13 @@ def step(
     fit_lattice(memory, springs, d, v)
     before, depth, left, edge, drag = d - v * dt, d, 0.0, d, (0.0, 0.0)
     if alpha > 0.0:
-        depth += alpha * speed_at_end(memory, d, before, v, dt)
+        speed = v + 0.5 * (v - memory[SPEED])
+        mean = mean_at_end(speed, d, before, dt)
+        depth += alpha * mean * speed
         left = np.exp(-dt / alpha)
         drag = (
-            shear_alpha * (slide + 0.5 * (slide - memory[ALONG])),
-            shear_alpha * (aside + 0.5 * (aside - memory[ACROSS])),
+            shear_alpha * mean * (slide + 0.5 * (slide - memory[ALONG])),
+            shear_alpha * mean * (aside + 0.5 * (aside - memory[ACROSS])),
         )
         edge = max(depth, 0.0)
         if depth >= memory[EDGE]:

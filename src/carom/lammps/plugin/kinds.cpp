@@ -1,0 +1,82 @@
+// Contacts of the exact law as LAMMPS keeps them.
+//
+// SPDX-License-Identifier: GPL-2.0-only
+#include "kinds.h"
+
+namespace LAMMPS_NS {
+namespace {
+
+template <class Kind> Kind &seen(double *memory) { return *reinterpret_cast<Kind *>(memory); }
+
+template <int N, class Real, unsigned P> CaromKind kind_of() {
+    using Kind = carom::ContactInSpace<N, Real, P>;
+    static_assert(alignof(Kind) <= alignof(double), "it lies in doubles");
+    CaromKind kind{};
+    kind.doubles = (sizeof(Kind) + sizeof(double) - 1) / sizeof(double);
+    kind.touches = [](const double *memory) {
+        return reinterpret_cast<const Kind *>(memory)->spacing > 0;
+    };
+    kind.stored = [](const double *memory) -> double {
+        if constexpr ((P & carom::ledger) != 0)
+            return reinterpret_cast<const Kind *>(memory)->stored;
+        return static_cast<void>(memory), 0.0;
+    };
+    kind.advance = [](double *memory, const carom::Pair &pair, const carom::Encounter &meeting,
+                      carom::Action &action) {
+        return carom::advance(seen<Kind>(memory), pair, meeting, action);
+    };
+    kind.mirror = [](double *memory) { carom::mirror(seen<Kind>(memory)); };
+    return kind;
+}
+
+template <int N, class Real> CaromKind of_parts(const CaromOptions &options) {
+    using namespace carom;
+    if (options.viscous)
+        return options.ledger ? kind_of<N, Real, viscous | ledger>() : kind_of<N, Real, viscous>();
+    return options.ledger ? kind_of<N, Real, ledger>() : kind_of<N, Real, elastic>();
+}
+
+template <int N> CaromKind of_precision(const CaromOptions &options) {
+    return options.single ? of_parts<N, float>(options) : of_parts<N, double>(options);
+}
+
+/// Velocity after a normal impact with this alpha: d'' = -(5/4) sqrt(s) (d + alpha d' - ...), the
+/// contact of Hertz's springs with s at the edge where d + alpha d' ends, by the header itself.
+double rebound(double alpha) {
+    carom::Pair pair{1.0, 1e6, 1.0, 0.0, 1.0, alpha};
+    pair.modulus = 0.9375 / std::sqrt(pair.radius);  // so that d_max = V_1 = 1
+    carom::Contact<8, double, carom::viscous> contact{};
+    carom::Load load{};
+    const double step = 2e-4;
+    double depth = 0.0, speed = 1.0;
+    for (int i = 0; i < 1000000; ++i) {
+        speed -= 0.5 * step * load.normal;
+        depth += step * speed;
+        carom::advance(contact, pair, {depth, speed, 0.0, 0.0, step}, load);
+        speed -= 0.5 * step * load.normal;
+        if (speed < 0.0 && load.normal <= 0.0) break;
+    }
+    return -speed;
+}
+
+}  // namespace
+
+CaromKind carom_kind(const CaromOptions &options) {
+    if (options.springs == 16) return of_precision<16>(options);
+    if (options.springs == 32) return of_precision<32>(options);
+    if (options.springs == 64) return of_precision<64>(options);
+    return CaromKind{};
+}
+
+double carom_loss(double restitution) {
+    if (restitution >= 1.0) return 0.0;
+    double low = 0.0, high = 1.0;
+    while (rebound(high) > restitution) high *= 2.0;
+    for (int i = 0; i < 40; ++i) {
+        const double middle = 0.5 * (low + high);
+        (rebound(middle) > restitution ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+}  // namespace LAMMPS_NS

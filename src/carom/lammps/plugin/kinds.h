@@ -1,0 +1,37 @@
+// Contacts of the exact law as LAMMPS keeps them: numbers in the history of a pair of neighbours.
+//
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef CAROM_KINDS_H
+#define CAROM_KINDS_H
+
+#include <cstddef>
+
+#include "carom/contact_in_space.hpp"
+
+namespace LAMMPS_NS {
+
+/// What a style is asked for: springs in a contact, and what it keeps besides.
+struct CaromOptions {
+    int springs = 32;
+    bool single = true, ledger = false, viscous = false;
+};
+
+/// What is done with a contact of one kind, which lies in so many doubles.
+struct CaromKind {
+    int doubles;
+    bool (*touches)(const double *);
+    double (*stored)(const double *);  ///< energy, 0 without a ledger
+    carom::Status (*advance)(double *, const carom::Pair &, const carom::Encounter &,
+                             carom::Action &);
+    void (*mirror)(double *);
+};
+
+/// Return the kind that options ask for; none (0 doubles) where there are other springs.
+CaromKind carom_kind(const CaromOptions &);
+
+/// Return alpha = tau V_1/d_max at which spheres of Kelvin and Voigt's solid rebound with e.
+double carom_loss(double restitution);
+
+}  // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,420 @@
+// pair_style carom: the exact contact of spheres, for LAMMPS.
+//
+// SPDX-License-Identifier: GPL-2.0-only
+#include "pair_carom.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix.h"
+#include "force.h"
+#include "memory.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "update.h"
+#include "utils.h"
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+// A contact in the history: the force on the first body, the retardation time, the springs.
+enum { FORCE = 0, RETARDATION = 3, SPRINGS = 4 };
+enum { ELASTIC, FRICTION, VISCOSITY, LOSSES };
+
+carom::Vector vector(const double *x) { return {x[0], x[1], x[2]}; }
+
+void add(double *sum, double factor, const carom::Vector &more) {
+    for (int i = 0; i < 3; ++i) sum[i] += factor * more[i];
+}
+
+}  // namespace
+
+PairCarom::PairCarom(LAMMPS *lmp) : Pair(lmp), kind{}, history(nullptr), dt(0.0) {
+    single_enable = 1;
+    single_extra = 4;
+    svector = new double[single_extra];
+    no_virial_fdotr_compute = 1;
+    centroidstressflag = CENTROID_NOTAVAIL;
+    finitecutflag = 1;
+    restartinfo = 1;
+    nondefault_history_transfer = 1;
+    nextra = LOSSES;
+    pvector = new double[LOSSES]();
+    // holds the place of the history among the fixes, as it must come before those that move atoms
+    modify->add_fix("NEIGH_HISTORY_CAROM_DUMMY all DUMMY");
+}
+
+PairCarom::~PairCarom() {
+    delete[] svector;
+    delete[] pvector;
+    if (copymode) return;
+    modify->delete_fix(history ? "NEIGH_HISTORY_CAROM" : "NEIGH_HISTORY_CAROM_DUMMY");
+    if (allocated) {
+        memory->destroy(setflag);
+        memory->destroy(cutsq);
+    }
+}
+
+void PairCarom::allocate() {
+    const int n = atom->ntypes;
+    allocated = 1;
+    memory->create(setflag, n + 1, n + 1, "pair:setflag");
+    memory->create(cutsq, n + 1, n + 1, "pair:cutsq");
+    for (int i = 0; i <= n; ++i)
+        for (int j = 0; j <= n; ++j) setflag[i][j] = 0;
+    coeffs.assign(n + 1, std::vector<CaromCoeff>(n + 1));
+    pairs.assign(n + 1, std::vector<CaromPair>(n + 1));
+}
+
+void PairCarom::settings(int narg, char **arg) {
+    options = CaromOptions{};
+    for (int i = 0; i < narg; i += 2) {
+        const std::string name = arg[i];
+        if (i + 1 >= narg) error->all(FLERR, "pair_style carom: {} wants a value", name);
+        const std::string value = arg[i + 1];
+        if (name == "springs") {
+            options.springs = utils::inumeric(FLERR, arg[i + 1], false, lmp);
+        } else if (name == "precision" && (value == "single" || value == "double")) {
+            options.single = value == "single";
+        } else if (name == "ledger") {
+            options.ledger = utils::logical(FLERR, arg[i + 1], false, lmp);
+        } else {
+            error->all(FLERR,
+                       "pair_style carom: {} {} is not known; springs 16, 32 or 64, precision "
+                       "single or double, ledger yes or no",
+                       name, value);
+        }
+    }
+    if (carom_kind(options).doubles == 0)
+        error->all(FLERR, "pair_style carom: springs {} must be 16, 32 or 64", options.springs);
+}
+
+void PairCarom::coeff(int narg, char **arg) {
+    if (!allocated) allocate();
+    if (narg < 4 || narg % 2)
+        error->all(FLERR,
+                   "pair_coeff of carom: give types, then young, poisson, friction, and retardation "
+                   "or restitution and speed, each with a value");
+    int ilo, ihi, jlo, jhi;
+    utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
+    utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
+    CaromCoeff given;
+    const auto read = [&](const char *name, double value) -> bool {
+        const auto checked = [&](bool good, const char *allowed) {
+            if (!good || !std::isfinite(value))
+                error->all(FLERR, "pair_coeff of carom: {} {} {}", name, value, allowed);
+            return value;
+        };
+        const auto positive = [&] { return checked(value > 0.0, "must be positive"); };
+        const auto not_negative = [&] { return checked(value >= 0.0, "must not be negative"); };
+        const auto within = [&](double low, double high, const char *allowed) {
+            return checked(value >= low && value <= high, allowed);
+        };
+        const std::string what = name;
+        if (what == "young") return given.young = positive(), true;
+        if (what == "poisson")
+            return given.poisson = within(-0.999, 0.5, "must be from -0.999 to 0.5"), true;
+        if (what == "friction") return given.friction = not_negative(), true;
+        if (what == "retardation") return given.retardation = not_negative(), true;
+        if (what == "restitution")
+            return given.restitution = within(0.01, 1.0, "must be from 0.01 to 1"), true;
+        if (what == "speed") return given.speed = positive(), true;
+        return false;
+    };
+    for (int i = 2; i < narg; i += 2)
+        if (!read(arg[i], utils::numeric(FLERR, arg[i + 1], false, lmp)))
+            error->all(FLERR,
+                       "pair_coeff of carom: {} is not known; young, poisson, friction, "
+                       "retardation, restitution and speed are",
+                       arg[i]);
+    if ((given.restitution >= 0.0) != (given.speed >= 0.0))
+        error->all(FLERR, "pair_coeff of carom: give restitution and the speed at which it holds");
+    if (given.restitution >= 0.0 && given.retardation >= 0.0)
+        error->all(FLERR, "pair_coeff of carom: give retardation or restitution, not both");
+    for (int i = ilo; i <= ihi; ++i)
+        for (int j = std::max(jlo, i); j <= jhi; ++j) {
+            CaromCoeff &now = coeffs[i][j];
+            if (given.young >= 0.0) now.young = given.young;
+            if (given.poisson > -2.0) now.poisson = given.poisson;
+            if (given.friction >= 0.0) now.friction = given.friction;
+            if (given.retardation >= 0.0 || given.restitution >= 0.0) {
+                now.retardation = given.retardation;
+                now.restitution = given.restitution;
+                now.speed = given.speed;
+            }
+            setflag[i][j] = 1;
+        }
+}
+
+void PairCarom::require() const {
+    if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
+        error->all(FLERR, "pair_style carom needs spheres: atom_style sphere");
+    if (!comm->ghost_velocity)
+        error->all(FLERR, "pair_style carom needs velocities of ghosts: comm_modify vel yes");
+    const std::string units = update->unit_style;
+    if (units != "si" && units != "cgs" && units != "lj" && units != "micro" && units != "nano")
+        error->all(FLERR, "pair_style carom needs units si, cgs, lj, micro or nano, not {}", units);
+    for (int i = 1; i <= atom->ntypes; ++i) {
+        const CaromCoeff &one = coeffs[i][i];
+        if (one.young < 0.0 || one.poisson < -1.0 || one.friction < 0.0)
+            error->all(FLERR,
+                       "pair_style carom: type {} has no young, poisson or friction; give them by "
+                       "pair_coeff {} {}",
+                       i, i, i);
+    }
+}
+
+void PairCarom::init_style() {
+    if (!allocated) error->all(FLERR, "pair_style carom: give coefficients by pair_coeff");
+    require();
+    options.viscous = false;
+    for (const auto &row : coeffs)
+        for (const CaromCoeff &one : row)
+            if (one.retardation > 0.0 || (one.restitution >= 0.0 && one.restitution < 1.0))
+                options.viscous = true;
+    kind = carom_kind(options);
+    computed = false;
+    neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
+    dt = update->dt;
+    if (!history) {
+        const auto command =
+            fmt::format("NEIGH_HISTORY_CAROM all NEIGH_HISTORY {}", SPRINGS + kind.doubles);
+        history = static_cast<NeighHistory *>(
+            modify->replace_fix("NEIGH_HISTORY_CAROM_DUMMY", command, 1));
+        history->pair = this;
+    }
+    find_radii();
+}
+
+void PairCarom::find_radii() {
+    std::vector<double> mine(atom->ntypes + 1, 0.0);
+    for (int i = 0; i < atom->nlocal; ++i)
+        mine[atom->type[i]] = std::max(mine[atom->type[i]], atom->radius[i]);
+    for (auto &fix : modify->get_fix_list())  // of spheres that are still to come
+        for (int type = 1; type <= atom->ntypes; ++type) {
+            int of_type = type;
+            void *radius = fix->extract("radius", of_type);
+            if (radius) mine[type] = std::max(mine[type], *static_cast<double *>(radius));
+        }
+    radii.assign(mine.size(), 0.0);
+    MPI_Allreduce(mine.data(), radii.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_MAX,
+                  world);
+}
+
+double PairCarom::init_one(int i, int j) {
+    const CaromCoeff &both = coeffs[i][j], &one = coeffs[i][i], &other = coeffs[j][j];
+    const auto solid = [&](const CaromCoeff &own) {
+        return carom::Material{both.young > 0.0 ? both.young : own.young,
+                               both.poisson > -1.0 ? both.poisson : own.poisson};
+    };
+    const double friction =
+        both.friction >= 0.0 ? both.friction : std::sqrt(one.friction * other.friction);
+    CaromCoeff mixed = both;
+    if (both.retardation < 0.0 && both.restitution < 0.0) {
+        if ((one.restitution >= 0.0) != (other.restitution >= 0.0))
+            error->all(FLERR,
+                       "pair_style carom: of types {} and {} one has a restitution, the other none; "
+                       "give pair_coeff {} {} a restitution and speed, or a retardation",
+                       i, j, i, j);
+        mixed.restitution = std::sqrt(std::fabs(one.restitution * other.restitution));
+        mixed.speed = std::sqrt(one.speed * other.speed);
+        if (one.restitution < 0.0) mixed.restitution = -1.0;
+        mixed.retardation =
+            0.5 * (std::max(one.retardation, 0.0) + std::max(other.retardation, 0.0));
+    }
+    CaromPair &pair = pairs[i][j];
+    pair.bodies = carom::pair_of(solid(one), solid(other), {1.0, 1.0}, {1.0, 1.0}, friction);
+    pair.bodies.retardation = std::max(mixed.retardation, 0.0);
+    pair.loss = mixed.restitution >= 0.0 ? carom_loss(mixed.restitution) : 0.0;
+    pair.speed = mixed.speed;
+    pairs[j][i] = pair;
+    return radii[i] + radii[j];
+}
+
+/// Return how two spheres stand to each other, the first one's normal pointing at it.
+carom::Encounter PairCarom::meeting(int i, int j) const {
+    const auto body = [&](int k) {
+        return carom::Body{vector(atom->x[k]), vector(atom->v[k]), vector(atom->omega[k]),
+                           atom->radius[k]};
+    };
+    return carom::encounter(body(i), body(j), dt);
+}
+
+/// Return the pair of two spheres; at the first touch its retardation time is found and kept.
+carom::Pair PairCarom::pair_of(int i, int j, double *memory) const {
+    const CaromPair &known = pairs[atom->type[i]][atom->type[j]];
+    carom::Pair pair = known.bodies;
+    const double *radius = atom->radius, *mass = atom->rmass;
+    pair.radius = radius[i] * radius[j] / (radius[i] + radius[j]);
+    pair.mass = mass[i] * mass[j] / (mass[i] + mass[j]);
+    if (known.loss > 0.0) {
+        if (!kind.touches(memory + SPRINGS)) {
+            const double energy = 0.9375 * pair.mass * known.speed * known.speed;
+            const double deepest =
+                std::pow(energy / (pair.modulus * std::sqrt(pair.radius)), 0.4);
+            memory[RETARDATION] = known.loss * deepest / known.speed;
+        }
+        pair.retardation = memory[RETARDATION];
+    }
+    return pair;
+}
+
+void PairCarom::compute(int eflag, int vflag) {
+    ev_init(eflag, vflag);
+    computed = true;
+    const int nlocal = atom->nlocal, newton = force->newton_pair;
+    if (history->pair != this || history->nlocal_neigh < 0 || history->nlocal_neigh > nlocal)
+        error->one(FLERR, "pair_style carom: this LAMMPS keeps histories in another way; build "
+                          "the plugin for it: carom lammps build");
+    std::fill(pvector, pvector + LOSSES, 0.0);
+    for (int ii = 0; ii < list->inum; ++ii) {
+        const int i = list->ilist[ii], *neighbors = list->firstneigh[i];
+        int *touches = history->firstflag[i];
+        double *memories = history->firstvalue[i];
+        for (int jj = 0; jj < list->numneigh[i]; ++jj) {
+            if (force->special_lj[sbmask(neighbors[jj])] == 0.0) continue;
+            const int j = neighbors[jj] & NEIGHMASK;
+            double *memory = memories + jj * (SPRINGS + kind.doubles);
+            const double *one = atom->x[i], *other = atom->x[j];
+            const double x = one[0] - other[0], y = one[1] - other[1], z = one[2] - other[2];
+            const double reach = atom->radius[i] + atom->radius[j];
+            if (x * x + y * y + z * z < reach * reach) {
+                touches[jj] = 1;
+                act(i, j, memory, newton || j < nlocal);
+            } else if (touches[jj]) {
+                touches[jj] = 0;
+                part(i, j, memory, newton || j < nlocal);
+                std::fill(memory, memory + SPRINGS + kind.doubles, 0.0);
+            }
+        }
+    }
+    pvector[FRICTION] = losses[FRICTION];
+    pvector[VISCOSITY] = losses[VISCOSITY];
+}
+
+/// Add what a contact does to two spheres. While LAMMPS sets up a run nothing moves: a contact that
+/// lasts has the force that it had.
+void PairCarom::act(int i, int j, double *memory, bool both) {
+    carom::Encounter now = meeting(i, j);
+    const carom::Pair pair = pair_of(i, j, memory);
+    carom::Action action{};
+    if (update->setupflag) now.velocity = {0.0, 0.0, 0.0}, now.spin = 0.0;
+    if (update->setupflag && kind.touches(memory + SPRINGS)) {
+        action.force = vector(memory + FORCE);
+        carom::turn(action, now);
+    } else {
+        const carom::Status status = kind.advance(memory + SPRINGS, pair, now, action);
+        if (status != carom::Status::ok)
+            error->one(FLERR, "pair_style carom: atoms {} and {}: {}", atom->tag[i], atom->tag[j],
+                       carom::message(status));
+        std::copy(action.force.begin(), action.force.end(), memory + FORCE);
+    }
+    add(atom->f[i], 1.0, action.force);
+    add(atom->torque[i], 1.0, action.torque);
+    if (both) {
+        add(atom->f[j], -1.0, action.force);
+        add(atom->torque[j], 1.0, action.other_torque);
+    }
+    tally(i, j, pair, now, action, both ? 1.0 : 0.5, memory);
+}
+
+/// Let two spheres go: what was still stored is lost at last.
+void PairCarom::part(int i, int j, double *memory, bool both) {
+    carom::Action action{};
+    kind.advance(memory + SPRINGS, pair_of(i, j, memory), meeting(i, j), action);
+    losses[FRICTION] += (both ? 1.0 : 0.5) * action.friction;
+    losses[VISCOSITY] += (both ? 1.0 : 0.5) * action.viscosity;
+}
+
+/// Enter energies and the virial; of a pair that two processors compute each has half.
+void PairCarom::tally(int i, int j, const carom::Pair &pair, const carom::Encounter &now,
+                      const carom::Action &action, double share, const double *memory) {
+    losses[FRICTION] += share * action.friction;
+    losses[VISCOSITY] += share * action.viscosity;
+    if (!evflag) return;
+    double energy = kind.stored(memory + SPRINGS);
+    if (!options.viscous)
+        energy += 8.0 / 15.0 * pair.modulus * std::sqrt(pair.radius) * std::pow(now.penetration, 2.5);
+    pvector[ELASTIC] += share * energy;
+    const carom::Vector &f = action.force;
+    const double *one = atom->x[i], *other = atom->x[j];
+    ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, energy, 0.0, f[0], f[1], f[2],
+                 one[0] - other[0], one[1] - other[1], one[2] - other[2]);
+}
+
+/// Return what a pair of neighbours remembers, nullptr if they do not touch.
+const double *PairCarom::remembered(int i, int j) const {
+    const int *neighbors = list->firstneigh[i];
+    for (int jj = 0; jj < list->numneigh[i]; ++jj)
+        if ((neighbors[jj] & NEIGHMASK) == j && history->firstflag[i][jj])
+            return history->firstvalue[i] + jj * (SPRINGS + kind.doubles);
+    return nullptr;
+}
+
+/// The force of a contact as last computed: fforce r is the normal part, svector the tangential.
+double PairCarom::single(int i, int j, int, int, double rsq, double, double, double &fforce) {
+    std::fill(svector, svector + single_extra, 0.0);
+    fforce = 0.0;
+    const bool ordered = history && list && remembered(i, j);
+    const double *memory = ordered ? remembered(i, j) : remembered(j, i);
+    if (!memory || !history) return 0.0;
+    const carom::Encounter now = ordered ? meeting(i, j) : meeting(j, i);
+    const carom::Vector all = vector(memory + FORCE);
+    const double normal = carom::dot(all, now.normal), side = ordered ? 1.0 : -1.0;
+    fforce = normal / std::sqrt(rsq);
+    const carom::Vector aside = carom::plus(all, -normal, now.normal);
+    for (int k = 0; k < 3; ++k) svector[k] = side * aside[k];
+    svector[3] = std::sqrt(carom::dot(aside, aside));
+    return kind.stored(memory + SPRINGS);
+}
+
+void PairCarom::transfer_history(double *source, double *target, int, int) {
+    std::copy(source, source + SPRINGS + kind.doubles, target);
+    for (int k = FORCE; k < FORCE + 3; ++k) target[k] = -target[k];
+    kind.mirror(target + SPRINGS);
+}
+
+void PairCarom::reset_dt() { dt = update->dt; }
+
+/// LAMMPS wraps atoms before `write_restart`, and then reads its list of neighbors once more, which
+/// does not fit any longer.
+void PairCarom::write_restart(FILE *file) {
+    if (!computed && (domain->xperiodic || domain->yperiodic || domain->zperiodic))
+        error->warning(FLERR, "pair_style carom: contacts across periodic borders are forgotten now "
+                              "and in the restart; keep them by: write_restart FILE noinit");
+    write_restart_settings(file);
+    for (int i = 1; i <= atom->ntypes; ++i)
+        for (int j = i; j <= atom->ntypes; ++j) {
+            fwrite(&setflag[i][j], sizeof(int), 1, file);
+            fwrite(&coeffs[i][j], sizeof(CaromCoeff), 1, file);
+        }
+}
+
+void PairCarom::read_restart(FILE *file) {
+    read_restart_settings(file);
+    allocate();
+    for (int i = 1; i <= atom->ntypes; ++i)
+        for (int j = i; j <= atom->ntypes; ++j) {
+            read(file, &setflag[i][j], sizeof(int));
+            read(file, &coeffs[i][j], sizeof(CaromCoeff));
+        }
+}
+
+void PairCarom::write_restart_settings(FILE *file) {
+    fwrite(&options, sizeof(CaromOptions), 1, file);
+}
+
+void PairCarom::read_restart_settings(FILE *file) { read(file, &options, sizeof(CaromOptions)); }
+
+/// Read on the first processor, and tell all.
+void PairCarom::read(FILE *file, void *target, int size) {
+    if (comm->me == 0) utils::sfread(FLERR, target, 1, size, file, nullptr, error);
+    MPI_Bcast(target, size, MPI_CHAR, 0, world);
+}

