@@ -17,7 +17,7 @@ DOCS = ROOT / "docs"
 sys.path.insert(0, str(DOCS / "_ext"))
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 MODULES = [carom, carom.classical, carom.datasets, carom.plots, carom.verify]
-APART = {"explore", "lammps", "liggghts", "yade"}  # they serve, or run a program of others
+APART = {"explore", "lammps", "liggghts", "yade", "build"}  # they serve, or run a program of others
 
 
 def listed():

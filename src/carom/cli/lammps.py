@@ -11,7 +11,7 @@ from carom.cli.once import Commands
 
 app = Commands(
     name="lammps",
-    help="The exact contact law in LAMMPS: pair_style carom.",
+    help="The exact contact law in LAMMPS: pair_style carom.\n\nExample: carom lammps build",
     no_args_is_help=True,
     add_completion=False,
     rich_markup_mode=None,
