@@ -21,7 +21,7 @@ os.environ.setdefault("XLA_FLAGS", XLA)
 os.environ.setdefault("NUMBA_CACHE_DIR", f"{tempfile.gettempdir()}/carom-kernels-{KEY}")
 
 # these share what takes long to begin with: a browser, what jax has compiled
-TOGETHER = ("tests/browser/", "portable", "collision_results")
+TOGETHER = ("tests/browser/", "tests/lammps/", "portable", "collision_results")
 
 
 class ByFile(LoadFileScheduling):

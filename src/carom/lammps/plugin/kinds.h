@@ -16,6 +16,15 @@ struct CaromOptions {
     bool single = true, ledger = false, viscous = false;
 };
 
+// A contact in a history: the force on the first body, the retardation time, the springs.
+enum CaromPlaces { FORCE = 0, RETARDATION = 3, SPRINGS = 4 };
+
+inline carom::Vector carom_vector(const double *x) { return {x[0], x[1], x[2]}; }
+
+inline void carom_add(double *sum, double factor, const carom::Vector &more) {
+    for (int i = 0; i < 3; ++i) sum[i] += factor * more[i];
+}
+
 /// What is done with a contact of one kind, which lies in so many doubles.
 struct CaromKind {
     int doubles;

@@ -24,17 +24,23 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-// A contact in the history: the force on the first body, the retardation time, the springs.
-enum { FORCE = 0, RETARDATION = 3, SPRINGS = 4 };
 enum { ELASTIC, FRICTION, VISCOSITY, LOSSES };
 
-carom::Vector vector(const double *x) { return {x[0], x[1], x[2]}; }
-
-void add(double *sum, double factor, const carom::Vector &more) {
-    for (int i = 0; i < 3; ++i) sum[i] += factor * more[i];
-}
-
 }  // namespace
+
+/// Read words with values, or stop LAMMPS with a line that begins with `where`.
+CaromMaterial LAMMPS_NS::carom_material(LAMMPS *lmp, const char *where, int narg, char **arg) {
+    CaromMaterial given;
+    for (int i = 0; i + 1 < narg; i += 2) {
+        const double value = utils::numeric(FLERR, arg[i + 1], false, lmp);
+        const std::string wrong = carom_read(given, arg[i], value);
+        if (!wrong.empty())
+            lmp->error->all(FLERR, "{}: {} {} {}", where, arg[i], arg[i + 1], wrong);
+    }
+    const std::string flaw = carom_flaw(given);
+    if (!flaw.empty()) lmp->error->all(FLERR, "{}: {}", where, flaw);
+    return given;
+}
 
 PairCarom::PairCarom(LAMMPS *lmp) : Pair(lmp), kind{}, history(nullptr), dt(0.0) {
     single_enable = 1;
@@ -69,8 +75,8 @@ void PairCarom::allocate() {
     memory->create(cutsq, n + 1, n + 1, "pair:cutsq");
     for (int i = 0; i <= n; ++i)
         for (int j = 0; j <= n; ++j) setflag[i][j] = 0;
-    coeffs.assign(n + 1, std::vector<CaromCoeff>(n + 1));
-    pairs.assign(n + 1, std::vector<CaromPair>(n + 1));
+    materials.assign(n + 1, std::vector<CaromMaterial>(n + 1));
+    bodies.assign(n + 1, std::vector<CaromBodies>(n + 1));
 }
 
 void PairCarom::settings(int narg, char **arg) {
@@ -105,42 +111,10 @@ void PairCarom::coeff(int narg, char **arg) {
     int ilo, ihi, jlo, jhi;
     utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
     utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
-    CaromCoeff given;
-    const auto read = [&](const char *name, double value) -> bool {
-        const auto checked = [&](bool good, const char *allowed) {
-            if (!good || !std::isfinite(value))
-                error->all(FLERR, "pair_coeff of carom: {} {} {}", name, value, allowed);
-            return value;
-        };
-        const auto positive = [&] { return checked(value > 0.0, "must be positive"); };
-        const auto not_negative = [&] { return checked(value >= 0.0, "must not be negative"); };
-        const auto within = [&](double low, double high, const char *allowed) {
-            return checked(value >= low && value <= high, allowed);
-        };
-        const std::string what = name;
-        if (what == "young") return given.young = positive(), true;
-        if (what == "poisson")
-            return given.poisson = within(-0.999, 0.5, "must be from -0.999 to 0.5"), true;
-        if (what == "friction") return given.friction = not_negative(), true;
-        if (what == "retardation") return given.retardation = not_negative(), true;
-        if (what == "restitution")
-            return given.restitution = within(0.01, 1.0, "must be from 0.01 to 1"), true;
-        if (what == "speed") return given.speed = positive(), true;
-        return false;
-    };
-    for (int i = 2; i < narg; i += 2)
-        if (!read(arg[i], utils::numeric(FLERR, arg[i + 1], false, lmp)))
-            error->all(FLERR,
-                       "pair_coeff of carom: {} is not known; young, poisson, friction, "
-                       "retardation, restitution and speed are",
-                       arg[i]);
-    if ((given.restitution >= 0.0) != (given.speed >= 0.0))
-        error->all(FLERR, "pair_coeff of carom: give restitution and the speed at which it holds");
-    if (given.restitution >= 0.0 && given.retardation >= 0.0)
-        error->all(FLERR, "pair_coeff of carom: give retardation or restitution, not both");
+    const CaromMaterial given = carom_material(lmp, "pair_coeff of carom", narg - 2, arg + 2);
     for (int i = ilo; i <= ihi; ++i)
         for (int j = std::max(jlo, i); j <= jhi; ++j) {
-            CaromCoeff &now = coeffs[i][j];
+            CaromMaterial &now = materials[i][j];
             if (given.young >= 0.0) now.young = given.young;
             if (given.poisson > -2.0) now.poisson = given.poisson;
             if (given.friction >= 0.0) now.friction = given.friction;
@@ -162,8 +136,7 @@ void PairCarom::require() const {
     if (units != "si" && units != "cgs" && units != "lj" && units != "micro" && units != "nano")
         error->all(FLERR, "pair_style carom needs units si, cgs, lj, micro or nano, not {}", units);
     for (int i = 1; i <= atom->ntypes; ++i) {
-        const CaromCoeff &one = coeffs[i][i];
-        if (one.young < 0.0 || one.poisson < -1.0 || one.friction < 0.0)
+        if (!materials[i][i].complete())
             error->all(FLERR,
                        "pair_style carom: type {} has no young, poisson or friction; give them by "
                        "pair_coeff {} {}",
@@ -175,10 +148,9 @@ void PairCarom::init_style() {
     if (!allocated) error->all(FLERR, "pair_style carom: give coefficients by pair_coeff");
     require();
     options.viscous = false;
-    for (const auto &row : coeffs)
-        for (const CaromCoeff &one : row)
-            if (one.retardation > 0.0 || (one.restitution >= 0.0 && one.restitution < 1.0))
-                options.viscous = true;
+    for (const auto &row : materials)
+        for (const CaromMaterial &one : row)
+            if (one.lossy()) options.viscous = true;
     kind = carom_kind(options);
     computed = false;
     neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
@@ -209,39 +181,19 @@ void PairCarom::find_radii() {
 }
 
 double PairCarom::init_one(int i, int j) {
-    const CaromCoeff &both = coeffs[i][j], &one = coeffs[i][i], &other = coeffs[j][j];
-    const auto solid = [&](const CaromCoeff &own) {
-        return carom::Material{both.young > 0.0 ? both.young : own.young,
-                               both.poisson > -1.0 ? both.poisson : own.poisson};
-    };
-    const double friction =
-        both.friction >= 0.0 ? both.friction : std::sqrt(one.friction * other.friction);
-    CaromCoeff mixed = both;
-    if (both.retardation < 0.0 && both.restitution < 0.0) {
-        if ((one.restitution >= 0.0) != (other.restitution >= 0.0))
-            error->all(FLERR,
-                       "pair_style carom: of types {} and {} one has a restitution, the other none; "
-                       "give pair_coeff {} {} a restitution and speed, or a retardation",
-                       i, j, i, j);
-        mixed.restitution = std::sqrt(std::fabs(one.restitution * other.restitution));
-        mixed.speed = std::sqrt(one.speed * other.speed);
-        if (one.restitution < 0.0) mixed.restitution = -1.0;
-        mixed.retardation =
-            0.5 * (std::max(one.retardation, 0.0) + std::max(other.retardation, 0.0));
-    }
-    CaromPair &pair = pairs[i][j];
-    pair.bodies = carom::pair_of(solid(one), solid(other), {1.0, 1.0}, {1.0, 1.0}, friction);
-    pair.bodies.retardation = std::max(mixed.retardation, 0.0);
-    pair.loss = mixed.restitution >= 0.0 ? carom_loss(mixed.restitution) : 0.0;
-    pair.speed = mixed.speed;
-    pairs[j][i] = pair;
+    if (!carom_combine(materials[i][i], materials[j][j], materials[i][j], bodies[i][j]))
+        error->all(FLERR,
+                   "pair_style carom: of types {} and {} one has a restitution, the other none; give "
+                   "pair_coeff {} {} a restitution and speed, or a retardation",
+                   i, j, i, j);
+    bodies[j][i] = bodies[i][j];
     return radii[i] + radii[j];
 }
 
 /// Return how two spheres stand to each other, the first one's normal pointing at it.
 carom::Encounter PairCarom::meeting(int i, int j) const {
     const auto body = [&](int k) {
-        return carom::Body{vector(atom->x[k]), vector(atom->v[k]), vector(atom->omega[k]),
+        return carom::Body{carom_vector(atom->x[k]), carom_vector(atom->v[k]), carom_vector(atom->omega[k]),
                            atom->radius[k]};
     };
     return carom::encounter(body(i), body(j), dt);
@@ -249,18 +201,13 @@ carom::Encounter PairCarom::meeting(int i, int j) const {
 
 /// Return the pair of two spheres; at the first touch its retardation time is found and kept.
 carom::Pair PairCarom::pair_of(int i, int j, double *memory) const {
-    const CaromPair &known = pairs[atom->type[i]][atom->type[j]];
-    carom::Pair pair = known.bodies;
+    const CaromBodies &known = bodies[atom->type[i]][atom->type[j]];
+    carom::Pair pair = known.pair;
     const double *radius = atom->radius, *mass = atom->rmass;
     pair.radius = radius[i] * radius[j] / (radius[i] + radius[j]);
     pair.mass = mass[i] * mass[j] / (mass[i] + mass[j]);
     if (known.loss > 0.0) {
-        if (!kind.touches(memory + SPRINGS)) {
-            const double energy = 0.9375 * pair.mass * known.speed * known.speed;
-            const double deepest =
-                std::pow(energy / (pair.modulus * std::sqrt(pair.radius)), 0.4);
-            memory[RETARDATION] = known.loss * deepest / known.speed;
-        }
+        if (!kind.touches(memory + SPRINGS)) memory[RETARDATION] = carom_retardation(known, pair);
         pair.retardation = memory[RETARDATION];
     }
     return pair;
@@ -307,7 +254,7 @@ void PairCarom::act(int i, int j, double *memory, bool both) {
     carom::Action action{};
     if (update->setupflag) now.velocity = {0.0, 0.0, 0.0}, now.spin = 0.0;
     if (update->setupflag && kind.touches(memory + SPRINGS)) {
-        action.force = vector(memory + FORCE);
+        action.force = carom_vector(memory + FORCE);
         carom::turn(action, now);
     } else {
         const carom::Status status = kind.advance(memory + SPRINGS, pair, now, action);
@@ -316,11 +263,11 @@ void PairCarom::act(int i, int j, double *memory, bool both) {
                        carom::message(status));
         std::copy(action.force.begin(), action.force.end(), memory + FORCE);
     }
-    add(atom->f[i], 1.0, action.force);
-    add(atom->torque[i], 1.0, action.torque);
+    carom_add(atom->f[i], 1.0, action.force);
+    carom_add(atom->torque[i], 1.0, action.torque);
     if (both) {
-        add(atom->f[j], -1.0, action.force);
-        add(atom->torque[j], 1.0, action.other_torque);
+        carom_add(atom->f[j], -1.0, action.force);
+        carom_add(atom->torque[j], 1.0, action.other_torque);
     }
     tally(i, j, pair, now, action, both ? 1.0 : 0.5, memory);
 }
@@ -366,7 +313,7 @@ double PairCarom::single(int i, int j, int, int, double rsq, double, double, dou
     const double *memory = ordered ? remembered(i, j) : remembered(j, i);
     if (!memory || !history) return 0.0;
     const carom::Encounter now = ordered ? meeting(i, j) : meeting(j, i);
-    const carom::Vector all = vector(memory + FORCE);
+    const carom::Vector all = carom_vector(memory + FORCE);
     const double normal = carom::dot(all, now.normal), side = ordered ? 1.0 : -1.0;
     fforce = normal / std::sqrt(rsq);
     const carom::Vector aside = carom::plus(all, -normal, now.normal);
@@ -393,7 +340,7 @@ void PairCarom::write_restart(FILE *file) {
     for (int i = 1; i <= atom->ntypes; ++i)
         for (int j = i; j <= atom->ntypes; ++j) {
             fwrite(&setflag[i][j], sizeof(int), 1, file);
-            fwrite(&coeffs[i][j], sizeof(CaromCoeff), 1, file);
+            fwrite(&materials[i][j], sizeof(CaromMaterial), 1, file);
         }
 }
 
@@ -403,7 +350,7 @@ void PairCarom::read_restart(FILE *file) {
     for (int i = 1; i <= atom->ntypes; ++i)
         for (int j = i; j <= atom->ntypes; ++j) {
             read(file, &setflag[i][j], sizeof(int));
-            read(file, &coeffs[i][j], sizeof(CaromCoeff));
+            read(file, &materials[i][j], sizeof(CaromMaterial));
         }
 }
 

@@ -8,6 +8,7 @@
 
 #include "fix.h"
 #include "kinds.h"
+#include "materials.h"
 #include "pair.h"
 
 namespace LAMMPS_NS {
@@ -21,17 +22,7 @@ class NeighHistory : public Fix {
     class Pair *pair;
 };
 
-/// What a pair_coeff says of two types; negative where it says nothing.
-struct CaromCoeff {
-    double young = -1.0, poisson = -2.0, friction = -1.0, retardation = -1.0;
-    double restitution = -1.0, speed = -1.0;
-};
-
-/// Two types: their bodies, and the loss (0 for none) that restitution at a speed stands for.
-struct CaromPair {
-    carom::Pair bodies{};
-    double loss = 0.0, speed = 0.0;
-};
+CaromMaterial carom_material(class LAMMPS *, const char *where, int, char **);
 
 class PairCarom : public Pair {
   public:
@@ -50,6 +41,9 @@ class PairCarom : public Pair {
     void read_restart_settings(FILE *) override;
     void reset_dt() override;
 
+    std::vector<std::vector<CaromMaterial>> materials;  ///< of types, and said of two types
+    CaromOptions options;
+
   private:
     void allocate();
     void require() const;
@@ -64,9 +58,7 @@ class PairCarom : public Pair {
     void read(FILE *, void *, int);
 
     CaromKind kind;
-    CaromOptions options;
-    std::vector<std::vector<CaromCoeff>> coeffs;
-    std::vector<std::vector<CaromPair>> pairs;
+    std::vector<std::vector<CaromBodies>> bodies;
     std::vector<double> radii;
     double losses[3] = {0.0, 0.0, 0.0};
     NeighHistory *history;

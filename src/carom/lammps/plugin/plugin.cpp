@@ -1,9 +1,10 @@
-// What LAMMPS finds in the plugin: pair_style carom.
+// What LAMMPS finds in the plugin: pair_style carom, fix wall/carom.
 //
 // SPDX-License-Identifier: GPL-2.0-only
 #include <cstring>
 
 #include "error.h"
+#include "fix_wall_carom.h"
 #include "lammps.h"
 #include "pair_carom.h"
 
@@ -22,6 +23,7 @@ struct Style {
 };
 
 void *make_pair(LAMMPS *lmp) { return new PairCarom(lmp); }
+void *make_wall(LAMMPS *lmp, int narg, char **arg) { return new FixWallCarom(lmp, narg, arg); }
 
 }  // namespace
 
@@ -43,5 +45,10 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *registrar) {
     style.author = "Carom";
     style.creator.v1 = &make_pair;
     style.handle = handle;
+    tell(&style, lmp);
+    style.style = "fix";
+    style.name = "wall/carom";
+    style.info = "the exact contact of spheres with regions";
+    style.creator.v2 = &make_wall;
     tell(&style, lmp);
 }

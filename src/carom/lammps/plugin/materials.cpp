@@ -1,0 +1,77 @@
+// What inputs say of materials, and what two of them come to.
+//
+// SPDX-License-Identifier: GPL-2.0-only
+#include "materials.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinds.h"
+
+namespace LAMMPS_NS {
+
+std::string carom_read(CaromMaterial &given, const std::string &word, double value) {
+    struct Word {
+        const char *name;
+        double CaromMaterial::*place;
+        bool good;
+        const char *allowed;
+    };
+    const Word known[] = {
+        {"young", &CaromMaterial::young, value > 0.0, "must be positive"},
+        {"poisson", &CaromMaterial::poisson, value > -1.0 && value <= 0.5, "must be above -1 and at most 0.5"},
+        {"friction", &CaromMaterial::friction, value >= 0.0, "must not be negative"},
+        {"retardation", &CaromMaterial::retardation, value >= 0.0, "must not be negative"},
+        {"restitution", &CaromMaterial::restitution, value >= 0.01 && value <= 1.0,
+         "must be from 0.01 to 1"},
+        {"speed", &CaromMaterial::speed, value > 0.0, "must be positive"},
+    };
+    for (const Word &each : known)
+        if (word == each.name) {
+            given.*each.place = value;
+            return each.good && std::isfinite(value) ? "" : each.allowed;
+        }
+    return "is not known; young, poisson, friction, retardation, restitution and speed are";
+}
+
+std::string carom_flaw(const CaromMaterial &given) {
+    if ((given.restitution >= 0.0) != (given.speed >= 0.0))
+        return "give restitution and the speed at which it holds";
+    if (given.restitution >= 0.0 && given.retardation >= 0.0)
+        return "give retardation or restitution, not both";
+    return "";
+}
+
+bool carom_combine(const CaromMaterial &one, const CaromMaterial &other, const CaromMaterial &both,
+                   CaromBodies &found) {
+    const auto solid = [&](const CaromMaterial &own) {
+        return carom::Material{both.young > 0.0 ? both.young : own.young,
+                               both.poisson > -1.0 ? both.poisson : own.poisson};
+    };
+    const double friction =
+        both.friction >= 0.0 ? both.friction : std::sqrt(one.friction * other.friction);
+    CaromMaterial mixed = both;
+    if (both.retardation < 0.0 && both.restitution < 0.0) {
+        if ((one.restitution >= 0.0) != (other.restitution >= 0.0)) return false;
+        if (one.restitution >= 0.0) {
+            mixed.restitution = std::sqrt(one.restitution * other.restitution);
+            mixed.speed = std::sqrt(one.speed * other.speed);
+        } else {
+            mixed.retardation =
+                0.5 * (std::max(one.retardation, 0.0) + std::max(other.retardation, 0.0));
+        }
+    }
+    found.pair = carom::pair_of(solid(one), solid(other), {1.0, 1.0}, {1.0, 1.0}, friction,
+                                std::max(mixed.retardation, 0.0));
+    found.loss = mixed.restitution >= 0.0 ? carom_loss(mixed.restitution) : 0.0;
+    found.speed = mixed.speed;
+    return true;
+}
+
+double carom_retardation(const CaromBodies &bodies, const carom::Pair &pair) {
+    const double energy = 0.9375 * pair.mass * bodies.speed * bodies.speed;
+    const double deepest = std::pow(energy / (pair.modulus * std::sqrt(pair.radius)), 0.4);
+    return bodies.loss * deepest / bodies.speed;
+}
+
+}  // namespace LAMMPS_NS

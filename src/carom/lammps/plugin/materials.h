@@ -1,0 +1,44 @@
+// What inputs say of materials, and what two of them come to.
+//
+// SPDX-License-Identifier: GPL-2.0-only
+#ifndef CAROM_MATERIALS_H
+#define CAROM_MATERIALS_H
+
+#include <string>
+
+#include "carom/contact_in_space.hpp"
+
+namespace LAMMPS_NS {
+
+/// A material, or what is said of two types; below their range where nothing is said.
+struct CaromMaterial {
+    double young = -1.0, poisson = -2.0, friction = -1.0, retardation = -1.0;
+    double restitution = -1.0, speed = -1.0;
+
+    bool complete() const { return young > 0.0 && poisson > -1.0 && friction >= 0.0; }
+    bool lossy() const { return retardation > 0.0 || (restitution >= 0.0 && restitution < 1.0); }
+};
+
+/// Two materials: their bodies, and the loss (0 for none) that restitution at a speed stands for.
+struct CaromBodies {
+    carom::Pair pair{};
+    double loss = 0.0, speed = 0.0;
+};
+
+/// Take one word with its value; return what is wrong with it, empty if nothing.
+std::string carom_read(CaromMaterial &, const std::string &word, double value);
+
+/// Return what is wrong with all words together, empty if nothing.
+std::string carom_flaw(const CaromMaterial &);
+
+/// Find what two materials come to, `both` going before their means; false if one loses energy by
+/// restitution and the other does not.
+bool carom_combine(const CaromMaterial &one, const CaromMaterial &other, const CaromMaterial &both,
+                   CaromBodies &);
+
+/// Return the retardation time of a contact with this radius and mass.
+double carom_retardation(const CaromBodies &, const carom::Pair &);
+
+}  // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,126 @@
+"""fix wall/carom in LAMMPS itself: spheres against the surfaces of regions."""
+
+import numpy as np
+import pytest
+
+import carom
+from carom.dimensionless.numerics.hertz import DURATION
+
+pytestmark = pytest.mark.engine
+RADIUS, FRICTION, SHALLOW = 5e-3, 0.2, 1e-6
+STEEL = carom.Material(young=210e9, poisson=0.3, density=7850.0)
+BALL = carom.Sphere(radius=RADIUS, material=STEEL)
+PAIR = carom.Pair(BALL, carom.HalfSpace(material=STEEL), friction=FRICTION)
+SPEED = 0.5 * (SHALLOW * RADIUS / PAIR.scales(0.5).length) ** 1.25
+SOLID = f"young 210e9 poisson 0.3 friction {FRICTION}"
+PSI = np.linspace(0.0, 6.0, 64)
+HEAD = "units si\natom_style sphere\ncomm_modify vel yes\nboundary f f f\nneighbor 0.001 bin\n"
+
+
+def rebounds(lammps, region, bottom=0.0, steps=100, sliding=0.0, losses=""):
+    """Return psi_2 and e of spheres that fall on the bottom of a region, which slides along x."""
+    step = DURATION * PAIR.scales(SPEED).time / steps
+    gap = SPEED * step * (2.0 + np.arange(PSI.size) % 4 / 4.0)
+    along = PSI * FRICTION * SPEED / PAIR.kappa + sliding
+    rows = range(PSI.size)
+    atoms = [f"{k + 1} 1 0.01 7850 {0.1 * k} 0 {bottom + RADIUS + gap[k]!r}" for k in rows]
+    moves = [f"{k + 1} {along[k]!r} 0 {-SPEED!r} 0 0 0" for k in rows]
+    text = f"fall\n\n{PSI.size} atoms\n1 atom types\n-1 7 xlo xhi\n-1 1 ylo yhi\n-1 1 zlo zhi\n"
+    text += "\nAtoms # sphere\n\n" + "\n".join(atoms) + "\n\nVelocities\n\n" + "\n".join(moves)
+    (lammps.folder / "fall.data").write_text(
+        text.replace("np.float64(", "").replace(")", "") + "\n"
+    )
+    printed = lammps(
+        f"{HEAD}read_data fall.data\ntimestep {step!r}\npair_style carom\n"
+        f"pair_coeff * * {SOLID} {losses}\nvariable way equal {sliding!r}*step*dt\n"
+        f"region w {region}\nfix w all wall/carom {SOLID} {losses} region w\n"
+        f"fix 1 all nve/sphere\nrun {int(1.5 * steps) + 10}\n"
+        "write_dump all custom out.txt id vx vz omegay modify sort id format float %.17g\n"
+    )
+    assert "ERROR" not in printed, printed[-800:]
+    _, x, z, spin = np.loadtxt(lammps.folder / "out.txt", skiprows=9).T
+    psi = (x - RADIUS * spin - sliding) * PAIR.kappa / (FRICTION * SPEED)
+    return psi, z / SPEED
+
+
+@pytest.mark.parametrize(
+    ("region", "bottom"),
+    [("plane 0 0 0 0 0 1", 0.0), ("block -1 7 -1 1 0 1", 0.0), ("cylinder x 0 0 0.05 -1 7", -0.05)],
+)
+def test_spheres_leave_walls_as_exactly_as_the_law_promises(lammps, region, bottom):
+    psi, e = rebounds(lammps, region, bottom)
+    assert np.abs(psi - carom.rebound(PSI, PAIR.chi)).max() < 1.3e-3
+    np.testing.assert_allclose(e, 1.0, atol=1e-4)
+
+
+def test_walls_that_slide_and_walls_that_lose_energy(lammps):
+    psi, _ = rebounds(lammps, "plane 0 0 0 0 0 1 move v_way NULL NULL", sliding=2.0 * SPEED)
+    assert np.abs(psi - carom.rebound(PSI, PAIR.chi)).max() < 1.3e-3
+    psi, e = rebounds(lammps, "plane 0 0 0 0 0 1", losses=f"restitution 0.8 speed {SPEED!r}")
+    exact = carom.rebound(PSI, PAIR.chi, losses=carom.KelvinVoigt(0.8))
+    assert np.abs(psi - exact).max() < 1.5e-3
+    np.testing.assert_allclose(e, 0.8, atol=1e-3)
+
+
+HEAP = """lattice sc 0.0102
+region box block -0.05 0.05 -0.05 0.05 0 0.2 units box
+create_box 1 box
+region fill block -0.03 0.03 -0.03 0.03 0.01 0.08 units box
+create_atoms 1 region fill
+set group all diameter 0.01
+set group all density 2500
+velocity all create 1 5 loop geom
+variable ux atom 0.1*sin(12.9*id)
+velocity all set v_ux v_ux -0.5
+"""
+SOFT = "young 5e7 poisson 0.3 friction 0.4 restitution 0.7 speed 0.5"
+
+
+def heap(lammps, then, ranks=1, start=HEAP):
+    """Spheres that fall into a box of walls; returns their last state and what was printed."""
+    printed = lammps(
+        f"{HEAD}newton off\nneigh_modify delay 0 one 400 page 40000\natom_modify map array\n{start}"
+        f"pair_style carom precision double\npair_coeff * * {SOFT}\n"
+        f"region walls block -0.04 0.04 -0.04 0.04 0 0.2 units box\n"
+        f"fix w all wall/carom {SOFT} region walls\nfix 1 all nve/sphere\n"
+        f"fix g all gravity 9.81 vector 0 0 -1\ntimestep 1e-5\nthermo_style custom step f_w[3]\n"
+        f"{then}\nwrite_dump all custom out.txt id x y z vx vy vz omegax omegay omegaz "
+        "modify sort id format float %.17g\n",
+        ranks,
+    )
+    assert "ERROR" not in printed, printed[-800:]
+    return np.loadtxt(lammps.folder / "out.txt", skiprows=9)[:, 1:], printed
+
+
+def test_ranks_and_restarts_keep_what_walls_remember(lammps):
+    one, _ = heap(lammps, "run 4000\nwrite_restart x.rst\nrun 1000")
+    again, _ = heap(lammps, "run 1000", start="read_restart x.rst\n")
+    np.testing.assert_array_equal(again, one)
+    assert one[:, 2].min() > 0.0045
+    two, _ = heap(lammps, "run 1500", ranks=2)
+    one, _ = heap(lammps, "run 1500")
+    np.testing.assert_allclose(two[:, 3:6], one[:, 3:6], atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("pair", "wall", "told"),
+    [
+        (f"pair_style carom\npair_coeff * * {SOLID}", "young 1e9 region w", "needs young, poisson"),
+        (f"pair_style carom\npair_coeff * * {SOLID}", f"{SOLID} region x", "no region x"),
+        (f"pair_style carom\npair_coeff * * {SOLID}", f"{SOLID}", "at last region ID"),
+        ("", f"{SOLID} region w", "needs pair_style carom before it"),
+        (
+            f"pair_style carom\npair_coeff * * {SOLID}",
+            f"{SOLID} restitution 0.8 speed 1.0 region w",
+            "one has a restitution",
+        ),
+    ],
+)
+def test_bad_input_stops_lammps_with_one_line(lammps, pair, wall, told):
+    box = "region b block -1 1 -1 1 -1 1\ncreate_box 1 b\ncreate_atoms 1 single 0 0 0.5\n"
+    printed = lammps(
+        f"{HEAD}{box}set group all diameter 0.01\n{pair}\nregion w plane 0 0 0 0 0 1\n"
+        f"fix w all wall/carom {wall}\nrun 1\n"
+    )
+    (line,) = [line for line in printed.splitlines() if line.startswith("ERROR")]
+    assert told in line
