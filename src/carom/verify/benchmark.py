@@ -202,7 +202,7 @@ def _supported(engine: Engine, entries: Sequence[Entry]) -> list[Entry]:
     if not known:
         has = [entry.label for entry in CATALOGUE if _has(engine, entry)]
         labels = ", ".join(entry.label for entry in entries)
-        raise refusal("law", labels, f"{engine.name} does not have it, but {'; '.join(has)}")
+        raise refusal("law", labels, f"{engine.lacks(entries[0].law)}; it has {'; '.join(has)}")
     return known
 
 

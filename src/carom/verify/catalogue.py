@@ -73,6 +73,9 @@ def as_entry(given: object) -> Entry:
     return Entry(called(law), law, "")
 
 
+SHORT = {"carom": "exact, 32 springs"}  # as its styles are called
+
+
 def named(label: str | None) -> Sequence[Entry]:
     """Return the entry of the catalogue with this label, or all without one.
 
@@ -80,7 +83,7 @@ def named(label: str | None) -> Sequence[Entry]:
     """
     if label is None:
         return CATALOGUE
-    found = [entry for entry in CATALOGUE if entry.label == label]
+    found = [entry for entry in CATALOGUE if entry.label == SHORT.get(label, label)]
     if not found:
         labels = [entry.label for entry in CATALOGUE]
         alike = [text for text in labels if label.lower() in text.lower()] or labels

@@ -15,9 +15,16 @@ from string import Template
 from typing import ClassVar
 
 from carom.bodies.shapes import Sphere
-from carom.laws.dem import ContactLaw, HertzLinearHistory, LammpsMindlin, LinearSpring
+from carom.laws.dem import (
+    ContactLaw,
+    HertzLinearHistory,
+    LammpsMindlin,
+    Law,
+    LinearSpring,
+    MemoryLaw,
+)
 from carom.quantities.refusals import refusal
-from carom.verify.engines import arrangement
+from carom.verify.engines import arrangement, lammps_exact
 from carom.verify.engines.experiments import Experiment, Outcomes
 from carom.verify.engines.running import Engine
 
@@ -37,13 +44,6 @@ neighbor        $skin bin
 atom_modify     sort 0 0.0
 read_data       $spheres
 
-# Law: $law
-$meanings
-variable        kn index $kn
-variable        kt index $kt
-variable        loss index $loss   # $loss_meaning
-variable        xgamma index $xgamma   # tangential over normal damping
-variable        mu index $friction   # friction
 $contact
 
 fix             motion all nve/sphere
@@ -53,6 +53,15 @@ run             $run
 
 write_dump      all custom $result id x z vx vz omegay modify sort id format float %.17g
 """)
+GRANULAR = Template("""\
+# Law: $law
+$meanings
+variable        kn index $kn
+variable        kt index $kt
+variable        loss index $loss   # $loss_meaning
+variable        xgamma index $xgamma   # tangential over normal damping
+variable        mu index $friction   # friction
+$contact""")
 ON_WALL = "fix             contact all wall/gran granular {words} zplane 0.0 NULL"
 IN_PAIRS = "pair_style      granular\npair_coeff      * * {words}"
 MPI = "libmpi.so.12"
@@ -126,20 +135,29 @@ def coefficients(experiment: Experiment) -> GranularLaw:
     return GranularLaw("hertz", model, kn, kt, *share, *loss)
 
 
-def script(experiment: Experiment) -> str:
-    """Return the input script."""
+def granular(experiment: Experiment) -> str:
+    """Return what the script says of a law of LAMMPS' own."""
     law, pair = coefficients(experiment), experiment.pair
     words = law.words("${{{}}}".format)
-    return SCRIPT.substitute(
+    return GRANULAR.substitute(
         arrangement.shared_values(experiment) | {name: law.number(name) for name in NUMBERS},
         friction=law.number("mu"),
-        input=INPUT,
-        result=RESULT,
-        spheres=SPHERES,
-        cutoff=f"{arrangement.spacing(pair):.6g}",
         meanings=law.meanings,
         loss_meaning="N s/m" if law.damping == "velocity" else "coefficient of restitution",
         contact=(IN_PAIRS if isinstance(pair.second, Sphere) else ON_WALL).format(words=words),
+    )
+
+
+def script(experiment: Experiment) -> str:
+    """Return the input script."""
+    exact = isinstance(experiment.law, MemoryLaw)
+    return SCRIPT.substitute(
+        arrangement.shared_values(experiment),
+        input=INPUT,
+        result=RESULT,
+        spheres=SPHERES,
+        cutoff=f"{arrangement.spacing(experiment.pair):.6g}",
+        contact=(lammps_exact.lines if exact else granular)(experiment),
     )
 
 
@@ -190,9 +208,16 @@ class Lammps(Engine):
         found = shutil.which(self.called, path=os.pathsep.join(elsewhere))
         return Path(found).absolute() if found else None
 
+    def lacks(self, law: Law) -> str:
+        """Return what to say of a law that is not supported."""
+        until = (
+            " until its plugin is built: carom lammps build" if isinstance(law, MemoryLaw) else ""
+        )
+        return super().lacks(law) + until
+
     def supports(self, law: ContactLaw) -> bool:
-        """Tell whether LAMMPS has this law."""
-        return isinstance(law, LAWS)
+        """Tell whether LAMMPS has this law; the exact one where its plugin has been built."""
+        return isinstance(law, LAWS) or lammps_exact.supports(law)
 
     def files(self, experiment: Experiment) -> dict[str, str]:
         """Return the input script and the spheres that it reads, by file name."""
