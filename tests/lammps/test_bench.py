@@ -40,4 +40,4 @@ def test_without_the_plugin_a_line_says_what_to_do(tmp_path, monkeypatch, capsys
     monkeypatch.setattr(building, "folder", lambda version: tmp_path)
     assert not lammps_exact.supports(carom.MemoryLaw(32))
     assert main(["verify", "lammps", "--law", "carom"]) == 2
-    assert "until its plugin is built: carom lammps build" in capsys.readouterr().err
+    assert "until carom lammps build has built it" in capsys.readouterr().err

@@ -16,7 +16,7 @@ from carom.io.tables import CASE
 from carom.laws.dem import ContactLaw, Law
 from carom.quantities.arrays import finite_line
 from carom.quantities.refusals import InputError, refusal
-from carom.verify.catalogue import CATALOGUE, Entry, as_entry
+from carom.verify.catalogue import CATALOGUE, EXACT, Entry, as_entry
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
 from carom.verify.engines.running import Engine, EngineError, EngineKilled, run
 from carom.verify.errors import (
@@ -202,7 +202,13 @@ def _supported(engine: Engine, entries: Sequence[Entry]) -> list[Entry]:
     if not known:
         has = [entry.label for entry in CATALOGUE if _has(engine, entry)]
         labels = ", ".join(entry.label for entry in entries)
-        raise refusal("law", labels, f"{engine.lacks(entries[0].law)}; it has {'; '.join(has)}")
+        until = (
+            " until carom lammps build has built it"
+            if (engine.name, labels) == ("LAMMPS", EXACT)
+            else ""
+        )
+        allowed = f"{engine.name} does not have it{until}, but {'; '.join(has)}"
+        raise refusal("law", labels, allowed)
     return known
 
 

