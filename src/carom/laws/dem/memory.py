@@ -78,10 +78,6 @@ class MemoryLaw(ContactLaw):
         alpha = viscous_loss(self.restitution)
         return alpha, alpha if self.viscous_shear else 0.0
 
-    def retardation(self, unit: float) -> float:
-        """Return the retardation time of the solid; `unit` is d_max/V_1."""
-        return self._losses()[0] * unit
-
     def _memory(self) -> Array:
         return np.empty(lattice.places(self.springs))
 

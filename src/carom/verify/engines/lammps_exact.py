@@ -28,7 +28,9 @@ def lines(experiment: Experiment) -> str:
     young = 2.0 * (1.0 - poisson**2) * pair.effective_modulus
     words = f"young {young!r} poisson {poisson!r} friction {pair.friction!r}"
     if law.restitution < 1.0:
-        words += f" retardation {law.retardation(experiment.scales.time)!r}"
+        from carom.dimensionless.lossy.panels.stages import viscous_loss
+
+        words += f" retardation {viscous_loss(law.restitution) * experiment.scales.time!r}"
     style = f"pair_style      carom springs {law.springs} precision double\n"
     coeff = f"pair_coeff      * * {words}"
     on_wall = "" if isinstance(pair.second, Sphere) else "\n" + ON_WALL.format(words=words)
