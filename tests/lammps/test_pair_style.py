@@ -201,6 +201,18 @@ def test_forces_of_contacts_can_be_dumped(lammps, newton):
     np.testing.assert_allclose(met[:, 6], np.linalg.norm(met[:, 3:6], axis=1), rtol=1e-6)
 
 
+def test_contacts_that_remember_another_kind_stop_the_run(lammps):
+    """A restart read with other springs, and losses that begin between runs, are refused."""
+    gas(lammps, then="run 400\nwrite_restart x.rst noinit")
+    (lammps.folder / "out.txt").unlink()
+    for style in ("springs 16 precision double", "springs 32 precision single"):
+        with pytest.raises(AssertionError, match="contacts remember other springs"):
+            gas(lammps, style=style, then="run 10", start="read_restart x.rst\n")
+    lossy = words(restitution=0.8, speed=1.0)
+    with pytest.raises(AssertionError, match="losses cannot be switched on or off between runs"):
+        gas(lammps, then=f"run 10\npair_coeff * * {lossy}\nrun 10")
+
+
 BOX = "boundary f f f\nregion b block -1 1 -1 1 -1 1\ncreate_box 2 b\ncreate_atoms 1 single 0 0 0\n"
 
 

@@ -153,19 +153,12 @@ void FixWallCarom::act(int i, int k, double *memory) {
     }
     const carom::Body sphere{carom_vector(x), carom_vector(atom->v[i]),
                              carom_vector(atom->omega[i]), atom->radius[i]};
-    carom::Encounter now = carom::encounter(sphere, wall, update->dt);
+    const carom::Encounter now = carom::encounter(sphere, wall, update->dt);
     const carom::Pair pair = pair_of(i, met.radius, memory);
     carom::Action action{};
-    if (update->setupflag) now.velocity = {0.0, 0.0, 0.0}, now.spin = 0.0;
-    if (update->setupflag && kind.touches(memory + SPRINGS)) {
-        action.force = carom_vector(memory + FORCE);
-        carom::turn(action, now);
-    } else {
-        const carom::Status status = kind.advance(memory + SPRINGS, pair, now, action);
-        if (status != carom::Status::ok)
-            error->one(FLERR, "fix wall/carom: atom {}: {}", atom->tag[i], carom::message(status));
-        std::copy(action.force.begin(), action.force.end(), memory + FORCE);
-    }
+    const carom::Status status = carom_step(kind, memory, pair, now, update->setupflag, action);
+    if (status != carom::Status::ok)
+        error->one(FLERR, "fix wall/carom: atom {}: {}", atom->tag[i], carom::message(status));
     carom_add(atom->f[i], 1.0, action.force);
     carom_add(atom->torque[i], 1.0, action.torque);
     carom_add(sums + FORCE_X, -1.0, action.force);

@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: GPL-2.0-only
 #include "kinds.h"
 
+#include <algorithm>
+
 namespace LAMMPS_NS {
 namespace {
 
@@ -13,6 +15,7 @@ template <int N, class Real, unsigned P> CaromKind kind_of() {
     static_assert(alignof(Kind) <= alignof(double), "it lies in doubles");
     CaromKind kind{};
     kind.doubles = (sizeof(Kind) + sizeof(double) - 1) / sizeof(double);
+    kind.number = 100.0 * N + 10.0 * sizeof(Real) + P;
     kind.touches = [](const double *memory) {
         return reinterpret_cast<const Kind *>(memory)->spacing > 0;
     };
@@ -66,6 +69,20 @@ CaromKind carom_kind(const CaromOptions &options) {
     if (options.springs == 32) return of_precision<32>(options);
     if (options.springs == 64) return of_precision<64>(options);
     return CaromKind{};
+}
+
+carom::Status carom_step(const CaromKind &kind, double *memory, const carom::Pair &pair,
+                         carom::Encounter now, bool setup, carom::Action &action) {
+    if (setup) now.velocity = {0.0, 0.0, 0.0}, now.spin = 0.0;
+    if (setup && kind.touches(memory + SPRINGS)) {
+        action.force = carom_vector(memory + FORCE);
+        carom::turn(action, now);
+        return carom::Status::ok;
+    }
+    const carom::Status status = kind.advance(memory + SPRINGS, pair, now, action);
+    std::copy(action.force.begin(), action.force.end(), memory + FORCE);
+    memory[KIND] = kind.number;
+    return status;
 }
 
 double carom_loss(double restitution) {

@@ -16,8 +16,9 @@ struct CaromOptions {
     bool single = true, ledger = false, viscous = false;
 };
 
-// A contact in a history: the force on the first body, the retardation time, the springs.
-enum CaromPlaces { FORCE = 0, RETARDATION = 3, SPRINGS = 4 };
+// A contact in a history: the force on the first body, the retardation time, which kind it is, by
+// which a history of another one is told, the springs.
+enum CaromPlaces { FORCE = 0, RETARDATION = 3, KIND = 4, SPRINGS = 5 };
 
 inline carom::Vector carom_vector(const double *x) { return {x[0], x[1], x[2]}; }
 
@@ -28,6 +29,7 @@ inline void carom_add(double *sum, double factor, const carom::Vector &more) {
 /// What is done with a contact of one kind, which lies in so many doubles.
 struct CaromKind {
     int doubles;
+    double number;  ///< of the kind
     bool (*touches)(const double *);
     double (*stored)(const double *);  ///< energy, 0 without a ledger
     carom::Status (*advance)(double *, const carom::Pair &, const carom::Encounter &,
@@ -37,6 +39,11 @@ struct CaromKind {
 
 /// Return the kind that options ask for; none (0 doubles) where there are other springs.
 CaromKind carom_kind(const CaromOptions &);
+
+/// Bring a contact to the end of a step. While LAMMPS sets up a run nothing moves: a contact that
+/// lasts has the force that it had.
+carom::Status carom_step(const CaromKind &, double *memory, const carom::Pair &,
+                         carom::Encounter, bool setup, carom::Action &);
 
 /// Return alpha = tau V_1/d_max at which spheres of Kelvin and Voigt's solid rebound with e.
 double carom_loss(double restitution);

@@ -155,6 +155,10 @@ void PairCarom::init_style() {
     computed = false;
     neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
     dt = update->dt;
+    if (history && stored_doubles != kind.doubles)
+        error->all(FLERR, "pair_style carom: losses cannot be switched on or off between runs; give "
+                          "them by pair_coeff before the first run");
+    stored_doubles = kind.doubles;
     if (!history) {
         const auto command =
             fmt::format("NEIGH_HISTORY_CAROM all NEIGH_HISTORY {}", SPRINGS + kind.doubles);
@@ -232,6 +236,10 @@ void PairCarom::compute(int eflag, int vflag) {
             const double *one = atom->x[i], *other = atom->x[j];
             const double x = one[0] - other[0], y = one[1] - other[1], z = one[2] - other[2];
             const double reach = atom->radius[i] + atom->radius[j];
+            if (touches[jj] && memory[KIND] != kind.number)
+                error->one(FLERR, "pair_style carom: contacts remember other springs, another "
+                                  "precision, ledger or losses; give pair_style and pair_coeff as "
+                                  "they were");
             if (x * x + y * y + z * z < reach * reach) {
                 touches[jj] = 1;
                 act(i, j, memory, newton || j < nlocal);
@@ -246,23 +254,15 @@ void PairCarom::compute(int eflag, int vflag) {
     pvector[VISCOSITY] = losses[VISCOSITY];
 }
 
-/// Add what a contact does to two spheres. While LAMMPS sets up a run nothing moves: a contact that
-/// lasts has the force that it had.
+/// Add what a contact does to two spheres.
 void PairCarom::act(int i, int j, double *memory, bool both) {
-    carom::Encounter now = meeting(i, j);
+    const carom::Encounter now = meeting(i, j);
     const carom::Pair pair = pair_of(i, j, memory);
     carom::Action action{};
-    if (update->setupflag) now.velocity = {0.0, 0.0, 0.0}, now.spin = 0.0;
-    if (update->setupflag && kind.touches(memory + SPRINGS)) {
-        action.force = carom_vector(memory + FORCE);
-        carom::turn(action, now);
-    } else {
-        const carom::Status status = kind.advance(memory + SPRINGS, pair, now, action);
-        if (status != carom::Status::ok)
-            error->one(FLERR, "pair_style carom: atoms {} and {}: {}", atom->tag[i], atom->tag[j],
-                       carom::message(status));
-        std::copy(action.force.begin(), action.force.end(), memory + FORCE);
-    }
+    const carom::Status status = carom_step(kind, memory, pair, now, update->setupflag, action);
+    if (status != carom::Status::ok)
+        error->one(FLERR, "pair_style carom: atoms {} and {}: {}", atom->tag[i], atom->tag[j],
+                   carom::message(status));
     carom_add(atom->f[i], 1.0, action.force);
     carom_add(atom->torque[i], 1.0, action.torque);
     if (both) {

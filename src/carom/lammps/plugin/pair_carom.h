@@ -62,6 +62,7 @@ class PairCarom : public Pair {
     std::vector<double> radii;
     double losses[3] = {0.0, 0.0, 0.0};
     NeighHistory *history;
+    int stored_doubles = 0;  ///< of a contact, as the history was made
     double dt;
     bool computed = false;  ///< since LAMMPS was set up
 };

