@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 import carom
 
 SOURCE = Path(__file__).with_suffix(".cpp")
-FAST = ("-O3", "-fno-math-errno", "-fno-trapping-math")
+FAST = ("-O3", "-fno-math-errno")
 VECTORS = {"this processor": ("-march=native",), "AVX2": ("-mavx2", "-mfma"), "SSE2": ()}
 
 

@@ -1,7 +1,7 @@
 /* One oblique impact with the exact contact law, stepped as a DEM code does it (velocity Verlet).
  *
  *     INCLUDE=$(python -c "import carom; print(carom.get_include())")
- *     FAST="-O3 -march=native -fno-math-errno -fno-trapping-math"
+ *     FAST="-O3 -march=native -fno-math-errno"
  *     c++ -std=c++17 $FAST -c $INCLUDE/carom/contact.cpp -o carom_contact.o
  *     cc -std=c99 contact.c carom_contact.o -I$INCLUDE -lm -o contact && ./contact
  *

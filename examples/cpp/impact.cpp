@@ -1,7 +1,7 @@
 // One oblique impact with the exact contact law, stepped as a DEM code does it (velocity Verlet).
 //
 //     INCLUDE=$(python -c "import carom; print(carom.get_include())")
-//     FAST="-O3 -march=native -fno-math-errno -fno-trapping-math"
+//     FAST="-O3 -march=native -fno-math-errno"
 //     c++ -std=c++17 $FAST -I$INCLUDE impact.cpp -o impact && ./impact
 //
 // A steel ball strikes a steel plate at 20 degrees, friction 0.2. Optional: steps per contact.

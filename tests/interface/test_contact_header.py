@@ -19,7 +19,7 @@ pytestmark = pytest.mark.skipif(COMPILER is None, reason="no C++ compiler on thi
 ROOT = Path(__file__).parents[2]
 INCLUDE = Path(carom.get_include())
 STRICT = ("-Wall", "-Wextra", "-pedantic", "-Werror")
-FAST = ("-O2", "-fno-math-errno", "-fno-trapping-math")
+FAST = ("-O2", "-fno-math-errno")
 ELASTIC, VISCOUS, LEDGER, SINGLE = 0, 1, 2, 4
 RADIUS, FRICTION, KAPPA, MASS = 1e3, 0.3, 0.8, 16.0 / 15.0  # so that d_max = V_1 = 1
 MODULUS = RADIUS**-0.5
@@ -60,13 +60,17 @@ def folder(tmp_path_factory):
     return tmp_path_factory.mktemp("contact")
 
 
-@pytest.fixture(scope="module")
-def functions(folder):
-    shared = ("-shared", "-fPIC", *FAST)
-    found = ctypes.CDLL(str(built(folder, INCLUDE / "carom/contact.cpp", *shared, name="c.so")))
+def opened(folder, *options, name="c.so"):
+    shared = ("-shared", "-fPIC", *FAST, *options)
+    found = ctypes.CDLL(str(built(folder, INCLUDE / "carom/contact.cpp", *shared, name=name)))
     found.carom_contact_size.restype = ctypes.c_size_t
     found.carom_contact_message.restype = ctypes.c_char_p
     return found
+
+
+@pytest.fixture(scope="module")
+def functions(folder):
+    return opened(folder)
 
 
 @pytest.fixture(scope="module")
@@ -169,6 +173,29 @@ def test_single_precision_differs_by_its_rounding(functions, alpha):
         for step in ((d, v, 1.5 * v, 0.4 - d, times[1]) for d, v in rows)
     ]
     assert 1e-9 < max(off) < 2e-5
+
+
+@pytest.mark.parametrize("compiler", ["g++", "clang++"])
+@pytest.mark.parametrize("options", [("-O0",), ("-O3", "-Wconversion", "-Wshadow")])
+def test_compilers_have_nothing_to_say(folder, compiler, options):
+    """In vectors, and without them."""
+    found = shutil.which(compiler)
+    if found is None:
+        pytest.skip(f"no {compiler} on this machine")
+    for lanes in ("-UCAROM_ONE_BY_ONE", "-DCAROM_ONE_BY_ONE"):
+        words = [found, "-std=c++17", *STRICT, *options, lanes, f"-I{INCLUDE}", "-c"]
+        words += [INCLUDE / "carom/contact.cpp", "-o", folder / "silent.o"]
+        subprocess.run([str(word) for word in words], check=True, capture_output=True)
+
+
+@pytest.mark.parametrize("kind", [ELASTIC, VISCOUS, VISCOUS | LEDGER])
+def test_springs_one_by_one_are_those_in_registers(functions, folder, kind):
+    plain = opened(folder, "-DCAROM_ONE_BY_ONE", name=f"plain{kind}.so")
+    alpha = 0.2 if kind & VISCOUS else 0.0
+    both = [Stepped(each, 32, alpha, alpha, kind) for each in (functions, plain)]
+    for d, v, slide, aside in np.random.default_rng(5).normal(size=(300, 4)):
+        one, other = (each.step(d, v, slide, aside, 0.1) for each in both)
+        np.testing.assert_allclose(one, other, rtol=1e-12, atol=1e-13)
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ import carom
 
 COMPILER = shutil.which("c++")
 pytestmark = pytest.mark.skipif(COMPILER is None, reason="no C++ compiler on this machine")
-SOURCE = Path(__file__).parents[1] / "cpp" / "in_space.cpp"
+SOURCES = Path(__file__).parents[1] / "cpp"
 STRICT = ("-Wall", "-Wextra", "-pedantic", "-Werror")
 STEEL = carom.Material(young=210e9, poisson=0.3, density=7850.0)
 GLASS = carom.Material(young=70e9, poisson=0.25, density=2500.0)
@@ -34,13 +34,23 @@ def meetings(rng, count=20):
     return given
 
 
-@pytest.fixture(scope="module")
-def program(tmp_path_factory):
-    target = tmp_path_factory.mktemp("space") / "in_space"
-    include = f"-I{carom.get_include()}"
-    command = [COMPILER, "-std=c++17", "-O2", *STRICT, include, str(SOURCE), "-o", str(target)]
+def built(folder, name):
+    include, target = f"-I{carom.get_include()}", folder / name
+    source = str(SOURCES / f"{name}.cpp")
+    command = [COMPILER, "-std=c++17", "-O2", *STRICT, include, source, "-o", str(target)]
     subprocess.run(command, check=True, capture_output=True, text=True)
     return target
+
+
+@pytest.fixture(scope="module")
+def program(tmp_path_factory):
+    return built(tmp_path_factory.mktemp("space"), "in_space")
+
+
+def test_contacts_at_once_are_those_one_by_one(tmp_path):
+    """21 contacts, one refused in every second step: memories and actions equal to the bit."""
+    ran = subprocess.run([built(tmp_path, "together")], capture_output=True, text=True, check=True)
+    assert all(1000 < int(touched) < 4200 for touched in ran.stdout.split())
 
 
 def after(program, given, mirrored=False):

@@ -4,7 +4,7 @@
  *
  * What carom/contact.hpp is for C++; to be compiled with your program:
  *
- *     c++ -std=c++17 -O3 -march=native -fno-math-errno -fno-trapping-math -c
+ *     c++ -std=c++17 -O3 -march=native -fno-math-errno -c
  *         -I$INCLUDE $INCLUDE/carom/contact.cpp
  *
  * $INCLUDE is what `python -c "import carom; print(carom.get_include())"` prints. Of every contact

@@ -19,7 +19,7 @@ HERE = Path(__file__).parent
 SOURCES = HERE / "plugin"
 HEADERS = HERE.parent / "include"
 COMPILERS = ("c++", "g++", "clang++")
-FLAGS = ("-std=c++17", "-O3", "-fno-math-errno", "-fno-trapping-math", "-fPIC", "-shared")
+FLAGS = ("-std=c++17", "-O3", "-fno-math-errno", "-fPIC", "-shared", "-fvisibility=hidden")
 OWN = ("-march=native",)  # it is built where it runs
 BIG = "-DLAMMPS_SMALLBIG"  # sizes of integers, those of a plain build
 NAME = "caromplugin.so"  # LAMMPS loads *plugin.so

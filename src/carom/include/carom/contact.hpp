@@ -16,15 +16,15 @@
 #ifndef CAROM_CONTACT_HPP
 #define CAROM_CONTACT_HPP
 
-#include "stepping.hpp"
+#include "marching.hpp"
 
 namespace carom {
 namespace springs {
 
 /// Keep what the next step needs of this one.
 template <int N, class Real, unsigned P>
-void keep(Contact<N, Real, P>& c, const Now& now, double edge, double scale, const Motion& m,
-          Load& load) {
+inline void keep(Contact<N, Real, P>& c, const Now& now, double edge, double scale, const Motion& m,
+                 Load& load) {
     c.edge = static_cast<Real>(edge);
     if constexpr ((P & viscous) != 0) {
         c.limit = static_cast<Real>(now.limit);
@@ -40,7 +40,7 @@ void keep(Contact<N, Real, P>& c, const Now& now, double edge, double scale, con
 
 /// Enter the work of a step, and what of it is lost; the rest is stored.
 template <int N, class Real, unsigned P>
-void enter(Contact<N, Real, P>& c, const Motion& m, Load& load) {
+inline void enter(Contact<N, Real, P>& c, const Motion& m, Load& load) {
     if constexpr ((P & ledger) != 0) {
         double twice = (load.x + c.shear_x) * m.slide_x + (load.y + c.shear_y) * m.slide_y;
         if constexpr ((P & viscous) != 0) twice += (load.normal + c.normal) * m.approach;
@@ -53,7 +53,7 @@ void enter(Contact<N, Real, P>& c, const Motion& m, Load& load) {
 
 /// Let go: what is still stored goes into the dashpots, or was rubbed off at last.
 template <int N, class Real, unsigned P>
-void part(Contact<N, Real, P>& c, const Motion& m, Load& load) {
+inline void part(Contact<N, Real, P>& c, const Motion& m, Load& load) {
     if constexpr ((P & ledger) != 0) {
         if (c.spacing > 0) enter(c, m, load);
         double& lost = (P & viscous) != 0 ? load.viscosity : load.friction;
@@ -62,40 +62,77 @@ void part(Contact<N, Real, P>& c, const Motion& m, Load& load) {
     c = Contact<N, Real, P>{};
 }
 
+/// What a step of a contact knows between its three stages. In each of them several contacts can
+/// be taken one after the other: then the roots of one are not waited for by the next.
+struct Stage {
+    Now now;
+    double edge, root, scale;  // s at the edge and its root, force of a unit
+    Sums sums;
+};
+
+/// First: the lattice, and what all springs share.
+template <int N, class Real, unsigned P>
+inline void prepare(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, Stage& stage) {
+    if (!(c.spacing > 0)) begin(c, pair, m);
+    fit_lattice(c, pair, m);
+    look(c, pair, m, stage.now);
+    stage.edge = edge_of(c, stage.now);
+    stage.root = std::sqrt(stage.edge);
+    stage.scale = 2.0 * pair.modulus * double(c.spacing) * stage.now.unit;
+}
+
+/// Second: the springs.
+template <int N, class Real, unsigned P>
+inline void march(Contact<N, Real, P>& c, const Pair& pair, Stage& stage) {
+    stage.sums = Sums{};
+    if (pair.friction > 0.0 || (P & viscous) != 0)
+        stage.sums = march(c, stage.now, stage.edge, pair.viscous_shear);
+}
+
+/// Last: the load.
+template <int N, class Real, unsigned P>
+inline void settle(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, Stage& stage,
+                   Load& load) {
+    const Now& now = stage.now;
+    load = Load{};
+    load.normal = stage.scale * larger(stage.root * (now.limit - stage.edge * (1.0 / 3.0)), 0.0);
+    trim(c, now, stage.edge, stage.root, stage.sums);
+    const double scale = stage.scale * pair.friction;
+    load.x = scale * stage.sums.x;
+    load.y = scale * stage.sums.y;
+    const double most = pair.friction * load.normal;
+    if (load.x * load.x + load.y * load.y > most * most) {  // by rounding
+        const double part = cut(load.x, load.y, most);
+        load.x *= part;
+        load.y *= part;
+    }
+    if constexpr ((P & ledger) != 0) {
+        const double energy = scale * now.unit * pair.friction / pair.stiffness_ratio;
+        load.friction = energy * stage.sums.friction;
+        load.viscosity = energy * stage.sums.viscosity;
+    }
+    keep(c, now, stage.edge, stage.scale, m, load);
+    enter(c, m, load);
+}
+
 }  // namespace springs
 
 /// Bring a contact to the end of a step and return its load; nothing changes unless all is ok.
 template <int N, class Real, unsigned P>
-Status advance(Contact<N, Real, P>& contact, const Pair& pair, const Motion& motion, Load& load) {
-    if (!is_good(pair)) return Status::bad_pair;
-    if (!is_good(motion, pair.radius)) return Status::bad_motion;
+inline Status advance(Contact<N, Real, P>& contact, const Pair& pair, const Motion& motion,
+                      Load& load) {
+    const Status status = status_of(pair, motion);
+    if (status != Status::ok) return status;
     load = Load{};
     if (motion.penetration <= 0.0) {
         springs::part(contact, motion, load);
-        return Status::ok;
+        return status;
     }
-    if (!(contact.spacing > 0)) springs::begin(contact, pair, motion);
-    springs::fit_lattice(contact, pair, motion);
-    const springs::Now now = springs::now_of(contact, pair, motion);
-    const double edge = springs::edge_of(contact, now), beta = std::sqrt(edge);
-    const double scale = 2.0 * pair.modulus * double(contact.spacing) * now.unit;
-    load.normal = scale * std::max(beta * (now.limit - edge / 3.0), 0.0);
-    if (pair.friction > 0.0 || (P & viscous) != 0) {
-        springs::Sums sums = springs::march(contact, now, edge, pair.viscous_shear);
-        springs::trim(contact, now, edge, sums);
-        const double most = pair.friction * load.normal;  // but for rounding it holds already
-        const double x = scale * pair.friction * sums.x, y = scale * pair.friction * sums.y;
-        const double part = springs::cut(x, y, most);
-        load.x = part * x;
-        load.y = part * y;
-        const double slip = now.unit * pair.friction / pair.stiffness_ratio;
-        const double energy = scale * pair.friction * slip;
-        load.friction = energy * sums.friction;
-        load.viscosity = energy * sums.viscosity;
-    }
-    springs::keep(contact, now, edge, scale, motion, load);
-    springs::enter(contact, motion, load);
-    return Status::ok;
+    springs::Stage stage;
+    springs::prepare(contact, pair, motion, stage);
+    springs::march(contact, pair, stage);
+    springs::settle(contact, pair, motion, stage, load);
+    return status;
 }
 
 }  // namespace carom

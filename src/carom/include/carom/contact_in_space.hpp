@@ -90,7 +90,8 @@ inline Encounter encounter(const Body& one, const Body& other, double step) {
     Encounter e{};
     const Vector apart = plus(one.position, -1.0, other.position);
     const double distance = std::sqrt(dot(apart, apart));
-    e.normal = {apart[0] / distance, apart[1] / distance, apart[2] / distance};
+    const double per_distance = 1.0 / distance;
+    for (int i = 0; i < 3; ++i) e.normal[i] = per_distance * apart[i];
     e.penetration = one.radius + other.radius - distance;
     // both points are one, so that angular momentum is kept
     e.other_arm = other.radius > 0.0 ? other.radius - 0.5 * e.penetration : 0.0;
@@ -105,21 +106,24 @@ inline Encounter encounter(const Body& one, const Body& other, double step) {
 
 namespace springs {
 
-/// Carry the axis along: into the plane of the contact, which the bodies turn about its normal.
-template <class Real> Vector carried(Real (&axis)[3], const Vector& normal, double angle) {
+/// Return the axis carried along: into the plane of the contact, which turns about its normal.
+template <class Real>
+inline Vector carried(const Real (&axis)[3], const Vector& normal, double angle) {
     Vector x = {double(axis[0]), double(axis[1]), double(axis[2])};
     x = plus(x, -dot(x, normal), normal);
-    double length = std::sqrt(dot(x, x));
-    if (!(length > 0.1)) {  // a first touch: any direction in the plane
+    double square = dot(x, x);
+    if (!(square > 0.01)) {  // a first touch: any direction in the plane
         const Vector away = std::fabs(normal[0]) < 0.6 ? Vector{1, 0, 0} : Vector{0, 1, 0};
         x = plus(away, -dot(away, normal), normal);
-        length = std::sqrt(dot(x, x));
+        square = dot(x, x);
     }
     const Vector y = cross(normal, x);
-    const double half = 0.5 * angle, scale = 1.0 / (length * (1.0 + half * half));
-    const double c = (1.0 - half * half) * scale, s = 2.0 * half * scale;  // angle + O(angle^3)
-    for (int i = 0; i < 3; ++i) axis[i] = static_cast<Real>(c * x[i] + s * y[i]);
-    return {c * x[0] + s * y[0], c * x[1] + s * y[1], c * x[2] + s * y[2]};
+    const double half = 0.5 * angle, c = 1.0 - half * half, s = 2.0 * half;  // angle + O(angle^3)
+    square *= (1.0 + half * half) * (1.0 + half * half);
+    const bool is_near = std::fabs(square - 1.0) < 1e-6;  // as it is in every step but the first
+    const double scale = is_near ? 1.5 - 0.5 * square : 1.0 / std::sqrt(square);
+    return {scale * (c * x[0] + s * y[0]), scale * (c * x[1] + s * y[1]),
+            scale * (c * x[2] + s * y[2])};
 }
 
 }  // namespace springs
@@ -131,28 +135,87 @@ inline void turn(Action& action, const Encounter& e) {
     action.other_torque = {e.other_arm * side[0], e.other_arm * side[1], e.other_arm * side[2]};
 }
 
-/// Bring a contact in space to the end of a step and return what it does to the bodies.
+namespace springs {
+
+/// What an encounter is in the plane of the contact, between the stages of a step.
+struct InPlane {
+    Vector x, y;
+    Motion motion;
+    Stage stage;
+};
+
+/// Find the plane and the motion in it.
 template <int N, class Real, unsigned P>
-Status advance(ContactInSpace<N, Real, P>& contact, const Pair& pair, const Encounter& e,
-               Action& action) {
-    const bool apart = !(contact.spacing > 0);
-    const Vector axis = springs::carried(contact.axis, e.normal, apart ? 0.0 : e.spin * e.step);
-    const Vector other = cross(e.normal, axis);
-    const double approach = -dot(e.velocity, e.normal);
-    const Motion motion{e.penetration, approach, dot(e.velocity, axis), dot(e.velocity, other),
-                        e.step};
-    Load load{};
-    Contact<N, Real, P>& springs_only = contact;
-    const Status status = advance(springs_only, pair, motion, load);
-    if (status != Status::ok) return status;
-    action.force = {0.0, 0.0, 0.0};
-    action.force = plus(action.force, load.normal, e.normal);
-    action.force = plus(action.force, -load.x, axis);
-    action.force = plus(action.force, -load.y, other);
+inline Status face(ContactInSpace<N, Real, P>& contact, const Pair& pair, const Encounter& e,
+                   InPlane& plane) {
+    const double angle = contact.spacing > 0 ? e.spin * e.step : 0.0;
+    plane.x = carried(contact.axis, e.normal, angle);
+    plane.y = cross(e.normal, plane.x);
+    plane.motion = {e.penetration, -dot(e.velocity, e.normal), dot(e.velocity, plane.x),
+                    dot(e.velocity, plane.y), e.step};
+    const Status status = status_of(pair, plane.motion);
+    if (status == Status::ok)
+        for (int i = 0; i < 3; ++i) contact.axis[i] = static_cast<Real>(plane.x[i]);
+    return status;
+}
+
+/// Return what a load does to the bodies.
+inline void act(const Load& load, const InPlane& plane, const Encounter& e, Action& action) {
+    const Vector aside = plus({load.x * plane.x[0], load.x * plane.x[1], load.x * plane.x[2]},
+                              load.y, plane.y);
+    action.force = {load.normal * e.normal[0] - aside[0], load.normal * e.normal[1] - aside[1],
+                    load.normal * e.normal[2] - aside[2]};
     turn(action, e);
     action.friction = load.friction;
     action.viscosity = load.viscosity;
-    return Status::ok;
+}
+
+}  // namespace springs
+
+/// Bring contacts in space to the end of a step and return what they do to the bodies; nothing
+/// changes of one whose status is not ok. Several at once take less time than one by one.
+template <int N, class Real, unsigned P>
+inline void advance(ContactInSpace<N, Real, P>* const contacts[], const Pair pairs[],
+                    const Encounter meetings[], Action actions[], Status statuses[], int count) {
+    constexpr int together = 8;
+    springs::InPlane planes[together];
+    for (int from = 0; from < count; from += together) {
+        const int to = count - from < together ? count : from + together;
+        int pressed = 0, places[together];
+        for (int k = from; k < to; ++k) {
+            springs::InPlane& plane = planes[pressed];
+            statuses[k] = springs::face(*contacts[k], pairs[k], meetings[k], plane);
+            if (statuses[k] != Status::ok) continue;
+            if (plane.motion.penetration > 0.0) {
+                places[pressed++] = k;
+            } else {
+                Load load{};
+                springs::part(*contacts[k], plane.motion, load);
+                springs::act(load, plane, meetings[k], actions[k]);
+            }
+        }
+        for (int i = 0; i < pressed; ++i)
+            springs::prepare(*contacts[places[i]], pairs[places[i]], planes[i].motion,
+                             planes[i].stage);
+        for (int i = 0; i < pressed; ++i)
+            springs::march(*contacts[places[i]], pairs[places[i]], planes[i].stage);
+        for (int i = 0; i < pressed; ++i) {
+            const int k = places[i];
+            Load load;
+            springs::settle(*contacts[k], pairs[k], planes[i].motion, planes[i].stage, load);
+            springs::act(load, planes[i], meetings[k], actions[k]);
+        }
+    }
+}
+
+/// Bring one contact in space to the end of a step.
+template <int N, class Real, unsigned P>
+inline Status advance(ContactInSpace<N, Real, P>& contact, const Pair& pair, const Encounter& e,
+                      Action& action) {
+    ContactInSpace<N, Real, P>* const one = &contact;
+    Status status = Status::ok;
+    advance(&one, &pair, &e, &action, &status, 1);
+    return status;
 }
 
 /// Make the memory of a contact that of the second body's side, whose normal is the opposite one.

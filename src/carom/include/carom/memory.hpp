@@ -53,7 +53,7 @@ void scale_lattice(Contact<N, Real, P>& c, void (*change)(Real (&)[N]), Real wid
 
 /// Give springs their places at the first touch: so that the impact is to fill them.
 template <int N, class Real, unsigned P>
-void begin(Contact<N, Real, P>& c, const Pair& pair, const Motion& m) {
+inline void begin(Contact<N, Real, P>& c, const Pair& pair, const Motion& m) {
     constexpr double margin = 1.04;
     c = Contact<N, Real, P>{};
     const double energy = 0.9375 * pair.mass * m.approach * m.approach;
@@ -69,11 +69,11 @@ void begin(Contact<N, Real, P>& c, const Pair& pair, const Motion& m) {
 
 /// Widen the lattice if the contact has outgrown it, refine it if it has shrunk to a quarter.
 template <int N, class Real, unsigned P>
-void fit_lattice(Contact<N, Real, P>& c, const Pair& pair, const Motion& m) {
-    const auto reach = [&] { return double(c.spacing) * c.spacing / pair.radius * N * N; };
-    const bool shrinks = m.approach < 0.0 && m.penetration < reach() / 16.0;
-    if (shrinks) scale_lattice(c, refine<N, Real>, Real(0.5));
-    while (m.penetration > reach()) scale_lattice(c, coarsen<N, Real>, Real(2));
+inline void fit_lattice(Contact<N, Real, P>& c, const Pair& pair, const Motion& m) {
+    const auto reach = [&] { return double(c.spacing) * c.spacing * (N * N); };
+    const double square = m.penetration * pair.radius;
+    if (m.approach < 0.0 && 16.0 * square < reach()) scale_lattice(c, refine<N, Real>, Real(0.5));
+    while (square > reach()) scale_lattice(c, coarsen<N, Real>, Real(2));
 }
 
 }  // namespace springs

@@ -4,6 +4,7 @@
 #ifndef CAROM_PAIR_HPP
 #define CAROM_PAIR_HPP
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -48,17 +49,24 @@ inline const char* message(Status status) {
     return "ok";
 }
 
+// A sum is finite if all of its parts are; the least is positive if all are.
 inline bool is_good(const Pair& p) {
-    const double most = std::numeric_limits<double>::max();
-    return p.modulus > 0.0 && p.modulus <= most && p.radius > 0.0 && p.radius <= most &&
-           p.stiffness_ratio > 0.0 && p.stiffness_ratio <= most && p.mass > 0.0 && p.mass <= most &&
-           p.friction >= 0.0 && p.friction <= most && p.retardation >= 0.0 && p.retardation <= most;
+    const double all = p.modulus + p.radius + p.stiffness_ratio + p.mass + p.friction + p.retardation;
+    const double least = std::min(std::min(p.modulus, p.radius), std::min(p.stiffness_ratio, p.mass));
+    return all <= std::numeric_limits<double>::max() && least > 0.0 &&
+           std::min(p.friction, p.retardation) >= 0.0;
 }
 
 inline bool is_good(const Motion& m, double radius) {
-    return std::isfinite(m.approach) && std::isfinite(m.slide_x) && std::isfinite(m.slide_y) &&
-           m.step > 0.0 && std::isfinite(m.step) && m.penetration < radius &&
-           m.penetration > -std::numeric_limits<double>::infinity();
+    const double all = std::fabs(m.approach) + std::fabs(m.slide_x) + std::fabs(m.slide_y) +
+                       std::fabs(m.penetration) + m.step;
+    return all <= std::numeric_limits<double>::max() && m.step > 0.0 && m.penetration < radius;
+}
+
+/// Whether a step can be taken.
+inline Status status_of(const Pair& pair, const Motion& motion) {
+    if (!is_good(pair)) return Status::bad_pair;
+    return is_good(motion, pair.radius) ? Status::ok : Status::bad_motion;
 }
 
 }  // namespace carom

@@ -29,20 +29,16 @@ enum Parts : unsigned { elastic = 0, viscous = 1, ledger = 2 };
 
 namespace springs {
 
-/// Part of a cell from k to the edge beta that a force falling to zero there keeps at k.
-inline double inner_share(double k, double beta) {
-    const double width = beta - k;
-    return width > 0.0 ? width * (2.0 * beta + k) / (3.0 * (beta + k)) : 0.0;
-}
-
-/// Weights of the springs in an integral over x of what is linear in s between them.
-template <int N, class Real> struct Weights {
-    Real at[N];
-    constexpr Weights() : at() {
+/// Springs at s = k^2, and their weights in an integral over x of what is linear in s between them.
+template <int N, class Real> struct Places {
+    Real square[N], weight[N];
+    double outer[N];  ///< part of the cell beyond in that weight
+    constexpr Places() : square(), weight(), outer() {
         for (int k = 0; k < N; ++k) {
-            const double after = (3.0 * k + 2.0) / (6.0 * k + 3.0);
+            outer[k] = (3.0 * k + 2.0) / (6.0 * k + 3.0);
             const double before = k == 0 ? 0.0 : (3.0 * k - 2.0) / (6.0 * k - 3.0);
-            at[k] = static_cast<Real>(after + before);
+            square[k] = static_cast<Real>(k * k);
+            weight[k] = static_cast<Real>(outer[k] + before);
         }
     }
 };
@@ -59,7 +55,8 @@ template <int N, class Real> void refine(Real (&line)[N]) {
     for (int k = 0; k <= N / 2; ++k) old[k] = line[k];
     for (int k = 0; k < N; ++k) {
         const int j = k / 2;
-        const Real part = k % 2 ? (static_cast<Real>(j) + Real(0.25)) / (2 * j + 1) : Real(0);
+        const Real part = k % 2 ? (static_cast<Real>(j) + Real(0.25)) / static_cast<Real>(2 * j + 1)
+                                : Real(0);
         line[k] = 4 * (old[j] + part * (old[j + 1] - old[j]));
     }
 }
@@ -76,16 +73,6 @@ template <class Real> Real over_length(Real x, Real y) {
 /// Factor that cuts a vector back to a length; without a branch, so that loops become vectors.
 template <class Real> Real cut(Real x, Real y, Real most) {
     return smaller(most * over_length(x, y), Real(1));
-}
-
-/// Sum of a line, by halves.
-template <int N, class Real> Real total(const Real (&line)[N]) {
-    constexpr int lanes = N % 16 == 0 ? 16 : 4;
-    Real part[lanes] = {}, sum = 0;
-    for (int first = 0; first < N; first += lanes)
-        for (int lane = 0; lane < lanes; ++lane) part[lane] += line[first + lane];
-    for (Real each : part) sum += each;
-    return sum;
 }
 
 }  // namespace springs

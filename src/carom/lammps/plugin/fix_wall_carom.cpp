@@ -153,19 +153,23 @@ void FixWallCarom::act(int i, int k, double *memory) {
     }
     const carom::Body sphere{carom_vector(x), carom_vector(atom->v[i]),
                              carom_vector(atom->omega[i]), atom->radius[i]};
-    const carom::Encounter now = carom::encounter(sphere, wall, update->dt);
-    const carom::Pair pair = pair_of(i, met.radius, memory);
-    carom::Action action{};
-    const carom::Status status = carom_step(kind, memory, pair, now, update->setupflag, action);
-    if (status != carom::Status::ok)
-        error->one(FLERR, "fix wall/carom: atom {}: {}", atom->tag[i], carom::message(status));
+    CaromBatch batch;
+    batch.count = 1;
+    batch.memories[0] = memory;
+    batch.pairs[0] = pair_of(i, met.radius, memory);
+    batch.meetings[0] = carom::encounter(sphere, wall, update->dt);
+    carom_step(kind, batch, update->setupflag);
+    if (batch.statuses[0] != carom::Status::ok)
+        error->one(FLERR, "fix wall/carom: atom {}: {}", atom->tag[i],
+                   carom::message(batch.statuses[0]));
+    const carom::Action &action = batch.actions[0];
+    std::copy(action.force.begin(), action.force.end(), memory + FORCE);
     carom_add(atom->f[i], 1.0, action.force);
     carom_add(atom->torque[i], 1.0, action.torque);
     carom_add(sums + FORCE_X, -1.0, action.force);
     sums[ELASTIC] += kind.stored(memory + SPRINGS);
     if (!options.viscous)
-        sums[ELASTIC] +=
-            8.0 / 15.0 * pair.modulus * std::sqrt(pair.radius) * std::pow(now.penetration, 2.5);
+        sums[ELASTIC] += carom_pressed(batch.pairs[0], batch.meetings[0]);
     sums[FRICTION] += action.friction;
     sums[VISCOSITY] += action.viscosity;
 }

@@ -24,9 +24,11 @@ template <int N, class Real, unsigned P> CaromKind kind_of() {
             return reinterpret_cast<const Kind *>(memory)->stored;
         return static_cast<void>(memory), 0.0;
     };
-    kind.advance = [](double *memory, const carom::Pair &pair, const carom::Encounter &meeting,
-                      carom::Action &action) {
-        return carom::advance(seen<Kind>(memory), pair, meeting, action);
+    kind.advance = [](CaromBatch &batch) {
+        Kind *contacts[CaromBatch::most];
+        for (int k = 0; k < batch.count; ++k) contacts[k] = &seen<Kind>(batch.memories[k] + SPRINGS);
+        carom::advance(contacts, batch.pairs, batch.meetings, batch.actions, batch.statuses,
+                       batch.count);
     };
     kind.mirror = [](double *memory) { carom::mirror(seen<Kind>(memory)); };
     return kind;
@@ -71,18 +73,41 @@ CaromKind carom_kind(const CaromOptions &options) {
     return CaromKind{};
 }
 
-carom::Status carom_step(const CaromKind &kind, double *memory, const carom::Pair &pair,
-                         carom::Encounter now, bool setup, carom::Action &action) {
-    if (setup) now.velocity = {0.0, 0.0, 0.0}, now.spin = 0.0;
-    if (setup && kind.touches(memory + SPRINGS)) {
-        action.force = carom_vector(memory + FORCE);
-        carom::turn(action, now);
-        return carom::Status::ok;
+namespace {
+
+/// Give contacts that last the force that they had; the others meet at rest.
+void stand(const CaromKind &kind, CaromBatch &batch) {
+    CaromBatch met;
+    int places[CaromBatch::most];
+    for (int k = 0; k < batch.count; ++k) {
+        carom::Encounter &now = batch.meetings[k];
+        now.velocity = {0.0, 0.0, 0.0}, now.spin = 0.0;
+        batch.statuses[k] = carom::Status::ok;
+        if (kind.touches(batch.memories[k] + SPRINGS) && now.penetration > 0.0) {
+            batch.actions[k] = carom::Action{};
+            batch.actions[k].force = carom_vector(batch.memories[k] + FORCE);
+            carom::turn(batch.actions[k], now);
+        } else {
+            places[met.count] = k;
+            met.memories[met.count] = batch.memories[k];
+            met.pairs[met.count] = batch.pairs[k];
+            met.meetings[met.count++] = now;
+        }
     }
-    const carom::Status status = kind.advance(memory + SPRINGS, pair, now, action);
-    std::copy(action.force.begin(), action.force.end(), memory + FORCE);
-    memory[KIND] = kind.number;
-    return status;
+    kind.advance(met);
+    for (int k = 0; k < met.count; ++k) {
+        batch.actions[places[k]] = met.actions[k];
+        batch.statuses[places[k]] = met.statuses[k];
+    }
+}
+
+}  // namespace
+
+void carom_step(const CaromKind &kind, CaromBatch &batch, bool setup) {
+    if (setup)
+        stand(kind, batch);
+    else
+        kind.advance(batch);
 }
 
 double carom_loss(double restitution) {

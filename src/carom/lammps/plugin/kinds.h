@@ -26,24 +26,44 @@ inline void carom_add(double *sum, double factor, const carom::Vector &more) {
     for (int i = 0; i < 3; ++i) sum[i] += factor * more[i];
 }
 
+/// Have numbers ready when they are needed.
+inline void carom_fetch(const double *numbers, int count) {
+    constexpr int line = 16;  // processors fetch cache lines in pairs
+    for (int k = 0; k < count; k += line) __builtin_prefetch(numbers + k, 1);
+}
+
+/// Contacts that are brought to the end of a step together, which takes less time.
+struct CaromBatch {
+    static constexpr int most = 16;
+    int count = 0;
+    double *memories[most];
+    carom::Pair pairs[most];
+    carom::Encounter meetings[most];
+    carom::Action actions[most];
+    carom::Status statuses[most];
+};
+
 /// What is done with a contact of one kind, which lies in so many doubles.
 struct CaromKind {
     int doubles;
     double number;  ///< of the kind
     bool (*touches)(const double *);
     double (*stored)(const double *);  ///< energy, 0 without a ledger
-    carom::Status (*advance)(double *, const carom::Pair &, const carom::Encounter &,
-                             carom::Action &);
+    void (*advance)(CaromBatch &);
     void (*mirror)(double *);
 };
 
 /// Return the kind that options ask for; none (0 doubles) where there are other springs.
 CaromKind carom_kind(const CaromOptions &);
 
-/// Bring a contact to the end of a step. While LAMMPS sets up a run nothing moves: a contact that
+/// Bring contacts to the end of a step. While LAMMPS sets up a run nothing moves: a contact that
 /// lasts has the force that it had.
-carom::Status carom_step(const CaromKind &, double *memory, const carom::Pair &,
-                         carom::Encounter, bool setup, carom::Action &);
+void carom_step(const CaromKind &, CaromBatch &, bool setup);
+
+/// Return the energy of a Hertzian contact.
+inline double carom_pressed(const carom::Pair &pair, const carom::Encounter &now) {
+    return 8.0 / 15.0 * pair.modulus * std::sqrt(pair.radius) * std::pow(now.penetration, 2.5);
+}
 
 /// Return alpha = tau V_1/d_max at which spheres of Kelvin and Voigt's solid rebound with e.
 double carom_loss(double restitution);

@@ -26,6 +26,26 @@ namespace {
 
 enum { ELASTIC, FRICTION, VISCOSITY, LOSSES };
 
+/// Spheres as LAMMPS keeps them.
+struct Spheres {
+    double **x, **v, **omega, *radius, *mass;
+
+    explicit Spheres(const Atom &atom)
+        : x(atom.x), v(atom.v), omega(atom.omega), radius(atom.radius), mass(atom.rmass) {}
+
+    carom::Body body(int k) const {
+        return {carom_vector(x[k]), carom_vector(v[k]), carom_vector(omega[k]), radius[k]};
+    }
+    /// Return how two stand to each other, the first one's normal pointing at it.
+    carom::Encounter meeting(int i, int j, double step) const {
+        return carom::encounter(body(i), body(j), step);
+    }
+    double radius_of(int i, int j) const {
+        return radius[i] * radius[j] / (radius[i] + radius[j]);
+    }
+    double mass_of(int i, int j) const { return mass[i] * mass[j] / (mass[i] + mass[j]); }
+};
+
 }  // namespace
 
 /// Read words with values, or stop LAMMPS with a line that begins with `where`.
@@ -194,101 +214,100 @@ double PairCarom::init_one(int i, int j) {
     return radii[i] + radii[j];
 }
 
-/// Return how two spheres stand to each other, the first one's normal pointing at it.
-carom::Encounter PairCarom::meeting(int i, int j) const {
-    const auto body = [&](int k) {
-        return carom::Body{carom_vector(atom->x[k]), carom_vector(atom->v[k]), carom_vector(atom->omega[k]),
-                           atom->radius[k]};
-    };
-    return carom::encounter(body(i), body(j), dt);
-}
-
-/// Return the pair of two spheres; at the first touch its retardation time is found and kept.
-carom::Pair PairCarom::pair_of(int i, int j, double *memory) const {
-    const CaromBodies &known = bodies[atom->type[i]][atom->type[j]];
-    carom::Pair pair = known.pair;
-    const double *radius = atom->radius, *mass = atom->rmass;
-    pair.radius = radius[i] * radius[j] / (radius[i] + radius[j]);
-    pair.mass = mass[i] * mass[j] / (mass[i] + mass[j]);
-    if (known.loss > 0.0) {
-        if (!kind.touches(memory + SPRINGS)) memory[RETARDATION] = carom_retardation(known, pair);
-        pair.retardation = memory[RETARDATION];
-    }
-    return pair;
-}
-
 void PairCarom::compute(int eflag, int vflag) {
     ev_init(eflag, vflag);
     computed = true;
-    const int nlocal = atom->nlocal, newton = force->newton_pair;
+    const int nlocal = atom->nlocal;
     if (history->pair != this || history->nlocal_neigh < 0 || history->nlocal_neigh > nlocal)
         error->one(FLERR, "pair_style carom: this LAMMPS keeps histories in another way; build "
                           "the plugin for it: carom lammps build");
     std::fill(pvector, pvector + LOSSES, 0.0);
-    for (int ii = 0; ii < list->inum; ++ii) {
-        const int i = list->ilist[ii], *neighbors = list->firstneigh[i];
-        int *touches = history->firstflag[i];
-        double *memories = history->firstvalue[i];
-        for (int jj = 0; jj < list->numneigh[i]; ++jj) {
-            if (force->special_lj[sbmask(neighbors[jj])] == 0.0) continue;
-            const int j = neighbors[jj] & NEIGHMASK;
-            double *memory = memories + jj * (SPRINGS + kind.doubles);
-            const double *one = atom->x[i], *other = atom->x[j];
-            const double x = one[0] - other[0], y = one[1] - other[1], z = one[2] - other[2];
-            const double reach = atom->radius[i] + atom->radius[j];
-            if (touches[jj] && memory[KIND] != kind.number)
-                error->one(FLERR, "pair_style carom: contacts remember other springs, another "
-                                  "precision, ledger or losses; give pair_style and pair_coeff as "
-                                  "they were");
-            if (x * x + y * y + z * z < reach * reach) {
-                touches[jj] = 1;
-                act(i, j, memory, newton || j < nlocal);
-            } else if (touches[jj]) {
-                touches[jj] = 0;
-                part(i, j, memory, newton || j < nlocal);
-                std::fill(memory, memory + SPRINGS + kind.doubles, 0.0);
-            }
-        }
-    }
+    Meetings met;
+    for (int ii = 0; ii < list->inum; ++ii) find_met(list->ilist[ii], met);
+    step(met);
     pvector[FRICTION] = losses[FRICTION];
     pvector[VISCOSITY] = losses[VISCOSITY];
 }
 
-/// Add what a contact does to two spheres.
-void PairCarom::act(int i, int j, double *memory, bool both) {
-    const carom::Encounter now = meeting(i, j);
-    const carom::Pair pair = pair_of(i, j, memory);
-    carom::Action action{};
-    const carom::Status status = carom_step(kind, memory, pair, now, update->setupflag, action);
-    if (status != carom::Status::ok)
-        error->one(FLERR, "pair_style carom: atoms {} and {}: {}", atom->tag[i], atom->tag[j],
-                   carom::message(status));
-    carom_add(atom->f[i], 1.0, action.force);
-    carom_add(atom->torque[i], 1.0, action.torque);
-    if (both) {
-        carom_add(atom->f[j], -1.0, action.force);
-        carom_add(atom->torque[j], 1.0, action.other_torque);
+/// Collect the neighbors that a sphere touches or has touched, and step them when there are enough.
+void PairCarom::find_met(int i, Meetings &met) {
+    const int count = list->numneigh[i], length = SPRINGS + kind.doubles;
+    const int *neighbors = list->firstneigh[i];
+    const double *special = force->special_lj, *radius = atom->radius;
+    const carom::Vector here = carom_vector(atom->x[i]);
+    double **x = atom->x, *memory = history->firstvalue[i];
+    int *touches = history->firstflag[i];
+    for (int jj = 0; jj < count; ++jj, ++touches, memory += length) {
+        const int j = neighbors[jj] & NEIGHMASK;
+        const double reach = radius[i] + radius[j];
+        const carom::Vector apart = carom::plus(here, -1.0, carom_vector(x[j]));
+        if (carom::dot(apart, apart) >= reach * reach && !*touches) continue;
+        if (special[sbmask(neighbors[jj])] == 0.0) continue;
+        const int k = met.batch.count++;
+        met.one[k] = i;
+        met.other[k] = j;
+        met.touches[k] = touches;
+        met.batch.memories[k] = memory;
+        carom_fetch(memory, length);
+        if (k + 1 == CaromBatch::most) step(met);
     }
-    tally(i, j, pair, now, action, both ? 1.0 : 0.5, memory);
 }
 
-/// Let two spheres go: what was still stored is lost at last.
-void PairCarom::part(int i, int j, double *memory, bool both) {
-    carom::Action action{};
-    kind.advance(memory + SPRINGS, pair_of(i, j, memory), meeting(i, j), action);
-    losses[FRICTION] += (both ? 1.0 : 0.5) * action.friction;
-    losses[VISCOSITY] += (both ? 1.0 : 0.5) * action.viscosity;
+/// Bring contacts to the end of the step, those that end included: what they stored is lost then.
+void PairCarom::step(Meetings &met) {
+    CaromBatch &batch = met.batch;
+    const Spheres spheres(*atom);
+    for (int k = 0; k < batch.count; ++k) {
+        const int i = met.one[k], j = met.other[k];
+        double *memory = batch.memories[k];
+        if (*met.touches[k] && memory[KIND] != kind.number)
+            error->one(FLERR, "pair_style carom: contacts remember other springs, another "
+                              "precision, ledger or losses; give pair_style and pair_coeff as "
+                              "they were");
+        const CaromBodies &known = bodies[atom->type[i]][atom->type[j]];
+        batch.pairs[k] = known.pair;
+        batch.pairs[k].radius = spheres.radius_of(i, j);
+        if (!*met.touches[k]) {  // what matters at the first touch
+            batch.pairs[k].mass = spheres.mass_of(i, j);
+            memory[KIND] = kind.number;
+            if (known.loss > 0.0) memory[RETARDATION] = carom_retardation(known, batch.pairs[k]);
+        }
+        if (known.loss > 0.0) batch.pairs[k].retardation = memory[RETARDATION];
+        // made where it is used: a copy would wait for what has just been written
+        new (batch.meetings + k) carom::Encounter(spheres.meeting(i, j, dt));
+    }
+    carom_step(kind, batch, update->setupflag);
+    const int nlocal = atom->nlocal, newton = force->newton_pair;
+    for (int k = 0; k < batch.count; ++k) {
+        const int i = met.one[k], j = met.other[k];
+        if (batch.statuses[k] != carom::Status::ok)
+            error->one(FLERR, "pair_style carom: atoms {} and {}: {}", atom->tag[i], atom->tag[j],
+                       carom::message(batch.statuses[k]));
+        const bool both = newton || j < nlocal;
+        const carom::Action &action = batch.actions[k];
+        std::copy(action.force.begin(), action.force.end(), batch.memories[k] + FORCE);
+        carom_add(atom->f[i], 1.0, action.force);
+        carom_add(atom->torque[i], 1.0, action.torque);
+        if (both) {
+            carom_add(atom->f[j], -1.0, action.force);
+            carom_add(atom->torque[j], 1.0, action.other_torque);
+        }
+        if (evflag || options.ledger) tally(i, j, batch, k, both ? 1.0 : 0.5);
+        *met.touches[k] = batch.meetings[k].penetration > 0.0;
+        if (!*met.touches[k]) std::fill_n(batch.memories[k], SPRINGS + kind.doubles, 0.0);
+    }
+    batch.count = 0;
 }
 
 /// Enter energies and the virial; of a pair that two processors compute each has half.
-void PairCarom::tally(int i, int j, const carom::Pair &pair, const carom::Encounter &now,
-                      const carom::Action &action, double share, const double *memory) {
+void PairCarom::tally(int i, int j, const CaromBatch &batch, int k, double share) {
+    const carom::Action &action = batch.actions[k];
     losses[FRICTION] += share * action.friction;
     losses[VISCOSITY] += share * action.viscosity;
     if (!evflag) return;
-    double energy = kind.stored(memory + SPRINGS);
-    if (!options.viscous)
-        energy += 8.0 / 15.0 * pair.modulus * std::sqrt(pair.radius) * std::pow(now.penetration, 2.5);
+    if (batch.meetings[k].penetration <= 0.0) return;
+    double energy = kind.stored(batch.memories[k] + SPRINGS);
+    if (!options.viscous) energy += carom_pressed(batch.pairs[k], batch.meetings[k]);
     pvector[ELASTIC] += share * energy;
     const carom::Vector &f = action.force;
     const double *one = atom->x[i], *other = atom->x[j];
@@ -312,7 +331,7 @@ double PairCarom::single(int i, int j, int, int, double rsq, double, double, dou
     const bool ordered = history && list && remembered(i, j);
     const double *memory = ordered ? remembered(i, j) : remembered(j, i);
     if (!memory || !history) return 0.0;
-    const carom::Encounter now = ordered ? meeting(i, j) : meeting(j, i);
+    const carom::Encounter now = Spheres(*atom).meeting(ordered ? i : j, ordered ? j : i, dt);
     const carom::Vector all = carom_vector(memory + FORCE);
     const double normal = carom::dot(all, now.normal), side = ordered ? 1.0 : -1.0;
     fforce = normal / std::sqrt(rsq);

@@ -45,15 +45,18 @@ class PairCarom : public Pair {
     CaromOptions options;
 
   private:
+    /// Contacts of a step, and whose they are.
+    struct Meetings {
+        CaromBatch batch;
+        int one[CaromBatch::most], other[CaromBatch::most];
+        int *touches[CaromBatch::most];
+    };
     void allocate();
     void require() const;
     void find_radii();
-    carom::Encounter meeting(int, int) const;
-    carom::Pair pair_of(int, int, double *) const;
-    void act(int, int, double *, bool);
-    void part(int, int, double *, bool);
-    void tally(int, int, const carom::Pair &, const carom::Encounter &, const carom::Action &,
-               double, const double *);
+    void find_met(int, Meetings &);
+    void step(Meetings &);
+    void tally(int, int, const CaromBatch &, int, double);
     const double *remembered(int, int) const;
     void read(FILE *, void *, int);
 

@@ -27,7 +27,7 @@ void *make_wall(LAMMPS *lmp, int narg, char **arg) { return new FixWallCarom(lmp
 
 }  // namespace
 
-extern "C" void lammpsplugin_init(void *lmp, void *handle, void *registrar) {
+extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *lmp, void *handle, void *registrar) {
     const auto tell = reinterpret_cast<void (*)(Style *, void *)>(registrar);
     LAMMPS *program = static_cast<LAMMPS *>(lmp);
     if (program->num_ver != CAROM_LAMMPS) {

@@ -1,0 +1,165 @@
+// carom/marching.hpp: the springs of a contact, a register full after the other.
+//
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef CAROM_MARCHING_HPP
+#define CAROM_MARCHING_HPP
+
+#include <algorithm>
+#include <limits>
+
+#include "lanes.hpp"
+#include "stepping.hpp"
+
+namespace carom {
+namespace springs {
+
+/// What a step makes of all springs: their force as an integral over x/h, and what they lose.
+struct Sums {
+    double x, y, friction, viscosity;
+};
+
+/// The springs of a step: what they share, in each lane of a register, and what they add up to.
+template <int N, class Real, unsigned P> struct March {
+    using L = Lanes<Real, N>;
+    using V = typename L::Type;
+    static constexpr Places<N, Real> places{};
+
+    V zero = L::fixed(0), half = L::fixed(Real(0.5)), one = L::fixed(1), steep = L::of(1e20);
+    V tiny = L::fixed(std::numeric_limits<Real>::min());
+    V depth, before, limit, rim, keep, kept, least, full, moved_x, moved_y, drag_x, drag_y;
+    V along{}, across{}, rubbed{}, dragged{};
+    bool viscous_shear, turns;
+
+    March(const Now& now, double edge, bool sheared)
+        : depth(L::of(now.depth)), before(L::of(now.before)), limit(L::of(now.limit)),
+          rim(L::of(edge)), keep(L::of(now.keep)), least(L::of(now.least)), full(L::of(now.most)),
+          moved_x(L::of(now.moved_x)), moved_y(L::of(now.moved_y)), drag_x(L::of(now.drag_x)),
+          drag_y(L::of(now.drag_y)), viscous_shear(sheared),
+          turns((P & viscous) == 0 || !sheared || !(now.keep > 0.0)) {
+        kept = turns ? zero : keep;
+    }
+
+    /// Factor that cuts vectors back to lengths, and one over the length that they had.
+    V cut(V x, V y, V most, V& inverse) const {
+        inverse = one / L::root(larger(x * x + y * y, tiny));
+        return smaller(most * inverse, one);
+    }
+
+    /// Bring the springs from k on to the end of the step.
+    void take(Contact<N, Real, P>& c, int k) {
+        const V s = L::load(places.square + k), x0 = L::load(c.x + k), y0 = L::load(c.y + k);
+        // what is touched within the step goes only the rest of its way
+        const V pressed = depth - s, share = smaller(larger(pressed, least), full);
+        V bearable = larger(pressed, zero), most = bearable, free_x = x0, free_y = y0, inverse;
+        if constexpr ((P & viscous) != 0) {
+            const V inside = (rim - s) * steep;  // beyond the edge springs are free
+            const V held = L::load(c.pressed + k), is = larger(larger(pressed, held * keep), zero);
+            const V grown = is - larger(larger(before - s, held), zero) * keep;
+            L::store(c.pressed + k, is);
+            bearable = larger(smaller(limit - s, inside), zero);
+            most = viscous_shear ? larger(smaller(grown, inside), zero) : bearable;
+            free_x = x0 * (one - kept);
+            free_y = y0 * (one - kept);
+        }
+        const V to_x = free_x + share * moved_x, to_y = free_y + share * moved_y;
+        const V part = cut(to_x, to_y, most, inverse);
+        V x = part * to_x, y = part * to_y;
+        // a cut turns springs too little, by half of what it takes of their part aside
+        if (turns) {
+            const V less = smaller(part, half) * (one - part);
+            const V ahead = part + less * (free_x * to_x + free_y * to_y) * inverse * inverse;
+            x = ahead * to_x - less * free_x;
+            y = ahead * to_y - less * free_y;
+        }
+        V bears_x = x, bears_y = y;
+        if constexpr ((P & viscous) != 0) {  // with what dashpots bear
+            x += x0 * kept;
+            y += y0 * kept;
+            bears_x = x + drag_x;
+            bears_y = y + drag_y;
+            const V bears = cut(bears_x, bears_y, bearable, inverse);
+            bears_x *= bears;
+            bears_y *= bears;
+        }
+        if constexpr ((P & ledger) != 0)
+            book(c, k, x, y, bears_x, bears_y, share * moved_x, share * moved_y);
+        L::store(c.x + k, x);
+        L::store(c.y + k, y);
+        const V weight = L::load(places.weight + k);
+        along += weight * bears_x;
+        across += weight * bears_y;
+    }
+
+    /// Enter what springs lose by which the bodies slid so far.
+    void book(const Contact<N, Real, P>& c, int k, V x, V y, V bears_x, V bears_y, V slid_x,
+              V slid_y) {
+        const V x0 = L::load(c.x + k), y0 = L::load(c.y + k), weight = L::load(places.weight + k);
+        V bore_x = x0, bore_y = y0;
+        if constexpr ((P & viscous) != 0) {
+            const V s = L::load(places.square + k);
+            const V inside = smaller(L::of(c.limit) - s, (L::of(c.edge) - s) * steep);
+            bore_x = x0 + L::of(c.drag_x);
+            bore_y = y0 + L::of(c.drag_y);
+            V inverse;
+            const V bore = cut(bore_x, bore_y, larger(inside, zero), inverse);
+            bore_x *= bore;
+            bore_y *= bore;
+        }
+        const V mean_x = half * (bears_x + bore_x), mean_y = half * (bears_y + bore_y);
+        const V went_x = x - x0, went_y = y - y0;
+        rubbed += weight * (mean_x * (slid_x - went_x) + mean_y * (slid_y - went_y));
+        dragged += weight * ((mean_x - half * (x + x0)) * went_x +
+                             (mean_y - half * (y + y0)) * went_y);
+    }
+};
+
+/// Bring all springs to the end of the step.
+template <int N, class Real, unsigned P>
+inline Sums march(Contact<N, Real, P>& c, const Now& now, double edge, bool viscous_shear) {
+    using All = March<N, Real, P>;
+    All all(now, edge, viscous_shear);
+    // elastic springs beyond are at rest
+    const Real reach = larger(c.edge, static_cast<Real>(edge));
+    bool more = true;
+    for (int k = 0; k < N && more; k += All::L::count) {
+        more = (P & viscous) != 0 || All::places.square[k + All::L::count - 1] < reach;
+        all.take(c, k);
+    }
+    Sums sums{};
+    sums.x = All::L::total(all.along);
+    sums.y = All::L::total(all.across);
+    if constexpr ((P & ledger) != 0) {
+        sums.friction = All::L::total(all.rubbed);
+        sums.viscosity = All::L::total(all.dragged);
+    }
+    return sums;
+}
+
+/// Correct the force for the last cell, which ends at the edge.
+template <int N, class Real, unsigned P>
+inline void trim(const Contact<N, Real, P>& c, const Now& now, double edge, double beta,
+                 Sums& sums) {
+    static constexpr Places<N, Real> places;
+    const int last = std::min(static_cast<int>(beta), N - 1);
+    const double width = beta - last;
+    if (!(width > 0.0)) return;
+    const double inner = width * (2.0 * beta + last) / (3.0 * (beta + last));  // falling to zero
+    const double less = inner - places.outer[last];
+    if constexpr ((P & viscous) == 0) {
+        sums.x += less * c.x[last];
+        sums.y += less * c.y[last];
+    } else {
+        const double x = c.x[last] + now.drag_x, y = c.y[last] + now.drag_y;
+        const double pressed = larger(now.limit - double(last) * last, 0.0);
+        const double part = less * cut(x, y, pressed);
+        const double outer = (width - inner) *
+                             cut(now.drag_x, now.drag_y, larger(now.limit - edge, 0.0));
+        sums.x += part * x + outer * now.drag_x;
+        sums.y += part * y + outer * now.drag_y;
+    }
+}
+
+}  // namespace springs
+}  // namespace carom
+
+#endif
