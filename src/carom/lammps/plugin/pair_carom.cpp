@@ -30,8 +30,8 @@ enum { ELASTIC, FRICTION, VISCOSITY, LOSSES };
 struct Spheres {
     double **x, **v, **omega, *radius, *mass;
 
-    explicit Spheres(const Atom &atom)
-        : x(atom.x), v(atom.v), omega(atom.omega), radius(atom.radius), mass(atom.rmass) {}
+    Spheres(const Atom &atom, double *masses)
+        : x(atom.x), v(atom.v), omega(atom.omega), radius(atom.radius), mass(masses) {}
 
     carom::Body body(int k) const {
         return {carom_vector(x[k]), carom_vector(v[k]), carom_vector(omega[k]), radius[k]};
@@ -71,6 +71,7 @@ PairCarom::PairCarom(LAMMPS *lmp) : Pair(lmp), kind{}, history(nullptr), dt(0.0)
     finitecutflag = 1;
     restartinfo = 1;
     nondefault_history_transfer = 1;
+    comm_forward = 1;
     nextra = LOSSES;
     pvector = new double[LOSSES]();
     // holds the place of the history among the fixes, as it must come before those that move atoms
@@ -175,6 +176,9 @@ void PairCarom::init_style() {
     computed = false;
     neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
     dt = update->dt;
+    rigid = nullptr;
+    for (Fix *fix : modify->get_fix_list())
+        if (fix->rigid_flag) rigid = fix;
     if (history && stored_doubles != kind.doubles)
         error->all(FLERR, "pair_style carom: losses cannot be switched on or off between runs; give "
                           "them by pair_coeff before the first run");
@@ -214,6 +218,27 @@ double PairCarom::init_one(int i, int j) {
     return radii[i] + radii[j];
 }
 
+/// Tell every sphere, ghosts too, what it weighs with the rigid body that it is part of.
+void PairCarom::find_masses() {
+    int dimension;
+    const int *body = static_cast<int *>(rigid->extract("body", dimension));
+    const double *whole = static_cast<double *>(rigid->extract("masstotal", dimension));
+    masses.assign(atom->rmass, atom->rmass + atom->nlocal);
+    masses.resize(atom->nlocal + atom->nghost);
+    for (int i = 0; body && whole && i < atom->nlocal; ++i)
+        if (body[i] >= 0) masses[i] = whole[body[i]];
+    comm->forward_comm(this);
+}
+
+int PairCarom::pack_forward_comm(int count, int *atoms, double *buffer, int, int *) {
+    for (int k = 0; k < count; ++k) buffer[k] = masses[atoms[k]];
+    return count;
+}
+
+void PairCarom::unpack_forward_comm(int count, int first, double *buffer) {
+    std::copy(buffer, buffer + count, masses.begin() + first);
+}
+
 void PairCarom::compute(int eflag, int vflag) {
     ev_init(eflag, vflag);
     computed = true;
@@ -221,6 +246,7 @@ void PairCarom::compute(int eflag, int vflag) {
     if (history->pair != this || history->nlocal_neigh < 0 || history->nlocal_neigh > nlocal)
         error->one(FLERR, "pair_style carom: this LAMMPS keeps histories in another way; build "
                           "the plugin for it: carom lammps build");
+    if (rigid && neighbor->ago == 0) find_masses();
     std::fill(pvector, pvector + LOSSES, 0.0);
     Meetings met;
     for (int ii = 0; ii < list->inum; ++ii) find_met(list->ilist[ii], met);
@@ -256,7 +282,7 @@ void PairCarom::find_met(int i, Meetings &met) {
 /// Bring contacts to the end of the step, those that end included: what they stored is lost then.
 void PairCarom::step(Meetings &met) {
     CaromBatch &batch = met.batch;
-    const Spheres spheres(*atom);
+    const Spheres spheres(*atom, rigid ? masses.data() : atom->rmass);
     for (int k = 0; k < batch.count; ++k) {
         const int i = met.one[k], j = met.other[k];
         double *memory = batch.memories[k];
@@ -331,7 +357,8 @@ double PairCarom::single(int i, int j, int, int, double rsq, double, double, dou
     const bool ordered = history && list && remembered(i, j);
     const double *memory = ordered ? remembered(i, j) : remembered(j, i);
     if (!memory || !history) return 0.0;
-    const carom::Encounter now = Spheres(*atom).meeting(ordered ? i : j, ordered ? j : i, dt);
+    const Spheres spheres(*atom, nullptr);
+    const carom::Encounter now = spheres.meeting(ordered ? i : j, ordered ? j : i, dt);
     const carom::Vector all = carom_vector(memory + FORCE);
     const double normal = carom::dot(all, now.normal), side = ordered ? 1.0 : -1.0;
     fforce = normal / std::sqrt(rsq);

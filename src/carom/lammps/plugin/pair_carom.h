@@ -40,6 +40,8 @@ class PairCarom : public Pair {
     void write_restart_settings(FILE *) override;
     void read_restart_settings(FILE *) override;
     void reset_dt() override;
+    int pack_forward_comm(int, int *, double *, int, int *) override;
+    void unpack_forward_comm(int, int, double *) override;
 
     std::vector<std::vector<CaromMaterial>> materials;  ///< of types, and said of two types
     CaromOptions options;
@@ -54,6 +56,7 @@ class PairCarom : public Pair {
     void allocate();
     void require() const;
     void find_radii();
+    void find_masses();
     void find_met(int, Meetings &);
     void step(Meetings &);
     void tally(int, int, const CaromBatch &, int, double);
@@ -62,7 +65,8 @@ class PairCarom : public Pair {
 
     CaromKind kind;
     std::vector<std::vector<CaromBodies>> bodies;
-    std::vector<double> radii;
+    std::vector<double> radii, masses;
+    class Fix *rigid = nullptr;
     double losses[3] = {0.0, 0.0, 0.0};
     NeighHistory *history;
     int stored_doubles = 0;  ///< of a contact, as the history was made
