@@ -258,6 +258,27 @@ def test_the_ledger_closes_to_rounding(functions, psi, alpha):
     assert work == pytest.approx(kinetic, abs=3e-6)
 
 
+@pytest.mark.parametrize("alpha", [0.05, 0.3])
+def test_bodies_that_begin_pressed_lose_what_they_do_not_get_back(functions, alpha):
+    """From rest at d = 0.3: the energy of Hertz, d^(5/2), less what moves after it is lost."""
+    contact, d, v, dt, lost = (
+        Stepped(functions, 64, alpha, alpha, VISCOUS | LEDGER),
+        0.3,
+        0.0,
+        0.002,
+        0.0,
+    )
+    load = contact.step(d, v, 0.0, 0.0, dt)
+    while d > 0.0:
+        v -= 0.625 * dt * load[0]
+        d += dt * v
+        load = contact.step(d, v, 0.0, 0.0, dt)
+        v -= 0.625 * dt * load[0]
+        lost += contact.load.viscosity
+    assert lost == pytest.approx(0.5 * MASS * (0.3**2.5 - v**2), rel=1e-4)
+    assert 0.0 < v**2 < 0.3**2.5 * (1.0 - alpha)
+
+
 def test_what_is_booked_too_early_falls_with_the_second_order(functions):
     """Springs at the edge rub a little too much, which the last step gives back: as 1/N^2."""
     coarse, fine = (

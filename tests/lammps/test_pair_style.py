@@ -1,7 +1,5 @@
 """pair_style carom in LAMMPS itself."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -244,10 +242,3 @@ def test_what_the_style_needs_of_lammps(lammps):
     ):
         mass = "mass * 1.0\n" if "atomic" in head else ""
         assert told in lammps(f"{head}{BOX}{mass}{rest}")
-
-
-def test_the_example_prints_the_exact_angle(lammps):
-    """`examples/lammps/in.impact`, as the page shows it."""
-    text = (Path(__file__).parents[2] / "examples/lammps/in.impact").read_text()
-    hit = carom.impact(PAIR, speed=1e-4, angle="10 deg")
-    assert f"the balls part at {np.degrees(hit.rebound_angle):.2f} degrees" in lammps(text)

@@ -64,6 +64,11 @@ inline void begin(Contact<N, Real, P>& c, const Pair& pair, const Motion& m) {
         c.approach = static_cast<Real>(m.approach);
         c.slide_x = static_cast<Real>(m.slide_x);
         c.slide_y = static_cast<Real>(m.slide_y);
+        if constexpr ((P & ledger) != 0) {  // bodies that begin pressed have the energy of Hertz
+            const double before = std::max(m.penetration - m.approach * m.step, 0.0);
+            const double stiffness = 8.0 / 15.0 * pair.modulus * std::sqrt(pair.radius);
+            c.stored = static_cast<Real>(stiffness * std::pow(before, 2.5));
+        }
     }
 }
 
