@@ -19,7 +19,15 @@ HERE = Path(__file__).parent
 SOURCES = HERE / "plugin"
 HEADERS = HERE.parent / "include"
 COMPILERS = ("c++", "g++", "clang++")
-FLAGS = ("-std=c++17", "-O3", "-fno-math-errno", "-fPIC", "-shared", "-fvisibility=hidden")
+FLAGS = (
+    "-std=c++17",
+    "-O3",
+    "-fno-math-errno",
+    "-fno-trapping-math",
+    "-fPIC",
+    "-shared",
+    "-fvisibility=hidden",
+)
 OWN = ("-march=native",)  # it is built where it runs
 SIZES = ("smallbig", "bigbig")  # of integers, as LAMMPS was built
 NAME = "caromplugin.so"  # LAMMPS loads *plugin.so
@@ -93,7 +101,7 @@ def folder(version: int) -> Path:
     return home() / str(version)
 
 
-def build(lammps: Lammps, target: Path) -> Built:
+def build(lammps: Lammps, target: Path, processor: tuple[str, ...] = OWN) -> Built:
     """Compile the plugin into a folder, or raise InputError; what was there is replaced whole."""
     compiler = next((found for name in COMPILERS if (found := shutil.which(name))), None)
     if compiler is None:
@@ -103,7 +111,7 @@ def build(lammps: Lammps, target: Path) -> Built:
     with TemporaryDirectory() as scratch:
         made = Path(scratch) / NAME
         known = [f"-DLAMMPS_{lammps.sizes.upper()}", f"-DCAROM_LAMMPS={lammps.version}"]
-        command = [compiler, *FLAGS, *OWN, *known, *includes, *sources, "-o", str(made)]
+        command = [compiler, *FLAGS, *processor, *known, *includes, *sources, "-o", str(made)]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode:
             raise InputError(f"lammps build: the compiler failed: {done.stderr.strip()[:WORDS]}")

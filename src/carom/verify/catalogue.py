@@ -58,7 +58,7 @@ CATALOGUE = (
     Entry("Stronge, bilinear", dem.StrongeLaw(), "bilinear compliance, k_t/k_n = kappa"),
     Entry("Walton's hard spheres, 0.4", dem.HardSphere(0.4), "event-driven codes, beta_0 = 0.4"),
     Entry("rigid Coulomb", dem.HardSphere(), "impulse-based codes"),
-    Entry(EXACT, dem.MemoryLaw(32), "any code, with carom/contact.hpp"),
+    Entry(EXACT, dem.MemoryLaw(32), "LAMMPS, with pair_style carom; any code"),
 )
 
 

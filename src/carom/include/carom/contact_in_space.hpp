@@ -177,7 +177,7 @@ inline void act(const Load& load, const InPlane& plane, const Encounter& e, Acti
 template <int N, class Real, unsigned P>
 inline void advance(ContactInSpace<N, Real, P>* const contacts[], const Pair pairs[],
                     const Encounter meetings[], Action actions[], Status statuses[], int count) {
-    constexpr int together = 8;
+    constexpr int together = 16;
     springs::InPlane planes[together];
     for (int from = 0; from < count; from += together) {
         const int to = count - from < together ? count : from + together;
