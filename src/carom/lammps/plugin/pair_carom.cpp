@@ -279,8 +279,16 @@ void PairCarom::find_met(int i, Meetings &met) {
     }
 }
 
-/// Bring contacts to the end of the step, those that end included: what they stored is lost then.
+/// Bring contacts to the end of the step.
 void PairCarom::step(Meetings &met) {
+    meet(met);
+    carom_step(kind, met.batch, update->setupflag);
+    apply(met);
+    met.batch.count = 0;
+}
+
+/// Tell contacts which bodies meet, and how.
+void PairCarom::meet(Meetings &met) {
     CaromBatch &batch = met.batch;
     const Spheres spheres(*atom, rigid ? masses.data() : atom->rmass);
     for (int k = 0; k < batch.count; ++k) {
@@ -302,7 +310,11 @@ void PairCarom::step(Meetings &met) {
         // made where it is used: a copy would wait for what has just been written
         new (batch.meetings + k) carom::Encounter(spheres.meeting(i, j, dt));
     }
-    carom_step(kind, batch, update->setupflag);
+}
+
+/// Add what contacts do; those that end are forgotten.
+void PairCarom::apply(Meetings &met) {
+    CaromBatch &batch = met.batch;
     const int nlocal = atom->nlocal, newton = force->newton_pair;
     for (int k = 0; k < batch.count; ++k) {
         const int i = met.one[k], j = met.other[k];
@@ -322,7 +334,6 @@ void PairCarom::step(Meetings &met) {
         *met.touches[k] = batch.meetings[k].penetration > 0.0;
         if (!*met.touches[k]) std::fill_n(batch.memories[k], SPRINGS + kind.doubles, 0.0);
     }
-    batch.count = 0;
 }
 
 /// Enter energies and the virial; of a pair that two processors compute each has half.

@@ -59,6 +59,8 @@ class PairCarom : public Pair {
     void find_masses();
     void find_met(int, Meetings &);
     void step(Meetings &);
+    void meet(Meetings &);
+    void apply(Meetings &);
     void tally(int, int, const CaromBatch &, int, double);
     const double *remembered(int, int) const;
     void read(FILE *, void *, int);
