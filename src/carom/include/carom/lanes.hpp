@@ -27,18 +27,34 @@ template <class Real, int N> struct Lanes {
     static constexpr int count = fitting(register_bytes / int(sizeof(Real)));
     typedef Real Type __attribute__((vector_size(count * sizeof(Real))));
 
-    static Real& at(Type& all, int i) { return reinterpret_cast<Real*>(&all)[i]; }
     /// The same number everywhere; not seen as a constant, with which gcc makes no minimum of `<`.
     static Type fixed(Real each) {
         __asm__("" : "+m"(each));
         return of(each);
     }
+    static Type root(Type all) {
+        for (int i = 0; i < count; ++i) all[i] = std::sqrt(all[i]);
+        return all;
+    }
+    /// Sum of all lanes, by halves.
+    static Real total(Type all) {
+        if constexpr (count > 4) {
+            using Half = Lanes<Real, count / 2>;
+            typename Half::Type two[2];
+            std::memcpy(two, &all, sizeof two);
+            return Half::total(two[0] + two[1]);
+        }
+        Real sum = all[0];
+        for (int i = 1; i < count; ++i) sum += all[i];
+        return sum;
+    }
 #else
     static constexpr int count = 1;
     using Type = Real;
 
-    static Real& at(Type& all, int) { return all; }
     static Type fixed(Real each) { return each; }
+    static Type root(Type each) { return std::sqrt(each); }
+    static Real total(Type each) { return each; }
 #endif
 
     static Type load(const Real* from) {
@@ -48,22 +64,6 @@ template <class Real, int N> struct Lanes {
     }
     static void store(Real* to, const Type& all) { std::memcpy(to, &all, sizeof all); }
     static Type of(double each) { return static_cast<Real>(each) - Type{}; }
-    static Type root(Type all) {
-        for (int i = 0; i < count; ++i) at(all, i) = std::sqrt(at(all, i));
-        return all;
-    }
-    static Real total(Type all) {
-        if constexpr (count > 4) {
-            using Half = Lanes<Real, count / 2>;
-            typename Half::Type one, other;
-            std::memcpy(&one, &all, sizeof one);
-            std::memcpy(&other, reinterpret_cast<const char*>(&all) + sizeof one, sizeof other);
-            return Half::total(one + other);
-        }
-        Real sum = at(all, 0);
-        for (int i = 1; i < count; ++i) sum += at(all, i);
-        return sum;
-    }
 };
 
 }  // namespace springs
