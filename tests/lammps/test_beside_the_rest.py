@@ -45,12 +45,17 @@ def rows(printed, width):
             2,
         ),
         (
+            PLAIN + f"pair_style hybrid carom precision double lj/cut 1e-6\n"
+            f"pair_coeff 1 1 carom {SOLID}\npair_coeff * 2 lj/cut 0.0 1e-6\n",
+            1,
+        ),
+        (
             PLAIN + f"pair_style hybrid carom precision double zero 0.01\n"
             f"pair_coeff 1 1 carom {SOLID}\npair_coeff 2 2 carom {SOLID}\npair_coeff 1 2 zero\n",
             1,
         ),
     ],
-    ids=["plain", "some excluded", "all excluded", "overlay", "hybrid"],
+    ids=["plain", "some excluded", "all excluded", "overlay", "other types", "hybrid"],
 )
 def test_who_meets_whom(lammps, newton, start, contacts):
     """Elastic energy and pressure are those of so many Hertzian contacts."""
@@ -91,6 +96,50 @@ def test_stress_holds_the_tangential_force(lammps, newton):
     last = rows(printed, 13)[-1, 1:]
     np.testing.assert_allclose(1e-3 * last[:6], virial, rtol=1e-9)
     np.testing.assert_allclose(-last[6:], virial, rtol=1e-9)
+
+
+def test_what_is_moved_between_runs_has_its_force_at_once(lammps):
+    """Not the force of the contact as it was."""
+    moved = "group one id 1\ndisplace_atoms one move 1e-4 0 0\nrun 0\n"
+    found = rows(lammps(HEAD + PLAIN + CAROM + TELL + moved), 5)
+    energy = 8.0 / 15.0 * MODULUS * np.sqrt(REDUCED) * (DEPTH + 1e-4) ** 2.5
+    np.testing.assert_allclose(found[:, 1], [2.0 * ENERGY, ENERGY + energy], rtol=1e-9)
+    virial = FORCE * 0.0095 + 2.5 * energy / (DEPTH + 1e-4) * 0.0094
+    np.testing.assert_allclose(found[1, 3], virial / 1e-3, rtol=1e-9)
+
+
+@pytest.mark.parametrize("rebuilds", ["check yes", "check no"])
+def test_the_ledger_closes_if_spheres_part_when_lists_are_made(lammps, rebuilds):
+    printed = lammps(
+        f"{HEAD}boundary f f f\nneigh_modify every 1 delay 0 {rebuilds}\n"
+        "region b block 0 0.1 0 0.1 0 0.1\ncreate_box 1 b\n"
+        "create_atoms 1 single 0.05 0.05 0.05\ncreate_atoms 1 single 0.060001 0.05 0.05\n"
+        "set group all diameter 0.01\nset group all density 2500\ngroup one id 1\n"
+        "velocity one set 0.1 0.05 0\npair_style carom springs 64 precision double ledger yes\n"
+        f"pair_coeff * * {SOLID} restitution 0.5 speed 0.1\nfix 1 all nve/sphere\n"
+        "timestep 1e-6\ncompute k all ke\ncompute r all erotate/sphere\ncompute p all pair carom\n"
+        "thermo_style custom step c_k c_r c_p[1] c_p[2] c_p[3]\n"
+        "thermo_modify norm no format float %.15g\nrun 1500\n"
+    )
+    first, last = rows(printed, 6)
+    assert last[3] == 0.0
+    assert last[5] > 0.1 * first[1]
+    assert last[1:].sum() == pytest.approx(first[1:].sum(), rel=2e-4)
+
+
+def test_walls_see_whole_bodies(lammps):
+    """A light sphere with a heavy one on it, one body: the mass that e is said for, on a wall."""
+    lossy = f"{SOLID} restitution 0.5 speed 0.1"
+    printed = lammps(
+        f"{HEAD}boundary f f f\nregion b block 0 0.1 0 0.1 0 0.1\ncreate_box 1 b\n"
+        "create_atoms 1 single 0.05 0.05 0.005001\ncreate_atoms 1 single 0.05 0.05 0.013\n"
+        "set group all diameter 0.01\nset atom 1 density 2500\nset atom 2 density 25000\n"
+        f"velocity all set 0 0 -0.1\npair_style carom\npair_coeff * * {lossy}\n"
+        "neigh_modify exclude group all all\nregion w plane 0 0 0 0 0 1\n"
+        f"fix w all wall/carom {lossy} region w\nfix 1 all rigid single\ntimestep 1e-6\n"
+        "variable v equal vcm(all,z)\nthermo_style custom step v_v\nrun 4000\n"
+    )
+    assert rows(printed, 2)[-1, 1] == pytest.approx(0.05, rel=2e-3)
 
 
 def test_rigid_bodies(lammps):

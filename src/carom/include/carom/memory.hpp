@@ -58,7 +58,8 @@ inline void begin(Contact<N, Real, P>& c, const Pair& pair, const Motion& m) {
     c = Contact<N, Real, P>{};
     const double energy = 0.9375 * pair.mass * m.approach * m.approach;
     const double deepest = std::pow(energy / (pair.modulus * std::sqrt(pair.radius)), 0.4);
-    const double reach = margin * std::max(deepest, m.penetration);
+    const double least = 1e-12 * pair.radius;  // below it single precision has no squares
+    const double reach = margin * std::max(std::max(deepest, m.penetration), least);
     c.spacing = static_cast<Real>(std::sqrt(pair.radius * reach) / N);
     if constexpr ((P & viscous) != 0) {
         c.approach = static_cast<Real>(m.approach);

@@ -69,7 +69,8 @@ void FixWallCarom::init() {
         error->all(FLERR, "fix wall/carom: give pair_coeff, with its losses, before the fix");
     bodies.assign(atom->ntypes + 1, CaromBodies{});
     for (int type = 1; type <= atom->ntypes; ++type)
-        if (!carom_combine(style->materials[type][type], material, CaromMaterial{}, bodies[type]))
+        if (style->materials[type][type].complete() &&
+            !carom_combine(style->materials[type][type], material, CaromMaterial{}, bodies[type]))
             error->all(FLERR, "fix wall/carom: of type {} and the wall one has a restitution, the "
                               "other none", type);
 }
@@ -100,7 +101,7 @@ carom::Pair FixWallCarom::pair_of(int i, double curved, double *memory) const {
     carom::Pair pair = known.pair;
     const double radius = atom->radius[i];
     pair.radius = curved == 0.0 ? radius : radius * curved / (radius + curved);
-    pair.mass = atom->rmass[i];
+    pair.mass = style->mass_of(i);
     if (known.loss > 0.0) {
         if (!kind.touches(memory + SPRINGS)) memory[RETARDATION] = carom_retardation(known, pair);
         pair.retardation = memory[RETARDATION];
@@ -150,9 +151,13 @@ void FixWallCarom::act(int i, int k, double *memory) {
         double velocity[3] = {0.0, 0.0, 0.0}, place[3] = {x[0], x[1], x[2]};
         region->velocity_contact(velocity, place, k);
         wall.velocity = carom_vector(velocity);
+        if (region->rotateflag) wall.spin = carom_vector(region->omega);
     }
     const carom::Body sphere{carom_vector(x), carom_vector(atom->v[i]),
                              carom_vector(atom->omega[i]), atom->radius[i]};
+    if (memory[KIND] != 0.0 && memory[KIND] != kind.number)
+        error->one(FLERR, "fix wall/carom: contacts remember other springs, another precision, ledger "
+                          "or losses; give pair_style and pair_coeff as they were");
     CaromBatch batch;
     batch.count = 1;
     batch.memories[0] = memory;
@@ -163,7 +168,8 @@ void FixWallCarom::act(int i, int k, double *memory) {
         error->one(FLERR, "fix wall/carom: atom {}: {}", atom->tag[i],
                    carom::message(batch.statuses[0]));
     const carom::Action &action = batch.actions[0];
-    std::copy(action.force.begin(), action.force.end(), memory + FORCE);
+    carom_keep(memory, action, batch.meetings[0]);
+    memory[KIND] = kind.number;
     carom_add(atom->f[i], 1.0, action.force);
     carom_add(atom->torque[i], 1.0, action.torque);
     carom_add(sums + FORCE_X, -1.0, action.force);

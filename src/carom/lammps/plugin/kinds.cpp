@@ -75,6 +75,12 @@ CaromKind carom_kind(const CaromOptions &options) {
 
 namespace {
 
+/// Whether a contact is as it was in the last step, and not moved since.
+bool lasts(const CaromKind &kind, const double *memory, const carom::Encounter &now) {
+    const double depth = memory[DEPTH];
+    return kind.touches(memory + SPRINGS) && std::fabs(now.penetration - depth) <= 1e-6 * depth;
+}
+
 /// Give contacts that last the force that they had; the others meet at rest.
 void stand(const CaromKind &kind, CaromBatch &batch) {
     CaromBatch met;
@@ -83,7 +89,7 @@ void stand(const CaromKind &kind, CaromBatch &batch) {
         carom::Encounter &now = batch.meetings[k];
         now.velocity = {0.0, 0.0, 0.0}, now.spin = 0.0;
         batch.statuses[k] = carom::Status::ok;
-        if (kind.touches(batch.memories[k] + SPRINGS) && now.penetration > 0.0) {
+        if (lasts(kind, batch.memories[k], now)) {
             batch.actions[k] = carom::Action{};
             batch.actions[k].force = carom_vector(batch.memories[k] + FORCE);
             carom::turn(batch.actions[k], now);

@@ -4,6 +4,8 @@
 #ifndef CAROM_KINDS_H
 #define CAROM_KINDS_H
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "carom/contact_in_space.hpp"
@@ -16,9 +18,9 @@ struct CaromOptions {
     bool single = true, ledger = false, viscous = false;
 };
 
-// A contact in a history: the force on the first body, the retardation time, which kind it is, by
-// which a history of another one is told, the springs.
-enum CaromPlaces { FORCE = 0, RETARDATION = 3, KIND = 4, SPRINGS = 5 };
+// A contact in a history: the force on the first body and the penetration then, the retardation
+// time, which kind it is, by which a history of another one is told, the springs.
+enum CaromPlaces { FORCE = 0, DEPTH = 3, RETARDATION = 4, KIND = 5, SPRINGS = 6 };
 
 inline carom::Vector carom_vector(const double *x) { return {x[0], x[1], x[2]}; }
 
@@ -56,13 +58,20 @@ struct CaromKind {
 /// Return the kind that options ask for; none (0 doubles) where there are other springs.
 CaromKind carom_kind(const CaromOptions &);
 
-/// Bring contacts to the end of a step. While LAMMPS sets up a run nothing moves: a contact that
-/// lasts has the force that it had.
+/// Bring contacts to the end of a step. While LAMMPS sets up a run nothing moves: a contact that is
+/// as it was has the force that it had.
 void carom_step(const CaromKind &, CaromBatch &, bool setup);
+
+/// Keep what the next setup needs.
+inline void carom_keep(double *memory, const carom::Action &action, const carom::Encounter &now) {
+    for (int i = 0; i < 3; ++i) memory[FORCE + i] = action.force[i];
+    memory[DEPTH] = now.penetration;
+}
 
 /// Return the energy of a Hertzian contact.
 inline double carom_pressed(const carom::Pair &pair, const carom::Encounter &now) {
-    return 8.0 / 15.0 * pair.modulus * std::sqrt(pair.radius) * std::pow(now.penetration, 2.5);
+    const double depth = std::max(now.penetration, 0.0);
+    return 8.0 / 15.0 * pair.modulus * std::sqrt(pair.radius) * std::pow(depth, 2.5);
 }
 
 /// Return alpha = tau V_1/d_max at which spheres of Kelvin and Voigt's solid rebound with e.

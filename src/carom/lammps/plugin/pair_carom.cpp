@@ -72,6 +72,7 @@ PairCarom::PairCarom(LAMMPS *lmp) : Pair(lmp), kind{}, history(nullptr), dt(0.0)
     restartinfo = 1;
     nondefault_history_transfer = 1;
     comm_forward = 1;
+    beyond_contact = 1;  // contacts are kept until `compute` has seen them end
     nextra = LOSSES;
     pvector = new double[LOSSES]();
     // holds the place of the history among the fixes, as it must come before those that move atoms
@@ -156,13 +157,15 @@ void PairCarom::require() const {
     const std::string units = update->unit_style;
     if (units != "si" && units != "cgs" && units != "lj" && units != "micro" && units != "nano")
         error->all(FLERR, "pair_style carom needs units si, cgs, lj, micro or nano, not {}", units);
-    for (int i = 1; i <= atom->ntypes; ++i) {
-        if (!materials[i][i].complete())
-            error->all(FLERR,
-                       "pair_style carom: type {} has no young, poisson or friction; give them by "
-                       "pair_coeff {} {}",
-                       i, i, i);
-    }
+    for (int i = 1; force->pair == this && i <= atom->ntypes; ++i) require_material(i);
+}
+
+void PairCarom::require_material(int type) const {
+    if (!materials[type][type].complete())
+        error->all(FLERR,
+                   "pair_style carom: type {} has no young, poisson or friction; give them by "
+                   "pair_coeff {} {}",
+                   type, type, type);
 }
 
 void PairCarom::init_style() {
@@ -176,9 +179,12 @@ void PairCarom::init_style() {
     computed = false;
     neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_HISTORY);
     dt = update->dt;
-    rigid = nullptr;
+    rigid.clear();
     for (Fix *fix : modify->get_fix_list())
-        if (fix->rigid_flag) rigid = fix;
+        if (fix->rigid_flag) rigid.push_back(fix);
+    if (options.viscous && !options.ledger && comm->me == 0)
+        error->warning(FLERR, "pair_style carom: with losses, energies of contacts are told by "
+                              "ledger yes only; pe and compute pair are 0 now");
     if (history && stored_doubles != kind.doubles)
         error->all(FLERR, "pair_style carom: losses cannot be switched on or off between runs; give "
                           "them by pair_coeff before the first run");
@@ -189,6 +195,7 @@ void PairCarom::init_style() {
         history = static_cast<NeighHistory *>(
             modify->replace_fix("NEIGH_HISTORY_CAROM_DUMMY", command, 1));
         history->pair = this;
+        history->use_bit_flag = 0;
     }
     find_radii();
 }
@@ -209,6 +216,8 @@ void PairCarom::find_radii() {
 }
 
 double PairCarom::init_one(int i, int j) {
+    require_material(i);
+    require_material(j);
     if (!carom_combine(materials[i][i], materials[j][j], materials[i][j], bodies[i][j]))
         error->all(FLERR,
                    "pair_style carom: of types {} and {} one has a restitution, the other none; give "
@@ -220,13 +229,15 @@ double PairCarom::init_one(int i, int j) {
 
 /// Tell every sphere, ghosts too, what it weighs with the rigid body that it is part of.
 void PairCarom::find_masses() {
-    int dimension;
-    const int *body = static_cast<int *>(rigid->extract("body", dimension));
-    const double *whole = static_cast<double *>(rigid->extract("masstotal", dimension));
     masses.assign(atom->rmass, atom->rmass + atom->nlocal);
     masses.resize(atom->nlocal + atom->nghost);
-    for (int i = 0; body && whole && i < atom->nlocal; ++i)
-        if (body[i] >= 0) masses[i] = whole[body[i]];
+    for (Fix *fix : rigid) {
+        int dimension;
+        const int *body = static_cast<int *>(fix->extract("body", dimension));
+        const double *whole = static_cast<double *>(fix->extract("masstotal", dimension));
+        for (int i = 0; body && whole && i < atom->nlocal; ++i)
+            if (body[i] >= 0) masses[i] = whole[body[i]];
+    }
     comm->forward_comm(this);
 }
 
@@ -246,7 +257,7 @@ void PairCarom::compute(int eflag, int vflag) {
     if (history->pair != this || history->nlocal_neigh < 0 || history->nlocal_neigh > nlocal)
         error->one(FLERR, "pair_style carom: this LAMMPS keeps histories in another way; build "
                           "the plugin for it: carom lammps build");
-    if (rigid && neighbor->ago == 0) find_masses();
+    if (!rigid.empty() && neighbor->ago == 0) find_masses();
     std::fill(pvector, pvector + LOSSES, 0.0);
     Meetings met;
     for (int ii = 0; ii < list->inum; ++ii) find_met(list->ilist[ii], met);
@@ -290,7 +301,7 @@ void PairCarom::step(Meetings &met) {
 /// Tell contacts which bodies meet, and how.
 void PairCarom::meet(Meetings &met) {
     CaromBatch &batch = met.batch;
-    const Spheres spheres(*atom, rigid ? masses.data() : atom->rmass);
+    const Spheres spheres(*atom, rigid.empty() ? atom->rmass : masses.data());
     for (int k = 0; k < batch.count; ++k) {
         const int i = met.one[k], j = met.other[k];
         double *memory = batch.memories[k];
@@ -323,7 +334,7 @@ void PairCarom::apply(Meetings &met) {
                        carom::message(batch.statuses[k]));
         const bool both = newton || j < nlocal;
         const carom::Action &action = batch.actions[k];
-        std::copy(action.force.begin(), action.force.end(), batch.memories[k] + FORCE);
+        carom_keep(batch.memories[k], action, batch.meetings[k]);
         carom_add(atom->f[i], 1.0, action.force);
         carom_add(atom->torque[i], 1.0, action.torque);
         if (both) {
@@ -354,6 +365,7 @@ void PairCarom::tally(int i, int j, const CaromBatch &batch, int k, double share
 
 /// Return what a pair of neighbours remembers, nullptr if they do not touch.
 const double *PairCarom::remembered(int i, int j) const {
+    if (i >= atom->nlocal) return nullptr;
     const int *neighbors = list->firstneigh[i];
     for (int jj = 0; jj < list->numneigh[i]; ++jj)
         if ((neighbors[jj] & NEIGHMASK) == j && history->firstflag[i][jj])
@@ -365,9 +377,10 @@ const double *PairCarom::remembered(int i, int j) const {
 double PairCarom::single(int i, int j, int, int, double rsq, double, double, double &fforce) {
     std::fill(svector, svector + single_extra, 0.0);
     fforce = 0.0;
-    const bool ordered = history && list && remembered(i, j);
-    const double *memory = ordered ? remembered(i, j) : remembered(j, i);
-    if (!memory || !history) return 0.0;
+    if (!history || !list) return 0.0;
+    const double *first = remembered(i, j), *memory = first ? first : remembered(j, i);
+    if (!memory) return 0.0;
+    const bool ordered = first != nullptr;
     const Spheres spheres(*atom, nullptr);
     const carom::Encounter now = spheres.meeting(ordered ? i : j, ordered ? j : i, dt);
     const carom::Vector all = carom_vector(memory + FORCE);
@@ -376,7 +389,9 @@ double PairCarom::single(int i, int j, int, int, double rsq, double, double, dou
     const carom::Vector aside = carom::plus(all, -normal, now.normal);
     for (int k = 0; k < 3; ++k) svector[k] = side * aside[k];
     svector[3] = std::sqrt(carom::dot(aside, aside));
-    return kind.stored(memory + SPRINGS);
+    carom::Pair pair = bodies[atom->type[i]][atom->type[j]].pair;
+    pair.radius = spheres.radius_of(i, j);
+    return kind.stored(memory + SPRINGS) + (options.viscous ? 0.0 : carom_pressed(pair, now));
 }
 
 void PairCarom::transfer_history(double *source, double *target, int, int) {

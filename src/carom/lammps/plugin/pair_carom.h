@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "atom.h"
 #include "fix.h"
 #include "kinds.h"
 #include "materials.h"
@@ -43,6 +44,9 @@ class PairCarom : public Pair {
     int pack_forward_comm(int, int *, double *, int, int *) override;
     void unpack_forward_comm(int, int, double *) override;
 
+    /// What a sphere weighs, with the rigid body that it is part of.
+    double mass_of(int i) const { return rigid.empty() ? atom->rmass[i] : masses[i]; }
+
     std::vector<std::vector<CaromMaterial>> materials;  ///< of types, and said of two types
     CaromOptions options;
 
@@ -55,6 +59,7 @@ class PairCarom : public Pair {
     };
     void allocate();
     void require() const;
+    void require_material(int) const;
     void find_radii();
     void find_masses();
     void find_met(int, Meetings &);
@@ -68,7 +73,7 @@ class PairCarom : public Pair {
     CaromKind kind;
     std::vector<std::vector<CaromBodies>> bodies;
     std::vector<double> radii, masses;
-    class Fix *rigid = nullptr;
+    std::vector<class Fix *> rigid;
     double losses[3] = {0.0, 0.0, 0.0};
     NeighHistory *history;
     int stored_doubles = 0;  ///< of a contact, as the history was made
