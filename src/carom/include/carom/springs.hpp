@@ -61,18 +61,14 @@ template <int N, class Real> void refine(Real (&line)[N]) {
     }
 }
 
-// By value, unlike those of the standard library: so that loops become vectors.
+// By value, unlike those of the standard library: of numbers and of registers of numbers.
 template <class Real> Real larger(Real a, Real b) { return a > b ? a : b; }
 template <class Real> Real smaller(Real a, Real b) { return a < b ? a : b; }
 
-/// One over the length of a vector.
-template <class Real> Real over_length(Real x, Real y) {
-    return 1 / std::sqrt(larger(x * x + y * y, std::numeric_limits<Real>::min()));
-}
-
-/// Factor that cuts a vector back to a length; without a branch, so that loops become vectors.
+/// Factor that cuts a vector back to a length.
 template <class Real> Real cut(Real x, Real y, Real most) {
-    return smaller(most * over_length(x, y), Real(1));
+    const Real square = larger(x * x + y * y, std::numeric_limits<Real>::min());
+    return smaller(most * (1 / std::sqrt(square)), Real(1));
 }
 
 }  // namespace springs

@@ -64,17 +64,6 @@ double rebound(double alpha) {
     return -speed;
 }
 
-}  // namespace
-
-CaromKind carom_kind(const CaromOptions &options) {
-    if (options.springs == 16) return of_precision<16>(options);
-    if (options.springs == 32) return of_precision<32>(options);
-    if (options.springs == 64) return of_precision<64>(options);
-    return CaromKind{};
-}
-
-namespace {
-
 /// Whether a contact is as it was in the last step, and not moved since.
 bool lasts(const CaromKind &kind, const double *memory, const carom::Encounter &now) {
     const double depth = memory[DEPTH];
@@ -108,6 +97,13 @@ void stand(const CaromKind &kind, CaromBatch &batch) {
 }
 
 }  // namespace
+
+CaromKind carom_kind(const CaromOptions &options) {
+    if (options.springs == 16) return of_precision<16>(options);
+    if (options.springs == 32) return of_precision<32>(options);
+    if (options.springs == 64) return of_precision<64>(options);
+    return CaromKind{};
+}
 
 void carom_step(const CaromKind &kind, CaromBatch &batch, bool setup) {
     if (setup)
