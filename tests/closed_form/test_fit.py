@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq
+from scipy.optimize import minimize_scalar
 from scipy.stats import norm, t
 
 import carom
 from carom.fitting import fit
-from carom.fitting.errors import RobustLoss, scatter
+from carom.fitting.errors import DEGREES, RobustLoss, scatter
 
 MU, E = 0.15, 1.0
 BALL = carom.Sphere(radius="5 mm", material="steel")
@@ -73,30 +73,31 @@ def test_errors_before_count_as_effective_variance():
 
 
 def test_outliers_count_less():
-    """The robust estimate of a constant is the root of the sum of influences r/sqrt(1+(r/2)^2)."""
+    """The robust estimate of a constant is the likeliest centre of Student's t, as scipy has it."""
     values = np.append(np.random.default_rng(3).normal(MU, 0.01, 15), [0.4, 0.5])
     data = {
         "angle [deg]": np.full(17, 75.0),
         "impulse_ratio": values,
         "impulse_ratio_error": np.full(17, 0.01),
     }
-
-    def influences(mu):
-        residual = (values - mu) / 0.01
-        return (residual / np.sqrt(1.0 + (residual / 2.0) ** 2)).sum()
-
     found = fit(data, pair=PAIR, fixed={"restitution": 1.0}, vary="friction")
-    assert found.friction.value == pytest.approx(brentq(influences, 0.05, 0.5), rel=1e-5)
+
+    def against(mu, degrees):
+        return -t.logpdf(values, degrees, mu, 0.01).sum()
+
+    centres = [minimize_scalar(against, (0.14, 0.15, 0.16), args=(degrees,)) for degrees in DEGREES]
+    likeliest = min(centres, key=lambda each: each.fun)
+    assert found.friction.value == pytest.approx(likeliest.x, rel=1e-5)
     plain = fit(data, pair=PAIR, fixed={"restitution": 1.0}, vary="friction", robust=False)
     assert plain.friction.value == pytest.approx(values.mean(), rel=1e-5)
 
 
-def test_the_robust_loss_is_that_of_charbonnier():
-    """2 c^2 (sqrt(1 + (r/c)^2) - 1); influence and slope are half its first two derivatives."""
-    loss, r, h = RobustLoss(2.0), np.linspace(-30.0, 30.0, 601), 1e-4
-    assert loss.root(r) ** 2 == pytest.approx(
-        8.0 * (np.sqrt(1.0 + (r / 2.0) ** 2) - 1.0), abs=1e-12
-    )
+@pytest.mark.parametrize("degrees", [3.0, 30.0, np.inf])
+def test_the_loss_is_that_of_student_or_of_squares(degrees):
+    """-2 log density, as scipy has it; influence and slope are half its first two derivatives."""
+    loss, r, h = RobustLoss(degrees), np.linspace(-30.0, 30.0, 601), 1e-4
+    density = t(degrees).logpdf if np.isfinite(degrees) else norm.logpdf
+    assert loss.root(r) ** 2 + loss.size == pytest.approx(-2.0 * density(r), rel=1e-12)
     assert np.array_equal(np.sign(loss.root(r)), np.sign(r))
     first = (loss.root(r + h) ** 2 - loss.root(r - h) ** 2) / (4.0 * h)
     assert loss.influence(r) == pytest.approx(first, abs=1e-7)
@@ -111,16 +112,17 @@ def test_scatter_of_squares_is_chi_squared_by_degrees_of_freedom(used, free):
     """sqrt(sum r^2/(n - k)); of no fewer degrees than n/20 however many parameters there are."""
     residuals = np.random.default_rng(4).normal(0.0, 3.0, (20, 1))
     there = np.ones((20, 1), bool)
-    found = scatter(residuals, there, np.array([used]), RobustLoss(1e8))
+    found = scatter(residuals, there, np.array([used]), RobustLoss(np.inf))
     assert found == pytest.approx([np.sqrt((residuals**2).mean() / free)], rel=1e-6)
 
 
 def test_scatter_without_outliers_is_that_of_robust_and_squares_alike():
-    """Huber's proposal 2 is consistent: both tell the standard deviation of Gaussian errors."""
+    """Both tell the standard deviation of Gaussian errors."""
     residuals = np.random.default_rng(5).normal(0.0, 3.0, (200_000, 1))
     there, used = np.ones(residuals.shape, bool), np.zeros(1)
-    for c in (1.0, 2.0, 1e8):
-        assert scatter(residuals, there, used, RobustLoss(c)) == pytest.approx([3.0], rel=0.01)
+    for degrees in (3.0, 30.0, np.inf):
+        found = scatter(residuals, there, used, RobustLoss(degrees))
+        assert found == pytest.approx([3.0], rel=0.01)
 
 
 def test_restitution_is_the_weighted_mean_of_what_was_measured():
@@ -136,14 +138,14 @@ def test_restitution_is_the_weighted_mean_of_what_was_measured():
 
 
 def test_criterion_of_known_errors_is_that_of_akaike():
-    """AICc = sum r^2 + sum log sigma^2 + 2 k n/(n - k - 1), here with k = 1 and n = 20."""
+    """AICc = -2 log L + 2 k n/(n - k - 1), here with k = 1 and n = 20."""
     data = sliding(tangential_speed_out_error=np.full(20, 0.01))
     found = fit(data, pair=PAIR, fixed={"restitution": E}, vary="friction", robust=False)
     slope, _ = line(data, 0.01)
     residual = (
         data["tangential_speed"] - data["tangential_speed_out"] - slope * data["normal_speed"]
     )
-    expected = ((residual / 0.01) ** 2).sum() + 40.0 * np.log(0.01) + 2.0 * 20.0 / 18.0
+    expected = -2.0 * norm.logpdf(residual, 0.0, 0.01).sum() + 2.0 * 20.0 / 18.0
     for law in ("exact", "rigid Coulomb"):
         assert found.comparison[law].criterion == pytest.approx(expected, rel=1e-8)
 

@@ -120,3 +120,24 @@ def test_help_has_an_example(capsys):
     code, out, _ = run(capsys, "--help")
     assert code == 0
     assert "Example: carom fit" in out
+
+
+def test_the_template_is_a_table_once_it_is_filled_in(capsys, tmp_path):
+    """Empty it holds no row, as one line says; with three rows of sliding impacts it fits."""
+    code, out, _ = run(capsys, "--template")
+    assert code == 0
+    (tmp_path / "own.csv").write_text(out)
+    code, _, error = run(capsys, "own.csv")
+    assert code == 2
+    assert error.count("\n") == 1
+    rows = ["50,2.0,1.0,44.14,-96.2", "60,2.0,1.0,57.0,-74", "70,2.0,-,69.2,-50.6"]
+    (tmp_path / "own.csv").write_text(out + "\n".join(rows) + "\n")
+    code, out, error = run(capsys, "own.csv")
+    assert code == 0, error
+    assert "8 values of normal_restitution, rebound_angle, spin_out in 3 rows" in out
+
+
+def test_the_template_wants_no_data(capsys):
+    code, out, error = run(capsys, "data.csv", "--template")
+    assert (code, out) == (2, "")
+    assert "prints an empty table" in error

@@ -142,10 +142,10 @@ def test_ranks_and_newton_agree(lammps):
         np.testing.assert_allclose(other, one, atol=1e-10 * size)
 
 
-def rows(printed):
+def rows(printed, columns=7):
     """The numbers that LAMMPS prints."""
     lines = [line.split() for line in printed.splitlines()]
-    found = [line for line in lines if len(line) == 7 and line[0].isdigit()]
+    found = [line for line in lines if len(line) == columns and line[0].isdigit()]
     return np.array(found, dtype=float)
 
 
@@ -161,6 +161,26 @@ def test_the_ledger_holds_all_energy(lammps):
         off.append(np.abs(total / total[0] - 1.0).max())
     assert off[2] < 3e-5
     assert off[0] / off[1] > 9.0
+
+
+def test_contacts_that_are_there_at_the_start_bear_springs_and_dashpots(lammps):
+    """Spheres that begin pressed and on the move: F = 4/3 E* R*^1/2 d^3/2 (1 + 3/2 tau d'/d)."""
+    young, poisson, radius, depth, speed, step, tau = 1e7, 0.3, 5e-3, 1e-5, 1e-3, 1e-8, 3e-3
+    printed = lammps(
+        f"{HEAD}boundary s s s\natom_modify map array\nregion box block -1 1 -1 1 -1 1\n"
+        f"create_box 1 box\ncreate_atoms 1 single 0 0 0\n"
+        f"create_atoms 1 single 0 0 {2 * radius - depth}\n"
+        f"set group all diameter {2 * radius} density 2500\nset atom 2 vz {-speed}\n"
+        f"pair_style carom springs 64 precision double\npair_coeff * * young {young} "
+        f"poisson {poisson} friction 0.3 retardation {tau}\nfix 1 all nve/sphere\n"
+        f"timestep {step}\nvariable f equal fz[2]\nthermo_style custom step v_f\n"
+        "thermo_modify format float %.12g\nthermo 1\nrun 3\n"
+    )
+    found = rows(printed, columns=2)[:4, 1]
+    modulus = young / (2.0 * (1.0 - poisson**2))
+    depths = depth + speed * step * np.arange(len(found))
+    static = 4.0 / 3.0 * modulus * np.sqrt(0.5 * radius) * depths**1.5
+    np.testing.assert_allclose(found, static * (1.0 + 1.5 * tau * speed / depths), rtol=1e-3)
 
 
 @pytest.mark.parametrize("ranks", [1, 2])

@@ -52,6 +52,9 @@ def fit_command(
     squares: Annotated[
         bool, typer.Option("--squares", help="Least squares: outliers count like all others.")
     ] = False,
+    template: Annotated[
+        bool, typer.Option("--template", help="Print an empty table to fill in, and stop.")
+    ] = False,
     advice: Annotated[
         str | None, whole_option("Tell that many incidences to measure next.")
     ] = None,
@@ -81,7 +84,12 @@ def fit_command(
     Example: carom fit --dataset kharaz2001 --plot kharaz.png
 
     Own data: carom fit rebounds.csv --case ball.toml --fix restitution=0.98 --advice 5
+
+    An empty table: carom fit --template > rebounds.csv
     """
+    if template:
+        _tell_template(data or dataset, as_json)
+        return
     from carom.fitting.advice import PLAN
     from carom.fitting.posterior import FEWEST_STEPS, MOST_SEED, MOST_STEPS
     from carom.io.files import FIGURES, TABLES
@@ -112,6 +120,15 @@ def fit_command(
         typer.echo(json.dumps(found.to_dict() | extra, indent=2))
     else:
         typer.echo("\n".join(str(part) for part in (found, advised) if part is not None))
+
+
+def _tell_template(source: Path | str | None, as_json: bool) -> None:
+    """Print an empty table."""
+    from carom.fitting.template import TEMPLATE
+
+    if source is not None:
+        raise refusal("template", source, "it prints an empty table; give it no data")
+    typer.echo(json.dumps({"template": TEMPLATE}) if as_json else TEMPLATE, nl=as_json)
 
 
 def _source(data: Path | None, dataset: str | None) -> Path:

@@ -58,7 +58,8 @@ def fit(
     fixed : mapping, optional
         Values of parameters that are not varied, e.g. {"restitution": 0.98}.
     robust : bool
-        Whether outliers count less: loss 2 c^2 (sqrt(1 + (r/c)^2) - 1), c = 2, instead of r^2.
+        Whether outliers count less: loss (nu + 1) log(1 + r^2/nu), that of Student's t, instead of
+        r^2; nu is 3, 5, 10 or 30, whichever is likeliest.
     confidence : float or str
         Of the intervals, e.g. 0.95 or "95 %".
     columns : mapping, optional
@@ -95,6 +96,6 @@ def fit(
     options = read_options(problem, vary, fixed)
     check_count(problem, options.free)
     model = Model(EXACT, problem, (), options.start).freeing(options.free)
-    loss = RobustLoss(2.0 if limited else inf)
+    loss = RobustLoss() if limited else RobustLoss(inf)
     settled = settle(model, loss, options.start)
     return assembled(settled, level)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.fitting.errors import RobustLoss
+from carom.fitting.errors import NORMAL, RobustLoss, gaussian_mean
 from carom.fitting.estimates import FitRecord
 from carom.fitting.estimation import Best, information
 from carom.fitting.problem import FitProblem
@@ -136,7 +136,8 @@ def _candidates(best: Best) -> tuple[Array, list[str]]:
     everywhere = np.broadcast_to(sigma, model.problem.measured.shape)
     weights = model.weights(best.at, everywhere, best.scale)
     slopes = information(model, best.at, weights, RobustLoss(inf)).slopes
-    return slopes / np.sqrt(best.spread), [REGIMES[index] for index in model.regimes(best.at)]
+    told = gaussian_mean(np.gradient(best.loss.root(NORMAL), NORMAL) ** 2)  # of one more value
+    return np.sqrt(told) * slopes, [REGIMES[index] for index in model.regimes(best.at)]
 
 
 def _impacts(problem: FitProblem) -> FitProblem:

@@ -27,6 +27,9 @@ def assembled(settled: Settled, confidence: float) -> Fit:
     estimates["chi"] = _as_chi(estimates["kappa"], half_ratio(model.problem.pair))
     counts = np.bincount(model.regimes(best.at), minlength=len(REGIMES))
     regimes = dict(zip(REGIMES, counts.tolist(), strict=True))
+    pair = model.problem.pair
+    for name, elastic in (("kappa", pair.kappa), ("chi", pair.chi)):
+        estimates[name] = replace(estimates[name], elastic=elastic)
     ordered = {name: estimates[name] for name in NAMES}
     return Fit(ordered, confidence, regimes, notes(found, settled.whole, ordered), best)
 

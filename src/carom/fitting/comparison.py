@@ -1,21 +1,30 @@
 """The exact law against rigid Coulomb and Walton's on the same data, by Akaike's criterion."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
-from math import isfinite, nan
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from math import inf, isfinite, nan
 from typing import Any
 
 import numpy as np
+from scipy.special import stdtrit
 
-from carom.fitting.estimation import Best
+from carom.fitting.errors import OUTLYING, RobustLoss
+from carom.fitting.estimation import Best, estimate, fitted, likelihood
 from carom.fitting.intervals import settle
 from carom.fitting.laws import EXACT, OFFSET, RIVALS, FittedLaw
+from carom.fitting.least_squares import descend
 from carom.fitting.model import Model
+from carom.fitting.problem import Mask
+from carom.fitting.starts import scan
+from carom.quantities.arrays import Array
 from carom.quantities.units import or_none
 
 START = {"tangential_restitution": 0.4}  # of a solid sphere that sticks, about
 APART = 2.0  # difference of the criterion from which laws are told apart (Burnham & Anderson 2002)
 CLEAR = 10.0  # from which one is out of the question
+SQUARES = RobustLoss(inf)
+ALARM = 0.001  # probability of calling a value of a response that has none an outlier
+LEAST_KEPT = 0.75  # of the values: where more lie far off, they are no outliers
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,8 +100,13 @@ class Comparison:
 
 
 def compare(best: Best) -> Comparison:
-    """Return the laws on the data of a fit, with the same parameters held and the same loss."""
-    fits = [best, *(_rival(law, best) for law in RIVALS)]
+    """Return the laws on common ground, with the same parameters held, by least squares.
+
+    Values that lie far from the law that describes the others best are left out for all laws, and
+    the errors are those of the best law on what is left: none gains by the scatter that it leaves.
+    """
+    own = [best, *(_rival(law, best) for law in RIVALS)]
+    fits = on_common_ground(own)
     criteria = np.array([criterion(each) for each in fits])
     least = np.nanmin(criteria) if np.isfinite(criteria).any() else nan
     weights = np.exp(-0.5 * (criteria - least))
@@ -101,23 +115,64 @@ def compare(best: Best) -> Comparison:
     return Comparison(
         tuple(
             LawFit(each.model.law.name, *known, _free(each), _values(each), each)
-            for each, known in zip(fits, numbers, strict=True)
+            for each, known in zip([best, *fits[1:]], numbers, strict=True)
         )
     )
 
 
-def criterion(best: Best) -> float:
-    """Return AICc = -2 log L + 2 k n/(n - k - 1) (Hurvich & Tsai 1989); NaN for few values.
+def on_common_ground(fits: Sequence[Best]) -> list[Best]:
+    """Return laws fitted anew without the outliers of one of them, with its errors."""
+    reference = min(fits, key=criterion)
+    problem = reference.model.problem
+    kept = replace(problem, measured=np.where(_far(reference), nan, problem.measured))
+    if kept.count < LEAST_KEPT * problem.count:
+        kept = problem
+    models = [replace(each.model, problem=kept) for each in fits]
+    left = [
+        estimate(model, each.loss, each.at[np.newaxis])
+        for model, each in zip(models, fits, strict=True)
+    ]
+    best = min(left, key=criterion)
+    return [_refitted(each.model, each.at, best) for each in left]
 
-    -2 log L is the sum of losses and the logarithm of the determinant of the covariances.
+
+def _far(best: Best) -> Mask:
+    """Return which values are outliers: by their errors, or by the scatter of the others.
+
+    Where errors come from the scatter an outlier enlarges its own, and is told by the test of
+    extreme studentized deviates (Rosner 1983).
     """
-    present = best.model.problem.present
-    diagonal = np.einsum("rjj->rj", best.weights.factors)
-    likelihood = best.sum - 2.0 * float(np.log(diagonal[present]).sum())
-    values, free = best.model.problem.count, _free(best)
-    if values - free - 1 <= 0:
-        return nan
-    return likelihood + 2.0 * free * values / (values - free - 1)
+    residuals, present = best.residuals, best.model.problem.present
+    far = present & (np.abs(residuals) > OUTLYING)
+    for place in np.flatnonzero(best.estimated):
+        sizes = np.where(present[:, place], np.abs(residuals[:, place]), -1.0)
+        order = np.argsort(-sizes)
+        count, most = int(present[:, place].sum()), int((1.0 - LEAST_KEPT) * len(order))
+        for out in range(min(most, count - 3)):
+            others = sizes[order[out + 1 : count]]
+            freedom = others.size - 1
+            beyond = stdtrit(freedom, 1.0 - 0.5 * ALARM / (freedom + 2))
+            if sizes[order[out]] > beyond * np.sqrt(np.mean(others**2)):
+                far[order[: out + 1], place] = True
+    return far
+
+
+def _refitted(model: Model, at: Array, common: Best) -> Best:
+    """Return least squares of a law with the errors of another one: no outliers are left."""
+    weights = model.weights(at, common.sigma, common.scale)
+    starts = np.concatenate([at[np.newaxis], scan(model, SQUARES, common.sigma)])
+    found = descend(model.residuals(weights, SQUARES), starts, model.bounds)
+    return fitted(model, SQUARES, found.at[np.argmin(found.sums)], common.sigma, common.scale)
+
+
+def _price(free: int, values: int) -> float:
+    """Return what parameters cost, NaN where there are too few values."""
+    return 2.0 * free * values / (values - free - 1) if values > free + 1 else nan
+
+
+def criterion(best: Best) -> float:
+    """Return AICc = -2 log L + 2 k n/(n - k - 1) (Hurvich & Tsai 1989); NaN for few values."""
+    return likelihood(best) + _price(_free(best), best.model.problem.count)
 
 
 def _free(best: Best) -> int:

@@ -1,8 +1,10 @@
-"""Errors of what is measured: a robust loss, weights, and errors that come from the scatter."""
+"""Errors of what is measured: a robust loss, weights, scatter from which errors come."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import gammaln
 
 from carom.fitting.problem import FitProblem, Mask
 from carom.quantities.arrays import Array
@@ -10,33 +12,60 @@ from carom.quantities.arrays import Array
 NORMAL = np.linspace(-10.0, 10.0, 2001)  # where means over a normal distribution are taken
 SURE = 3.09  # standard deviations beyond which errors that were given are called too small
 RESOLVED = 1e-4  # of the largest measured value: errors below are those of the curves
-OUTLYING = 10.0  # times the median: larger values are outliers
+OUTLYING = 4.0  # standard deviations of an outlier
+LARGER = 10.0  # times the median: larger values are outliers before anything is fitted
 TINY = 1e-2  # of what a response may be: values below are as good as zero
+SHARES = (0.0, 0.5, 0.99)  # of a variance that go like the value squared
+LARGEST = 1e70  # residual whose powers do not overflow
+DEGREES = (3.0, 5.0, 10.0, 30.0)  # of freedom of Student's t
+TRUSTED = 10.0  # values that a normal distribution counts for where a mean over few is taken
 
 
 @dataclass(frozen=True)
 class RobustLoss:
-    """Loss 2 c^2 (sqrt(1 + (r/c)^2) - 1) of a residual r in standard deviations.
+    """Loss (nu + 1) log(1 + r^2/nu) of a residual r in standard deviations.
 
-    r^2 for small r, 2 c |r| for outliers (Charbonnier et al. 1997; scipy's soft_l1). With c = 2 it
-    keeps 97 % of the efficiency where errors are Gaussian; with c infinite it is r^2, maximum
-    likelihood for them.
+    -2 log likelihood of Student's t with nu degrees of freedom (Lange, Little & Taylor 1989): about
+    r^2 (nu + 1)/nu for small r, while outliers hardly pull. With nu infinite it is r^2.
     """
 
-    c: float
+    degrees: float = 5.0
+
+    @property
+    def size(self) -> float:
+        """-2 log of the density of a residual of zero."""
+        if self.is_square:
+            return float(np.log(2.0 * np.pi))
+        half = 0.5 * self.degrees
+        return float(np.log(self.degrees * np.pi) - 2.0 * (gammaln(half + 0.5) - gammaln(half)))
+
+    @property
+    def is_square(self) -> bool:
+        """Whether it is the loss of least squares."""
+        return self.degrees == np.inf
 
     def root(self, residual: Array) -> Array:
         """Return the residual whose square is the loss, of the same sign."""
-        square = (residual / self.c) ** 2
-        return np.asarray(residual * np.sqrt(2.0 / (1.0 + np.sqrt(1.0 + square))))
+        if self.is_square:
+            return residual
+        r = np.clip(residual, -LARGEST, LARGEST)
+        return np.copysign(np.sqrt((self.degrees + 1.0) * np.log1p(r**2 / self.degrees)), r)
 
     def influence(self, residual: Array) -> Array:
         """Return half the derivative of the loss."""
-        return np.asarray(residual / np.sqrt(1.0 + (residual / self.c) ** 2))
+        if self.is_square:
+            return residual
+        r = np.clip(residual, -LARGEST, LARGEST)
+        return np.asarray((self.degrees + 1.0) * r / (self.degrees + r**2))
 
     def slope(self, residual: Array) -> Array:
         """Return the derivative of the influence."""
-        return np.asarray((1.0 + (residual / self.c) ** 2) ** -1.5)
+        if self.is_square:
+            return np.ones_like(residual)
+        square = np.clip(residual, -LARGEST, LARGEST) ** 2
+        return np.asarray(
+            (self.degrees + 1.0) * (self.degrees - square) / (self.degrees + square) ** 2
+        )
 
 
 def gaussian_mean(values: Array) -> float:
@@ -56,10 +85,15 @@ class Weights:
         residual = np.where(problem.present, problem.measured - expected, 0.0)
         return np.asarray(np.einsum("rij,brj->bri", self.factors, residual))
 
+    def sizes(self, present: Mask) -> float:
+        """Return the logarithm of the determinant of the covariances."""
+        return -2.0 * float(np.log(np.einsum("rjj->rj", self.factors)[present]).sum())
+
 
 def first_errors(problem: FitProblem) -> Array:
     """Return errors to begin with where none are known: a part of the spread of each response."""
-    spread = np.nanstd(problem.measured, axis=0)
+    low, high = np.nanpercentile(problem.measured, (10.0, 90.0), axis=0)
+    spread = (high - low) / 2.56  # few outliers do not move it
     return np.asarray(0.1 * spread + least_error(problem))
 
 
@@ -71,31 +105,70 @@ def usable_errors(problem: FitProblem) -> Array:
 def least_error(problem: FitProblem) -> Array:
     """Return the error of the interpolated curves, by response."""
     sizes = np.abs(problem.measured)
-    largest = np.minimum(np.nanmax(sizes, axis=0), OUTLYING * np.nanmedian(sizes, axis=0))
+    largest = np.minimum(np.nanmax(sizes, axis=0), LARGER * np.nanmedian(sizes, axis=0))
     return np.asarray(RESOLVED * np.maximum(largest, TINY * problem.sizes))
 
 
+def mean_over(values: Array, function: Callable[[Array], Array], used: float = 0.0) -> float:
+    """Return the mean of a function over residuals, a few of a normal distribution among them."""
+    count = max(values.size - used, 1.0)
+    own = values.size * float(function(values).mean()) / count
+    return (count * own + TRUSTED * gaussian_mean(function(NORMAL))) / (count + TRUSTED)
+
+
+def scattered(
+    problem: FitProblem, deviations: Array, expected: Array, used: Array, loss: RobustLoss
+) -> Array:
+    """Return standard deviations of responses, of shape (rows, responses), from how they scatter.
+
+    Angles and ratios scatter by a constant, sigma = s; speeds and spins by a constant and a share
+    of the value, sigma^2 = s^2 (1 - a + a y^2/median(y)^2), y the expected values. Variances are a
+    mean over a, weighted by the likelihood (Burnham & Anderson 2002, section 4.2); in least squares
+    they are constant.
+    """
+    shares = np.array(SHARES[:1] if loss.is_square else SHARES)[:, np.newaxis]
+    sigma, least = np.ones((len(shares), *problem.present.shape)), least_error(problem)
+    for place, there in enumerate(problem.present.T):
+        sizes = expected[there, place] ** 2 / max(np.median(expected[there, place] ** 2), 1e-300)
+        parts = shares * problem.scales_with_speed[place]
+        shapes = np.sqrt(1.0 - parts + parts * sizes)
+        scales = _scales(deviations[there, place] / shapes, used[place], loss)
+        sigma[:, there, place] = np.maximum(scales[:, np.newaxis] * shapes, least[place])
+    own, there = sigma[:, problem.present], deviations[problem.present]
+    against = (2.0 * np.log(own) + loss.root(there / own) ** 2).sum(axis=1)
+    weights = np.exp(-0.5 * (against - against.min()))
+    return np.asarray(np.sqrt(np.tensordot(weights / weights.sum(), sigma**2, axes=1)))
+
+
+def likeliest(residuals: Array) -> RobustLoss:
+    """Return the loss with those degrees of freedom by which residuals are likeliest."""
+
+    def against(loss: RobustLoss) -> float:
+        return float((loss.root(residuals) ** 2 + loss.size).sum())
+
+    return min((RobustLoss(degrees) for degrees in DEGREES), key=against)
+
+
 def scatter(residuals: Array, present: Mask, used: Array, loss: RobustLoss) -> Array:
-    """Return by how much the scatter of each response exceeds its errors (Huber's proposal 2)."""
-    wanted = gaussian_mean(loss.influence(NORMAL) ** 2)
-    factors = np.ones(len(used))
-    for place, (column, there) in enumerate(zip(residuals.T, present.T, strict=True)):
-        if np.any(column[there]):
-            kept = max(1.0 - used[place] / there.sum(), 0.05)
-            factors[place] = _factor(column[there], loss, wanted * kept)
-    return factors
+    """Return by how much the scatter of each response exceeds its errors."""
+    columns = zip(residuals.T, present.T, used, strict=True)
+    return np.array(
+        [float(_scales(r[there], part, loss)) if there.any() else 1.0 for r, there, part in columns]
+    )
 
 
-def _factor(residuals: Array, loss: RobustLoss, wanted: float) -> float:
-    """Return what residuals are to be divided by for their mean square influence to be this."""
-    factor = 1.0
+def _scales(residuals: Array, used: float, loss: RobustLoss) -> Array:
+    """Return the scales of residuals along the last axis: mean r psi(r) as normal ones have it."""
+    kept = max(1.0 - used / residuals.shape[-1], 0.05)
+    wanted = kept * gaussian_mean(NORMAL * loss.influence(NORMAL))
+    factor = np.sqrt(np.mean(residuals**2, axis=-1))
     for _ in range(50):
-        mean = float(np.mean(loss.influence(residuals / factor) ** 2))
-        step = np.sqrt(mean / wanted)
-        factor *= float(step)
-        if abs(step - 1.0) < 1e-5:
+        scaled = residuals / np.maximum(factor, 1e-300)[..., np.newaxis]
+        step = np.sqrt(np.mean(scaled * loss.influence(scaled), axis=-1) / wanted)
+        factor = factor * step
+        if np.all((np.abs(step - 1.0) < 1e-5) | (factor == 0.0)):
             break
-    return factor
+    return np.asarray(factor)
 
 
 def typical_deviation(residuals: Array, present: Mask) -> Array:

@@ -27,7 +27,8 @@ class Estimate:
 
     An end that the data leave open is that of what is possible: 0, 1, infinity. An undetermined
     parameter has NaN as ends, a reason, and as value what was assumed; one that was not varied has
-    NaN as ends and no reason.
+    NaN as ends and no reason. `elastic` is what the elastic constants of the bodies give for kappa
+    and chi.
 
     Examples
     --------
@@ -41,6 +42,7 @@ class Estimate:
     low: float = nan
     high: float = nan
     reason: str = ""
+    elastic: float = nan
 
     @property
     def determined(self) -> bool:
@@ -55,7 +57,8 @@ class Estimate:
 
     def to_dict(self) -> dict[str, Any]:
         """Return value, ends and reason as plain numbers and texts; what is open is None."""
-        numbers = {name: or_none(getattr(self, name)) for name in ("value", "low", "high")}
+        names = ("value", "low", "high", *(() if isnan(self.elastic) else ("elastic",)))
+        numbers = {name: or_none(getattr(self, name)) for name in names}
         return {**numbers, "determined": self.determined, "reason": self.reason}
 
     def __str__(self) -> str:

@@ -1,8 +1,9 @@
 """The best fit: descents from a few starts, errors from the scatter, and lmfit at the end."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,6 +17,9 @@ from carom.quantities.arrays import Array
 
 WEAK = 0.3  # standard deviations by which a coordinate changes the values, too few to tell
 TURNS = 8  # times that errors are estimated and the fit is made anew
+FOLLOWED = 3  # minima that are followed with errors of their own
+HOPELESS = 20.0  # of -2 log likelihood behind the best, after two turns
+SAME = 0.02  # of a coordinate between ends of descents that are one minimum
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,47 +140,140 @@ class Best:
     def spread(self) -> float:
         """What the loss rises by, in units of chi squared, where a parameter is one sigma off.
 
-        E[influence^2]/E[slope] (Huber 1981, section 7.6): 1 for squares.
+        E[influence^2]/E[slope] (Huber 1981, section 7.6), 1 for squares: that of normal errors, or
+        more where those found say so.
         """
-        influence = errors.gaussian_mean(self.loss.influence(errors.NORMAL) ** 2)
-        expected = errors.gaussian_mean(self.loss.slope(errors.NORMAL))
-        found = self.loss.slope(self.residuals[self.model.problem.present])
-        return influence / min(expected, float(found.mean()))
+        if self.loss.is_square:
+            return 1.0
+        found = self.residuals[self.model.problem.present]
+        used = float(self.information.used.sum())
+
+        def ratio(mean: Callable[[Callable[[Array], Array]], float]) -> float:
+            return mean(lambda r: self.loss.influence(r) ** 2) / mean(self.loss.slope)
+
+        normal = ratio(lambda f: errors.gaussian_mean(f(errors.NORMAL)))
+        return max(normal, ratio(lambda f: errors.mean_over(found, f, used)))
+
+
+class _Settling(NamedTuple):
+    """Coordinates, the errors there, and what the data say against them: -2 log likelihood."""
+
+    at: Array
+    loss: errors.RobustLoss
+    sigma: Array
+    scale: Array
+    against: float
 
 
 def estimate(model: Model, loss: errors.RobustLoss, start: Array | None = None) -> Best:
     """Return the best fit of a model, from starting points or, without them, those of a scan.
 
-    Descents from there, and between them errors estimated from the scatter of the responses that
-    have none.
+    Errors of responses that have none come from the scatter. From there each minimum is followed by
+    itself, with errors of its own: the likeliest is the best.
     """
     problem = model.problem
     unknown = problem.present & ~np.isfinite(problem.errors)
     estimated = np.asarray(unknown.any(axis=0))
-    sigma = np.where(unknown, errors.first_errors(problem), errors.usable_errors(problem))
-    scale = np.ones(len(problem.responses))
-    at = scan(model, loss, sigma) if start is None else start
-    others = at
-    for turn in range(TURNS):
-        weights = model.weights(at[0], sigma, scale)
-        found = descend(model.residuals(weights, loss), at, model.bounds)
-        order = np.argsort(found.sums)
-        at = found.at[order]
-        if turn == 0:
-            others, at = at[1:], at[:2]
-        residuals = weights.whitened(problem, model.expected(at[:1]))[0]
-        used = information(model, at[0], weights, loss).used
-        factors = errors.scatter(residuals, problem.present, used, loss)
-        sigma = np.where(unknown, np.maximum(sigma * factors, errors.least_error(problem)), sigma)
-        given = np.where(estimated, 1.0, np.maximum(scale * factors, 1.0))
+    rough = errors.first_errors(problem)
+    sigma = np.where(unknown, rough, errors.usable_errors(problem))
+    wide = np.maximum(sigma, rough)
+    at = scan(model, loss, wide) if start is None else start
+    weights = model.weights(at[0], wide, np.ones(len(problem.responses)))
+    first = descend(model.residuals(weights, loss), at, model.bounds)
+    minima = distinct(first.at[np.argsort(first.sums)])
+    begun = [_followed(model, loss, each, sigma, estimated, 2) for each in minima[:FOLLOWED]]
+    least = min(each.against for each in begun)
+    followed = [
+        _followed(model, each.loss, each.at, each.sigma, estimated, TURNS)
+        for each in begun
+        if each.against <= least + HOPELESS
+    ]
+    found = min(followed, key=lambda each: each.against)
+    others = [each.at for each in (*followed, *begun) if each is not found]
+    return fitted(
+        model,
+        found.loss,
+        found.at,
+        found.sigma,
+        found.scale,
+        np.array([*others, *minima[FOLLOWED:]]),
+    )
+
+
+def fitted(
+    model: Model,
+    loss: errors.RobustLoss,
+    at: Array,
+    sigma: Array,
+    scale: Array,
+    others: Array | None = None,
+) -> Best:
+    """Return the best fit from a point on, with these errors."""
+    unknown = model.problem.present & ~np.isfinite(model.problem.errors)
+    weights = model.weights(at, sigma, scale)
+    best, result = polished(model, weights, loss, at)
+    total = float(np.square(model.residuals(weights, loss)(best[np.newaxis])).sum())
+    elsewhere = np.empty((0, len(at))) if others is None or not len(others) else others
+    return Best(
+        model,
+        best,
+        total,
+        weights,
+        loss,
+        sigma,
+        scale,
+        np.asarray(unknown.any(axis=0)),
+        elsewhere,
+        result,
+    )
+
+
+def likelihood(best: Best) -> float:
+    """Return -2 log likelihood."""
+    problem = best.model.problem
+    return best.sum + best.weights.sizes(problem.present) + problem.count * best.loss.size
+
+
+def distinct(points: Array) -> Array:
+    """Return the points that are not, but for rounding, one of those before."""
+    kept: list[Array] = []
+    for point in points:
+        if all(np.abs(point - other).max(initial=0.0) > SAME for other in kept):
+            kept.append(point)
+    return np.array(kept)
+
+
+def _followed(
+    model: Model, loss: errors.RobustLoss, at: Array, sigma: Array, estimated: Mask, turns: int
+) -> _Settling:
+    """Estimate the errors from the scatter and descend, in turns."""
+    problem, scale = model.problem, np.ones(len(estimated))
+    for turn in range(turns):
+        weights, before = model.weights(at, sigma, scale), (sigma, scale)
+        expected = model.expected(at[np.newaxis])
+        residuals = weights.whitened(problem, expected)[0]
+        if not loss.is_square:
+            loss = errors.likeliest(residuals[problem.present])
+        used = information(model, at, weights, loss).used
+        found = errors.scattered(problem, residuals * sigma, expected[0], used, loss)
+        factors = scale * errors.scatter(residuals, problem.present, used, loss)
+        given = np.where(estimated, 1.0, np.maximum(factors, 1.0))
         common = scale * errors.typical_deviation(residuals, problem.present)
         scale = np.where(errors.too_small(problem.present, given, common), given, 1.0)
-        if np.all(np.abs(factors[estimated] - 1.0) < 1e-3) and turn:
+        sigma = np.where(estimated, found, sigma)
+        lowest = descend(
+            model.residuals(model.weights(at, sigma, scale), loss), at[np.newaxis], model.bounds
+        )
+        at = lowest.at[0]
+        if turn and all(
+            np.nanmax(np.abs(now / then - 1.0)) < 1e-3
+            for now, then in zip((sigma, scale), before, strict=True)
+        ):
             break
-    weights = model.weights(at[0], sigma, scale)
-    best, result = polished(model, weights, loss, at[0])
-    total = float(np.square(model.residuals(weights, loss)(best[np.newaxis])).sum())
-    return Best(model, best, total, weights, loss, sigma, scale, estimated, others, result)
+    weights = model.weights(at, sigma, scale)
+    total = float(np.square(model.residuals(weights, loss)(at[np.newaxis])).sum())
+    total += weights.sizes(problem.present) + problem.count * loss.size
+    return _Settling(at, loss, sigma, scale, total)
 
 
 def polished(

@@ -60,6 +60,11 @@ class FitProblem:
         return bool({"speed", "normal_speed"} & set(self.before))
 
     @property
+    def scales_with_speed(self) -> tuple[bool, ...]:
+        """Which responses are speeds or spins."""
+        return tuple(GLOSSARY[name].unit in ("m/s", "rad/s") for name in self.responses)
+
+    @property
     def is_normal(self) -> bool:
         """Whether every impact is a normal one, and nothing moves sideways."""
         sideways = np.abs(self.contact_velocity) > NOTHING * self.motion.normal_speed

@@ -1,18 +1,20 @@
 """The result of a fit in words."""
 
 from collections.abc import Mapping
+from math import isnan
 
 import numpy as np
 
-from carom.fitting.errors import least_error
+from carom.fitting.errors import OUTLYING, least_error
 from carom.fitting.estimates import LIMITS, Estimate, FitRecord
 from carom.fitting.estimation import Best
 from carom.fitting.intervals import ProfiledFit
+from carom.fitting.mistakes import likely_mistake
 
 AT_END = 1e-6  # of a coordinate from an end of its range
 APART = 0.1  # of a coordinate between two minima
-FAR = 4.0  # standard deviations of an outlier
 COLUMN = 14
+POSSIBLE = (2.0 / 3.0, 1.0)  # kappa for Poisson's ratios from 1/2 to 0
 
 
 def as_text(fit: FitRecord) -> str:
@@ -23,11 +25,18 @@ def as_text(fit: FitRecord) -> str:
         f"{len(problem.rows)} row{'s' * (len(problem.rows) != 1)}; "
         f"intervals of {100.0 * fit.confidence:g} % by profile likelihood"
     )
-    lines = [head, *(f"  {name:{COLUMN}s} {each}" for name, each in fit.estimates.items())]
+    lines = [head, *(f"  {name:{COLUMN}s} {_line(each)}" for name, each in fit.estimates.items())]
     regimes = ", ".join(f"{name}: {count}" for name, count in fit.regimes.items() if count)
     lines.append(f"rows by regime: {regimes}")
     lines += [f"note: {note}" for note in fit.notes]
     return "\n".join([*lines, str(fit.comparison)])
+
+
+def _line(estimate: Estimate) -> str:
+    """Return an estimate, with what the bodies give beside it."""
+    if not estimate.determined or isnan(estimate.elastic):
+        return str(estimate)
+    return f"{estimate}; of the elastic constants: {estimate.elastic:.3g}"
 
 
 def notes(found: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) -> tuple[str, ...]:
@@ -36,6 +45,10 @@ def notes(found: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) ->
     problem = best.model.problem
     lines = [*_about_errors(best), *_about_outliers(best), *_about_regimes(found)]
     lines += [*_about_ranges(best), *_about_incidence(whole), *_about_others(whole, estimates)]
+    lines += _about_bodies(estimates["kappa"])
+    mistake = likely_mistake(whole, estimates)
+    if mistake is not None:
+        lines.append(str(mistake))
     if problem.ignored:
         lines.append(f"columns that were not used: {', '.join(problem.ignored)}")
     gaps = np.asarray(~problem.present.any(axis=1))
@@ -79,9 +92,19 @@ def _about_ranges(best: Best) -> list[str]:
 
 
 def _about_outliers(best: Best) -> list[str]:
-    far = np.asarray((np.abs(best.residuals) > FAR).any(axis=1))
+    far = np.asarray((np.abs(best.residuals) > OUTLYING).any(axis=1))
     rows = best.model.problem.rows
     return [f"outliers: {rows.named(far)}"] if far.any() else []
+
+
+def _about_bodies(kappa: Estimate) -> list[str]:
+    """Return what the bodies have to say of a kappa that was fitted."""
+    if not kappa.determined or kappa.low <= kappa.elastic <= kappa.high:
+        return []
+    told = f"kappa: the interval leaves out {kappa.elastic:.3g}, that of the elastic constants"
+    if POSSIBLE[0] <= kappa.value <= POSSIBLE[1]:
+        return [f"{told}; check bodies, units and signs"]
+    return [f"{told}, and elastic bodies have 2/3 to 1; check bodies, units and signs"]
 
 
 def _about_regimes(found: ProfiledFit) -> list[str]:

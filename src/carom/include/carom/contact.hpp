@@ -83,10 +83,11 @@ inline void prepare(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, S
 
 /// Second: the springs.
 template <int N, class Real, unsigned P>
-inline void march(Contact<N, Real, P>& c, const Pair& pair, Stage& stage) {
+inline void march(Contact<N, Real, P>& c, const Pair& pair, const Numbers<N, Real>& numbers,
+                  Stage& stage) {
     stage.sums = Sums{};
     if (pair.friction > 0.0 || (P & viscous) != 0)
-        stage.sums = march(c, stage.now, stage.edge, pair.viscous_shear);
+        stage.sums = march(c, numbers, stage.now, stage.edge, pair.viscous_shear);
 }
 
 /// Last: the load.
@@ -130,7 +131,7 @@ inline Status advance(Contact<N, Real, P>& contact, const Pair& pair, const Moti
     }
     springs::Stage stage;
     springs::prepare(contact, pair, motion, stage);
-    springs::march(contact, pair, stage);
+    springs::march(contact, pair, springs::Numbers<N, Real>{}, stage);
     springs::settle(contact, pair, motion, stage, load);
     return status;
 }

@@ -11,24 +11,10 @@
 #ifndef CAROM_CONTACT_IN_SPACE_HPP
 #define CAROM_CONTACT_IN_SPACE_HPP
 
-#include <array>
-
 #include "contact.hpp"
+#include "encounter.hpp"
 
 namespace carom {
-
-using Vector = std::array<double, 3>;
-
-inline double dot(const Vector& a, const Vector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-inline Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-/// a + factor b
-inline Vector plus(const Vector& a, double factor, const Vector& b) {
-    return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
-}
 
 /// An elastic solid: Young's modulus, infinite for a rigid one, and Poisson's ratio.
 struct Material {
@@ -38,28 +24,6 @@ struct Material {
 /// Size of a body: its radius, infinite for a wall, negative for the inside of a bowl; its mass.
 struct Size {
     double radius, mass;
-};
-
-/// A sphere on its way; of a wall the position is the point of it that is nearest.
-struct Body {
-    Vector position, velocity, spin;
-    double radius;  ///< 0 for a wall
-};
-
-/// What the contact sees of two bodies.
-struct Encounter {
-    Vector normal;    ///< from the second body to the first, of length one
-    Vector velocity;  ///< of the first body's contact point less that of the second's
-    double penetration;
-    double spin;  ///< mean spin of the bodies about the normal, by which the contact turns
-    double step;
-    double arm, other_arm;  ///< from the centres to the contact
-};
-
-/// Force on the first body, the opposite on the second; torques; energies lost in the step.
-struct Action {
-    Vector force, torque, other_torque;
-    double friction, viscosity;
 };
 
 /// The memory of a contact in space: that in its plane, and the direction in it that is called x.
@@ -85,137 +49,160 @@ inline Pair pair_of(Material one, Material other, Size first, Size second, doubl
     return pair;
 }
 
-/// Return what a contact sees of two spheres.
-inline Encounter encounter(const Body& one, const Body& other, double step) {
-    Encounter e{};
-    const Vector apart = plus(one.position, -1.0, other.position);
-    const double distance = std::sqrt(dot(apart, apart));
-    const double per_distance = 1.0 / distance;
-    for (int i = 0; i < 3; ++i) e.normal[i] = per_distance * apart[i];
-    e.penetration = one.radius + other.radius - distance;
-    // both points are one, so that angular momentum is kept
-    e.other_arm = other.radius > 0.0 ? other.radius - 0.5 * e.penetration : 0.0;
-    e.arm = distance - e.other_arm;
-    e.velocity = plus(one.velocity, -1.0, other.velocity);
-    e.velocity = plus(e.velocity, -e.arm, cross(one.spin, e.normal));
-    e.velocity = plus(e.velocity, -e.other_arm, cross(other.spin, e.normal));
-    e.spin = 0.5 * (dot(one.spin, e.normal) + dot(other.spin, e.normal));
-    e.step = step;
-    return e;
-}
-
 namespace springs {
 
-/// Return the axis carried along: into the plane of the contact, which turns about its normal.
-template <class Real>
-inline Vector carried(const Real (&axis)[3], const Vector& normal, double angle) {
-    Vector x = {double(axis[0]), double(axis[1]), double(axis[2])};
-    x = plus(x, -dot(x, normal), normal);
-    double square = dot(x, x);
-    if (!(square > 0.01)) {  // a first touch: any direction in the plane
-        const Vector away = std::fabs(normal[0]) < 0.6 ? Vector{1, 0, 0} : Vector{0, 1, 0};
-        x = plus(away, -dot(away, normal), normal);
-        square = dot(x, x);
-    }
-    const Vector y = cross(normal, x);
-    const double half = 0.5 * angle, c = 1.0 - half * half, s = 2.0 * half;  // angle + O(angle^3)
-    square *= (1.0 + half * half) * (1.0 + half * half);
-    const bool is_near = std::fabs(square - 1.0) < 1e-6;  // as it is in every step but the first
-    const double scale = is_near ? 1.5 - 0.5 * square : 1.0 / std::sqrt(square);
-    return {scale * (c * x[0] + s * y[0]), scale * (c * x[1] + s * y[1]),
-            scale * (c * x[2] + s * y[2])};
+/// Return the axis, or another direction if it has come to stand along the normal: as has that of a
+/// first touch, all zeros.
+template <class Real> Vector axis_of(const Real (&axis)[3], const Vector& normal) {
+    const Vector x = {double(axis[0]), double(axis[1]), double(axis[2])};
+    const double along = dot(x, normal);
+    if (dot(x, x) - along * along > 0.01) return x;
+    return std::fabs(normal[0]) < 0.6 ? Vector{1, 0, 0} : Vector{0, 1, 0};
 }
 
-}  // namespace springs
-
-/// Set the torques that a force has on the bodies.
-inline void turn(Action& action, const Encounter& e) {
-    const Vector side = cross(action.force, e.normal);
-    action.torque = {e.arm * side[0], e.arm * side[1], e.arm * side[2]};
-    action.other_torque = {e.other_arm * side[0], e.other_arm * side[1], e.other_arm * side[2]};
-}
-
-namespace springs {
-
-/// What an encounter is in the plane of the contact, between the stages of a step.
-struct InPlane {
-    Vector x, y;
-    Motion motion;
-    Stage stage;
+/// The plane of a contact: its axes, and the motion in it.
+template <class T> struct Plane {
+    Triple<T> x, y;
+    T approach, slide_x, slide_y;
 };
 
-/// Find the plane and the motion in it.
-template <int N, class Real, unsigned P>
-inline Status face(ContactInSpace<N, Real, P>& contact, const Pair& pair, const Encounter& e,
-                   InPlane& plane) {
-    const double angle = contact.spacing > 0 ? e.spin * e.step : 0.0;
-    plane.x = carried(contact.axis, e.normal, angle);
+/// Carry an axis along, into the plane of the contact, which turns about its normal.
+template <class T> Plane<T> plane_of(const Triple<T>& axis, const EncounterOf<T>& e) {
+    Plane<T> plane;
+    const Triple<T> x = plus(axis, -dot(axis, e.normal), e.normal), y = cross(e.normal, x);
+    const T half = 0.5 * e.spin * e.step, square = half * half;  // by the angle + O(angle^3)
+    const T scale = 1.0 / (root(dot(x, x)) * (1.0 + square));
+    plane.x = plus(times(scale * (1.0 - square), x), scale * (half + half), y);
     plane.y = cross(e.normal, plane.x);
-    plane.motion = {e.penetration, -dot(e.velocity, e.normal), dot(e.velocity, plane.x),
-                    dot(e.velocity, plane.y), e.step};
-    const Status status = status_of(pair, plane.motion);
-    if (status == Status::ok)
-        for (int i = 0; i < 3; ++i) contact.axis[i] = static_cast<Real>(plane.x[i]);
-    return status;
+    plane.approach = -dot(e.velocity, e.normal);
+    plane.slide_x = dot(e.velocity, plane.x);
+    plane.slide_y = dot(e.velocity, plane.y);
+    return plane;
 }
 
-/// Return what a load does to the bodies.
-inline void act(const Load& load, const InPlane& plane, const Encounter& e, Action& action) {
-    const Vector aside = plus({load.x * plane.x[0], load.x * plane.x[1], load.x * plane.x[2]},
-                              load.y, plane.y);
-    action.force = {load.normal * e.normal[0] - aside[0], load.normal * e.normal[1] - aside[1],
-                    load.normal * e.normal[2] - aside[2]};
+/// Return what forces in the plane, against the slide, do to the bodies.
+template <class T>
+ActionOf<T> act(T normal, T x, T y, const Plane<T>& plane, const EncounterOf<T>& e) {
+    ActionOf<T> action;
+    action.force = plus(plus(times(normal, e.normal), -x, plane.x), -y, plane.y);
     turn(action, e);
-    action.friction = load.friction;
-    action.viscosity = load.viscosity;
+    return action;
+}
+
+template <class Real> void keep_axis(Real (&axis)[3], const Vector& x) {
+    for (std::size_t i = 0; i < 3; ++i) axis[i] = static_cast<Real>(x[i]);
 }
 
 }  // namespace springs
-
-/// Bring contacts in space to the end of a step and return what they do to the bodies; nothing
-/// changes of one whose status is not ok. Several at once take less time than one by one.
-template <int N, class Real, unsigned P>
-inline void advance(ContactInSpace<N, Real, P>* const contacts[], const Pair pairs[],
-                    const Encounter meetings[], Action actions[], Status statuses[], int count) {
-    constexpr int together = 16;
-    springs::InPlane planes[together];
-    for (int from = 0; from < count; from += together) {
-        const int to = count - from < together ? count : from + together;
-        int pressed = 0, places[together];
-        for (int k = from; k < to; ++k) {
-            springs::InPlane& plane = planes[pressed];
-            statuses[k] = springs::face(*contacts[k], pairs[k], meetings[k], plane);
-            if (statuses[k] != Status::ok) continue;
-            if (plane.motion.penetration > 0.0) {
-                places[pressed++] = k;
-            } else {
-                Load load{};
-                springs::part(*contacts[k], plane.motion, load);
-                springs::act(load, plane, meetings[k], actions[k]);
-            }
-        }
-        for (int i = 0; i < pressed; ++i)
-            springs::prepare(*contacts[places[i]], pairs[places[i]], planes[i].motion,
-                             planes[i].stage);
-        for (int i = 0; i < pressed; ++i)
-            springs::march(*contacts[places[i]], pairs[places[i]], planes[i].stage);
-        for (int i = 0; i < pressed; ++i) {
-            const int k = places[i];
-            Load load;
-            springs::settle(*contacts[k], pairs[k], planes[i].motion, planes[i].stage, load);
-            springs::act(load, planes[i], meetings[k], actions[k]);
-        }
-    }
-}
 
 /// Bring one contact in space to the end of a step.
 template <int N, class Real, unsigned P>
 inline Status advance(ContactInSpace<N, Real, P>& contact, const Pair& pair, const Encounter& e,
                       Action& action) {
-    ContactInSpace<N, Real, P>* const one = &contact;
-    Status status = Status::ok;
-    advance(&one, &pair, &e, &action, &status, 1);
+    const auto plane = springs::plane_of(springs::axis_of(contact.axis, e.normal), e);
+    Load load;
+    const Motion motion{e.penetration, plane.approach, plane.slide_x, plane.slide_y, e.step};
+    const Status status = advance(contact, pair, motion, load);
+    if (status != Status::ok) return status;
+    springs::keep_axis(contact.axis, plane.x);
+    action = springs::act(load.normal, load.x, load.y, plane, e);
+    action.friction = load.friction;
+    action.viscosity = load.viscosity;
     return status;
+}
+
+namespace springs {
+
+/// Return the axes of contacts in lanes; those left over have that of the last.
+template <class Contact>
+Triple<Wide::Type> axes_of(Contact* const contacts[], const Encounters& e, int count) {
+    Vector axes[lanes];
+    for (int k = 0; k < lanes; ++k)
+        axes[k] = axis_of(contacts[std::min(k, count - 1)]->axis, in_lane(e.normal, k));
+    const auto along = [&](std::size_t i) { return Wide::each([&](int k) { return axes[k][i]; }); };
+    return {along(0), along(1), along(2)};
+}
+
+constexpr int together = 16;  // contacts in a batch
+
+/// What a batch does in its planes, and which of it are pressed.
+struct Batch {
+    Motion motions[together];
+    Load loads[together];
+    int pressed[together], count = 0;
+};
+
+/// Step those that are pressed, by stages: none waits for the roots of another.
+template <int N, class Real, unsigned P>
+inline void press(ContactInSpace<N, Real, P>* const contacts[], const Pair pairs[], Batch& batch,
+                  const Numbers<N, Real>& numbers) {
+    Stage stages[together];
+    const int* const which = batch.pressed;
+    for (int i = 0; i < batch.count; ++i)
+        prepare(*contacts[which[i]], pairs[which[i]], batch.motions[which[i]], stages[i]);
+    for (int i = 0; i < batch.count; ++i)
+        march(*contacts[which[i]], pairs[which[i]], numbers, stages[i]);
+    for (int i = 0; i < batch.count; ++i)
+        settle(*contacts[which[i]], pairs[which[i]], batch.motions[which[i]], stages[i],
+               batch.loads[which[i]]);
+}
+
+/// Bring a batch of contacts to the end of a step.
+template <int N, class Real, unsigned P>
+inline void advance_batch(ContactInSpace<N, Real, P>* const contacts[], const Pair pairs[],
+                          const Encounters meetings[], Actions actions[], Status statuses[],
+                          int count, const Numbers<N, Real>& numbers) {
+    Plane<Wide::Type> planes[together / lanes];
+    Batch batch;
+    for (int k = 0; k < count; ++k) {
+        const Encounters& e = meetings[k / lanes];
+        Plane<Wide::Type>& plane = planes[k / lanes];
+        const int lane = k % lanes;
+        if (lane == 0) plane = plane_of(axes_of(contacts + k, e, count - k), e);
+        Motion& motion = batch.motions[k];
+        motion = {in_lane(e.penetration, lane), in_lane(plane.approach, lane),
+                  in_lane(plane.slide_x, lane), in_lane(plane.slide_y, lane), in_lane(e.step, lane)};
+        statuses[k] = status_of(pairs[k], motion);
+        if (statuses[k] == Status::ok && motion.penetration > 0.0) {
+            batch.pressed[batch.count++] = k;
+        } else {
+            batch.loads[k] = Load{};
+            if (statuses[k] != Status::ok) continue;
+            part(*contacts[k], motion, batch.loads[k]);
+        }
+        keep_axis(contacts[k]->axis, in_lane(plane.x, lane));
+    }
+    press(contacts, pairs, batch, numbers);
+    for (int k = 0; k < count; k += lanes) {
+        const auto in_lanes = [&](double Load::*part) {
+            return Wide::each(
+                [&](int lane) { return batch.loads[std::min(k + lane, count - 1)].*part; });
+        };
+        Actions& action = actions[k / lanes];
+        action = act(in_lanes(&Load::normal), in_lanes(&Load::x), in_lanes(&Load::y),
+                     planes[k / lanes], meetings[k / lanes]);
+        if constexpr ((P & ledger) != 0) {
+            action.friction = in_lanes(&Load::friction);
+            action.viscosity = in_lanes(&Load::viscosity);
+        } else {
+            action.friction = action.viscosity = Wide::Type{};
+        }
+    }
+}
+
+}  // namespace springs
+
+/// Bring contacts in space to the end of a step and return what they do to the bodies; nothing
+/// changes of one whose status is not ok, and it has no force. Several at once take less time than
+/// one by one. Number k is in lane k % lanes of structure k / lanes; lanes that are left over hold
+/// any encounter.
+template <int N, class Real, unsigned P>
+inline void advance(ContactInSpace<N, Real, P>* const contacts[], const Pair pairs[],
+                    const Encounters meetings[], Actions actions[], Status statuses[], int count) {
+    const springs::Numbers<N, Real> numbers;
+    for (int k = 0; k < count; k += springs::together)
+        springs::advance_batch(contacts + k, pairs + k, meetings + k / lanes, actions + k / lanes,
+                               statuses + k, std::min(count - k, springs::together), numbers);
 }
 
 /// Make the memory of a contact that of the second body's side, whose normal is the opposite one.

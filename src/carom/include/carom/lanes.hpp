@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 namespace carom {
 namespace springs {
@@ -19,6 +20,16 @@ constexpr int register_bytes = 32;
 #else
 constexpr int register_bytes = 16;
 #endif
+
+/// Square root, of a number or of each in a register.
+template <class T> T root(T all) {
+    if constexpr (std::is_arithmetic_v<T>) {
+        return std::sqrt(all);
+    } else {
+        for (unsigned i = 0; i < sizeof all / sizeof all[0]; ++i) all[i] = std::sqrt(all[i]);
+        return all;
+    }
+}
 
 /// Numbers that fit into a register, of lines of N.
 template <class Real, int N> struct Lanes {
@@ -32,10 +43,13 @@ template <class Real, int N> struct Lanes {
         __asm__("" : "+m"(each));
         return of(each);
     }
-    static Type root(Type all) {
-        for (int i = 0; i < count; ++i) all[i] = std::sqrt(all[i]);
+    /// Numbers by lane.
+    template <class Give> static Type each(Give give) {
+        Type all{};
+        for (int i = 0; i < count; ++i) all[i] = give(i);
         return all;
     }
+    static Real lane(const Type& all, int i) { return all[i]; }
     /// Sum of all lanes, by halves.
     static Real total(Type all) {
         if constexpr (count > 4) {
@@ -53,7 +67,8 @@ template <class Real, int N> struct Lanes {
     using Type = Real;
 
     static Type fixed(Real each) { return each; }
-    static Type root(Type each) { return std::sqrt(each); }
+    template <class Give> static Type each(Give give) { return give(0); }
+    static Real lane(Type all, int) { return all; }
     static Real total(Type each) { return each; }
 #endif
 

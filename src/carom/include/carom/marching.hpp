@@ -18,20 +18,27 @@ struct Sums {
     double x, y, friction, viscosity;
 };
 
+/// Constants in each lane of a register, made once for many contacts.
+template <int N, class Real> struct Numbers {
+    using L = Lanes<Real, N>;
+    typename L::Type zero = L::fixed(0), half = L::fixed(Real(0.5)), one = L::fixed(1);
+    typename L::Type tiny = L::fixed(std::numeric_limits<Real>::min()), steep = L::of(1e20);
+};
+
 /// The springs of a step: what they share, in each lane of a register, and what they add up to.
 template <int N, class Real, unsigned P> struct March {
     using L = Lanes<Real, N>;
     using V = typename L::Type;
     static constexpr Places<N, Real> places{};
 
-    V zero = L::fixed(0), half = L::fixed(Real(0.5)), one = L::fixed(1), steep = L::of(1e20);
-    V tiny = L::fixed(std::numeric_limits<Real>::min());
+    V zero, half, one, tiny, steep;
     V depth, before, limit, rim, keep, kept, least, full, moved_x, moved_y, drag_x, drag_y;
     V along{}, across{}, rubbed{}, dragged{};
     bool viscous_shear, turns;
 
-    March(const Now& now, double edge, bool sheared)
-        : depth(L::of(now.depth)), before(L::of(now.before)), limit(L::of(now.limit)),
+    March(const Numbers<N, Real>& n, const Now& now, double edge, bool sheared)
+        : zero(n.zero), half(n.half), one(n.one), tiny(n.tiny), steep(n.steep),
+          depth(L::of(now.depth)), before(L::of(now.before)), limit(L::of(now.limit)),
           rim(L::of(edge)), keep(L::of(now.keep)), least(L::of(now.least)), full(L::of(now.most)),
           moved_x(L::of(now.moved_x)), moved_y(L::of(now.moved_y)), drag_x(L::of(now.drag_x)),
           drag_y(L::of(now.drag_y)), viscous_shear(sheared),
@@ -41,7 +48,7 @@ template <int N, class Real, unsigned P> struct March {
 
     /// Factor that cuts vectors back to lengths, and one over the length that they had.
     V cut(V x, V y, V most, V& inverse) const {
-        inverse = one / L::root(larger(x * x + y * y, tiny));
+        inverse = one / root(larger(x * x + y * y, tiny));
         return smaller(most * inverse, one);
     }
 
@@ -115,9 +122,10 @@ template <int N, class Real, unsigned P> struct March {
 
 /// Bring all springs to the end of the step.
 template <int N, class Real, unsigned P>
-inline Sums march(Contact<N, Real, P>& c, const Now& now, double edge, bool viscous_shear) {
+inline Sums march(Contact<N, Real, P>& c, const Numbers<N, Real>& numbers, const Now& now, double edge,
+                  bool viscous_shear) {
     using All = March<N, Real, P>;
-    All all(now, edge, viscous_shear);
+    All all(numbers, now, edge, viscous_shear);
     // elastic springs beyond are at rest
     const Real reach = larger(c.edge, static_cast<Real>(edge));
     bool more = true;

@@ -58,9 +58,9 @@ inline bool is_good(const Pair& p) {
 }
 
 inline bool is_good(const Motion& m, double radius) {
-    const double all = std::fabs(m.approach) + std::fabs(m.slide_x) + std::fabs(m.slide_y) +
-                       std::fabs(m.penetration) + m.step;
-    return all <= std::numeric_limits<double>::max() && m.step > 0.0 && m.penetration < radius;
+    const double all = m.approach + m.slide_x + m.slide_y + m.penetration + m.step;
+    return std::fabs(all) <= std::numeric_limits<double>::max() && m.step > 0.0 &&
+           m.penetration < radius;
 }
 
 /// Whether a step can be taken.

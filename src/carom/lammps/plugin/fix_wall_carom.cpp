@@ -162,20 +162,21 @@ void FixWallCarom::act(int i, int k, double *memory) {
     batch.count = 1;
     batch.memories[0] = memory;
     batch.pairs[0] = pair_of(i, met.radius, memory);
-    batch.meetings[0] = carom::encounter(sphere, wall, update->dt);
+    const carom::Encounter now = carom::encounter(sphere, wall, update->dt);
+    for (int lane = 0; lane < carom::lanes; ++lane) carom::set_one(batch.meetings, lane, now);
     carom_step(kind, batch, update->setupflag);
     if (batch.statuses[0] != carom::Status::ok)
         error->one(FLERR, "fix wall/carom: atom {}: {}", atom->tag[i],
                    carom::message(batch.statuses[0]));
-    const carom::Action &action = batch.actions[0];
-    carom_keep(memory, action, batch.meetings[0]);
+    const carom::Action action = carom::one_of(batch.actions, 0);
+    carom_keep(memory, action.force, now.penetration);
     memory[KIND] = kind.number;
     carom_add(atom->f[i], 1.0, action.force);
     carom_add(atom->torque[i], 1.0, action.torque);
     carom_add(sums + FORCE_X, -1.0, action.force);
     sums[ELASTIC] += kind.stored(memory + SPRINGS);
     if (!options.viscous)
-        sums[ELASTIC] += carom_pressed(batch.pairs[0], batch.meetings[0]);
+        sums[ELASTIC] += carom_pressed(batch.pairs[0], now.penetration);
     sums[FRICTION] += action.friction;
     sums[VISCOSITY] += action.viscosity;
 }

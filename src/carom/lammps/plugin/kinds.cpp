@@ -70,28 +70,30 @@ bool lasts(const CaromKind &kind, const double *memory, const carom::Encounter &
     return kind.touches(memory + SPRINGS) && std::fabs(now.penetration - depth) <= 1e-6 * depth;
 }
 
-/// Give contacts that last the force that they had; the others meet at rest.
+/// Give contacts that last the force that they had; of the others hardly any time passes.
 void stand(const CaromKind &kind, CaromBatch &batch) {
     CaromBatch met;
     int places[CaromBatch::most];
     for (int k = 0; k < batch.count; ++k) {
-        carom::Encounter &now = batch.meetings[k];
-        now.velocity = {0.0, 0.0, 0.0}, now.spin = 0.0;
+        carom::Encounter now = carom::one_of(batch.meetings, k);
+        now.step *= 1e-3;
         batch.statuses[k] = carom::Status::ok;
         if (lasts(kind, batch.memories[k], now)) {
-            batch.actions[k] = carom::Action{};
-            batch.actions[k].force = carom_vector(batch.memories[k] + FORCE);
-            carom::turn(batch.actions[k], now);
+            carom::Action action{};
+            action.force = carom_vector(batch.memories[k] + FORCE);
+            carom::turn(action, now);
+            carom::set_one(batch.actions, k, action);
         } else {
             places[met.count] = k;
             met.memories[met.count] = batch.memories[k];
             met.pairs[met.count] = batch.pairs[k];
-            met.meetings[met.count++] = now;
+            for (int lane = met.count++; lane < CaromBatch::most; ++lane)
+                carom::set_one(met.meetings, lane, now);
         }
     }
     kind.advance(met);
     for (int k = 0; k < met.count; ++k) {
-        batch.actions[places[k]] = met.actions[k];
+        carom::set_one(batch.actions, places[k], carom::one_of(met.actions, k));
         batch.statuses[places[k]] = met.statuses[k];
     }
 }

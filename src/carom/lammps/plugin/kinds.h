@@ -40,8 +40,8 @@ struct CaromBatch {
     int count = 0;
     double *memories[most];
     carom::Pair pairs[most];
-    carom::Encounter meetings[most];
-    carom::Action actions[most];
+    carom::Encounters meetings[most / carom::lanes];
+    carom::Actions actions[most / carom::lanes];
     carom::Status statuses[most];
 };
 
@@ -63,15 +63,15 @@ CaromKind carom_kind(const CaromOptions &);
 void carom_step(const CaromKind &, CaromBatch &, bool setup);
 
 /// Keep what the next setup needs.
-inline void carom_keep(double *memory, const carom::Action &action, const carom::Encounter &now) {
-    for (int i = 0; i < 3; ++i) memory[FORCE + i] = action.force[i];
-    memory[DEPTH] = now.penetration;
+inline void carom_keep(double *memory, const carom::Vector &force, double depth) {
+    std::copy(force.begin(), force.end(), memory + FORCE);
+    memory[DEPTH] = depth;
 }
 
 /// Return the energy of a Hertzian contact.
-inline double carom_pressed(const carom::Pair &pair, const carom::Encounter &now) {
-    const double depth = std::max(now.penetration, 0.0);
-    return 8.0 / 15.0 * pair.modulus * std::sqrt(pair.radius) * std::pow(depth, 2.5);
+inline double carom_pressed(const carom::Pair &pair, double depth) {
+    const double pressed = std::max(depth, 0.0);
+    return 8.0 / 15.0 * pair.modulus * std::sqrt(pair.radius) * std::pow(pressed, 2.5);
 }
 
 /// Return alpha = tau V_1/d_max at which spheres of Kelvin and Voigt's solid rebound with e.

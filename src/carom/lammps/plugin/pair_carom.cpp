@@ -36,9 +36,15 @@ struct Spheres {
     carom::Body body(int k) const {
         return {carom_vector(x[k]), carom_vector(v[k]), carom_vector(omega[k]), radius[k]};
     }
-    /// Return how two stand to each other, the first one's normal pointing at it.
-    carom::Encounter meeting(int i, int j, double step) const {
-        return carom::encounter(body(i), body(j), step);
+    /// Return several, one in each lane.
+    carom::Bodies in_lanes(const int *which) const {
+        const auto of = [&](double **all, int i) {
+            return carom::Wide::each([&](int lane) { return all[which[lane]][i]; });
+        };
+        return {{of(x, 0), of(x, 1), of(x, 2)},
+                {of(v, 0), of(v, 1), of(v, 2)},
+                {of(omega, 0), of(omega, 1), of(omega, 2)},
+                carom::Wide::each([&](int lane) { return radius[which[lane]]; })};
     }
     double radius_of(int i, int j) const {
         return radius[i] * radius[j] / (radius[i] + radius[j]);
@@ -302,6 +308,13 @@ void PairCarom::step(Meetings &met) {
 void PairCarom::meet(Meetings &met) {
     CaromBatch &batch = met.batch;
     const Spheres spheres(*atom, rigid.empty() ? atom->rmass : masses.data());
+    for (int k = batch.count; k > 0 && k % carom::lanes; ++k) {  // lanes that are left over
+        met.one[k] = met.one[k - 1];
+        met.other[k] = met.other[k - 1];
+    }
+    for (int k = 0; k < batch.count; k += carom::lanes)
+        batch.meetings[k / carom::lanes] =
+            carom::encounter(spheres.in_lanes(met.one + k), spheres.in_lanes(met.other + k), dt);
     for (int k = 0; k < batch.count; ++k) {
         const int i = met.one[k], j = met.other[k];
         double *memory = batch.memories[k];
@@ -318,8 +331,6 @@ void PairCarom::meet(Meetings &met) {
             if (known.loss > 0.0) memory[RETARDATION] = carom_retardation(known, batch.pairs[k]);
         }
         if (known.loss > 0.0) batch.pairs[k].retardation = memory[RETARDATION];
-        // made where it is used: a copy would wait for what has just been written
-        new (batch.meetings + k) carom::Encounter(spheres.meeting(i, j, dt));
     }
 }
 
@@ -333,29 +344,33 @@ void PairCarom::apply(Meetings &met) {
             error->one(FLERR, "pair_style carom: atoms {} and {}: {}", atom->tag[i], atom->tag[j],
                        carom::message(batch.statuses[k]));
         const bool both = newton || j < nlocal;
-        const carom::Action &action = batch.actions[k];
-        carom_keep(batch.memories[k], action, batch.meetings[k]);
-        carom_add(atom->f[i], 1.0, action.force);
-        carom_add(atom->torque[i], 1.0, action.torque);
+        const int lane = k % carom::lanes;
+        const carom::Actions &actions = batch.actions[k / carom::lanes];
+        const carom::Vector force = carom::in_lane(actions.force, lane);
+        const double depth = carom::in_lane(batch.meetings[k / carom::lanes].penetration, lane);
+        carom_keep(batch.memories[k], force, depth);
+        carom_add(atom->f[i], 1.0, force);
+        carom_add(atom->torque[i], 1.0, carom::in_lane(actions.torque, lane));
         if (both) {
-            carom_add(atom->f[j], -1.0, action.force);
-            carom_add(atom->torque[j], 1.0, action.other_torque);
+            carom_add(atom->f[j], -1.0, force);
+            carom_add(atom->torque[j], 1.0, carom::in_lane(actions.other_torque, lane));
         }
-        if (evflag || options.ledger) tally(i, j, batch, k, both ? 1.0 : 0.5);
-        *met.touches[k] = batch.meetings[k].penetration > 0.0;
+        if (evflag || options.ledger) tally(met, k, both ? 1.0 : 0.5);
+        *met.touches[k] = depth > 0.0;
         if (!*met.touches[k]) std::fill_n(batch.memories[k], SPRINGS + kind.doubles, 0.0);
     }
 }
 
 /// Enter energies and the virial; of a pair that two processors compute each has half.
-void PairCarom::tally(int i, int j, const CaromBatch &batch, int k, double share) {
-    const carom::Action &action = batch.actions[k];
+void PairCarom::tally(const Meetings &met, int k, double share) {
+    const carom::Action action = carom::one_of(met.batch.actions, k);
+    const double depth = carom::one_of(met.batch.meetings, k).penetration;
     losses[FRICTION] += share * action.friction;
     losses[VISCOSITY] += share * action.viscosity;
-    if (!evflag) return;
-    if (batch.meetings[k].penetration <= 0.0) return;
-    double energy = kind.stored(batch.memories[k] + SPRINGS);
-    if (!options.viscous) energy += carom_pressed(batch.pairs[k], batch.meetings[k]);
+    if (!evflag || depth <= 0.0) return;
+    const int i = met.one[k], j = met.other[k];
+    double energy = kind.stored(met.batch.memories[k] + SPRINGS);
+    if (!options.viscous) energy += carom_pressed(met.batch.pairs[k], depth);
     pvector[ELASTIC] += share * energy;
     const carom::Vector &f = action.force;
     const double *one = atom->x[i], *other = atom->x[j];
@@ -382,7 +397,8 @@ double PairCarom::single(int i, int j, int, int, double rsq, double, double, dou
     if (!memory) return 0.0;
     const bool ordered = first != nullptr;
     const Spheres spheres(*atom, nullptr);
-    const carom::Encounter now = spheres.meeting(ordered ? i : j, ordered ? j : i, dt);
+    const carom::Encounter now =
+        carom::encounter(spheres.body(ordered ? i : j), spheres.body(ordered ? j : i), dt);
     const carom::Vector all = carom_vector(memory + FORCE);
     const double normal = carom::dot(all, now.normal), side = ordered ? 1.0 : -1.0;
     fforce = normal / std::sqrt(rsq);
@@ -391,7 +407,7 @@ double PairCarom::single(int i, int j, int, int, double rsq, double, double, dou
     svector[3] = std::sqrt(carom::dot(aside, aside));
     carom::Pair pair = bodies[atom->type[i]][atom->type[j]].pair;
     pair.radius = spheres.radius_of(i, j);
-    return kind.stored(memory + SPRINGS) + (options.viscous ? 0.0 : carom_pressed(pair, now));
+    return kind.stored(memory + SPRINGS) + (options.viscous ? 0.0 : carom_pressed(pair, now.penetration));
 }
 
 void PairCarom::transfer_history(double *source, double *target, int, int) {

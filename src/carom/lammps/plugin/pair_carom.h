@@ -66,7 +66,7 @@ class PairCarom : public Pair {
     void step(Meetings &);
     void meet(Meetings &);
     void apply(Meetings &);
-    void tally(int, int, const CaromBatch &, int, double);
+    void tally(const Meetings &, int, double);
     const double *remembered(int, int) const;
     void read(FILE *, void *, int);
 

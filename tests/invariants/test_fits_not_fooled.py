@@ -1,0 +1,205 @@
+"""`fit` with what happens in laboratories: a bad value, heavy tails, mistakes in the table."""
+
+import numpy as np
+import pytest
+from scipy.stats import binom
+
+import carom
+from carom.fitting import fit
+
+FLOOR = carom.HalfSpace(material="steel")
+MU, SPEED, ROWS = 0.12, 3.9, 12
+ANGLES = np.radians(np.linspace(4.0, 65.0, ROWS))
+SIGMA = {"rebound_angle": 0.006, "spin_out": 8.0, "normal_restitution": 0.01}
+SPEEDS = ("normal_speed_out", "tangential_speed_out", "spin_out")
+
+
+def bodies(radius=2.5e-3, friction=0.3):
+    return carom.Pair(carom.Sphere(radius=radius, material="steel"), FLOOR, friction=friction)
+
+
+KAPPA = bodies().kappa
+
+
+def exact(names, restitution=0.95, speed=SPEED):
+    """What `impact` gives, without noise."""
+    losses = carom.KelvinVoigt(restitution=restitution)
+    speeds = np.broadcast_to(speed, ROWS)
+    hits = [
+        carom.impact(bodies(friction=MU), speed=v, angle=a, losses=losses)
+        for v, a in zip(speeds, ANGLES, strict=True)
+    ]
+    return {name: np.array([getattr(hit, name) for hit in hits]) for name in names}
+
+
+@pytest.fixture(scope="module")
+def truth():
+    return exact(SIGMA)
+
+
+def noisy(truth, random, draw=None):
+    """A table with noise, in standard deviations as `draw` gives it."""
+    normal = draw or (lambda: random.normal(size=ROWS))
+    before = {"angle": ANGLES, "speed": np.full(ROWS, SPEED)}
+    return before | {name: truth[name] + size * normal() for name, size in SIGMA.items()}
+
+
+def hold_the_truth(tables, **options):
+    """Assert that 95 % intervals miss no more often than is likely for 90 %, 1 in 1000.
+
+    The study with 2000 sets a design tells 94 to 97 %; intervals that hold 80 % are noticed here.
+    """
+    known = {"friction": MU, "kappa": KAPPA, "restitution": 0.95}
+    found = [fit(table, pair=bodies(), **options) for table in tables]
+    most = binom.ppf(1.0 - 1e-3, len(found), 0.1)
+    for name, value in known.items():
+        inside = [each[name].low <= value <= each[name].high for each in found]
+        assert len(inside) - sum(inside) <= most, name
+
+
+def with_outliers(random):
+    """Of 25 values one is 8 to 25 standard deviations off."""
+
+    def draw():
+        far = random.uniform(8.0, 25.0, ROWS) * random.choice([-1.0, 1.0], ROWS)
+        return np.where(random.random(ROWS) < 0.04, far, random.normal(size=ROWS))
+
+    return draw
+
+
+def test_intervals_hold_with_outliers_and_stated_errors(truth):
+    stated = {f"{name}_error": np.full(ROWS, size) for name, size in SIGMA.items()}
+    random = np.random.default_rng(1)
+    hold_the_truth([noisy(truth, random, with_outliers(random)) | stated for _ in range(40)])
+
+
+def test_intervals_hold_with_heavy_tails(truth):
+    random = np.random.default_rng(2)
+
+    def draw():
+        return random.standard_t(4, ROWS)
+
+    hold_the_truth([noisy(truth, random, draw) for _ in range(40)])
+
+
+def test_intervals_hold_where_speeds_scatter_by_a_share():
+    """3 % of speeds from 0.5 to 8 m/s; with one scatter for all, intervals hold 65 %."""
+    random = np.random.default_rng(3)
+    speed = random.permutation(np.geomspace(0.5, 8.0, ROWS))
+    seen = exact(SPEEDS, speed=speed)
+    tables = [
+        {"angle": ANGLES, "speed": speed}
+        | {name: v * (1.0 + 0.03 * random.normal(size=ROWS)) for name, v in seen.items()}
+        for _ in range(40)
+    ]
+    hold_the_truth(tables)
+
+
+def first_law(table):
+    return min(fit(table, pair=bodies()).comparison, key=lambda each: each.excess).law
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_one_spin_mistyped_does_not_change_which_law_comes_first(truth, seed):
+    random = np.random.default_rng([4, seed])
+    table = noisy(truth, random)
+    row = random.integers(ROWS)
+    spins = table["spin_out"].copy()
+    spins[row] *= random.choice([3.5, 10.0, 0.1])
+    assert first_law(table) == "exact"
+    assert first_law({**table, "spin_out": spins}) == "exact"
+
+
+def test_an_outlier_is_left_out_for_all_laws_and_the_errors_are_those_of_the_best(truth):
+    """With one bad spin the laws stand as without that value, to the scatter of one value."""
+    table = noisy(truth, np.random.default_rng(5))
+    gap, spoilt = [], list(table["spin_out"])
+    for value in ("-", spoilt[3] * 10.0):
+        spoilt[3] = value
+        found = fit({**table, "spin_out": list(spoilt)}, pair=bodies()).comparison
+        gap.append(found["rigid Coulomb"].excess)
+    assert gap[1] == pytest.approx(gap[0], rel=0.05)
+
+
+def test_a_kappa_that_bodies_cannot_have_is_questioned(truth):
+    """Spins of a ball of half the size: kappa 0.3 or so, beside 0.82 of the elastic constants."""
+    table = noisy(truth, np.random.default_rng(6))
+    assert not any("elastic" in note for note in fit(table, pair=bodies()).notes)
+    found = fit({**table, "spin_out": 0.5 * table["spin_out"]}, pair=bodies())
+    assert found.kappa.elastic == pytest.approx(KAPPA)
+    assert any("elastic bodies have 2/3 to 1" in note for note in found.notes)
+
+
+def turned(table):
+    """Angles from the surface."""
+    return table | {name: np.pi / 2.0 - table[name] for name in ("angle", "rebound_angle")}
+
+
+def in_radians(table):
+    return {f"{n} [deg]" if "angle" in n else n: v for n, v in table.items()}
+
+
+def spins(factor):
+    return lambda table: table | {"spin_out": factor * table["spin_out"]}
+
+
+def exchanged(table):
+    """Components before and after in each other's columns."""
+    seen = exact(SPEEDS)
+    before = {"normal_speed": SPEED * np.cos(ANGLES), "tangential_speed": SPEED * np.sin(ANGLES)}
+    noise = np.random.default_rng(8).normal(0.0, 0.02, (2, ROWS))
+    names = (("normal_speed", "normal_speed_out"), ("tangential_speed", "tangential_speed_out"))
+    both = {}
+    for (one, other), error in zip(names, noise, strict=True):
+        both |= {one: seen[other] + error, other: before[one]}
+    return both | {"spin_out": table["spin_out"]}
+
+
+def of_the_centre(table):
+    """The tangential restitution of the centre as that of the contact point."""
+    seen = exact(["tangential_restitution"])["tangential_restitution"]
+    noise = np.random.default_rng(9).normal(0.0, 0.01, ROWS)
+    rest = {name: values for name, values in table.items() if name != "rebound_angle"}
+    return rest | {"contact_restitution": seen + noise}
+
+
+MISTAKES = {
+    "angles from the surface": (turned, 2.5e-3),
+    "angles in radians": (in_radians, 2.5e-3),
+    "spins in rpm": (spins(30.0 / np.pi), 2.5e-3),
+    "spins in rad/s, not in rpm": (spins(np.pi / 30.0), 2.5e-3),
+    "those of half the radius": (dict, 5e-3),
+    "those of twice the radius": (dict, 1.25e-3),
+    "motion after given as before": (exchanged, 2.5e-3),
+    "tangential_restitution in the column contact_restitution": (of_the_centre, 2.5e-3),
+}
+
+
+@pytest.mark.parametrize("words", MISTAKES)
+def test_usual_mistakes_are_named(truth, words):
+    change, radius = MISTAKES[words]
+    found = fit(change(noisy(truth, np.random.default_rng(7))), pair=bodies(radius))
+    told = [note for note in found.notes if note.startswith("these data fit as")]
+    assert len(told) == 1
+    assert words in told[0]
+
+
+def test_spins_of_the_other_sign_are_named_where_they_are_not_refused(truth):
+    """With a spin before, friction drives some spins on and brakes others whatever the sign."""
+    start = np.where(np.arange(ROWS) % 2, 300.0, -300.0)
+    hits = [
+        carom.impact(bodies(friction=MU), speed=SPEED, angle=angle, spin=-spin)
+        for angle, spin in zip(ANGLES, start, strict=True)
+    ]
+    noise = np.random.default_rng(10).normal(0.0, 8.0, ROWS)
+    table = {"angle": ANGLES, "speed": np.full(ROWS, SPEED), "spin": start}
+    table["spin_out"] = noise - [hit.spin_out for hit in hits]
+    table["rebound_angle"] = [hit.rebound_angle for hit in hits]
+    found = fit(table, pair=bodies(), fixed={"restitution": 1.0})
+    assert any("spins of the other sign" in note for note in found.notes)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_clean_data_are_not_called_mistaken(truth, seed):
+    found = fit(noisy(truth, np.random.default_rng([11, seed])), pair=bodies())
+    assert not any(note.startswith("these data fit as") for note in found.notes)
