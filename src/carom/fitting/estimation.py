@@ -174,13 +174,8 @@ def estimate(model: Model, loss: errors.RobustLoss, start: Array | None = None) 
     problem = model.problem
     unknown = problem.present & ~np.isfinite(problem.errors)
     estimated = np.asarray(unknown.any(axis=0))
-    rough = errors.first_errors(problem)
-    sigma = np.where(unknown, rough, errors.usable_errors(problem))
-    wide = np.maximum(sigma, rough)
-    at = scan(model, loss, wide) if start is None else start
-    weights = model.weights(at[0], wide, np.ones(len(problem.responses)))
-    first = descend(model.residuals(weights, loss), at, model.bounds)
-    minima = distinct(first.at[np.argsort(first.sums)])
+    sigma = np.where(unknown, errors.first_errors(problem), errors.usable_errors(problem))
+    minima = rough_minima(model, loss, start)
     begun = [_followed(model, loss, each, sigma, estimated, 2) for each in minima[:FOLLOWED]]
     least = min(each.against for each in begun)
     followed = [
@@ -198,6 +193,17 @@ def estimate(model: Model, loss: errors.RobustLoss, start: Array | None = None) 
         found.scale,
         np.array([*others, *minima[FOLLOWED:]]),
     )
+
+
+def rough_minima(model: Model, loss: errors.RobustLoss, start: Array | None = None) -> Array:
+    """Return minima with wide errors, the lowest first, from starting points or those of a scan."""
+    problem = model.problem
+    rough = errors.first_errors(problem)
+    wide = np.fmax(errors.usable_errors(problem), rough)
+    at = scan(model, loss, wide) if start is None else start
+    weights = model.weights(at[0], wide, np.ones(len(problem.responses)))
+    first = descend(model.residuals(weights, loss), at, model.bounds)
+    return distinct(first.at[np.argsort(first.sums)])
 
 
 def fitted(

@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.fitting.errors import OUTLYING, typical_deviation
+from carom.fitting.errors import OUTLYING, RobustLoss, typical_deviation
 from carom.fitting.estimates import Estimate
-from carom.fitting.estimation import Best, estimate, likelihood
+from carom.fitting.estimation import Best, estimate, likelihood, rough_minima
+from carom.fitting.model import Model
 from carom.fitting.problem import FitProblem
 from carom.quantities.arrays import Array
 
@@ -38,6 +39,7 @@ SCALES = {  # of spins; a radius only matters beside them
 }
 ROUGH = 0.1  # of the range of a response, which scatter does not exceed where a law fits
 FAR, PART = 20.0, 0.25  # by how much and to which part chi squared must fall
+HOPEFUL = 0.9  # of the scatter as given: a rough fit must leave less, in one response at least
 LEAST = 0.75  # of the values that must not be outliers then
 
 
@@ -168,14 +170,25 @@ def _tried(best: Best, trial: Trial) -> tuple[float, Mistake] | None:
     free = tuple(name for name in best.model.free if name != "kappa")
     held = {**best.model.held, "kappa": best.model.problem.pair.kappa}
     model = replace(best.model, problem=trial.problem, free=free, held=held)
-    other, present = estimate(model, best.loss), trial.problem.present
+    present = trial.problem.present
+    as_given = (best.model.problem.measured - best.expected) * trial.factors
+    if not _is_promising(model, best.loss, as_given):
+        return None
+    other = estimate(model, best.loss)
     kept = present & (np.abs(other.residuals) <= OUTLYING)
     told = float(np.square(other.residuals[kept]).sum())
     size = np.where(present, other.sigma * other.scale, 1.0)
-    as_given = (best.model.problem.measured - best.expected) * trial.factors / size
-    instead = float(np.square(as_given[kept]).sum())
+    instead = float(np.square(as_given[kept] / size[kept]).sum())
     few = kept.sum() * log(max(instead, 1e-300) / max(told, 1e-300)) < FAR
     if few or instead - told < FAR or told > PART * instead or kept.sum() < LEAST * present.sum():
         return None
     changed = 2.0 * float((present.sum(axis=0) * np.log(np.abs(trial.factors))).sum())
     return likelihood(other) - changed, Mistake(trial.words, told, instead)
+
+
+def _is_promising(model: Model, loss: RobustLoss, as_given: Array) -> bool:
+    """Tell whether a response may scatter less than as it was given, by a rough fit."""
+    found, present = rough_minima(model, loss)[0], model.problem.present
+    left = model.problem.measured - model.expected(found[np.newaxis])[0]
+    typical = typical_deviation(left, present) < HOPEFUL * typical_deviation(as_given, present)
+    return bool(typical.any())
