@@ -129,6 +129,11 @@ def test_materials(run):
     code, out, _ = run("materials", "steel", "--json")
     assert json.loads(out)["steel"]["young"] == 210e9
     assert "EN 1993" in run("materials", "steel")[1]
+    listed = run("materials", "--pairs")[1].splitlines()
+    assert listed[1].split()[-5:] == ["0.092", "(0.006)", "0.44", "(0.07)", "[1]"]
+    pairs = json.loads(run("materials", "--pairs", "--json")[1])
+    assert pairs[0]["friction"] == 0.092
+    assert pairs[-1]["density"] is None
 
 
 BAD = [
@@ -158,6 +163,7 @@ BAD = [
     (["curve", "--chi", "1", "--to", "abc"], "to: 'abc' cannot be used"),
     (["curve", "--chi", "1", "--points", "0"], "points: '0' cannot be used; must be a whole"),
     (["materials", "stone"], "material: 'stone'"),
+    (["materials", "steel", "--pairs"], "--pairs: 'steel' cannot be used; lists all pairs"),
     (["frobnicate"], "No such command"),
 ]
 

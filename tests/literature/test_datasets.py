@@ -59,7 +59,7 @@ def at(name, observable, angles):
 
 
 def test_these_are_shipped():
-    assert datasets.names() == KHARAZ
+    assert datasets.names() == ("foerster1994", *KHARAZ)
 
 
 @pytest.mark.parametrize("name", KHARAZ)
@@ -202,9 +202,78 @@ def test_storing_and_reading_gives_the_dataset_back(tmp_path):
 
 @pytest.mark.parametrize(
     ("name", "hint"),
-    [("kharaz", "did you mean 'kharaz2001'"), ("mueller", "there are kharaz2001, kharaz2001_kr")],
+    [
+        ("kharaz", "did you mean 'kharaz2001'"),
+        ("mueller", "there are foerster1994, kharaz2001, kharaz2001_kr"),
+    ],
 )
 def test_an_unknown_name_is_refused_with_the_nearest(name, hint):
     with pytest.raises(carom.InputError) as refused:
         datasets.load(name)
     assert hint in str(refused.value)
+
+
+def test_glass_on_glass_gives_the_friction_and_restitution_of_its_authors():
+    """0.092 (0.006) and 0.97 (0.01) by Foerster et al. (1994), kappa of the elastic constants.
+
+    By Walton's law beta_0 is 0.44 (0.07); intervals of 95 % hold all three, and are no wider than
+    three of the authors' errors to either side.
+    """
+    bodies = pair("foerster1994")
+    found = carom.fit(datasets.load("foerster1994"), fixed={"kappa": bodies.kappa})
+    for name, published, error in (("friction", 0.092, 0.006), ("restitution", 0.97, 0.01)):
+        estimate = found[name]
+        assert estimate.low < published < estimate.high
+        assert estimate.high - estimate.low < 6.0 * error
+    walton = found.comparison["Walton"].values
+    assert walton["tangential_restitution"] == pytest.approx(0.44, abs=0.07)
+    assert walton["friction"] == pytest.approx(0.092, abs=0.006)
+
+
+def test_velocities_of_glass_are_those_of_the_worksheet():
+    """Rows 2 and 200 of the worksheet in full, the first mirrored."""
+    data = datasets.table("foerster1994")
+    names = ("normal_speed", "tangential_speed", "normal_speed_out", "tangential_speed_out")
+    found = np.array([data[name] for name in names]).T
+    printed = {
+        0: (1.0068817890855133, 0.6230303841600968, 0.9252097372040775, 0.4844291151390543),
+        18: (1.2301332716797653, 0.30004685682896015, 1.1809077296351256, 0.1863569002482995),
+    }
+    assert found.shape == (24, 4)
+    for row, values in printed.items():
+        np.testing.assert_allclose(found[row], values, rtol=6e-5)
+
+
+def test_published_parameters_are_those_of_pairs_that_can_be():
+    known = datasets.parameters()
+    assert known.sizes == {"pair": 11}
+    assert known.diameter.units == "m"
+    assert known.density.units == "kg/m^3"
+    assert ((known.normal_restitution > 0.5) & (known.normal_restitution <= 1.0)).all()
+    assert ((known.beta_0 > 0.0) & (known.beta_0 < 0.6)).all()
+    assert ((known.friction > 0.04) & (known.friction <= 0.8)).all()
+    assert all(len(text) > 50 for text in known.reference.values)
+    same = known.body == known.other
+    assert set(known["shape"].values[same.values]) == {"sphere"}
+    steel = known.isel(pair=known.body.values.tolist().index("steel"))
+    assert np.isnan(steel.density)
+    assert steel.friction == 0.11
+    assert steel.beta_0 == 0.34
+
+
+@pytest.mark.parametrize(
+    ("body", "material"), [("chrome steel",) * 2, ("soda-lime glass", "glass")]
+)
+def test_the_largest_beta_of_the_exact_law_is_the_published_one(body, material):
+    """0.46 and 0.44 where 0.54 (0.05) and 0.44 (0.07) are published, of elastic pairs.
+
+    beta = -V_x'/V_x depends on the incidence, while Walton's law has one number where it sticks.
+    """
+    known = datasets.parameters()
+    row = known.isel(pair=known.body.values.tolist().index(body))
+    sphere = carom.Sphere(radius=0.5 * row.diameter.item(), material=material)
+    both = carom.Pair(sphere, sphere, friction=row.friction.item())
+    hits = [carom.impact(both, speed=1.0, angle=angle) for angle in np.radians(range(2, 31, 2))]
+    largest = max(-hit.contact_restitution for hit in hits)
+    assert largest == pytest.approx(row.beta_0.item(), abs=2.0 * row.beta_0_error.item())
+    assert -hits[0].contact_restitution < 0.0

@@ -1,4 +1,4 @@
-"""`carom materials`: the catalogue of materials and where its values come from."""
+"""`carom materials`: the catalogues of materials and of pairs, and where values come from."""
 
 import json
 from typing import Annotated, Any
@@ -9,16 +9,27 @@ import carom
 from carom.bodies.materials import VALUES
 from carom.cli.cases import Json
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.refusals import refusal
+from carom.quantities.units import or_none
 
 
 def materials_command(
     name: Annotated[str | None, typer.Argument(help="Show one material with its sources.")] = None,
+    pairs: Annotated[
+        bool, typer.Option("--pairs", help="Restitution and friction published for pairs of them.")
+    ] = False,
     as_json: Json = False,
 ) -> None:
-    """List the materials that have a name, or one of them with the source of each value.
+    """List the materials that have a name, one of them with its sources, or published pairs.
 
     Example: carom materials soda-lime-glass
     """
+    if pairs and name is not None:
+        raise refusal("--pairs", name, "lists all pairs; leave the name out")
+    if pairs:
+        found = _pairs()
+        typer.echo(json.dumps(found, indent=2, ensure_ascii=False) if as_json else _told(found))
+        return
     names = list(carom.materials()) if name is None else [str(carom.material(name).name)]
     records = {key: _record(key) for key in names}
     if as_json:
@@ -27,6 +38,37 @@ def materials_command(
         typer.echo(_details(records))
     else:
         typer.echo(_list(records))
+
+
+def _pairs() -> list[dict[str, Any]]:
+    """Return the published pairs as plain numbers and texts; what is not told is None."""
+    found = carom.datasets.parameters()
+    columns = {str(name): found[name].values.tolist() for name in found.variables}
+    rows = zip(*columns.values(), strict=True)
+    return [
+        {name: or_none(cell) if isinstance(cell, float) else cell for name, cell in known.items()}
+        for known in (dict(zip(columns, row, strict=True)) for row in rows)
+    ]
+
+
+def _told(pairs: list[dict[str, Any]]) -> str:
+    head = f"{'sphere':19s}{'on':19s}{'2R (mm)':>8s} {'e':>14s} {'mu':>14s} {'beta_0':>14s}"
+    references = list(dict.fromkeys(each["reference"] for each in pairs))
+    lines = []
+    for each in pairs:
+        other = each["other"] + " plane" * (each["shape"] == "plane")
+        numbers = " ".join(
+            f"{_with_error(each, key):>14s}" for key in ("normal_restitution", "friction", "beta_0")
+        )
+        mark = references.index(each["reference"]) + 1
+        size = 1e3 * each["diameter"]
+        lines.append(f"{each['body']:19s}{other:19s}{size:8.3g} {numbers} [{mark}]")
+    sources = [f"[{place}] {text}" for place, text in enumerate(references, start=1)]
+    return "\n".join([head, *lines, "errors in brackets, as published", *sources])
+
+
+def _with_error(pair: dict[str, Any], key: str) -> str:
+    return f"{pair[key]:.3g} ({pair[f'{key}_error']:.2g})"
 
 
 def _record(name: str) -> dict[str, Any]:
@@ -44,7 +86,13 @@ def _list(records: dict[str, dict[str, Any]]) -> str:
         + (f"{r['yield_strength'] / 1e6:9.4g}" if r["yield_strength"] else f"{'-':>9s}")
         for name, r in records.items()
     ]
-    return "\n".join([head, *lines, "and: rigid. Sources: carom materials NAME"])
+    return "\n".join(
+        [
+            head,
+            *lines,
+            "and: rigid. Sources: carom materials NAME; of pairs: carom materials --pairs",
+        ]
+    )
 
 
 def _details(records: dict[str, dict[str, Any]]) -> str:

@@ -1,13 +1,14 @@
-"""Measured rebounds that come with Carom: tables with units, definitions, errors and sources.
+"""Measured rebounds and published parameters that come with Carom, with definitions and sources.
 
 Examples
 --------
 >>> import carom
 >>> carom.datasets.names()
-('kharaz2001', 'kharaz2001_kratos', 'kharaz2001_mfix')
+('foerster1994', 'kharaz2001', 'kharaz2001_kratos', 'kharaz2001_mfix')
 """
 
+from carom.datasets.published import parameters
 from carom.datasets.shipped import load, names, path, table
 
-__all__ = ["load", "names", "path", "table"]
+__all__ = ["load", "names", "parameters", "path", "table"]
 __dir__ = __all__.copy

@@ -27,7 +27,7 @@ def names() -> tuple[str, ...]:
     --------
     >>> import carom
     >>> carom.datasets.names()
-    ('kharaz2001', 'kharaz2001_kratos', 'kharaz2001_mfix')
+    ('foerster1994', 'kharaz2001', 'kharaz2001_kratos', 'kharaz2001_mfix')
     """
     return tuple(sorted(file.stem for file in _folder().glob("*.csv")))
 
@@ -123,13 +123,21 @@ def load(name: str) -> "xr.Dataset":
     ('rad/s', 7, '10.1016/S0032-5910(01)00283-2')
     """
     columns = table(name).columns
-    variables = {key: ("point", values, _attributes(key)) for key, values in columns.items()}
+    variables = {key: ("point", values, column_attributes(key)) for key, values in columns.items()}
     told = dict(_read(name).comments)
     told["references"] = told.pop("source")  # "source" is the version of Carom, as everywhere
     return labelled_dataset(variables, {}, {"name": name, **told})
 
 
-def _attributes(name: str) -> dict[str, Any]:
+def column_attributes(name: str) -> dict[str, Any]:
+    """Return unit and meaning of a column of values or of their errors.
+
+    Examples
+    --------
+    >>> from carom.datasets.shipped import column_attributes
+    >>> column_attributes("spin_out_error")["long_name"]
+    'standard deviation of spin of the first body after'
+    """
     known = attributes(entry(name))
     if not name.endswith(ERROR):
         return known

@@ -36,6 +36,7 @@ class Quantity(NamedTuple):
 GLOSSARY = {
     # what is given
     "radius": Quantity("$R$", "m", "radius"),
+    "diameter": Quantity("$2R$", "m", "diameter"),
     "inner_radius": Quantity("$R_i$", "m", "inner radius of a hollow sphere"),
     "gyration_radius": Quantity("$K$", "m", "radius of gyration about the centre"),
     "young": Quantity("$E$", "Pa", "Young's modulus"),
@@ -78,6 +79,7 @@ GLOSSARY = {
         "$c_t/c_n$", "1", "tangential damping in units of the normal one"
     ),
     "normal_restitution": Quantity("$e$", "1", "normal velocity, after to before"),
+    "beta_0": Quantity(r"$\beta_0$", "1", "$-V_x'/V_x$ of the contact point where it sticks"),
     "contact_beta": Quantity(
         r"$\beta$", "1", "tangential restitution of the contact point, $-V_x'/V_x$"
     ),
