@@ -48,13 +48,14 @@ def fit(
         psi_in alone where no speed is needed; spin, spin2. Measured after, any of:
         normal_restitution, normal_speed_out, tangential_restitution, tangential_speed_out,
         rebound_speed, rebound_angle, spin_out, contact_restitution, contact_beta,
-        contact_rebound_angle, impulse_ratio, psi_out. Standard deviations in columns
-        `<name>_error`; errors of the motion before count, too; where there are none they come from
-        the scatter. "-": not measured.
+        contact_rebound_angle, impulse_ratio, psi_out. Of vertical drops instead: drop_height and
+        rebound_height. Standard deviations in columns `<name>_error`; errors of the motion before
+        count, too; where there are none they come from the scatter. "-": not measured.
     pair : Pair, optional
         The bodies, by default those of the comment "# case:" of the file.
     vary : names, optional
-        Of friction, kappa (or chi), restitution, spin_offset; by default the first three.
+        Of friction, kappa (or chi), restitution, spin_offset; by default the first three, of normal
+        impacts restitution alone.
     fixed : mapping, optional
         Values of parameters that are not varied, e.g. {"restitution": 0.98}.
     robust : bool
@@ -71,7 +72,8 @@ def fit(
         `estimates` by name: friction, kappa, chi and restitution as pure numbers, spin_offset in
         rad/s, each an `Estimate` with value, low, high and, where the data do not determine it, a
         reason. Also `regimes`, how many rows lie in each, `notes`, the `comparison` with other
-        laws, and what gives the rest: advice, posterior, plot, to_dataset.
+        laws, `losses` (restitution against speed), and what gives the rest: advice, posterior,
+        plot, to_dataset.
 
     Raises
     ------

@@ -6,7 +6,7 @@ from math import nan
 
 import numpy as np
 
-from carom.fitting.estimates import LIMITS, Estimate
+from carom.fitting.estimates import Estimate, estimate_of
 from carom.fitting.intervals import ProfiledFit, Settled, profiled, reason
 from carom.fitting.laws import half_ratio
 from carom.fitting.options import NAMES
@@ -19,7 +19,7 @@ def assembled(settled: Settled, confidence: float) -> Fit:
     """Return the result of a fit."""
     found = profiled(settled.best, confidence)
     best, model = found.best, found.best.model
-    estimates = {name: _estimate(found, name) for name in best.values}
+    estimates = {name: estimate_of(found, name) for name in best.values}
     for name in model.free:
         if not estimates[name].determined:
             estimates[name] = replace(estimates[name], reason=reason((name,), best))
@@ -34,19 +34,6 @@ def assembled(settled: Settled, confidence: float) -> Fit:
     return Fit(ordered, confidence, regimes, notes(found, settled.whole, ordered), best)
 
 
-def _estimate(found: ProfiledFit, name: str) -> Estimate:
-    """Return the estimate of a parameter; without a reason yet if it has no end."""
-    model = found.best.model
-    value = found.best.values[name]
-    place = model.free.index(name) if name in model.free else None
-    if place is None or found.open[place].all():
-        return Estimate(name, value)
-    ends = model.values(found.ends[place])[name][:, 0]
-    known = zip(ends, LIMITS[name], found.open[place], strict=True)
-    low, high = (float(limit if is_open else end) for end, limit, is_open in known)
-    return Estimate(name, value, low, high)
-
-
 def _undetermined(
     settled: Settled, found: ProfiledFit, estimates: Mapping[str, Estimate], confidence: float
 ) -> dict[str, Estimate]:
@@ -56,7 +43,7 @@ def _undetermined(
     for group in settled.groups:
         if len(group) == 1:
             whole = whole or profiled(settled.whole, confidence)
-            one_sided = _estimate(whole, group[0])
+            one_sided = estimate_of(whole, group[0])
             if one_sided.determined:
                 result[group[0]] = one_sided
                 continue

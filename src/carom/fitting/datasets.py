@@ -11,6 +11,7 @@ from carom.fitting.estimation import Best
 from carom.fitting.intervals import rise_of
 from carom.fitting.laws import IncomingMotion, half_ratio
 from carom.fitting.least_squares import jacobian
+from carom.fitting.losses import LossComparison
 from carom.fitting.problem import FitProblem
 from carom.impacts.curves import REGIMES
 from carom.io.labels import flags, labelled_dataset
@@ -26,15 +27,17 @@ OWN = "in the unit of the response"
 WIDE, ALONG = ("row", "response"), ("curve", "response")
 
 
-def fit_dataset(fit: FitRecord) -> "xr.Dataset":
+def fit_dataset(fit: FitRecord, losses: LossComparison | None = None) -> "xr.Dataset":
     """Return a fit as a dataset along row, response, curve, law and parameter.
 
     Responses are in SI units, which `response_unit` names; incidences are those of the contact
-    point, tan = V_x/V_n, in rad.
+    point, tan = V_x/V_n, in rad. With laws of losses restitutions along row, and along loss_law.
     """
     problem = fit.best.model.problem
     variables = {**_rows(fit.best), **_curves(fit), **_parameters(fit)}
-    coords = {
+    coords: dict[str, Any] = {} if losses is None else {"loss_law": _loss_names(losses)}
+    variables |= {} if losses is None else _losses(losses)
+    coords |= {
         "row": _named("row", problem.rows.rows, f"{problem.rows.word} of the data"),
         "response": _named("response", list(problem.responses), "what was measured"),
         "law": _named("law", [each.law for each in fit.comparison], "law of rebound"),
@@ -73,6 +76,26 @@ def _rows(best: Best) -> dict[str, Any]:
         "expected": _named(WIDE, expected, f"what the fit gives, {OWN}"),
         "residual": _named(WIDE, residual, f"measured less expected, {OWN}"),
         "regime": ("row", best.model.regimes(best.at), flags(REGIMES)),
+    }
+
+
+def _loss_names(losses: LossComparison) -> tuple[Any, Any, dict[str, str]]:
+    return _named("loss_law", [each.law for each in losses.standings], "law of losses")
+
+
+def _losses(losses: LossComparison) -> dict[str, Any]:
+    """Return restitutions against speed, measured and by the laws of losses."""
+    speeds = np.geomspace(losses.speeds.min(), losses.speeds.max(), SMOOTH)
+    lines = [each.restitution(speeds) for each in losses.standings]
+    errors = np.where(np.isfinite(losses.measured), losses.errors, np.nan)
+    excess = [each.excess for each in losses.standings]
+    return {
+        "normal_speed": _named("row", losses.speeds, "normal speed before", "m/s"),
+        "restitution": _named("row", losses.measured, "normal restitution", "1"),
+        "restitution_error": _named("row", errors, "standard deviation of restitution", "1"),
+        "loss_speed": _named("loss_curve", speeds, "normal speed before", "m/s"),
+        "loss_restitution": _named(("loss_law", "loss_curve"), lines, "restitution by a law", "1"),
+        "loss_excess": _named("loss_law", excess, "Akaike's criterion above the least", "1"),
     }
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from carom.fitting.comparison import Comparison, compare
 from carom.fitting.estimation import Best
+from carom.fitting.intervals import ProfiledFit
 from carom.quantities.units import or_none
 
 LIMITS = {  # what a parameter can be at all
@@ -17,8 +18,10 @@ LIMITS = {  # what a parameter can be at all
     "restitution": (0.0, 1.0),
     "tangential_restitution": (-1.0, 1.0),
     "spin_offset": (-inf, inf),
+    "loss_time": (0.0, inf),
+    "yield_velocity": (0.0, inf),
 }
-UNITS = {"spin_offset": "rad/s"}
+UNITS = {"spin_offset": "rad/s", "loss_time": "s", "yield_velocity": "m/s"}
 
 
 @dataclass(frozen=True)
@@ -75,6 +78,19 @@ class Estimate:
         digits = significant(self.value, self.high - self.low)
         low, value, high = (f"{each:.{digits}g}" for each in (self.low, self.value, self.high))
         return f"{value}{unit} ({low} to {high})"
+
+
+def estimate_of(found: ProfiledFit, name: str) -> Estimate:
+    """Return the estimate of a parameter; without a reason if it has no end."""
+    model = found.best.model
+    value = found.best.values[name]
+    place = model.free.index(name) if name in model.free else None
+    if place is None or found.open[place].all():
+        return Estimate(name, value)
+    ends = model.values(found.ends[place])[name][:, 0]
+    known = zip(ends, LIMITS[name], found.open[place], strict=True)
+    low, high = (float(limit if is_open else end) for end, limit, is_open in known)
+    return Estimate(name, value, low, high)
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,7 @@ from carom.quantities.arrays import Array
 
 Values = Mapping[str, Array]  # of parameters by name, each of shape (batch, 1)
 OutgoingVelocity = Callable[[Pair, Array, Array, Values], Array]
+NormalRestitution = Callable[[Pair, Array, Values], Array]
 OFFSET = "spin_offset"
 ROUNDING = 1e-9
 
@@ -43,17 +44,23 @@ class Parameter(NamedTuple):
         return np.exp(coordinate) if self.scale is None else coordinate * self.scale
 
 
+def constant(pair: Pair, normal_speed: Array, values: Values) -> Array:
+    """Return the same restitution at every speed."""
+    return values["restitution"] + 0.0 * normal_speed
+
+
 @dataclass(frozen=True)
 class FittedLaw:
     """A law of rebound: `contact_velocity_out` is V_x' of V_n, V_x, and what can be varied.
 
-    V_n and V_x have the shape (rows,), V_x' has (batch, rows). Besides `parameters` an offset of
-    the spin can be varied.
+    V_n and V_x have the shape (rows,), V_x' and e have (batch, rows). Besides `parameters` an
+    offset of the spin can be varied.
     """
 
     name: str
     parameters: tuple[Parameter, ...]
     contact_velocity_out: OutgoingVelocity
+    restitution: NormalRestitution = constant
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -70,7 +77,8 @@ class FittedLaw:
         velocity = np.asarray(before.contact_velocity(pair))
         after = self.contact_velocity_out(pair, normal, velocity, values)
         impulse = pair.tangential_mass * (velocity - after)
-        rebound = Rebound(pair, normal, before, values["restitution"] + 0.0 * turning, impulse)
+        restitution = self.restitution(pair, normal, values)
+        rebound = Rebound(pair, normal, before, restitution + 0.0 * turning, impulse)
         return np.stack([getattr(rebound, name) for name in names], axis=-1)
 
 

@@ -25,7 +25,8 @@ def read_options(
 ) -> Options:
     """Return what is varied and what it starts from, or raise InputError."""
     held = _fixed(problem, {} if fixed is None else fixed)
-    wanted = [name for name in FIRST if name not in held] if vary is None else _varied(vary)
+    first = ("restitution",) if problem.is_normal else FIRST
+    wanted = [name for name in first if name not in held] if vary is None else _varied(vary)
     for name in wanted:
         if name in held:
             raise InputError(f"{name}: both varied and fixed; leave it out of one of them")
@@ -34,7 +35,7 @@ def read_options(
     if set(wanted) & {"friction", "kappa"} and OFFSET not in wanted and problem.is_normal:
         raise InputError(
             "data: nothing moves sideways in any row, and friction and stiffness do not matter; "
-            "measure at other angles, or give vary='restitution'"
+            "measure at other angles, or leave vary out"
         )
     if not wanted:
         raise InputError("vary: nothing is left to fit; fix fewer parameters")

@@ -10,6 +10,7 @@ from carom.bodies.kinematics import Tangential
 from carom.bodies.pairs import Pair, alike
 from carom.datasets.observables import BEFORE, FASTEST, INCIDENCE, OBSERVABLES, SCALED, SLOWEST
 from carom.dimensionless.interpolation import LEAST_CHI, MOST_CHI
+from carom.fitting.heights import HEIGHTS, with_speeds
 from carom.fitting.laws import IncomingMotion
 from carom.fitting.problem import NOTHING, FitProblem
 from carom.io.columns import ERROR, Results, entry, in_units, others, with_errors
@@ -38,17 +39,19 @@ def read_problem(
 
 
 def _problem(table: Cells, pair: Pair | None, faults: Faults) -> FitProblem:
-    known = with_errors((*BEFORE, *OBSERVABLES))
+    known = with_errors((*BEFORE, *OBSERVABLES, *HEIGHTS))
     ignored = others(table, known, faults)
     present = [name for name in known if name in table.names]
-    rows = in_units(table, present, gaps=OBSERVABLES, faults=faults)
+    rows = with_speeds(
+        in_units(table, present, gaps=(*OBSERVABLES, "rebound_height"), faults=faults)
+    )
     measured = tuple(name for name in OBSERVABLES if name in rows.columns)
     responses = tuple(name for name in measured if np.isfinite(rows[name]).any())
     if not measured:
         faults.settle()
         raise InputError(
             f"data: no measured response among the columns {', '.join(table.names)}; there must be "
-            f"one or more of {', '.join(OBSERVABLES)}"
+            f"one or more of {', '.join(OBSERVABLES)}, or drop_height and rebound_height"
         )
     if not responses:
         faults.settle()

@@ -8,12 +8,15 @@ import numpy as np
 from carom.fitting.errors import OUTLYING, least_error
 from carom.fitting.estimates import LIMITS, Estimate, FitRecord
 from carom.fitting.estimation import Best
+from carom.fitting.heights import HEIGHTS, taken_by_air
 from carom.fitting.intervals import ProfiledFit
 from carom.fitting.mistakes import likely_mistake
+from carom.fitting.problem import FitProblem
 
 AT_END = 1e-6  # of a coordinate from an end of its range
 APART = 0.1  # of a coordinate between two minima
 COLUMN = 14
+THIN = 2e-3  # part of a restitution that air may take unsaid
 POSSIBLE = (2.0 / 3.0, 1.0)  # kappa for Poisson's ratios from 1/2 to 0
 
 
@@ -26,10 +29,11 @@ def as_text(fit: FitRecord) -> str:
         f"intervals of {100.0 * fit.confidence:g} % by profile likelihood"
     )
     lines = [head, *(f"  {name:{COLUMN}s} {_line(each)}" for name, each in fit.estimates.items())]
+    tells = [f"note: {note}" for note in fit.notes]
+    if problem.is_normal:
+        return "\n".join([*lines, *tells])
     regimes = ", ".join(f"{name}: {count}" for name, count in fit.regimes.items() if count)
-    lines.append(f"rows by regime: {regimes}")
-    lines += [f"note: {note}" for note in fit.notes]
-    return "\n".join([*lines, str(fit.comparison)])
+    return "\n".join([*lines, f"rows by regime: {regimes}", *tells, str(fit.comparison)])
 
 
 def _line(estimate: Estimate) -> str:
@@ -49,6 +53,7 @@ def notes(found: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) ->
     mistake = likely_mistake(whole, estimates)
     if mistake is not None:
         lines.append(str(mistake))
+    lines += _about_air(problem)
     if problem.ignored:
         lines.append(f"columns that were not used: {', '.join(problem.ignored)}")
     gaps = np.asarray(~problem.present.any(axis=1))
@@ -75,6 +80,17 @@ def _about_errors(best: Best) -> list[str]:
                 f"{name}: errors below {least[place]:.2g} count as that; the curves are no better"
             )
     return lines
+
+
+def _about_air(problem: FitProblem) -> list[str]:
+    """Return by how much air falsifies a restitution that comes from heights."""
+    if not set(HEIGHTS) <= set(problem.rows.columns):
+        return []
+    ball = problem.pair.first
+    part = taken_by_air(problem.rows.columns, ball.radius, ball.mass)
+    if part < THIN:
+        return []
+    return [f"air: drag makes the restitution too small by about {100.0 * part:.2g} % of itself"]
 
 
 def _about_ranges(best: Best) -> list[str]:

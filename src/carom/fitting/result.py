@@ -1,12 +1,14 @@
 """The result of a fit, as users have it."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from carom.bodies.pairs import Pair
 from carom.fitting.advice import Advice, advise
 from carom.fitting.datasets import fit_dataset
 from carom.fitting.estimates import Estimate, FitRecord
+from carom.fitting.losses import LossComparison, compare_losses
 from carom.fitting.posterior import sample
 from carom.fitting.report import as_text
 from carom.io.citations import FITS, SAMPLES, VISCOUS, bibtex, with_doi
@@ -71,6 +73,22 @@ class Fit(FitRecord, Result):
     def lmfit_result(self) -> Any:
         """What lmfit returned, in transformed coordinates: log friction, log kappa."""
         return self.best.result
+
+    @cached_property
+    def losses(self) -> LossComparison | None:
+        """Laws of losses by Akaike's criterion on normal velocities, if their speeds differ.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> heights = {"drop_height": [0.1, 0.2, 0.4, 0.8],
+        ...            "rebound_height": [0.06, 0.1, 0.17, 0.29]}
+        >>> print(carom.fit(heights, pair=pair).losses.verdict)
+        restitution against speed is that of ElasticPlastic; KelvinVoigt is out of the question
+        """
+        return compare_losses(self.best, self.confidence)
 
     def advice(self, n: int = 5, parameter: str | None = None) -> Advice:
         """Return which incidences to measure next, and what that would give.
@@ -160,9 +178,10 @@ class Fit(FitRecord, Result):
             Along (row, response) measured, error, expected and residual in SI units, and regime
             (row); curve_expected (law, curve, response), curve_low and curve_high (curve, response)
             over curve_incidence (curve) in rad; border (regime_border) in rad; value, low, high and
-            reason (parameter); aicc (law).
+            reason (parameter); aicc (law). Where `losses` is not None: restitution, its error and
+            normal_speed (row), loss_restitution (loss_law, loss_curve) over loss_speed.
         """
-        return fit_dataset(self)
+        return fit_dataset(self, self.losses)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers, texts and lists, for JSON; what is open is None.
@@ -170,8 +189,8 @@ class Fit(FitRecord, Result):
         Returns
         -------
         dict
-            parameters, confidence, values (how many were measured), rows, regimes, notes and
-            comparison; SI units.
+            parameters, confidence, values (how many were measured), rows, regimes, notes,
+            comparison and, None if there are none, losses; SI units.
         """
         return {
             "parameters": {name: each.to_dict() for name, each in self.estimates.items()},
@@ -181,6 +200,7 @@ class Fit(FitRecord, Result):
             "regimes": dict(self.regimes),
             "notes": list(self.notes),
             "comparison": self.comparison.to_dict(),
+            "losses": self.losses.to_dict() if self.losses else None,
         }
 
     def cite(self, *, posterior: bool = False) -> str:
@@ -209,9 +229,11 @@ class Fit(FitRecord, Result):
         return "\n".join([bibtex(*keys), *([with_doi(doi)] if doi else [])])
 
     def _draw(self, dataset: Any) -> "Figure":
-        from carom.plots.fits import plot_fit  # loads matplotlib
+        from carom.plots.drops import plot_drops  # these load matplotlib
+        from carom.plots.fits import plot_fit
 
-        return plot_fit(dataset)
+        is_drops = self.losses is not None and self.best.model.problem.is_normal
+        return plot_drops(dataset) if is_drops else plot_fit(dataset)
 
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
@@ -219,4 +241,4 @@ class Fit(FitRecord, Result):
         return card("Parameters from rebounds", rows, self.plot(), "\n".join(self.notes))
 
     def __str__(self) -> str:
-        return as_text(self)
+        return "\n".join([as_text(self), *([str(self.losses)] if self.losses else [])])

@@ -10,7 +10,13 @@ from carom.fitting.problem import FitProblem, Mask
 from carom.quantities.arrays import Array
 
 STARTS = 6  # starting points that are followed to the end
-FINE = {"friction": 25, "kappa": 12, "tangential_restitution": 9}  # levels of the scan
+FINE = {  # levels of the scan
+    "friction": 25,
+    "kappa": 12,
+    "tangential_restitution": 9,
+    "loss_time": 40,
+    "yield_velocity": 40,
+}
 
 
 def scan(model: Model, loss: errors.RobustLoss, sigma: Array) -> Array:

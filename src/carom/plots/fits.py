@@ -21,14 +21,6 @@ LAW_STYLES: dict[str, Any] = {
     "rigid Coulomb": {"color": style.VERMILION, "lw": 0.9, "ls": (0, (5, 1.5)), "zorder": 3},
     "Walton": {"color": style.BLUE, "lw": 0.9, "ls": (0, (1.5, 1)), "zorder": 3},
 }
-POINTS: Any = {
-    "fmt": "o",
-    "ms": 2.6,
-    "color": style.BLACK,
-    "mfc": "white",
-    "lw": 0.0,
-    "elinewidth": 0.7,
-}
 
 
 @style.draws(
@@ -111,8 +103,8 @@ def _draw_response(axes: Any, dataset: xr.Dataset, name: str) -> None:
     band = (scale * data[f"curve_{end}"].values for end in ("low", "high"))
     upper.fill_between(line, *band, color="0.4", alpha=0.35, lw=0.0, zorder=2)
     error = scale * data["error"].values
-    upper.errorbar(incidence, scale * data["measured"].values, error, zorder=5, **POINTS)
-    lower.errorbar(incidence, scale * data["residual"].values, error, zorder=5, **POINTS)
+    upper.errorbar(incidence, scale * data["measured"].values, error, zorder=5, **style.POINTS)
+    lower.errorbar(incidence, scale * data["residual"].values, error, zorder=5, **style.POINTS)
     lower.axhline(0.0, color=style.BLACK, lw=0.6, zorder=1)
     upper.set_ylabel(_label(name, unit))
     lower.set_ylabel("residual")

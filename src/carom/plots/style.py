@@ -67,6 +67,14 @@ STYLE: Any = {  # typed differently by the versions of matplotlib
     "pdf.fonttype": 42,
 }
 
+POINTS: Any = {
+    "fmt": "o",
+    "ms": 2.6,
+    "color": BLACK,
+    "mfc": "white",
+    "lw": 0.0,
+    "elinewidth": 0.7,
+}  # of measured values, with error bars
 LOGGERS = ("matplotlib", "fontTools")  # which log what does not help a user
 TICKS = ("labelsize", "major.size", "major.width", "major.pad")
 

@@ -78,6 +78,8 @@ GLOSSARY = {
     "tangential_damping": Quantity(
         "$c_t/c_n$", "1", "tangential damping in units of the normal one"
     ),
+    "drop_height": Quantity("$h$", "m", "height from which the first body falls"),
+    "rebound_height": Quantity("$h'$", "m", "height to which the first body comes back"),
     "normal_restitution": Quantity("$e$", "1", "normal velocity, after to before"),
     "beta_0": Quantity(r"$\beta_0$", "1", "$-V_x'/V_x$ of the contact point where it sticks"),
     "contact_beta": Quantity(
