@@ -79,6 +79,21 @@ def test_the_law_of_losses_is_found_with_its_parameter(law, truth):
     np.testing.assert_allclose(restitutions(first.losses), exact, atol=0.01)
 
 
+@pytest.mark.parametrize("restitution", [0.05, 0.2, 0.999])
+def test_any_restitution_is_found(restitution):
+    """Also below 0.3, where no oblique impact is fitted."""
+    noisy = restitution + np.random.default_rng(SEED).normal(0.0, 1e-3, 12)
+    found = carom.fit(dropped(noisy), pair=PAIR).restitution
+    assert found.value == pytest.approx(noisy.mean(), abs=2e-4)
+    assert found.low < restitution < found.high
+
+
+def test_a_ball_on_a_ball_tells_nothing_by_heights():
+    both = carom.Pair(BALL, BALL, friction=0.2)
+    with pytest.raises(carom.InputError, match=r"^drop_height: the second body flies off, too"):
+        carom.fit(dropped(0.8), pair=both)
+
+
 def test_one_outlier_does_not_change_the_law():
     noisy = restitutions(TRUTHS["KelvinVoigt"][0])
     noisy += np.random.default_rng(SEED).normal(0.0, 0.005, noisy.size)

@@ -124,8 +124,8 @@ def test_a_column_without_a_value_is_told_and_left_out():
 
 
 def test_a_parameter_at_the_end_of_its_range_is_named():
-    """Normal restitution 0.1: curves begin at 0.3."""
-    data = {"angle": np.zeros(5), "normal_restitution": [0.1, 0.11, 0.1, 0.09, 0.1]}
+    """Normal restitution 0.1 of oblique impacts: curves begin at 0.3."""
+    data = {"angle": np.linspace(0.2, 1.0, 5), "normal_restitution": [0.1, 0.11, 0.1, 0.09, 0.1]}
     found = whole(fit(data, pair=START, vary="restitution"))
     assert "restitution: best at an end of its range, from 0.3 to 1" in found.notes
 

@@ -9,7 +9,7 @@ from carom.fitting.assembly import assembled
 from carom.fitting.errors import RobustLoss
 from carom.fitting.estimates import Estimate
 from carom.fitting.intervals import settle
-from carom.fitting.laws import EXACT
+from carom.fitting.laws import EXACT, OFFSET, STRAIGHT
 from carom.fitting.model import Model
 from carom.fitting.options import check_count, checked_confidence, read_options
 from carom.fitting.reading import read_problem
@@ -97,7 +97,9 @@ def fit(
     problem = read_problem(data, pair, columns)
     options = read_options(problem, vary, fixed)
     check_count(problem, options.free)
-    model = Model(EXACT, problem, (), options.start).freeing(options.free)
+    turns = OFFSET in options.free or options.start[OFFSET]
+    law = STRAIGHT if problem.is_normal and not turns else EXACT
+    model = Model(law, problem, (), options.start).freeing(options.free)
     loss = RobustLoss() if limited else RobustLoss(inf)
     settled = settle(model, loss, options.start)
     return assembled(settled, level)

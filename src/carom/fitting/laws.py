@@ -94,6 +94,11 @@ def exact(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> A
     return unit * psi_out(velocity / unit, chi, values["restitution"][:, 0])
 
 
+def untouched(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> Array:
+    """Return V_x, for normal impacts and where normal responses alone are asked for."""
+    return velocity + 0.0 * next(iter(values.values()))
+
+
 def rigid(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> Array:
     """Return V_x' of rigid spheres, |J_t| = min(m_t (1 + beta_0) |V_x|, mu J_n).
 
@@ -111,7 +116,10 @@ KAPPA = Parameter("kappa", 0.1, 4.0, None)
 RESTITUTION = Parameter("restitution", LEAST_E, 1.0)
 BETA = Parameter("tangential_restitution", -1.0, 1.0)
 
+ANY_RESTITUTION = RESTITUTION._replace(low=1e-3)  # where the table of psi_2 is not asked
+
 EXACT = FittedLaw("exact", (FRICTION, KAPPA, RESTITUTION), exact)
+STRAIGHT = FittedLaw(EXACT.name, (FRICTION, KAPPA, ANY_RESTITUTION), untouched)
 RIVALS = (
     FittedLaw("rigid Coulomb", (FRICTION, RESTITUTION), rigid),
     FittedLaw("Walton", (FRICTION, RESTITUTION, BETA), rigid),

@@ -10,19 +10,19 @@ from scipy.interpolate import CubicSpline
 
 from carom.bodies.losses import ElasticPlastic, KelvinVoigt, LossLaw
 from carom.bodies.pairs import Pair
+from carom.datasets.observables import NORMAL
 from carom.dimensionless.lossy.panels.stages import restitution
 from carom.dimensionless.lossy.panels.work import new_work
 from carom.fitting.comparison import APART, CLEAR, criterion, on_common_ground
 from carom.fitting.estimates import Estimate, estimate_of
 from carom.fitting.estimation import Best
 from carom.fitting.intervals import profiled, settle
-from carom.fitting.laws import OFFSET, RESTITUTION, FittedLaw, Parameter, Values
+from carom.fitting.laws import ANY_RESTITUTION, OFFSET, FittedLaw, Parameter, Values, untouched
 from carom.fitting.model import Model
 from carom.fitting.problem import FitProblem
 from carom.quantities.arrays import Array
 from carom.quantities.units import or_none
 
-NORMAL = ("normal_restitution", "normal_speed_out")
 FEWEST, RANGE = 4, 1.2  # values; of the speeds, largest over smallest: below nothing can be told
 LEAST, MOST = 1e-8, 10.0  # of a loss time, in units of d_max/V_1
 SLOWEST = 1e-5  # yield velocity, in units of the smallest speed
@@ -111,9 +111,8 @@ def compare_losses(best: Best, confidence: float) -> LossComparison | None:
     problem = _normal(best.model.problem)
     if problem is None:
         return None
-    started = {"restitution": 1.0, "loss_time": 0.0, "yield_velocity": 1.0}
     own = [
-        settle(Model(law, problem, law.names, {OFFSET: 0.0}), best.loss, started).best
+        settle(Model(law, problem, law.names, {OFFSET: 0.0}), best.loss, _elastic(law)).best
         for law in _laws(problem)
     ]
     fits = on_common_ground(own)
@@ -160,20 +159,22 @@ def _laws(problem: FitProblem) -> tuple[FittedLaw, ...]:
     loss_time = Parameter("loss_time", LEAST * times.min(), MOST * times.max(), None)
     yielding = Parameter("yield_velocity", SLOWEST * speeds.min(), float(speeds.max()), None)
     return (
-        FittedLaw(CONSTANT, (RESTITUTION._replace(low=1e-3),), _as_before),
-        FittedLaw("KelvinVoigt", (loss_time,), _as_before, viscous),
-        FittedLaw("ElasticPlastic", (yielding,), _as_before, plastic),
+        FittedLaw(CONSTANT, (ANY_RESTITUTION,), untouched),
+        FittedLaw("KelvinVoigt", (loss_time,), untouched, viscous),
+        FittedLaw("ElasticPlastic", (yielding,), untouched, plastic),
     )
+
+
+def _elastic(law: FittedLaw) -> dict[str, float]:
+    """Return the parameter with which a law loses next to nothing."""
+    (parameter,) = law.parameters
+    is_time = parameter.name == "loss_time"
+    return {parameter.name: parameter.low if is_time else parameter.high}
 
 
 def _times(pair: Pair, normal_speed: Any) -> Array:
     """Return d_max/V_1 at each speed."""
     return np.asarray(pair.scales(normal_speed).time)
-
-
-def _as_before(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> Array:
-    """Return the tangential velocity, which normal responses do not ask for."""
-    return velocity + 0.0 * next(iter(values.values()))
 
 
 def viscous(pair: Pair, normal_speed: Array, values: Values) -> Array:

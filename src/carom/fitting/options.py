@@ -3,6 +3,7 @@
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 
+from carom.datasets.observables import NORMAL
 from carom.fitting.laws import EXACT, OFFSET, half_ratio, ranged
 from carom.fitting.model import offset_parameter
 from carom.fitting.problem import FitProblem
@@ -25,7 +26,8 @@ def read_options(
 ) -> Options:
     """Return what is varied and what it starts from, or raise InputError."""
     held = _fixed(problem, {} if fixed is None else fixed)
-    first = ("restitution",) if problem.is_normal else FIRST
+    tells_restitution = problem.is_normal and set(NORMAL) & set(problem.responses)
+    first = ("restitution",) if tells_restitution else FIRST
     wanted = [name for name in first if name not in held] if vary is None else _varied(vary)
     for name in wanted:
         if name in held:
@@ -35,7 +37,7 @@ def read_options(
     if set(wanted) & {"friction", "kappa"} and OFFSET not in wanted and problem.is_normal:
         raise InputError(
             "data: nothing moves sideways in any row, and friction and stiffness do not matter; "
-            "measure at other angles, or leave vary out"
+            "measure at other angles, or normal_restitution for that alone"
         )
     if not wanted:
         raise InputError("vary: nothing is left to fit; fix fewer parameters")

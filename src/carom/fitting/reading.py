@@ -58,6 +58,11 @@ def _problem(table: Cells, pair: Pair | None, faults: Faults) -> FitProblem:
         raise InputError(f"data: no value in {', '.join(measured)}; '-' is what was not measured")
     empty = (f"{name} (no value in it)" for name in measured if name not in responses)
     bodies = _bodies(pair, table.case)
+    if "drop_height" in rows.columns and len(bodies.moving) > 1:
+        raise InputError(
+            "drop_height: the second body flies off, too, and heights of the first do not tell how "
+            "fast they part; drop it on a half-space, or give normal_speed and normal_speed_out"
+        )
     before = {name: rows[name] for name in BEFORE if name in rows.columns}
     _check_sizes(rows, bodies)
     _check_before(rows, before, responses)
