@@ -11,6 +11,7 @@ from carom.explorer.charts import BLUE, GREY, VERMILION, Figure, axes_of, line
 from carom.explorer.stages import short
 from carom.fitting import Fit, fit
 from carom.plots.style import prefixed
+from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 
 LINES = {
@@ -29,6 +30,8 @@ def fit_of(name: str) -> dict[str, Any]:
 def shown_fit(found: Fit) -> dict[str, Any]:
     """Return the words and charts of a fit, as JSON can hold them."""
     dataset = found.to_dataset()
+    if found.losses is not None and found.best.model.problem.is_normal:
+        return {"words": str(found), "figures": [_drops(dataset)]}
     figures = [_chart(dataset.sel(response=n), str(n)) for n in dataset["response"].values]
     return {"words": str(found), "figures": figures}
 
@@ -40,20 +43,32 @@ def _chart(one: xr.Dataset, name: str) -> Figure:
         line(along, scale * one["curve_expected"].sel(law=law).values, str(law), *LINES[str(law)])
         for law in one["law"].values
     ]
-    traces.append(_points(one, scale))
+    values, errors = (scale * one[key].values for key in ("measured", "error"))
+    traces.append(_measured(np.degrees(one["incidence"].values), values, errors))
     text = name.replace("_", " ") + (f" ({unit})" if unit != "1" else "")
     return axes_of(traces, "incidence of the contact point (deg)", text)
 
 
-def _points(one: xr.Dataset, scale: float) -> Figure:
-    error = {"type": "data", "array": short(scale * one["error"].values), "thickness": 1}
+def _drops(dataset: xr.Dataset) -> Figure:
+    """Return restitution against speed, measured and by laws of losses."""
+    speeds = dataset["loss_speed"].values
+    traces: list[Figure] = [
+        line(speeds, dataset["loss_restitution"].sel(loss_law=law).values, str(law), *style)
+        for law, style in zip(dataset["loss_law"].values, LINES.values(), strict=True)
+    ]
+    columns = ("normal_speed", "restitution", "restitution_error")
+    traces.append(_measured(*(dataset[name].values for name in columns)))
+    return axes_of(traces, "normal speed before (m/s)", "restitution")
+
+
+def _measured(x: Array, y: Array, errors: Array) -> Figure:
     return {
         "type": "scatter",
         "mode": "markers",
         "name": "measured",
-        "x": short(np.degrees(one["incidence"].values)),
-        "y": short(scale * one["measured"].values),
-        "error_y": error,
+        "x": short(x),
+        "y": short(y),
+        "error_y": {"type": "data", "array": short(errors), "thickness": 1},
         "marker": {"color": VERMILION, "size": 6},
         "hovertemplate": "%{y:.4g}",
     }

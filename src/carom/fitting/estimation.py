@@ -236,8 +236,13 @@ def fitted(
 
 def likelihood(best: Best) -> float:
     """Return -2 log likelihood."""
-    problem = best.model.problem
-    return best.sum + best.weights.sizes(problem.present) + problem.count * best.loss.size
+    return best.sum + _size(best.model, best.weights, best.loss)
+
+
+def _size(model: Model, weights: errors.Weights, loss: errors.RobustLoss) -> float:
+    """Return -2 log likelihood of residuals of zero."""
+    problem = model.problem
+    return weights.sizes(problem.present) + problem.count * loss.size
 
 
 def distinct(points: Array) -> Array:
@@ -278,8 +283,7 @@ def _followed(
             break
     weights = model.weights(at, sigma, scale)
     total = float(np.square(model.residuals(weights, loss)(at[np.newaxis])).sum())
-    total += weights.sizes(problem.present) + problem.count * loss.size
-    return _Settling(at, loss, sigma, scale, total)
+    return _Settling(at, loss, sigma, scale, total + _size(model, weights, loss))
 
 
 def polished(
