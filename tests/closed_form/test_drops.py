@@ -74,7 +74,7 @@ def test_the_law_of_losses_is_found_with_its_parameter(law, truth):
         assert first.law == law
         assert first.parameter.value == pytest.approx(value, rel=0.1)
         held += first.parameter.low <= value <= first.parameter.high
-        assert f"that of {law}" in found.verdict
+        assert ("the same at all speeds" if law == "constant" else law) in found.verdict
     assert held >= 17
     np.testing.assert_allclose(restitutions(first.losses), exact, atol=0.01)
 

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 from scipy.special import stdtrit
 
+from carom.fitting.best import Best, likelihood
 from carom.fitting.errors import OUTLYING, RobustLoss
-from carom.fitting.estimation import Best, estimate, fitted, likelihood
+from carom.fitting.estimation import estimate, fitted
 from carom.fitting.intervals import settle
 from carom.fitting.laws import EXACT, OFFSET, RIVALS, FittedLaw
 from carom.fitting.least_squares import descend

@@ -6,8 +6,8 @@ from functools import cached_property
 from math import floor, inf, isfinite, isnan, log10, nan
 from typing import Any
 
+from carom.fitting.best import Best
 from carom.fitting.comparison import Comparison, compare
-from carom.fitting.estimation import Best
 from carom.fitting.intervals import ProfiledFit
 from carom.quantities.units import or_none
 

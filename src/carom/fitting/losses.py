@@ -13,9 +13,9 @@ from carom.bodies.pairs import Pair
 from carom.datasets.observables import NORMAL
 from carom.dimensionless.lossy.panels.stages import restitution
 from carom.dimensionless.lossy.panels.work import new_work
+from carom.fitting.best import Best
 from carom.fitting.comparison import APART, CLEAR, criterion, on_common_ground
 from carom.fitting.estimates import Estimate, estimate_of
-from carom.fitting.estimation import Best
 from carom.fitting.intervals import profiled, settle
 from carom.fitting.laws import ANY_RESTITUTION, OFFSET, FittedLaw, Parameter, Values, untouched
 from carom.fitting.model import Model
@@ -74,9 +74,10 @@ class LossComparison:
             return "too few values to tell laws of losses apart"
         close = [each.law for each in others if not each.excess > APART]
         if close:
-            return f"the data cannot tell {' and '.join([first.law, *close])} apart"
+            return f"the data cannot tell {first.law} from {' and '.join(close)}"
         how = "is out of the question" if others[0].excess > CLEAR else "is less likely"
-        return f"restitution against speed is that of {first.law}; {others[0].law} {how}"
+        told = "the same at all speeds" if first.law == CONSTANT else f"that of {first.law}"
+        return f"restitution against speed is {told}; {others[0].law} {how}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the comparison as plain numbers, by law; what cannot be computed is None."""

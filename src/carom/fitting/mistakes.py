@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.fitting.best import Best, likelihood
 from carom.fitting.errors import OUTLYING, RobustLoss, typical_deviation
 from carom.fitting.estimates import Estimate
-from carom.fitting.estimation import Best, estimate, likelihood, rough_minima
+from carom.fitting.estimation import estimate, rough_minima
 from carom.fitting.model import Model
 from carom.fitting.problem import FitProblem
 from carom.quantities.arrays import Array

@@ -5,9 +5,9 @@ from math import isnan
 
 import numpy as np
 
+from carom.fitting.best import Best
 from carom.fitting.errors import OUTLYING, least_error
 from carom.fitting.estimates import LIMITS, Estimate, FitRecord
-from carom.fitting.estimation import Best
 from carom.fitting.heights import HEIGHTS, taken_by_air
 from carom.fitting.intervals import ProfiledFit
 from carom.fitting.mistakes import likely_mistake
