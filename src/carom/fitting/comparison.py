@@ -109,16 +109,20 @@ def compare(best: Best) -> Comparison:
     own = [best, *(_rival(law, best) for law in RIVALS)]
     fits = on_common_ground(own)
     criteria = np.array([criterion(each) for each in fits])
-    least = np.nanmin(criteria) if np.isfinite(criteria).any() else nan
-    weights = np.exp(-0.5 * (criteria - least))
-    weights /= np.nansum(weights)
-    numbers = zip(criteria.tolist(), (criteria - least).tolist(), weights.tolist(), strict=True)
+    numbers = zip(criteria.tolist(), *standing(criteria), strict=True)
     return Comparison(
         tuple(
             LawFit(each.model.law.name, *known, _free(each), _values(each), each)
             for each, known in zip([best, *fits[1:]], numbers, strict=True)
         )
     )
+
+
+def standing(criteria: Array) -> tuple[list[float], list[float]]:
+    """Return by how much each exceeds the least, and Akaike's weights; NaN where there is none."""
+    least = np.nanmin(criteria) if np.isfinite(criteria).any() else nan
+    weights = np.exp(-0.5 * (criteria - least))
+    return (criteria - least).tolist(), (weights / np.nansum(weights)).tolist()
 
 
 def on_common_ground(fits: Sequence[Best]) -> list[Best]:

@@ -14,7 +14,7 @@ from carom.datasets.observables import NORMAL
 from carom.dimensionless.lossy.panels.stages import restitution
 from carom.dimensionless.lossy.panels.work import new_work
 from carom.fitting.best import Best
-from carom.fitting.comparison import APART, CLEAR, criterion, on_common_ground
+from carom.fitting.comparison import APART, CLEAR, criterion, on_common_ground, standing
 from carom.fitting.estimates import Estimate, estimate_of
 from carom.fitting.intervals import profiled, settle
 from carom.fitting.laws import ANY_RESTITUTION, OFFSET, FittedLaw, Parameter, Values, untouched
@@ -118,16 +118,13 @@ def compare_losses(best: Best, confidence: float) -> LossComparison | None:
     ]
     fits = on_common_ground(own)
     criteria = np.array([criterion(each) for each in fits])
-    excess = criteria - np.nanmin(criteria) if np.isfinite(criteria).any() else criteria
-    weights = np.exp(-0.5 * excess)
-    weights = weights / np.nansum(weights)
+    excess, weights = standing(criteria)
     standings = []
     for place in np.argsort(criteria):
         found = profiled(fits[place], confidence)
         law = found.best.model.law
         parameter = estimate_of(found, law.names[0])
-        numbers = (float(excess[place]), float(weights[place]))
-        standings.append(LossFit(law.name, *numbers, parameter, found.best))
+        standings.append(LossFit(law.name, excess[place], weights[place], parameter, found.best))
     measured, errors = _restitutions(problem, standings[0].best)
     return LossComparison(tuple(standings), problem.motion.normal_speed, measured, errors)
 
