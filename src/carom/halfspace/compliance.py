@@ -4,12 +4,9 @@ from math import pi
 from typing import NamedTuple
 
 import numpy as np
-import scipy.fft
-from numpy.typing import NDArray
 
 from carom.halfspace.influence import Field, influence
-
-Spectrum = NDArray[np.complex128]
+from carom.halfspace.transforms import Mirrors, Spectrum, Transform
 
 
 class Materials(NamedTuple):
@@ -35,28 +32,32 @@ class Compliance:
     [I/r + m x x/r^3], D = x/r^2, m = 2 (1/kappa - 1), K = beta/pi (Boussinesq, Cerruti; Johnson
     1985, sections 3.2, 3.6). Pressure in E* d_max/a_max, traction in friction times that, lengths
     along the surface in a_max, normal displacements in d_max, tangential ones in friction d_max.
-    `transforms` counts the real two-dimensional transforms of padded fields that were made,
-    `rough_transforms` those of fields without padding, by the preconditioners.
+    `size` is that of the whole grid; fields are of the elements that `mirrors` leave. Unlike
+    materials are not mirrored in x: pressure would pull both ways there.
     """
 
-    def __init__(self, size: int, spacing: float, materials: Materials) -> None:
-        self.size, self.spacing, self.materials = size, spacing, materials
-        self.transforms = self.rough_transforms = 0
+    def __init__(
+        self, size: int, spacing: float, materials: Materials, mirrors: Mirrors = Mirrors()
+    ) -> None:
+        if materials.beta and mirrors.x:
+            raise ValueError("what pressure does along x is odd there, traction along x even")
+        self.size, self.spacing, self.materials, self.mirrors = size, spacing, materials, mirrors
+        self.padded, self.rough = (Transform(size, mirrors, padding) for padding in (2, 1))
         offsets = np.fft.fftfreq(2 * size, 1.0 / (2 * size))
         unit = influence(*np.meshgrid(offsets, offsets, indexing="ij"))
         scale, lateral = spacing / pi, materials.lateral
-        normal = scale * (unit.xx + unit.yy)
-        own = normal + scale * lateral * np.stack([unit.xx, unit.yy])
-        cross, skew = scale * lateral * unit.xy, scale * materials.beta * np.stack([unit.x, unit.y])
-        even = [self._spectrum(kernel).real.copy() for kernel in (normal, own, cross)]
-        self._normal, self._own, self._cross = even
-        self._skew = self._spectrum(skew)
-        self._normal_inverse = 1.0 / self._circulant(normal)
-        straight, slanted = self._circulant(own), self._circulant(cross)
-        determinant = straight[0] * straight[1] - slanted**2
-        self._own_inverse, self._cross_inverse = straight[::-1] / determinant, slanted / determinant
-        self.normal_diagonal = float(normal[0, 0])
-        self.tangential_diagonal = float(own[0, 0, 0])
+        kernels = unit.xx + unit.yy, unit.xx, unit.yy, unit.xy, unit.x, unit.y
+        isotropic, xx, yy, xy, x, y = (scale * _used(kernel) for kernel in kernels)
+        along, across = isotropic + lateral * xx, isotropic + lateral * yy
+        self._normal = self.padded.of_kernel(isotropic)
+        self._tangential = _Tensor.of(self.padded, along, across, lateral * xy)
+        self._skew = materials.beta * self.padded.of_kernel(x)
+        self._skew_across = materials.beta * self.padded.of_kernel(y, to_odd=True)
+        self._normal_inverse = 1.0 / self.rough.of_kernel(_periodic(isotropic))
+        nearest = (_periodic(kernel) for kernel in (along, across, lateral * xy))
+        self._tangential_inverse = _Tensor.of(self.rough, *nearest).inverse(self.rough)
+        self.normal_diagonal = float(isotropic[0, 0])
+        self.tangential_diagonal = float(along[0, 0])
 
     @property
     def couples(self) -> bool:
@@ -65,72 +66,90 @@ class Compliance:
 
     def normal(self, pressure: Field) -> Field:
         """Return the normal displacement under a pressure alone."""
-        return self._backward(self._normal * self._forward(pressure))
+        return self.padded.backward(self._normal * self.padded.forward(pressure))
 
     def tangential(self, traction: Field) -> Field:
         """Return the tangential displacement, along (x, y), under a traction alone."""
-        loads = self._forward(traction)
-        moved = self._own * loads
-        moved += self._cross * loads[::-1]
-        return self._backward(moved)
+        return self._tangential.applied(self.padded, traction)
 
     def normal_of_traction(self, traction: Field) -> Field:
         """Return the normal displacement under a traction: none for like materials."""
         if not self.couples:
             return np.zeros(traction.shape[1:])
-        moved = self._skew * self._forward(traction)
-        return -self.materials.friction * self._backward(moved.sum(axis=0))
+        to_even = -1.0 if self.mirrors.y else 1.0
+        moved = self._skew * self.padded.forward(traction[0])
+        across = self._skew_across * self.padded.forward(traction[1], odd=True)[self.padded.odd]
+        moved[self.padded.even] += to_even * across
+        return -self.materials.friction * self.padded.backward(moved)
 
     def tangential_of_pressure(self, pressure: Field) -> Field:
         """Return the tangential displacement under a pressure: none for like materials."""
         if not self.couples:
             return np.zeros((2, *pressure.shape))
-        return self._backward(self._skew * self._forward(pressure)) / self.materials.friction
+        load = self.padded.forward(pressure)
+        across = np.zeros_like(load)
+        across[self.padded.odd] = self._skew_across * load[self.padded.even]
+        moved = self.padded.backward(self._skew * load), self.padded.backward(across, odd=True)
+        return np.stack(moved) / self.materials.friction
 
     def roughly_pressure(self, displacement: Field) -> Field:
         """Return about the pressure under which the surface gives way so: a preconditioner."""
-        self.rough_transforms += 2
-        spectrum = scipy.fft.rfft2(displacement)
-        return np.asarray(scipy.fft.irfft2(self._normal_inverse * spectrum, displacement.shape))
+        return self.rough.backward(self._normal_inverse * self.rough.forward(displacement))
 
     def roughly_traction(self, displacement: Field) -> Field:
         """Return about the traction under which the surface gives way so: a preconditioner."""
-        self.rough_transforms += 4
-        spectrum = scipy.fft.rfft2(displacement)
-        loads = self._own_inverse * spectrum - self._cross_inverse * spectrum[::-1]
-        return np.asarray(scipy.fft.irfft2(loads, displacement.shape[1:]))
+        return self._tangential_inverse.applied(self.rough, displacement)
 
-    def _spectrum(self, kernel: Field) -> Spectrum:
-        """Return the spectrum of a kernel, without the offsets of `size` that no two elements have.
 
-        They would spoil the symmetry by which spectra of even kernels are real.
-        """
-        used = np.ones((2 * self.size, 2 * self.size))
-        used[self.size] = used[:, self.size] = 0.0
-        return np.asarray(scipy.fft.rfft2(used * kernel))
+class _Tensor(NamedTuple):
+    """A symmetric kernel of two by two, in wave numbers: from (even, odd) fields to such fields."""
 
-    def _forward(self, field: Field) -> Spectrum:
-        """Return the spectrum on the doubled grid; lines of padding are not transformed."""
-        self._count(field)
-        rows = scipy.fft.rfft(field, 2 * self.size, axis=-1)
-        return np.asarray(scipy.fft.fft(rows, 2 * self.size, axis=-2))
+    along: Spectrum
+    across: Spectrum
+    to_even: Spectrum
+    to_odd: Spectrum
 
-    def _backward(self, spectrum: Spectrum) -> Field:
-        self._count(spectrum)
-        columns = scipy.fft.ifft(spectrum, axis=-2, overwrite_x=True)[..., : self.size, :]
-        return np.asarray(scipy.fft.irfft(columns, 2 * self.size, axis=-1)[..., : self.size])
+    @classmethod
+    def of(cls, transform: Transform, along: Field, across: Field, slanted: Field) -> "_Tensor":
+        return cls(
+            transform.of_kernel(along),
+            transform.of_kernel(across, from_odd=True, to_odd=True),
+            transform.of_kernel(slanted, from_odd=True),
+            transform.of_kernel(slanted, to_odd=True),
+        )
 
-    def _count(self, fields: Field | Spectrum) -> None:
-        self.transforms += fields.shape[0] if fields.ndim == 3 else 1
+    def inverse(self, transform: Transform) -> "_Tensor":
+        """Return the kernel that undoes this one, wave number by wave number."""
+        along, across = 1.0 / self.along, 1.0 / self.across
+        one, other = self.along[transform.even], self.across[transform.odd]
+        determinant = one * other - np.real(self.to_even * self.to_odd)
+        along[transform.even], across[transform.odd] = other / determinant, one / determinant
+        return _Tensor(along, across, -self.to_even / determinant, -self.to_odd / determinant)
 
-    def _circulant(self, kernel: Field) -> Field:
-        """Return the spectrum of the nearest periodic kernel (T. Chan 1988, SIAM J. Sci. Stat.
+    def applied(self, transform: Transform, field: Field) -> Field:
+        """Return a field of two components, convolved."""
+        even, odd = transform.forward(field[0]), transform.forward(field[1], odd=True)
+        along, across = self.along * even, self.across * odd
+        along[transform.even] += self.to_even * odd[transform.odd]
+        across[transform.odd] += self.to_odd * even[transform.even]
+        return np.stack([transform.backward(along), transform.backward(across, odd=True)])
 
-        Comput. 9:766), which is positive wherever the convolution itself is.
-        """
-        size = self.size
-        fade = np.maximum(1.0 - np.abs(np.fft.fftfreq(2 * size, 1.0 / (2 * size))) / size, 0.0)
-        faded = kernel * fade[:, None] * fade
-        halves = faded[..., :size, :] + faded[..., size:, :]
-        periodic = halves[..., :size] + halves[..., size:]
-        return np.asarray(scipy.fft.rfft2(periodic).real)
+
+def _used(kernel: Field) -> Field:
+    """Return a kernel without the offsets that no two elements have, which spoil its symmetry."""
+    kernel = kernel.copy()
+    size = len(kernel) // 2
+    kernel[size] = kernel[:, size] = 0.0
+    return kernel
+
+
+def _periodic(kernel: Field) -> Field:
+    """Return the nearest kernel of half the period (T. Chan 1988, SIAM J. Sci. Stat.
+
+    Comput. 9:766), whose spectrum is positive wherever the convolution itself is.
+    """
+    size = len(kernel) // 2
+    fade = np.maximum(1.0 - np.abs(np.fft.fftfreq(2 * size, 1.0 / (2 * size))) / size, 0.0)
+    faded = kernel * fade[:, None] * fade
+    halves = faded[:size] + faded[size:]
+    return np.asarray(halves[:, :size] + halves[:, size:])

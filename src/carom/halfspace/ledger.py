@@ -5,14 +5,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.halfspace.influence import Field, Mask
+from carom.halfspace.influence import Field
 from carom.halfspace.motion import BodyMotion
-from carom.halfspace.quasistatic import ContactStep, Patch
-from carom.halfspace.traction import at_bound
+from carom.halfspace.quasistatic import Patch
 
 
 class LedgerEntry(NamedTuple):
-    """One instant of an impact, or all of them; `across` is along y, all else along x.
+    """One instant of an impact, or all of them; `across` is along y, `turn` about the normal.
 
     Units as in `Compliance` and `BodyMotion`; energies of the normal motion in E* a_max d_max^2, of
     the tangential motion in friction^2 times that. What is `lost` and the angles belong to the step
@@ -25,10 +24,12 @@ class LedgerEntry(NamedTuple):
     displacement: float
     velocity: float
     velocity_across: float
+    turn_velocity: float
     force: float
     drag: float
+    moment: float
     contact_radius: float  # of the circle of the same area
-    slip_share: float  # of the elements under friction
+    slip_share: float  # of the elements that touch
     normal_stored: float
     tangential_stored: float
     lost: float  # to friction
@@ -56,35 +57,30 @@ class LedgerEntry(NamedTuple):
 
 def entry(patch: Patch, before: BodyMotion, now: BodyMotion) -> LedgerEntry:
     """Return what the step from one instant to the next comes to."""
-    state, old = now.step.state, before.step.state
-    moved, slips = now.step.moved, slipping(now.step)
-    work = patch.element * 0.5 * (old.traction + state.traction) * moved
+    state, old, grid = now.step.state, before.step.state, patch.grid
+    moved, slips = now.step.moved, now.step.slips
+    work = grid.element * 0.5 * (old.traction + state.traction) * moved
     mean, largest = _angles(state.traction[:, slips], moved[:, slips])
-    touching, gripped = np.count_nonzero(state.pressure > 0.0), np.count_nonzero(now.step.gripped)
+    touching = np.count_nonzero(state.pressure > 0.0)
     return LedgerEntry(
         now.time,
         state.depth,
         now.approach,
         float(state.displacement[0]),
-        float(now.velocity[0]),
-        float(now.velocity[1]),
+        *(float(component) for component in now.velocity),
         now.force,
         float(now.drag[0]),
-        sqrt(touching * patch.element / pi),
-        np.count_nonzero(slips) / gripped if gripped else 1.0,
-        0.5 * patch.element * float(np.sum(state.pressure * (state.depth - patch.gap))),
-        0.5 * patch.element * float(np.sum(state.traction * state.yielded)),
+        float(now.drag[2]),
+        sqrt(touching * grid.element / pi),
+        np.count_nonzero(slips) / touching if touching else 1.0,
+        0.5 * grid.force(state.pressure * (state.depth - grid.apart)),
+        0.5 * grid.element * float(np.sum(state.traction * state.yielded)),
         float(work.sum()),
         float(work[1].sum()),
         mean,
         largest,
-        patch.element * float(state.traction[0, slips].sum()),
+        grid.element * float(state.traction[0, slips].sum()),
     )
-
-
-def slipping(step: ContactStep) -> Mask:
-    """Return the elements whose traction is as large as friction allows."""
-    return step.gripped & at_bound(step.state.traction, step.state.pressure)
 
 
 def _angles(pulled: Field, slid: Field) -> tuple[float, float]:

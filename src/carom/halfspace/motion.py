@@ -17,34 +17,56 @@ SHARE = 0.5  # of the time scale of the tangential motion on its springs
 
 
 class BodyMotion(NamedTuple):
-    """The bodies at an instant. The tangential velocity is psi/kappa, in friction V_1."""
+    """The bodies at an instant.
+
+    Velocities along x and y are psi/kappa, in friction V_1, that of the turn is in friction
+    V_1/a_max.
+    """
 
     time: float
     approach: float  # velocity, d'
-    velocity: Field  # shape (2,)
+    velocity: Field  # along x, y and about the normal, shape (3,)
     step: ContactStep
     force: float  # P
-    drag: Field  # F over friction, shape (2,)
+    drag: Field  # forces and moment over friction, shape (3,)
 
 
-def tangential_response(chi: float, kappa: float) -> float:
-    """Return how forces change tangential velocities, V' = -(15/8) (chi/kappa) F."""
-    return 2.0 * NORMAL * chi / kappa
+class NormalSpin(NamedTuple):
+    """Spin about the normal, of the first body less that of the second.
 
-
-def move(patch: Patch, psi: Field, chi: float, steps: int) -> Iterator[BodyMotion]:
-    """Yield the impact step by step, from the first touch to the last.
-
-    Verlet's method, of second order: half of the change of velocities, the path, the quasi-static
-    contact at its end, the other half (Hairer, Lubich & Wanner 2003, Acta Numerica 12:399). Steps
-    are a fraction of the duration of Hertz's impact, smaller where the edge of the contact moves
-    fast, and a fraction of 1/omega, omega^2 = (15/4) chi, which decides where chi is large. The
-    last one is cut where the bodies part.
+    `speed` is omega a_max/(friction V_1); `lightness` is m_n a_max^2/I, 1/I the sum of 1/I_1 and
+    1/I_2, the moments of inertia about the normal.
     """
-    kappa = patch.compliance.materials.kappa
-    response, spacing = tangential_response(chi, kappa), patch.compliance.spacing
+
+    speed: float = 0.0
+    lightness: float = 0.0
+
+
+NO_SPIN = NormalSpin()
+
+
+def responses(chi: float, kappa: float, lightness: float) -> Field:
+    """Return how forces along x and y and the moment change velocities, V' = -response F."""
+    along = 2.0 * NORMAL * chi / kappa
+    return np.array([along, along, NORMAL * lightness])
+
+
+def move(
+    patch: Patch, psi: Field, chi: float, steps: int, spin: NormalSpin = NO_SPIN
+) -> Iterator[BodyMotion]:
+    """Yield the impact step by step, from the first touch to the last; psi along x and y.
+
+    Verlet's method, of second order: half of the change of
+    velocities, the path, the quasi-static contact at its end, the other half (Hairer, Lubich &
+    Wanner 2003, Acta Numerica 12:399). Steps are a fraction of the duration of Hertz's impact,
+    smaller where the edge of the contact moves fast, and a fraction of 1/omega, omega^2 = (15/4)
+    chi, which decides where chi is large. The last one is cut where the bodies part.
+    """
+    kappa, spacing = patch.compliance.materials.kappa, patch.compliance.spacing
+    response = responses(chi, kappa, spin.lightness)
+    velocity = np.array([*psi / kappa, spin.speed])
     longest = min(DURATION / steps, SHARE / sqrt(4.0 * NORMAL * chi))
-    now = BodyMotion(0.0, 1.0, psi / kappa, _apart(patch, np.zeros(2)), 0.0, np.zeros(2))
+    now = BodyMotion(0.0, 1.0, velocity, _apart(patch, np.zeros(3)), 0.0, np.zeros(3))
     yield now
     while True:
         state = now.step.state
@@ -55,11 +77,10 @@ def move(patch: Patch, psi: Field, chi: float, steps: int) -> Iterator[BodyMotio
         if depth <= 0.0:
             left = state.depth / -approach
             apart = _apart(patch, state.displacement + left * velocity)
-            yield BodyMotion(now.time + left, approach, velocity, apart, 0.0, np.zeros(2))
+            yield BodyMotion(now.time + left, approach, velocity, apart, 0.0, np.zeros(3))
             return
-        step = patch.advance(state, depth, state.displacement + length * velocity)
-        force = patch.element * float(step.state.pressure.sum())
-        drag = patch.element * step.state.traction.sum(axis=(1, 2))
+        step = patch.advance(state, depth, state.displacement + length * velocity, length)
+        force, drag = patch.grid.force(step.state.pressure), patch.grid.drag(step.state.traction)
         approach = approach - 0.5 * length * NORMAL * force
         velocity = velocity - 0.5 * length * response * drag
         now = BodyMotion(now.time + length, approach, velocity, step, force, drag)
@@ -69,7 +90,7 @@ def move(patch: Patch, psi: Field, chi: float, steps: int) -> Iterator[BodyMotio
 def _apart(patch: Patch, displacement: Field) -> ContactStep:
     """Return the step at whose end the bodies do not touch."""
     state = patch.untouched()._replace(displacement=displacement)
-    return ContactStep(state, state.yielded, state.pressure > 0.0)
+    return ContactStep(state, state.yielded, state.yielded)
 
 
 def _edge_limit(now: BodyMotion, spacing: float) -> float:

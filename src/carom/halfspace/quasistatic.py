@@ -1,17 +1,22 @@
 """One quasi-static step of the contact: from one position of the bodies to the next."""
 
-from math import ceil
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-import scipy.fft
 
 from carom.halfspace.compliance import Compliance, Materials
+from carom.halfspace.grid import Grid, elements_across
 from carom.halfspace.influence import Field, Mask
-from carom.halfspace.traction import solve_pressure, solve_traction
+from carom.halfspace.second_order import aside_of_bodies, before_touch, turn_to_end
+from carom.halfspace.traction import at_bound, solve_pressure, solve_traction
+from carom.halfspace.transforms import Mirrors
 
-EXCHANGES = 60  # between normal and tangential contact of unlike materials
-MARGIN = 1.06  # of the grid over the largest contact
+EXCHANGES = 60  # between normal and tangential contact
+FIRST, NEXT = 1e-3, 0.03  # how far they are solved first, and then by what they still change
+RELAXED = 0.8  # of a change of direction: friction turned one way makes slip turn back
+SLIPPING = 1e-5  # of its bound, that a traction may be short of it and slip
+NO_MIRRORS = Mirrors()
 
 
 class Tolerances(NamedTuple):
@@ -20,103 +25,155 @@ class Tolerances(NamedTuple):
     normal: float = 1e-6
     tangential: float = 1e-6
     exchange: float = 1e-5
-    touch: float = 1e-3  # only to see which elements touch
+    turn: float = 1e-3  # of the largest pressure, by the direction of slip
 
 
 DEFAULT = Tolerances()
 
 
 class ContactState(NamedTuple):
-    """The contact at an instant: position of the bodies and the tractions that belong to it."""
+    """The contact at an instant: the bodies, what belongs to their position, and the last step."""
 
     depth: float  # d, approach of the bodies
-    displacement: Field  # U, tangential, shape (2,)
+    displacement: Field  # U along x and y, and the turn about the normal, shape (3,)
     pressure: Field  # shape (n, n)
     traction: Field  # of the first body on the second, over friction, shape (2, n, n)
     yielded: Field  # tangential displacement that the surfaces gave way, shape (2, n, n)
+    gap: Field  # between the surfaces
+    aside: Field  # see `second_order`
+    slip: Field  # over the length of the step, where there is any
+    rates: Sequence[Field]  # of pressure and traction
+    length: float  # of the step
+
+    @property
+    def loads(self) -> tuple[Field, Field]:
+        """Pressure and traction."""
+        return self.pressure, self.traction
 
 
 class ContactStep(NamedTuple):
     """What one step leads to."""
 
     state: ContactState
-    moved: Field  # U less what the surfaces gave way, in this step, shape (2, n, n)
-    gripped: Mask  # elements under friction in this step: not those that touch since its middle
+    moved: Field  # bodies less surfaces, since they touch, shape (2, n, n)
+    heading: Field  # where that moves at the end of the step: what slips has its traction along it
+
+    @property
+    def slips(self) -> Mask:
+        """Elements whose traction is as large as friction allows."""
+        return slipping(*self.state.loads)
 
 
 class Patch:
-    """Two bodies on a square grid: a paraboloid and what it is pressed against.
-
-    The first contact is in the middle of the grid, where four elements meet.
-    """
+    """Two bodies on a grid: a paraboloid and what it is pressed against."""
 
     def __init__(self, compliance: Compliance, tolerances: Tolerances = DEFAULT) -> None:
         self.compliance, self.tolerances = compliance, tolerances
-        size = compliance.size
-        self.line = (np.arange(size) - 0.5 * (size - 1)) * compliance.spacing
-        self.gap = 0.5 * (self.line[:, None] ** 2 + self.line[None, :] ** 2)
-        self.element = compliance.spacing**2
+        self.grid = Grid(compliance.size, compliance.spacing, compliance.mirrors)
 
     @classmethod
     def across(
-        cls, elements: int, materials: Materials, tolerances: Tolerances = DEFAULT
+        cls,
+        elements: int,
+        materials: Materials,
+        mirrors: Mirrors = NO_MIRRORS,
+        tolerances: Tolerances = DEFAULT,
     ) -> "Patch":
         """Return the patch with so many elements across the contact of radius 1."""
-        size = 2 * ceil(0.5 * MARGIN * elements + 1.0)
-        while scipy.fft.next_fast_len(size, real=True) != size:
-            size += 2
-        return cls(Compliance(size, 2.0 / elements, materials), tolerances)
+        size = elements_across(elements)
+        return cls(Compliance(size, 2.0 / elements, materials, mirrors), tolerances)
 
     def untouched(self) -> ContactState:
         """Return the state at the first touch."""
-        size = self.compliance.size
-        nothing = np.zeros((2, size, size))
-        return ContactState(0.0, np.zeros(2), nothing[0], nothing, nothing)
+        apart = self.grid.apart
+        none, nothing = np.zeros_like(apart), np.zeros((2, *apart.shape))
+        position = (0.0, np.zeros(3))
+        rates = (none, nothing)
+        return ContactState(*position, none, nothing, nothing, apart, nothing, nothing, rates, 1.0)
 
-    def advance(self, state: ContactState, depth: float, displacement: Field) -> ContactStep:
+    def advance(
+        self, state: ContactState, depth: float, displacement: Field, length: float = 1.0
+    ) -> ContactStep:
         """Return the contact after the bodies have moved in a straight line.
 
-        Elements that come to touch in the second half of the step take no traction yet and stick
-        from its end on, those of the first half stick from its beginning: to second order in the
-        step, each then sticks from its own touch. For unlike materials the normal and the
-        tangential contact are solved in turns, each with the other's result.
+        Second order in the step: elements stick from their own touch on, and traction is along the
+        slip at the end of the step. `length` is that of the step, in any unit.
         """
-        late = self._late(state, depth)
-        pressure, traction = state.pressure, state.traction
-        given = (displacement - state.displacement)[:, None, None] + state.yielded
+        carried, approach = self.grid.carried(displacement - state.displacement), depth - state.depth
+        given, open_ = carried + state.yielded, np.where(state.pressure > 0.0, 0.0, state.gap)
+        early = before_touch(open_, carried, approach, state.aside)
+        share = length / (length + state.length)
+        start = (now + length * rate for now, rate in zip(state.loads, state.rates, strict=True))
+        found = self._balance(_Asked(depth, given, early, state.slip, share), *start)
+        rates = [
+            (now - last) / length for now, last in zip(found.loads, state.loads, strict=True)
+        ]
+        closed = np.where(found.gap > 0.0, state.gap - found.gap, 0.0)
+        aside = aside_of_bodies(closed, given - found.yielded, carried, approach)
+        slip = np.where(slipping(*found.loads), found.moved / length, 0.0)
+        reached = ContactState(
+            depth, displacement, *found.loads, found.yielded, found.gap, aside, slip, rates, length
+        )
+        return ContactStep(reached, found.moved, found.moved - found.turn)
+
+    def _balance(self, asked: "_Asked", pressure: Field, traction: Field) -> "_Found":
+        """Return normal and tangential contact and the direction of slip that agree.
+
+        They are solved in turns, each with the others' results, from loads to begin with.
+        """
+        surface, tolerances = self.compliance, self.tolerances
+        turn, rough = np.zeros_like(traction), FIRST if surface.couples else 0.0
         for _ in range(EXCHANGES):
-            before = pressure, traction
-            overlap = self._overlap(depth, traction)
-            pressure = solve_pressure(self.compliance, overlap, pressure, self.tolerances.normal)
-            skewed = self.compliance.tangential_of_pressure(pressure)
-            bound = np.where(late, 0.0, pressure)
-            traction, dragged = solve_traction(
-                self.compliance, given - skewed, bound, traction, self.tolerances.tangential
-            )
-            yielded = dragged + skewed
-            if not self.compliance.couples or self._settled(before, (pressure, traction)):
-                reached = ContactState(depth, displacement, pressure, traction, yielded)
-                return ContactStep(reached, given - yielded, bound > 0.0)
-        product = self.compliance.materials.friction * abs(self.compliance.materials.beta)
+            before, used = (pressure, traction), turn
+            overlap = asked.depth - self.grid.apart - surface.normal_of_traction(traction)
+            finer = max(tolerances.normal, rough), max(tolerances.tangential, rough)
+            pressure, sunk = solve_pressure(surface, overlap, pressure, finer[0])
+            skewed = surface.tangential_of_pressure(pressure)
+            since = asked.given - np.where(pressure > 0.0, asked.early, 0.0)
+            pull = since - skewed - used
+            traction, dragged = solve_traction(surface, pull, pressure, traction, finer[1])
+            moved, slips = since - skewed - dragged, slipping(pressure, traction)
+            turn = used + RELAXED * (turn_to_end(moved, slips, asked.slip, asked.share) - used)
+            change = _change(before, (pressure, traction)) if surface.couples else 0.0
+            own = pressure.max() * surface.tangential_diagonal
+            turned = np.abs(turn - used).max() <= tolerances.turn * own
+            if turned and max(change, rough / NEXT) <= tolerances.exchange:
+                gap = np.maximum(sunk - overlap, 0.0)
+                return _Found((pressure, traction), skewed + dragged, gap, moved, used)
+            rough = min(rough, NEXT * change)
+        product = surface.materials.friction * abs(surface.materials.beta)
         raise RuntimeError(
             f"normal and tangential contact do not agree in {EXCHANGES} exchanges; friction times "
             f"Dundurs' beta is {product:.3g}, boundary elements want about 1 at most"
         )
 
-    def _overlap(self, depth: float, traction: Field) -> Field:
-        return depth - self.gap - self.compliance.normal_of_traction(traction)
 
-    def _late(self, state: ContactState, depth: float) -> Mask:
-        """Return the elements that come to touch in the second half of a step."""
-        if depth <= state.depth:
-            return np.zeros(self.gap.shape, dtype=bool)
-        overlap = self._overlap(0.5 * (state.depth + depth), state.traction)
-        middle = solve_pressure(self.compliance, overlap, state.pressure, self.tolerances.touch)
-        apart = middle <= self.tolerances.normal * middle.max()
-        return np.asarray((state.pressure == 0.0) & apart)
+class _Asked(NamedTuple):
+    """What a step is about: positions, and what is known of slip."""
 
-    def _settled(self, before: tuple[Field, Field], after: tuple[Field, Field]) -> bool:
-        return all(
-            np.abs(new - old).max() <= self.tolerances.exchange * np.abs(new).max()
-            for old, new in zip(before, after, strict=True)
-        )
+    depth: float
+    given: Field  # what the surfaces gave way before, and the motion of the bodies since
+    early: Field  # of that, what comes before they touch
+    slip: Field  # of the last step
+    share: float  # of the time between the middles of steps, that the end of this one is ahead
+
+
+class _Found(NamedTuple):
+    """What a step comes to."""
+
+    loads: tuple[Field, Field]
+    yielded: Field
+    gap: Field
+    moved: Field
+    turn: Field  # of the slip, what is not along its direction at the end
+
+
+def slipping(pressure: Field, traction: Field) -> Mask:
+    """Return the elements whose traction is as large as friction allows."""
+    return np.asarray((pressure > 0.0) & at_bound(traction, pressure, SLIPPING))
+
+
+def _change(before: tuple[Field, Field], after: tuple[Field, Field]) -> float:
+    """Return the largest change of pressure or traction, as a share of the largest."""
+    pairs = zip(before, after, strict=True)
+    return max(float(np.abs(new - old).max() / np.abs(new).max()) for old, new in pairs)

@@ -11,9 +11,10 @@ import numpy as np
 from carom.halfspace.compliance import Materials
 from carom.halfspace.influence import Field
 from carom.halfspace.ledger import LedgerEntry, entry
-from carom.halfspace.motion import DURATION, NORMAL, BodyMotion, move, tangential_response
+from carom.halfspace.motion import DURATION, NORMAL, NO_SPIN, BodyMotion, NormalSpin, move, responses
 from carom.halfspace.quasistatic import ContactStep, Patch
 from carom.halfspace.stages import SlipStage, stages
+from carom.halfspace.transforms import Mirrors
 
 Progress = Callable[[int], object]
 FAINT = 1e-6  # of the normal force: slip that pulls so little has no sign
@@ -71,6 +72,7 @@ class HalfspaceSolution:
     psi_in: float
     chi: float
     materials: Materials
+    spin: NormalSpin
     resolution: Resolution
     ledger: Field  # a row a LedgerEntry
     snapshots: tuple[Snapshot, ...]
@@ -84,6 +86,11 @@ class HalfspaceSolution:
     def psi_out(self) -> float:
         """psi after the impact, along x."""
         return self.materials.kappa * float(self.column("velocity")[-1])
+
+    @property
+    def spin_out(self) -> float:
+        """Spin about the normal after the impact, as in `NormalSpin`."""
+        return float(self.column("turn_velocity")[-1])
 
     @property
     def restitution(self) -> float:
@@ -123,9 +130,11 @@ class HalfspaceSolution:
     @property
     def energy_error(self) -> float:
         """Largest change of the sum of all energies, as a share of those before the impact."""
-        response = tangential_response(self.chi, self.materials.kappa)
-        square = self.column("velocity") ** 2 + self.column("velocity_across") ** 2
-        tangential = 0.5 * square / response + self.column("tangential_stored")
+        response = responses(self.chi, self.materials.kappa, self.spin.lightness)
+        columns = ("velocity", "velocity_across", "turn_velocity")
+        moving = (self.column(name) ** 2 for name in columns)
+        kinetic = sum(v / r for v, r in zip(moving, response, strict=True) if r > 0.0)
+        tangential = 0.5 * kinetic + self.column("tangential_stored")
         normal = 0.5 * self.column("approach") ** 2 / NORMAL + self.column("normal_stored")
         lost = np.cumsum(self.column("lost"))
         total = normal + self.materials.friction**2 * (tangential + lost)
@@ -188,17 +197,20 @@ def solve(
     materials: Materials,
     resolution: Resolution = STANDARD,
     *,
+    spin: NormalSpin = NO_SPIN,
     progress: Progress | None = None,
 ) -> HalfspaceSolution:
     """Return the impact with psi_1 = psi, the motion along x.
 
-    `progress` is called after every step with how many of `resolution.steps` it makes up for.
+    Like materials are symmetric about both axes, unlike ones about that of motion; spin about the
+    normal leaves like ones one axis, across the motion, and unlike ones none. `progress` is called after every step with how many of `resolution.steps` it makes up for.
     """
-    patch = Patch.across(resolution.elements, materials)
+    mirrors = Mirrors(x=materials.beta == 0.0, y=spin.speed == 0.0)
+    patch = Patch.across(resolution.elements, materials, mirrors)
     rows: list[LedgerEntry] = []
     snapshots: list[Snapshot] = []
     every = ceil(max(resolution) / SNAPSHOTS)
-    motions = move(patch, np.array([psi, 0.0]), chi, resolution.steps)
+    motions = move(patch, np.array([psi, 0.0]), chi, resolution.steps, spin)
     for count, (before, now) in enumerate(pairwise(motions)):
         if not rows:
             rows.append(entry(patch, before, before))
@@ -209,7 +221,7 @@ def solve(
         if progress is not None:
             progress(_steps_until(now, resolution) - _steps_until(before, resolution))
     return HalfspaceSolution(
-        psi, chi, materials, resolution, np.array(rows), tuple(snapshots), patch
+        psi, chi, materials, spin, resolution, np.array(rows), tuple(snapshots), patch
     )
 
 

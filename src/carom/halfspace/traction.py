@@ -31,18 +31,18 @@ class Pushing:
 
 def solve_pressure(
     compliance: Compliance, overlap: Field, start: Field, tolerance: float = 1e-6
-) -> Field:
-    """Return the pressure p >= 0 with N p = overlap where p > 0 and N p >= overlap elsewhere.
+) -> SurfaceLoad:
+    """Return the pressure p >= 0 and its N p, with N p = overlap where p > 0 and N p >= overlap elsewhere.
 
     Of the pressures that do not pull it has the least energy (1/2) p.N p - overlap.p (Kalker 1990,
     section 4.2): conjugate gradients on the elements that touch, with pressures that would pull cut
     off and elements that overlap taken in. `overlap` is that of the undeformed bodies.
     """
     if overlap.max() <= 0.0:
-        return np.zeros_like(start)
+        return SurfaceLoad(np.zeros_like(start), np.zeros_like(start))
     operator = Operator(compliance.normal, compliance.roughly_pressure, compliance.normal_diagonal)
     guess = start if start.any() else np.maximum(overlap, 0.0)
-    return minimise(operator, overlap, Pushing(), guess, tolerance).load
+    return minimise(operator, overlap, Pushing(), guess, tolerance)
 
 
 class Discs(NamedTuple):
@@ -79,9 +79,9 @@ class Discs(NamedTuple):
         return self.scale
 
 
-def at_bound(traction: Field, bound: Field) -> Mask:
-    """Return where a traction is as large as friction allows."""
-    return np.asarray(np.hypot(*traction) >= bound * (1.0 - 1e-12))
+def at_bound(traction: Field, bound: Field, within: float = 1e-12) -> Mask:
+    """Return where a traction is as large as friction allows, within a share of that."""
+    return np.asarray(np.hypot(*traction) >= bound * (1.0 - within))
 
 
 def solve_traction(
