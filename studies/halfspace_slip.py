@@ -50,13 +50,13 @@ def by_theory(poisson: float, kept: Snapshot, radii: Array, angles: Array) -> tu
 
 def polar(found: HalfspaceSolution) -> tuple[Array, Array]:
     """Return distance from the centre and polar angle of every element, both (x, y)."""
-    x, y = np.meshgrid(found.patch.line, found.patch.line, indexing="ij")
+    x, y = np.meshgrid(found.patch.grid.line, found.patch.grid.line, indexing="ij")
     return np.hypot(x, y), np.arctan2(y, x)
 
 
 def draw_map(axis: Axes, angle: Array, inside: NDArray[np.bool_], found: HalfspaceSolution) -> None:
     """Colour the elements that slip by the angle of slip, the others grey."""
-    line = found.patch.line
+    line = found.patch.grid.line
     edges = np.append(line, line[-1] + line[1] - line[0]) - 0.5 * (line[1] - line[0])
     axis.pcolormesh(edges, edges, np.where(inside, 1.0, np.nan).T, cmap="Greys", vmin=0, vmax=4)
     image = axis.pcolormesh(edges, edges, angle.T, cmap="RdBu_r", vmin=-20.0, vmax=20.0)

@@ -38,13 +38,8 @@ HEAD = """\
 # which friction does less than a tenth of its work in a mean step; work_across: share of the work;
 # slip_across: |slip velocity| across to along, summed over contact and time
 """
-GRIDS = {n: Resolution(n, round(4.6875 * n)) for n in (12, 24, 32, 48, 64, 96)}
+GRIDS = {n: Resolution(n, round(4.6875 * n)) for n in (8, 16, 32, 48, 64)}
 RATIOS = (0.0, 0.2, 0.3, 0.5)  # Poisson's, of both bodies
-STRENGTHS = (  # beta, friction: none, beta/friction = 1 at next to no friction, and many
-    (0.0, 1.0),
-    (0.02, 0.02),
-    *((beta, mu) for beta in (0.05, 0.1, 0.2, 0.3, 0.45) for mu in (0.1, 0.3, 0.6, 1.0)),
-)
 PAIRS = {  # ball, half-space, friction
     "steel on rubber": ("steel", "rubber", 1.0),  # typical of dry rubber
     "glass on steel": ("soda-lime-glass", "steel", 0.125),  # of glass on aluminium, second hand
@@ -52,14 +47,23 @@ PAIRS = {  # ball, half-space, friction
     "POM on steel": ("pom", "steel", 0.2),  # typical, dry
     "steel on concrete": ("steel", "concrete", 0.57),  # second hand
 }
-SOLID, SHELL = 1.75, 1.25  # chi/kappa of spheres on half-spaces: solid, thin shell
+# Impacts drawn at random: label, seed, how many, of like or unlike materials
+DRAWN = {
+    "like": (20261124, 300, "like"),
+    "unlike": (20261125, 500, "unlike"),
+    "apart like": (20261126, 50, "like"),  # kept apart: no bound has seen them
+    "apart unlike": (20261127, 50, "unlike"),
+}
+LEAST_CHI, LARGEST_CHI, LARGEST_NU = 0.3, 8.0, 0.5
+LARGEST_BETA, FRICTIONS, LARGEST_RATIO = 0.5, (0.02, 1.0), 10.0
+SOLID = 1.75  # chi/kappa of a solid sphere on a half-space
 DURATION = 2.94327518432470  # of Hertz's impact, in d_max/V_1
 
 
 class Impact(NamedTuple):
     """One impact to be computed."""
 
-    label: str  # like, shell, pair, sweep; control: nu = 0, the same chi
+    label: str  # solid, pair, a key of DRAWN, judge; control: nu = 0, the same chi
     case: str
     kappa: float
     beta: float
@@ -98,22 +102,17 @@ def shared(poisson: float) -> float:
     return 2.0 * (1.0 - poisson) / (2.0 - poisson)
 
 
-def like(poisson: float, grid: int, per_kappa: float = SOLID) -> Iterator[Impact]:
-    """Yield the impacts of like materials, then those of nu = 0 at the same chi."""
+def solid(poisson: float, grid: int) -> Iterator[Impact]:
+    """Yield the impacts of solid spheres of like materials."""
     kappa = shared(poisson)
-    label = "like" if per_kappa == SOLID else "shell"
-    chi, case = round(per_kappa * kappa, 6), f"{'' if label == 'like' else 'shell '}nu {poisson:g}"
+    chi = round(SOLID * kappa, 6)
     for psi in incidences(chi):
-        yield Impact(label, case, kappa, 0.0, 1.0, chi, psi, *GRIDS[grid])
-    if poisson:
-        for psi in incidences(chi):
-            yield Impact("control", case, 1.0, 0.0, 1.0, chi, psi, *GRIDS[grid])
+        yield Impact("solid", f"nu {poisson:g}", kappa, 0.0, 1.0, chi, psi, *GRIDS[grid])
 
 
-def pairs(names: Iterable[str], grid: int) -> Iterator[Impact]:
-    """Yield the impacts of unlike materials, then those of nu = 0 at the same chi."""
-    for name in names:
-        ball, plane, friction = PAIRS[name]
+def pairs(grid: int) -> Iterator[Impact]:
+    """Yield the impacts of unlike materials."""
+    for name, (ball, plane, friction) in PAIRS.items():
         pair = carom.Pair(
             carom.Sphere(radius="5 mm", material=ball), carom.HalfSpace(material=plane), friction
         )
@@ -121,35 +120,83 @@ def pairs(names: Iterable[str], grid: int) -> Iterator[Impact]:
         chi = round(pair.chi, 6)
         for psi in incidences(chi):
             yield Impact("pair", name, kappa, beta, friction, chi, psi, *GRIDS[grid])
-            yield Impact("control", name, 1.0, 0.0, 1.0, chi, psi, *GRIDS[grid])
 
 
-def sweep(grid: int, psis: Iterable[float]) -> Iterator[Impact]:
-    """Yield impacts with all strengths of coupling, and with none."""
-    kappa, chi = shared(0.3), round(SOLID * shared(0.3), 6)
-    for beta, friction in STRENGTHS:
-        case = f"beta {beta:g} friction {friction:g}"
-        for psi in psis:
-            yield Impact("sweep", case, kappa, beta, friction, chi, psi, *GRIDS[grid])
+def control(impacts: Iterable[Impact]) -> Iterator[Impact]:
+    """Yield each impact and the one of nu = 0 at the same chi, on the same grid."""
+    for impact in impacts:
+        yield impact
+        if impact.kappa != 1.0:
+            yield impact._replace(label="control", case="nu 0", kappa=1.0)
+
+
+def drawn_chi(rng: np.random.Generator) -> float:
+    """Return a chi, evenly in its logarithm."""
+    return float(np.exp(rng.uniform(np.log(LEAST_CHI), np.log(LARGEST_CHI))))
+
+
+def drawn_psi(rng: np.random.Generator, chi: float) -> float:
+    """Return an incidence: below 1.2, near 1, up to 4 chi + 1, or beyond."""
+    last = max(4.0 * chi - 1.0, 1.0)
+    choices = (
+        rng.uniform(0.02, 1.2),
+        rng.uniform(0.9, 1.1),
+        rng.uniform(1.0, last + 2.0),
+        last + rng.exponential(2.0),
+    )
+    return float(choices[rng.choice(4, p=(0.3, 0.2, 0.4, 0.1))])
+
+
+def drawn_kappa(rng: np.random.Generator) -> float:
+    """Return kappa of a Poisson's ratio."""
+    return shared(float(rng.uniform(-LARGEST_NU, LARGEST_NU)))
+
+
+def drawn_strength(rng: np.random.Generator) -> tuple[float, float]:
+    """Return Dundurs' beta and friction, of whose ratio little and much are as likely."""
+    while True:
+        friction = float(np.exp(rng.uniform(*np.log(FRICTIONS))))
+        beta = float(rng.choice((-1, 1)) * np.exp(rng.uniform(np.log(0.01), np.log(LARGEST_BETA))))
+        if abs(beta) <= LARGEST_RATIO * friction:
+            return beta, friction
+
+
+def drawn(label: str, grid: int) -> Iterator[Impact]:
+    """Yield the impacts of a series that is drawn at random; the same at each call."""
+    seed, count, kind = DRAWN[label]
+    rng = np.random.default_rng(seed)
+    for number in range(count):
+        chi, kappa = drawn_chi(rng), drawn_kappa(rng)
+        beta, friction = (0.0, 1.0) if kind == "like" else drawn_strength(rng)
+        numbers = (round(n, 6) for n in (kappa, beta, friction, chi, drawn_psi(rng, chi)))
+        yield Impact(label, f"{number}", *numbers, *GRIDS[grid])
+
+
+JUDGED = {"nu 0": 80, "like": 80, "unlike": 40}  # impacts of the study of errors
+
+
+def judge(kind: str, grid: int) -> Iterator[Impact]:
+    """Yield the impacts on which estimates of errors are judged."""
+    rng = np.random.default_rng([20261128, len(kind)])
+    for number in range(JUDGED[kind]):
+        chi, kappa = drawn_chi(rng), 1.0 if kind == "nu 0" else drawn_kappa(rng)
+        beta, friction = drawn_strength(rng) if kind == "unlike" else (0.0, 1.0)
+        numbers = (round(n, 6) for n in (kappa, beta, friction, chi, drawn_psi(rng, chi)))
+        yield Impact("judge", f"{kind} {number}", *numbers, *GRIDS[grid])
 
 
 def plan() -> list[Impact]:
     """Return all impacts of the study, the coarse ones first, none twice."""
-    every = [impact for ratio in RATIOS for impact in like(ratio, 32)]
-    every += [*pairs(PAIRS, 24), *sweep(24, (0.4, 1.0, 1.5, 2.9, 4.2, 6.8))]
-    every += [impact for ratio in RATIOS for impact in like(ratio, 48)]
-    far = [impact for impact in sweep(32, (12.0,)) if not 0.0 < impact.beta <= impact.friction]
-    every += [*_spots(pairs(PAIRS, 32)), *far]
-    every += [*like(0.0, 64), *_spots(like(0.5, 64))]
-    every += [impact for ratio in (0.3, 0.5) for impact in like(ratio, 32, per_kappa=SHELL)]
-    every += [*pairs(PAIRS, 32), *_spots(pairs(PAIRS, 48))]
-    every += [*_spots(like(0.0, 96)), *_spots(like(0.5, 96))]
+    every = [i for grid in (8, 16, 32) for kind in JUDGED for i in judge(kind, grid)]
+    every += [*judge("nu 0", 64), *control(judge("like", 64))]
+    for label in ("like", "apart like"):
+        every += [*control(drawn(label, 32)), *control(drawn(label, 48))]
+    for label in ("unlike", "apart unlike"):
+        every += [*drawn(label, 16), *drawn(label, 32)]
+    every += [i for grid in (32, 64) for ratio in RATIOS for i in control(solid(ratio, grid))]
+    every += [*pairs(16), *pairs(32)]
+    every += [*judge("unlike", 48), *judge("unlike", 64)]
     return list(dict.fromkeys(every))
-
-
-def _spots(impacts: Iterable[Impact]) -> list[Impact]:
-    """Return the impacts of four incidences: 0.2, 1, 2 chi, and above."""
-    return [impact for impact in impacts if impact.psi_1 in incidences(impact.chi)[::3]]
 
 
 def compute(impact: Impact) -> Row:
@@ -186,7 +233,7 @@ def _angles(found: HalfspaceSolution, work: np.ndarray) -> tuple[float, float]:
 
 def _slip_across(found: HalfspaceSolution) -> float:
     speeds = [
-        np.abs(kept.slip_velocity[:, kept.step.gripped]).sum(axis=1) for kept in found.snapshots
+        np.abs(kept.slip_velocity[:, kept.step.touching]).sum(axis=1) for kept in found.snapshots
     ]
     along, across = np.sum(speeds, axis=0)
     return float(across / along)
@@ -271,7 +318,7 @@ def check(table: Path) -> int:
 
 def smoke() -> int:
     """Compute three coarse impacts into a temporary table, then again: nothing is left to do."""
-    ball = [i._replace(elements=12, steps=56) for i in (*plan()[:2], *list(pairs(PAIRS, 24))[2:3])]
+    ball = [*judge("nu 0", 8)][:1] + [*judge("unlike", 8)][:1] + [*drawn("like", 8)][:1]
     with TemporaryDirectory() as folder:
         table = Path(folder) / TABLE.name
         failed = fill(table, ball, 1)

@@ -65,7 +65,7 @@ def recorded(grid: int, case: Case, wanted: int) -> Iterator[Task]:
     patch, motions = impact(grid, case, Tolerances(1e-8, 1e-8))
     found, changes = [], []
     for place, (before, after) in enumerate(pairwise(motions[:-1])):
-        traction, bound = after.step.state.traction, after.step.gripped * after.step.state.pressure
+        traction, bound = after.step.state.traction, after.step.touching * after.step.state.pressure
         if not bound.any():
             continue
         given = after.step.moved + patch.compliance.tangential(traction)
@@ -84,7 +84,7 @@ def recorded(grid: int, case: Case, wanted: int) -> Iterator[Task]:
 def made_up(grid: int, sets: int) -> Iterator[Task]:
     """Yield problems that no impact poses, to see what breaks a solver."""
     patch = patch_of(grid, 0.3, Tolerances())
-    compliance, gap = patch.compliance, patch.gap
+    compliance, gap = patch.compliance, patch.grid.apart
     hertz = np.sqrt(np.maximum(1.0 - 2.0 * gap, 0.0))
     for seed in range(sets):
         random = np.random.default_rng([SEED, seed])

@@ -69,7 +69,7 @@ def kicked(psi: float, kick: tuple[float, float], at: float) -> Way:
     """Return the way of an impact at psi that is kicked at a part of its time, by springs."""
     step, n = DURATION / PER_IMPACT, PER_IMPACT - 1
     depth = np.array([penetration_and_speed((i + 1) * step)[0] for i in range(n)])
-    moved, velocity, pull = np.zeros((n + 1, 2)), np.array([psi, 0.0]), np.zeros(2)
+    moved, velocity, pull = np.zeros((n + 1, 2)), np.array([psi, 0.0]), np.zeros(3)
     memory, load = np.zeros(lattice.places(256)), np.zeros(3)
     for i in range(n):
         velocity = velocity - 0.5 * step * 1.25 * CHI * pull
@@ -92,7 +92,7 @@ def _by_elements(way: Way) -> Array:
     patch = Patch.across(ELEMENTS, Materials(kappa=KAPPA))
     state, forces = patch.untouched(), []
     for depth, moved in zip(*way, strict=True):
-        state = patch.advance(state, float(depth), moved / KAPPA).state
+        state = patch.advance(state, float(depth), np.append(moved, 0.0) / KAPPA).state
         forces.append(state.traction.sum(axis=(1, 2)) / state.pressure.sum())
     return np.array(forces)
 
@@ -107,7 +107,7 @@ def by_load_path(way: Way) -> Array:
 def by_springs(way: Way, springs: int = 32) -> Array:
     """Return the force over mu P of springs that are cut back one by one."""
     fine, memory, load = way.parted(PARTS), np.zeros(lattice.places(springs)), np.zeros(3)
-    forces, depth, moved = [], 0.0, np.zeros(2)
+    forces, depth, moved = [], 0.0, np.zeros(3)
     for to, target in zip(*fine, strict=True):
         motion = np.array([to - depth, *(target - moved)])
         lattice.step(memory, springs, to, motion, 1.0, 0.0, 0.0, load)
@@ -118,7 +118,7 @@ def by_springs(way: Way, springs: int = 32) -> Array:
 
 def by_mindlin(way: Way) -> Array:
     """Return the force over mu P of Mindlin's stiffness, rescaled as the contact shrinks."""
-    fine, force, depth, moved = way.parted(PARTS), np.zeros(2), 0.0, np.zeros(2)
+    fine, force, depth, moved = way.parted(PARTS), np.zeros(3), 0.0, np.zeros(3)
     forces = []
     for to, target in zip(*fine, strict=True):
         force = force * min(1.0, np.sqrt(to / depth) if depth > 0.0 else 1.0)

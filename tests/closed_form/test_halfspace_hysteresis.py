@@ -23,9 +23,9 @@ def first(u):
 def driven(shifts):
     """Return the patch and its steps at depth 1."""
     patch = Patch.across(ELEMENTS, Materials(1.0))
-    state, steps = patch.advance(patch.untouched(), 1.0, np.zeros(2)).state, []
+    state, steps = patch.advance(patch.untouched(), 1.0, np.zeros(3)).state, []
     for shift in shifts:
-        steps.append(patch.advance(state, 1.0, np.array([shift, 0.0])))
+        steps.append(patch.advance(state, 1.0, np.array([shift, 0.0, 0.0])))
         state = steps[-1].state
     return patch, steps
 
@@ -54,7 +54,7 @@ def test_traction_of_unloading():
     """q = p(r) - 2 c' p(r/c') + c p(r/c) with changed sign: a ring of its own slips backwards."""
     top, bottom = 0.7, 0.3
     patch, steps = driven([top, bottom])
-    radii = np.hypot(patch.line[:, None], patch.line)
+    radii = np.hypot(patch.grid.line[:, None], patch.grid.line)
 
     def circle(square):
         return 2.0 / np.pi * np.sqrt(np.maximum(square - radii**2, 0.0))
@@ -84,9 +84,9 @@ def test_energy_lost_in_a_loop(force):
         down, up = np.linspace(top, -top, count + 1), np.linspace(-top, top, count + 1)
         shifts = np.array([*down, *up[1:]])
         patch, steps = driven(shifts)
-        drag = np.array([patch.element * step.state.traction[0].sum() for step in steps])
+        drag = np.array([patch.grid.element * step.state.traction[0].sum() for step in steps])
         areas.append(float(np.trapezoid(drag, shifts)))
-        work = [patch.element * np.sum(step.state.traction * step.moved) for step in steps[1:]]
+        work = [patch.grid.element * np.sum(step.state.traction * step.moved) for step in steps[1:]]
         assert min(work) >= -1e-7
         slips.append(sum(work))
     extrapolated = areas[1] + (areas[1] - areas[0]) / (2.0**1.5 - 1.0)
@@ -99,44 +99,24 @@ def test_energy_lost_in_a_loop(force):
 def test_steep_loads_stick(share_of_critical):
     """Motion of constant direction from first touch, kappa U/d below 1: q = (U/d) p, no slip.
 
-    Unloading along the same line retraces it. Elements that come to touch within a step make the
-    force err, by an amount that falls faster than the steps.
+    Unloading along the same line retraces it. At every element, in steps of any length: elements
+    that come to touch within a step stick from their touch on.
     """
-    errors = []
-    for count in (6, 12, 24):
+    for count in (2, 6, 24):
         patch = Patch.across(ELEMENTS, Materials(1.0))
-        state, off = patch.untouched(), []
+        state = patch.untouched()
         line = np.linspace(0.0, 1.0, count + 1)[1:]
         for depth in (*line, *line[-2::-1]):
-            step = patch.advance(state, depth, np.array([share_of_critical * depth, 0.0]))
+            step = patch.advance(state, depth, np.array([share_of_critical * depth, 0.0, 0.0]))
             state = step.state
-            off.append(
-                patch.element * np.sum(state.traction[0] - share_of_critical * state.pressure)
-            )
-        errors.append(np.sqrt(np.mean(np.square(off))) / (share_of_critical * LIMIT))
-    assert errors[0] > errors[1] > errors[2]
-    assert errors[0] > 4.0 * errors[2]
-    assert errors[2] <= 6e-3
+            off = np.abs(state.traction[0] - share_of_critical * state.pressure).max()
+            assert off <= 1e-5 * LIMIT
 
 
 def test_flat_loads_slide():
-    """At twice the critical direction everything slips, pressing and lifting: q = p.
-
-    But for elements that came to touch in the second half of a step.
-    """
+    """At twice the critical direction everything slips, pressing and lifting: q = p."""
     patch = Patch.across(ELEMENTS, Materials(1.0))
-    state, radii = patch.untouched(), np.hypot(patch.line[:, None], patch.line)
+    state = patch.untouched()
     for depth, shift in ((0.2, 0.4), (0.6, 1.2), (1.0, 2.0), (0.7, 2.1), (0.2, 2.3)):
-        before = state.depth
-        step = patch.advance(state, depth, np.array([shift, 0.0]))
-        state = step.state
-        bound = np.where(step.gripped, state.pressure, 0.0)
-        assert np.abs(state.traction[0] - bound).max() <= 1e-6
-        touches = state.pressure > 0.0
-        late = radii[touches & ~step.gripped]
-        if depth < before:
-            assert late.size == 0
-        else:
-            middle = np.sqrt(0.5 * (before + depth))
-            assert late.min() >= middle - 0.5 * patch.compliance.spacing
-            assert radii[step.gripped].max() <= middle + 0.5 * patch.compliance.spacing
+        state = patch.advance(state, depth, np.array([shift, 0.0, 0.0])).state
+        assert np.abs(state.traction[0] - state.pressure).max() <= 1e-6

@@ -34,7 +34,8 @@ def test_force_under_radial_slip(beta, drift):
     shift = drift * 2.0 * RATIO / np.pi
     state = patch.untouched()
     for depth in (*np.linspace(0.0, DEPTH, 8)[1:], DEPTH + LAST):
-        state = patch.advance(state, depth, np.array([shift * depth, 0.0])).state
+        moved, length = np.array([shift * depth, 0.0, 0.0]), depth - state.depth
+        state = patch.advance(state, depth, moved, length).state
     found = state.traction.sum(axis=(1, 2)) / state.pressure.sum()
     assert found[0] == pytest.approx(pull(drift), rel=0.006)
     assert abs(found[1]) <= 1e-6

@@ -16,8 +16,8 @@ DEPTHS = (1.0, 0.7)
 def pressed(elements, depth):
     """Return the patch, radii and pressure of bodies that approach without tangential motion."""
     patch = Patch.across(elements, Materials(1.0))
-    state = patch.advance(patch.untouched(), depth, np.zeros(2)).state
-    return patch, np.hypot(patch.line[:, None], patch.line), state.pressure
+    state = patch.advance(patch.untouched(), depth, np.zeros(3)).state
+    return patch, np.hypot(patch.grid.line[:, None], patch.grid.line), state.pressure
 
 
 def order(errors):
@@ -35,9 +35,9 @@ def measured():
             patch, radii, pressure = pressed(elements, depth)
             exact = 2.0 / np.pi * np.sqrt(np.maximum(depth - radii**2, 0.0))
             off = np.abs(pressure - exact)
-            several["force"].append(patch.element * pressure.sum() / (4.0 / 3.0 * depth**1.5) - 1.0)
+            several["force"].append(patch.grid.element * pressure.sum() / (4.0 / 3.0 * depth**1.5) - 1.0)
             several["inside"].append(off[radii <= 0.75 * np.sqrt(depth)].max())
-            several["mean"].append(np.sqrt(patch.element * np.sum(off**2)))
+            several["mean"].append(np.sqrt(patch.grid.element * np.sum(off**2)))
             several["worst"].append(off.max())
             several["centre"].append(off[radii < patch.compliance.spacing].max())
         for name, values in several.items():
@@ -68,7 +68,7 @@ def test_radius(depth):
     for elements in (16, 32, 48):
         patch, radii, pressure = pressed(elements, depth)
         spacing = patch.compliance.spacing
-        by_area = np.sqrt(patch.element * np.count_nonzero(pressure) / np.pi)
+        by_area = np.sqrt(patch.grid.element * np.count_nonzero(pressure) / np.pi)
         assert abs(by_area - np.sqrt(depth)) <= 0.21 * spacing
         furthest, nearest = radii[pressure > 0.0].max(), radii[pressure == 0.0].min()
         assert abs(furthest - np.sqrt(depth)) <= 0.75 * spacing
@@ -95,7 +95,7 @@ def test_approach_of_a_given_force():
     forces, depths = [], np.array([0.6, 0.8])
     for depth in depths:
         patch, _, pressure = pressed(48, depth)
-        forces.append(patch.element * pressure.sum())
+        forces.append(patch.grid.element * pressure.sum())
     radius = np.mean(np.sqrt(depths))
     assert np.diff(forces)[0] / 0.2 == pytest.approx(2.0 * radius, rel=4e-3)
 
@@ -103,7 +103,7 @@ def test_approach_of_a_given_force():
 def test_no_memory():
     """Pressed further and back again, the pressure is that of the first time."""
     patch = Patch.across(16, Materials(0.9))
-    start, still = patch.untouched(), np.zeros(2)
+    start, still = patch.untouched(), np.zeros(3)
     first = patch.advance(start, 0.5, still)
     back = patch.advance(patch.advance(first.state, 1.0, still).state, 0.5, still)
     off = np.abs(back.state.pressure - first.state.pressure).max()

@@ -45,7 +45,7 @@ def by_elements(depths, moved, elements=24):
     def forces(parts):
         state, found = patch.untouched(), []
         for d, u in zip(*parted(depths, moved, parts), strict=True):
-            state = patch.advance(state, float(d), u / NU_03.kappa).state
+            state = patch.advance(state, float(d), np.append(u, 0.0) / NU_03.kappa).state
             found.append(state.traction.sum(axis=(1, 2)) / state.pressure.sum())
         return np.array(found)[parts - 1 :: parts]
 

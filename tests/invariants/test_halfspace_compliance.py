@@ -180,7 +180,7 @@ def test_finer_elements_refine_the_same_displacement():
     found = []
     for size in (15, 45, 135):
         patch = Patch(Compliance(size, 4.0 / size, Materials(1.0)))
-        squares = patch.line[:, None] ** 2 + patch.line**2
+        squares = patch.grid.line[:, None] ** 2 + patch.grid.line**2
         found.append(patch.compliance.normal(np.exp(-4.0 * squares))[size // 2, size // 2])
     exact = np.sqrt(np.pi) / 2.0  # (1/pi) times 2 pi times the integral of exp(-4 r^2) over r
     coarse, fine, finest = np.abs(np.array(found) - exact)

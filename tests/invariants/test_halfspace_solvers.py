@@ -34,7 +34,7 @@ def test_pressure_of_rough_bodies(seed):
     root = np.linalg.cholesky(matrix(compliance.normal, 1))
     exact, _ = nnls(root.T, np.linalg.solve(root, overlap.ravel()))
     start = np.zeros((SIZE, SIZE))
-    found = solve_pressure(compliance, overlap, start, TIGHT)
+    found = solve_pressure(compliance, overlap, start, TIGHT).load
     assert 5 <= np.count_nonzero(exact) <= 60
     assert np.abs(found.ravel() - exact).max() <= 1e-7 * exact.max()
     assert np.array_equal(found.ravel() > 0.0, exact > 0.0)
@@ -100,4 +100,4 @@ def test_start_does_not_matter():
 
 def test_nothing_touches():
     compliance = Compliance(SIZE, 0.3, Materials(1.0))
-    assert not solve_pressure(compliance, np.full((SIZE, SIZE), -1.0), np.ones((SIZE, SIZE))).any()
+    assert not solve_pressure(compliance, np.full((SIZE, SIZE), -1.0), np.ones((SIZE, SIZE))).load.any()

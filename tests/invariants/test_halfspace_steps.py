@@ -49,17 +49,17 @@ def case(request):
 
 
 def test_coulombs_law(case):
-    """|q| <= p; what is below sticks; slip is along q: at each element and step.
+    """|q| <= p; what is below sticks; q is along slip at the end of the step: at each element.
 
     To an error e of a traction an element may slip by e times its own compliance.
     """
     own, slipped, stuck = case.patch.compliance.tangential_diagonal, 0, 0
     for _, now in case.contacts():
         pressure, traction = now.step.state.pressure, now.step.state.traction
-        moved, gripped = now.step.moved / own, now.step.gripped
+        moved, touches = now.step.heading / own, now.step.touching
         size, slip = np.hypot(*traction), np.hypot(*moved)
-        assert np.all(size <= np.where(gripped, pressure * (1.0 + 1e-9) + NOISE, 0.0))
-        slips, sticks = gripped & (slip > NOISE), gripped & (size < pressure - NOISE)
+        assert np.all(size <= np.where(touches, pressure * (1.0 + 1e-9) + NOISE, 0.0))
+        slips, sticks = touches & (slip > NOISE), touches & (size < pressure - NOISE)
         assert not np.any(slips & sticks)
         across = np.abs(traction[0] * moved[1] - traction[1] * moved[0])
         assert np.all(np.sum(traction * moved, axis=0)[slips] > 0.0)
@@ -69,18 +69,28 @@ def test_coulombs_law(case):
     assert (stuck == 0) == (case.motions[0].velocity[0] > 4.0), "all slips in gross slip alone"
 
 
-def test_every_element_in_contact_is_under_friction(case):
-    """But, while the contact grows, those that came to touch in this step; these are few."""
-    late = 0
+def test_slip_turns_little_in_a_step(case):
+    """What moves in a step and where it moves at its end are apart by a small part of the step."""
+    largest = 0.0
+    for _, now in case.contacts():
+        off = np.hypot(*(now.step.moved - now.step.heading))
+        largest = max(largest, off.max() / np.hypot(*now.step.moved).max())
+    assert 1e-3 < largest <= 0.3
+
+
+def test_elements_touch_one_after_the_other(case):
+    """Those that come to touch move before by less than all of the step, others by nothing."""
+    kinds = {"touch": 0, "touched": 0}
     for before, now in case.contacts():
-        touches, touched = (at.step.state.pressure > 0.0 for at in (now, before))
-        assert not np.any(now.step.gripped & ~touches)
-        assert not np.any(touches & ~now.step.gripped & touched)
-        if now.step.state.depth <= before.step.state.depth:
-            assert np.array_equal(now.step.gripped, touches)
-        late += np.count_nonzero(touches & ~now.step.gripped)
-    largest = max(np.count_nonzero(now.step.state.pressure) for now in case.motions)
-    assert 0.2 * largest <= late <= 0.9 * largest
+        step, old = now.step, before.step
+        carried = case.patch.grid.carried(step.state.displacement - old.state.displacement)
+        whole = carried + old.state.yielded - step.state.yielded
+        early = np.hypot(*(whole - step.moved))
+        new = step.touching & ~old.touching
+        assert np.all(early[~new & step.touching] <= 1e-15)
+        kinds["touch"] += np.count_nonzero(early[new] > 0.0)
+        kinds["touched"] += np.count_nonzero(old.touching & step.touching)
+    assert min(kinds.values()) > 50
 
 
 def test_normal_contact(case):
@@ -89,7 +99,7 @@ def test_normal_contact(case):
     for _, now in case.contacts():
         state = now.step.state
         normal = compliance.normal(state.pressure) + compliance.normal_of_traction(state.traction)
-        gap = (normal - state.depth + case.patch.gap) / compliance.normal_diagonal
+        gap = (normal - state.depth + case.patch.grid.apart) / compliance.normal_diagonal
         assert state.pressure.min() >= 0.0
         assert gap.min() >= -NOISE
         assert np.abs(gap[state.pressure > 0.0]).max(initial=0.0) <= NOISE
@@ -101,12 +111,13 @@ def gives_way(compliance, state):
 
 
 def test_slip_is_what_surfaces_do_not_give_way(case):
-    """The change of U less that of T q + (K/friction) D p."""
+    """The change of U less that of T q + (K/friction) D p, where surfaces touched before."""
     for before, now in case.contacts():
         old, new = before.step.state, now.step.state
-        bodies = (new.displacement - old.displacement)[:, None, None]
+        bodies = case.patch.grid.carried(new.displacement - old.displacement)
         given_way = gives_way(case.patch.compliance, new) - gives_way(case.patch.compliance, old)
-        assert np.abs(bodies - given_way - now.step.moved).max() <= 1e-9
+        off = np.abs(bodies - given_way - now.step.moved)[:, before.step.touching]
+        assert off.max(initial=0.0) <= 1e-9
 
 
 def test_momentum(case):
@@ -114,11 +125,11 @@ def test_momentum(case):
 
     Between instants the bodies move on with the velocity in the middle of the step.
     """
-    kappa, element = case.patch.compliance.materials.kappa, case.patch.element
+    kappa, element = case.patch.compliance.materials.kappa, case.patch.grid.element
     for before, now in case.contacts():
         length, old, new = now.time - before.time, before.step.state, now.step.state
         force = element * (old.pressure.sum() + new.pressure.sum())
-        drag = element * (old.traction + new.traction).sum(axis=(1, 2))
+        drag = np.append(element * (old.traction + new.traction).sum(axis=(1, 2)), 0.0)
         slowed, dragged = 15.0 / 16.0 * force, 15.0 / 8.0 * CHI / kappa * drag
         assert now.approach == pytest.approx(before.approach - 0.5 * length * slowed, abs=1e-13)
         assert np.abs(now.velocity - before.velocity + 0.5 * length * dragged).max() <= 1e-13
@@ -128,7 +139,7 @@ def test_momentum(case):
 
 def balance(case):
     """Return the kinetic and the stored energy along the impact, and each step's loss."""
-    compliance, element = case.patch.compliance, case.patch.element
+    compliance, element = case.patch.compliance, case.patch.grid.element
     square, kinetic, stored, losses = compliance.materials.friction**2, [], [], [0.0]
     tangential = 15.0 / 4.0 * CHI / compliance.materials.kappa
     for now in case.motions:
@@ -140,7 +151,8 @@ def balance(case):
         work = np.sum(p * normal) + square * np.sum(q * gives_way(compliance, now.step.state))
         stored.append(0.5 * element * work)
     for before, now in pairwise(case.motions):
-        mean = 0.5 * (before.step.state.traction + now.step.state.traction)
+        new = now.step.touching & ~before.step.touching  # from zero, as a square root: mean 2/3
+        mean = np.where(new, 2.0 / 3.0, 0.5) * (before.step.state.traction + now.step.state.traction)
         losses.append(square * element * np.sum(mean * now.step.moved))
     return np.array(kinetic), np.array(stored), np.array(losses)
 

@@ -57,22 +57,22 @@ def solved(case):
     modulus, depth = shear / (1.0 - nu), radius**2 / RADII[case]  # E* of equal bodies, d of a
     force = modulus * depth * radius
     patch = Patch(Compliance(SIZES[case], spacing / radius, materials))
-    line = patch.line - OFF[case] / radius
-    patch.gap = 0.5 * (line[:, None] ** 2 + line**2)
+    line = patch.grid.line - OFF[case] / radius
+    patch.grid.apart = 0.5 * (line[:, None] ** 2 + line**2)
 
     def pressed(depth):
-        return patch.advance(patch.untouched(), depth, np.zeros(2)).state
+        return patch.advance(patch.untouched(), depth, np.zeros(3)).state
 
     def missing_load(depth):
-        return patch.element * pressed(depth).pressure.sum() - load / force
+        return patch.grid.element * pressed(depth).pressure.sum() - load / force
 
     start = pressed(brentq(missing_load, 0.9, 1.1, xtol=1e-10))
 
     def pushed(shift):
-        return patch.advance(start, start.depth, np.array([shift, 0.0]))
+        return patch.advance(start, start.depth, np.array([shift, 0.0, 0.0]))
 
     def missing_push(shift):
-        return patch.element * pushed(shift).state.traction[0].sum() - part * load / force
+        return patch.grid.element * pushed(shift).state.traction[0].sum() - part * load / force
 
     step = pushed(brentq(missing_push, 0.01, 2.0, xtol=1e-10))
     return Pushed(row, patch, step, depth, friction, force, force / radius**2)
@@ -94,7 +94,7 @@ def elements():
 
 def slips(step):
     size = np.hypot(*step.state.traction)
-    return step.gripped & (size >= step.state.pressure * (1.0 - 1e-9))
+    return step.touching & (size >= step.state.pressure * (1.0 - 1e-9))
 
 
 def assert_printed(found, rows, name):
@@ -158,7 +158,7 @@ def test_numbers_of_elements(case):
 
 def test_energies(case):
     """Stored, and lost by the one step of tangential motion, in J to the last of 4 digits."""
-    state, element, friction = case.step.state, case.patch.element, case.friction
+    state, element, friction = case.step.state, case.patch.grid.element, case.friction
     compliance = case.patch.compliance
     normal = np.sum(state.pressure * compliance.normal(state.pressure))
     tangential = friction**2 * np.sum(state.traction * compliance.tangential(state.traction))

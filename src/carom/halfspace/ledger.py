@@ -9,6 +9,8 @@ from carom.halfspace.influence import Field
 from carom.halfspace.motion import BodyMotion
 from carom.halfspace.quasistatic import Patch
 
+FROM_TOUCH = 2.0 / 3.0  # of its end, a traction that grows from zero as a square root
+
 
 class LedgerEntry(NamedTuple):
     """One instant of an impact, or all of them; `across` is along y, `turn` about the normal.
@@ -59,8 +61,9 @@ def entry(patch: Patch, before: BodyMotion, now: BodyMotion) -> LedgerEntry:
     """Return what the step from one instant to the next comes to."""
     state, old, grid = now.step.state, before.step.state, patch.grid
     moved, slips = now.step.moved, now.step.slips
-    work = grid.element * 0.5 * (old.traction + state.traction) * moved
-    mean, largest = _angles(state.traction[:, slips], moved[:, slips])
+    mean = np.where(old.pressure > 0.0, 0.5, FROM_TOUCH) * (old.traction + state.traction)
+    work = grid.element * mean * moved
+    angle, largest = _angles(state.traction[:, slips], moved[:, slips])
     touching = np.count_nonzero(state.pressure > 0.0)
     return LedgerEntry(
         now.time,
@@ -77,7 +80,7 @@ def entry(patch: Patch, before: BodyMotion, now: BodyMotion) -> LedgerEntry:
         0.5 * grid.element * float(np.sum(state.traction * state.yielded)),
         float(work.sum()),
         float(work[1].sum()),
-        mean,
+        angle,
         largest,
         grid.element * float(state.traction[0, slips].sum()),
     )

@@ -13,7 +13,7 @@ DURATION = 0.8 * sqrt(pi) * gamma(0.4) / gamma(0.9)  # of Hertz's impact, 2.9433
 NORMAL = 15.0 / 16.0  # d'' = -NORMAL P
 REACH = 1.0  # elements by which the edge may move in a step
 SLOWEST = 0.05  # of V_1: near the turning point the number of steps decides
-SHARE = 0.5  # of the time scale of the tangential motion on its springs
+SLOW_CHI = 2.0  # beyond it the tangential motion on its springs decides the length of steps
 
 
 class BodyMotion(NamedTuple):
@@ -56,16 +56,16 @@ def move(
 ) -> Iterator[BodyMotion]:
     """Yield the impact step by step, from the first touch to the last; psi along x and y.
 
-    Verlet's method, of second order: half of the change of
-    velocities, the path, the quasi-static contact at its end, the other half (Hairer, Lubich &
-    Wanner 2003, Acta Numerica 12:399). Steps are a fraction of the duration of Hertz's impact,
-    smaller where the edge of the contact moves fast, and a fraction of 1/omega, omega^2 = (15/4)
-    chi, which decides where chi is large. The last one is cut where the bodies part.
+    Verlet's method, of second order: half of the change of velocities, the path, the quasi-static
+    contact at its end, the other half (Hairer, Lubich & Wanner 2003, Acta Numerica 12:399). Steps
+    are a fraction of the duration of Hertz's impact, smaller where the edge of the contact moves
+    fast, and for large chi in proportion to 1/omega, omega^2 = (15/4) chi. The last one is cut
+    where the bodies part.
     """
     kappa, spacing = patch.compliance.materials.kappa, patch.compliance.spacing
     response = responses(chi, kappa, spin.lightness)
     velocity = np.array([*psi / kappa, spin.speed])
-    longest = min(DURATION / steps, SHARE / sqrt(4.0 * NORMAL * chi))
+    longest = DURATION / steps / max(1.0, sqrt(chi / SLOW_CHI))
     now = BodyMotion(0.0, 1.0, velocity, _apart(patch, np.zeros(3)), 0.0, np.zeros(3))
     yield now
     while True:

@@ -15,6 +15,8 @@ from carom.halfspace.transforms import Mirrors
 EXCHANGES = 60  # between normal and tangential contact
 FIRST, NEXT = 1e-3, 0.03  # how far they are solved first, and then by what they still change
 RELAXED = 0.8  # of a change of direction: friction turned one way makes slip turn back
+TINY = 1e-300  # tractions of no motion are zero
+TURNS = 8  # exchanges after which the direction of slip is left as it is
 SLIPPING = 1e-5  # of its bound, that a traction may be short of it and slip
 NO_MIRRORS = Mirrors()
 
@@ -57,6 +59,11 @@ class ContactStep(NamedTuple):
     state: ContactState
     moved: Field  # bodies less surfaces, since they touch, shape (2, n, n)
     heading: Field  # where that moves at the end of the step: what slips has its traction along it
+
+    @property
+    def touching(self) -> Mask:
+        """Elements that bear pressure."""
+        return self.state.pressure > 0.0
 
     @property
     def slips(self) -> Mask:
@@ -123,7 +130,7 @@ class Patch:
         """
         surface, tolerances = self.compliance, self.tolerances
         turn, rough = np.zeros_like(traction), FIRST if surface.couples else 0.0
-        for _ in range(EXCHANGES):
+        for count in range(EXCHANGES):
             before, used = (pressure, traction), turn
             overlap = asked.depth - self.grid.apart - surface.normal_of_traction(traction)
             finer = max(tolerances.normal, rough), max(tolerances.tangential, rough)
@@ -133,11 +140,13 @@ class Patch:
             pull = since - skewed - used
             traction, dragged = solve_traction(surface, pull, pressure, traction, finer[1])
             moved, slips = since - skewed - dragged, slipping(pressure, traction)
-            turn = used + RELAXED * (turn_to_end(moved, slips, asked.slip, asked.share) - used)
+            if count < TURNS:
+                turned = turn_to_end(moved, slips, asked.slip, asked.share)
+                turn = used + RELAXED * (turned - used)
             change = _change(before, (pressure, traction)) if surface.couples else 0.0
             own = pressure.max() * surface.tangential_diagonal
-            turned = np.abs(turn - used).max() <= tolerances.turn * own
-            if turned and max(change, rough / NEXT) <= tolerances.exchange:
+            straight = np.abs(turn - used).max() <= tolerances.turn * own
+            if straight and max(change, rough / NEXT) <= tolerances.exchange:
                 gap = np.maximum(sunk - overlap, 0.0)
                 return _Found((pressure, traction), skewed + dragged, gap, moved, used)
             rough = min(rough, NEXT * change)
@@ -176,4 +185,4 @@ def slipping(pressure: Field, traction: Field) -> Mask:
 def _change(before: tuple[Field, Field], after: tuple[Field, Field]) -> float:
     """Return the largest change of pressure or traction, as a share of the largest."""
     pairs = zip(before, after, strict=True)
-    return max(float(np.abs(new - old).max() / np.abs(new).max()) for old, new in pairs)
+    return max(float(np.abs(new - old).max() / max(np.abs(new).max(), TINY)) for old, new in pairs)

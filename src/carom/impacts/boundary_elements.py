@@ -12,7 +12,7 @@ from carom.bodies.pairs import Pair
 from carom.contacts.fields import OUTSIDE, SLIP, STICK, ZONES
 from carom.dimensionless.states import SlipAngle
 from carom.halfspace.compliance import Materials
-from carom.halfspace.ledger import LedgerEntry, slipping
+from carom.halfspace.ledger import LedgerEntry
 from carom.halfspace.solution import HalfspaceSolution, Resolution, solve
 from carom.impacts.result import ImpactResult
 from carom.impacts.validity import judge_contact, judge_errors
@@ -154,9 +154,8 @@ class HalfspaceImpact(ImpactResult):
         Returns
         -------
         xarray.Dataset
-            Along (y, x): pressure, traction_x, traction_y, zone (0 outside, 1 stick, 2 slip; a
-            rim that touches since the middle of the step has no traction yet and is shown as what
-            is inside), slip_velocity_x, slip_velocity_y; and as numbers time (that of the step),
+            Along (y, x): pressure, traction_x, traction_y, zone (0 outside, 1 stick, 2 slip),
+            slip_velocity_x, slip_velocity_y; and as numbers time (that of the step),
             contact_radius, stick_radius, normal_force, tangential_force, penetration, displacement,
             friction.
 
@@ -177,23 +176,22 @@ class HalfspaceImpact(ImpactResult):
         True
         """
         shot = self.solution.snapshot(self._instant(time) / self.scales.time)
-        scales, state = self.scales, shot.step.state
-        traction = self.pair.friction * self._pressure_unit * state.traction
-        slip = self.pair.friction * self.normal_speed * shot.slip_velocity
-        slips = slipping(shot.step)
-        velocity = np.where(slips, slip, 0.0)
-        rest = STICK if np.any(shot.step.gripped & ~slips) else SLIP
-        touches = np.where(state.pressure > 0.0, rest, OUTSIDE)
-        zone = np.where(slips, SLIP, touches).astype(np.int8)
+        step, grid = shot.step, self.solution.patch.grid
+        friction, unit = self.pair.friction, self._pressure_unit
+        traction = friction * unit * grid.whole_vector(step.state.traction)
+        slip = np.where(step.slips, shot.slip_velocity, 0.0)
+        velocity = friction * self.normal_speed * grid.whole_vector(slip)
+        zones = np.select([step.slips, step.touching], [SLIP, STICK], OUTSIDE)
+        zone = grid.whole(zones).astype(np.int8)
         columns = {
-            "pressure": self._pressure_unit * state.pressure,
+            "pressure": unit * grid.whole(step.state.pressure),
             "traction_x": traction[0],
             "traction_y": traction[1],
             "slip_velocity_x": velocity[0],
             "slip_velocity_y": velocity[1],
         }
         variables = {name: (("y", "x"), values.T) for name, values in columns.items()}
-        line = self.solution.patch.line * scales.radius
+        line = grid.line * self.scales.radius
         return labelled_dataset(
             {**variables, "zone": (("y", "x"), zone.T, ZONES), **self._numbers(shot.entry)},
             {"x": line, "y": line},
