@@ -67,7 +67,10 @@ def test_order_of_the_traction(runs):
     """Of the first order as a mean: square roots at the edge and at the stick radius."""
     means, smooth = [], []
     for patch, steps in runs:
-        radii, spacing = np.hypot(patch.grid.line[:, None], patch.grid.line), patch.compliance.spacing
+        radii, spacing = (
+            np.hypot(patch.grid.line[:, None], patch.grid.line),
+            patch.compliance.spacing,
+        )
         squares, worst = 0.0, 0.0
         for shift, step in zip(SHIFTS, steps, strict=True):
             c = np.sqrt(1.0 - shift)
@@ -88,7 +91,10 @@ def test_order_of_the_traction(runs):
 def test_stick_radius(runs):
     """By area within a quarter of an element; by place within one."""
     for patch, steps in runs:
-        radii, spacing = np.hypot(patch.grid.line[:, None], patch.grid.line), patch.compliance.spacing
+        radii, spacing = (
+            np.hypot(patch.grid.line[:, None], patch.grid.line),
+            patch.compliance.spacing,
+        )
         for shift, step in zip(SHIFTS, steps, strict=True):
             c, held = np.sqrt(1.0 - shift), sticks(step)
             by_area = np.sqrt(patch.grid.element * np.count_nonzero(held) / np.pi)

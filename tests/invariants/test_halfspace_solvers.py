@@ -100,4 +100,6 @@ def test_start_does_not_matter():
 
 def test_nothing_touches():
     compliance = Compliance(SIZE, 0.3, Materials(1.0))
-    assert not solve_pressure(compliance, np.full((SIZE, SIZE), -1.0), np.ones((SIZE, SIZE))).load.any()
+    assert not solve_pressure(
+        compliance, np.full((SIZE, SIZE), -1.0), np.ones((SIZE, SIZE))
+    ).load.any()

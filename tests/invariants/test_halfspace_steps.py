@@ -152,7 +152,9 @@ def balance(case):
         stored.append(0.5 * element * work)
     for before, now in pairwise(case.motions):
         new = now.step.touching & ~before.step.touching  # from zero, as a square root: mean 2/3
-        mean = np.where(new, 2.0 / 3.0, 0.5) * (before.step.state.traction + now.step.state.traction)
+        mean = np.where(new, 2.0 / 3.0, 0.5) * (
+            before.step.state.traction + now.step.state.traction
+        )
         losses.append(square * element * np.sum(mean * now.step.moved))
     return np.array(kinetic), np.array(stored), np.array(losses)
 

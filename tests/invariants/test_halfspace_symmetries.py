@@ -85,7 +85,11 @@ def test_spin_reversed():
     """Spin about the normal the other way: the same psi_2; unlike bodies veer to the other side."""
     for materials, veers in ((LIKE, False), (UNLIKE, True)):
         one, other = (
-            [*move(Patch.across(8, materials), np.array([0.9, 0.0]), 1.4412, 20, NormalSpin(w, 0.3))]
+            [
+                *move(
+                    Patch.across(8, materials), np.array([0.9, 0.0]), 1.4412, 20, NormalSpin(w, 0.3)
+                )
+            ]
             for w in (0.8, -0.8)
         )
         assert one[-1].velocity == pytest.approx(other[-1].velocity * [1.0, -1.0, -1.0], abs=1e-6)

@@ -17,7 +17,7 @@ FIRST, NEXT = 1e-3, 0.03  # how far they are solved first, and then by what they
 RELAXED = 0.8  # of a change of direction: friction turned one way makes slip turn back
 TINY = 1e-300  # tractions of no motion are zero
 TURNS = 8  # exchanges after which the direction of slip is left as it is
-SLIPPING = 1e-5  # of its bound, that a traction may be short of it and slip
+SLIPPING = 1e-5  # of its bound: as near to that a traction slips
 NO_MIRRORS = Mirrors()
 
 
@@ -40,6 +40,7 @@ class ContactState(NamedTuple):
     displacement: Field  # U along x and y, and the turn about the normal, shape (3,)
     pressure: Field  # shape (n, n)
     traction: Field  # of the first body on the second, over friction, shape (2, n, n)
+    bound: Field  # that friction sets to the traction
     yielded: Field  # tangential displacement that the surfaces gave way, shape (2, n, n)
     gap: Field  # between the surfaces
     aside: Field  # see `second_order`
@@ -68,7 +69,7 @@ class ContactStep(NamedTuple):
     @property
     def slips(self) -> Mask:
         """Elements whose traction is as large as friction allows."""
-        return slipping(*self.state.loads)
+        return slipping(self.state.traction, self.state.bound)
 
 
 class Patch:
@@ -96,7 +97,12 @@ class Patch:
         none, nothing = np.zeros_like(apart), np.zeros((2, *apart.shape))
         position = (0.0, np.zeros(3))
         rates = (none, nothing)
-        return ContactState(*position, none, nothing, nothing, apart, nothing, nothing, rates, 1.0)
+        tractions = (none, nothing, none, nothing)
+        return ContactState(*position, *tractions, apart, nothing, nothing, rates, 1.0)
+
+    def bound(self, pressure: Field) -> Field:
+        """Return what friction bears under a pressure, over the coefficient of friction."""
+        return pressure
 
     def advance(
         self, state: ContactState, depth: float, displacement: Field, length: float = 1.0
@@ -106,21 +112,21 @@ class Patch:
         Second order in the step: elements stick from their own touch on, and traction is along the
         slip at the end of the step. `length` is that of the step, in any unit.
         """
-        carried, approach = self.grid.carried(displacement - state.displacement), depth - state.depth
+        carried, approach = (
+            self.grid.carried(displacement - state.displacement),
+            depth - state.depth,
+        )
         given, open_ = carried + state.yielded, np.where(state.pressure > 0.0, 0.0, state.gap)
         early = before_touch(open_, carried, approach, state.aside)
         share = length / (length + state.length)
         start = (now + length * rate for now, rate in zip(state.loads, state.rates, strict=True))
         found = self._balance(_Asked(depth, given, early, state.slip, share), *start)
-        rates = [
-            (now - last) / length for now, last in zip(found.loads, state.loads, strict=True)
-        ]
+        rates = [(now - last) / length for now, last in zip(found.loads, state.loads, strict=True)]
         closed = np.where(found.gap > 0.0, state.gap - found.gap, 0.0)
         aside = aside_of_bodies(closed, given - found.yielded, carried, approach)
-        slip = np.where(slipping(*found.loads), found.moved / length, 0.0)
-        reached = ContactState(
-            depth, displacement, *found.loads, found.yielded, found.gap, aside, slip, rates, length
-        )
+        slip = np.where(slipping(found.loads[1], found.bound), found.moved / length, 0.0)
+        surfaces = (*found.loads, found.bound, found.yielded, found.gap, aside, slip)
+        reached = ContactState(depth, displacement, *surfaces, rates, length)
         return ContactStep(reached, found.moved, found.moved - found.turn)
 
     def _balance(self, asked: "_Asked", pressure: Field, traction: Field) -> "_Found":
@@ -138,9 +144,11 @@ class Patch:
             skewed = surface.tangential_of_pressure(pressure)
             since = asked.given - np.where(pressure > 0.0, asked.early, 0.0)
             pull = since - skewed - used
-            traction, dragged = solve_traction(surface, pull, pressure, traction, finer[1])
-            moved, slips = since - skewed - dragged, slipping(pressure, traction)
+            bound = self.bound(pressure)
+            traction, dragged = solve_traction(surface, pull, bound, traction, finer[1])
+            moved = since - skewed - dragged
             if count < TURNS:
+                slips = slipping(traction, bound)
                 turned = turn_to_end(moved, slips, asked.slip, asked.share)
                 turn = used + RELAXED * (turned - used)
             change = _change(before, (pressure, traction)) if surface.couples else 0.0
@@ -148,7 +156,7 @@ class Patch:
             straight = np.abs(turn - used).max() <= tolerances.turn * own
             if straight and max(change, rough / NEXT) <= tolerances.exchange:
                 gap = np.maximum(sunk - overlap, 0.0)
-                return _Found((pressure, traction), skewed + dragged, gap, moved, used)
+                return _Found((pressure, traction), bound, skewed + dragged, gap, moved, used)
             rough = min(rough, NEXT * change)
         product = surface.materials.friction * abs(surface.materials.beta)
         raise RuntimeError(
@@ -171,15 +179,16 @@ class _Found(NamedTuple):
     """What a step comes to."""
 
     loads: tuple[Field, Field]
+    bound: Field
     yielded: Field
     gap: Field
     moved: Field
     turn: Field  # of the slip, what is not along its direction at the end
 
 
-def slipping(pressure: Field, traction: Field) -> Mask:
+def slipping(traction: Field, bound: Field) -> Mask:
     """Return the elements whose traction is as large as friction allows."""
-    return np.asarray((pressure > 0.0) & at_bound(traction, pressure, SLIPPING))
+    return np.asarray((bound > 0.0) & at_bound(traction, bound, SLIPPING))
 
 
 def _change(before: tuple[Field, Field], after: tuple[Field, Field]) -> float:

@@ -11,7 +11,15 @@ import numpy as np
 from carom.halfspace.compliance import Materials
 from carom.halfspace.influence import Field
 from carom.halfspace.ledger import LedgerEntry, entry
-from carom.halfspace.motion import DURATION, NORMAL, NO_SPIN, BodyMotion, NormalSpin, move, responses
+from carom.halfspace.motion import (
+    DURATION,
+    NORMAL,
+    NO_SPIN,
+    BodyMotion,
+    NormalSpin,
+    move,
+    responses,
+)
 from carom.halfspace.quasistatic import ContactStep, Patch
 from carom.halfspace.stages import SlipStage, stages
 from carom.halfspace.transforms import Mirrors

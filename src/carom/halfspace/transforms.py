@@ -106,9 +106,7 @@ def _samples(spectrum: Spectrum, kept: int, axis: int, odd: bool) -> Spectrum:
 @lru_cache(maxsize=16)
 def _matrices(kept: int, length: int, odd: bool) -> tuple[Field, Field]:
     """Return the transforms of the second kind, as `_waves` and `_samples` make them."""
-    transform, inverse = (
-        (scipy.fft.dst, scipy.fft.idst) if odd else (scipy.fft.dct, scipy.fft.idct)
-    )
+    transform, inverse = (scipy.fft.dst, scipy.fft.idst) if odd else (scipy.fft.dct, scipy.fft.idct)
     forward = transform(np.eye(kept, length), 2, axis=1).T
     backward = inverse(np.eye(length), 2, axis=0)[:kept]
     return np.ascontiguousarray(forward), np.ascontiguousarray(backward)
