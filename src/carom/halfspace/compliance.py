@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.halfspace.influence import Field, influence
-from carom.halfspace.transforms import Mirrors, Spectrum, Transform
+from carom.halfspace.transforms import NO_MIRRORS, Mirrors, Spectrum, Transform
 
 
 class Materials(NamedTuple):
@@ -37,7 +37,7 @@ class Compliance:
     """
 
     def __init__(
-        self, size: int, spacing: float, materials: Materials, mirrors: Mirrors = Mirrors()
+        self, size: int, spacing: float, materials: Materials, mirrors: Mirrors = NO_MIRRORS
     ) -> None:
         if materials.beta and mirrors.x:
             raise ValueError("what pressure does along x is odd there, traction along x even")

@@ -10,7 +10,7 @@ from carom.halfspace.grid import Grid, elements_across
 from carom.halfspace.influence import Field, Mask
 from carom.halfspace.second_order import aside_of_bodies, before_touch, turn_to_end
 from carom.halfspace.traction import at_bound, solve_pressure, solve_traction
-from carom.halfspace.transforms import Mirrors
+from carom.halfspace.transforms import NO_MIRRORS, Mirrors
 
 EXCHANGES = 60  # between normal and tangential contact
 FIRST, NEXT = 1e-3, 0.03  # how far they are solved first, and then by what they still change
@@ -18,7 +18,6 @@ RELAXED = 0.8  # of a change of direction: friction turned one way makes slip tu
 TINY = 1e-300  # tractions of no motion are zero
 TURNS = 8  # exchanges after which the direction of slip is left as it is
 SLIPPING = 1e-5  # of its bound: as near to that a traction slips
-NO_MIRRORS = Mirrors()
 
 
 class Tolerances(NamedTuple):
@@ -112,11 +111,9 @@ class Patch:
         Second order in the step: elements stick from their own touch on, and traction is along the
         slip at the end of the step. `length` is that of the step, in any unit.
         """
-        carried, approach = (
-            self.grid.carried(displacement - state.displacement),
-            depth - state.depth,
-        )
-        given, open_ = carried + state.yielded, np.where(state.pressure > 0.0, 0.0, state.gap)
+        carried = self.grid.carried(displacement - state.displacement)
+        given, approach = carried + state.yielded, depth - state.depth
+        open_ = np.where(state.pressure > 0.0, 0.0, state.gap)
         early = before_touch(open_, carried, approach, state.aside)
         share = length / (length + state.length)
         start = (now + length * rate for now, rate in zip(state.loads, state.rates, strict=True))
@@ -154,7 +151,7 @@ class Patch:
             change = _change(before, (pressure, traction)) if surface.couples else 0.0
             own = pressure.max() * surface.tangential_diagonal
             straight = np.abs(turn - used).max() <= tolerances.turn * own
-            if straight and max(change, rough / NEXT) <= tolerances.exchange:
+            if straight and max(change, 3.0 * rough) <= tolerances.exchange:
                 gap = np.maximum(sunk - overlap, 0.0)
                 return _Found((pressure, traction), bound, skewed + dragged, gap, moved, used)
             rough = min(rough, NEXT * change)

@@ -13,8 +13,8 @@ from carom.halfspace.influence import Field
 from carom.halfspace.ledger import LedgerEntry, entry
 from carom.halfspace.motion import (
     DURATION,
-    NORMAL,
     NO_SPIN,
+    NORMAL,
     BodyMotion,
     NormalSpin,
     move,
@@ -211,7 +211,8 @@ def solve(
     """Return the impact with psi_1 = psi, the motion along x.
 
     Like materials are symmetric about both axes, unlike ones about that of motion; spin about the
-    normal leaves like ones one axis, across the motion, and unlike ones none. `progress` is called after every step with how many of `resolution.steps` it makes up for.
+    normal leaves like ones the axis across the motion, and unlike ones none. `progress` is called
+    after every step with how many of `resolution.steps` it makes up for.
     """
     mirrors = Mirrors(x=materials.beta == 0.0, y=spin.speed == 0.0)
     patch = Patch.across(resolution.elements, materials, mirrors)

@@ -32,7 +32,7 @@ class Pushing:
 def solve_pressure(
     compliance: Compliance, overlap: Field, start: Field, tolerance: float = 1e-6
 ) -> SurfaceLoad:
-    """Return the pressure p >= 0 and its N p, with N p = overlap where p > 0 and N p >= overlap elsewhere.
+    """Return the pressure p >= 0 and its N p: the overlap where p > 0, at least that elsewhere.
 
     Of the pressures that do not pull it has the least energy (1/2) p.N p - overlap.p (Kalker 1990,
     section 4.2): conjugate gradients on the elements that touch, with pressures that would pull cut

@@ -28,6 +28,9 @@ class Mirrors(NamedTuple):
         return (1 + self.x) * (1 + self.y)
 
 
+NO_MIRRORS = Mirrors()
+
+
 class Transform:
     """Transforms of fields, padded with zeros, and back.
 
