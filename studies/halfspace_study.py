@@ -26,7 +26,9 @@ from rich.progress import track
 
 import carom
 from carom.halfspace.compliance import Materials
-from carom.halfspace.solution import HalfspaceSolution, Resolution, solve
+from carom.halfspace.motion import NormalSpin
+from carom.halfspace.refinement import Resolution
+from carom.halfspace.solution import HalfspaceSolution, solve
 from carom.io.files import replace_whole
 
 TABLE = Path(__file__).with_name("halfspace_study.csv")
@@ -53,7 +55,12 @@ DRAWN = {
     "unlike": (20261125, 500, "unlike"),
     "apart like": (20261126, 50, "like"),  # kept apart: no bound has seen them
     "apart unlike": (20261127, 50, "unlike"),
+    "spin": (20261129, 200, "like"),
+    "spin unlike": (20261130, 40, "unlike"),
+    "apart spin": (20261131, 40, "like"),
+    "apart spin unlike": (20261132, 10, "unlike"),
 }
+SPINS, LIGHTNESS = (0.02, 20.0), (0.0005, 0.03)  # a_max/R up to 0.1
 LEAST_CHI, LARGEST_CHI, LARGEST_NU = 0.3, 8.0, 0.5
 LARGEST_BETA, FRICTIONS, LARGEST_RATIO = 0.5, (0.02, 1.0), 10.0
 SOLID = 1.75  # chi/kappa of a solid sphere on a half-space
@@ -63,7 +70,7 @@ DURATION = 2.94327518432470  # of Hertz's impact, in d_max/V_1
 class Impact(NamedTuple):
     """One impact to be computed."""
 
-    label: str  # solid, pair, a key of DRAWN, judge; control: nu = 0, the same chi
+    label: str  # solid, pair, a key of DRAWN, judge; control: nu = 0, the same chi; still: no spin
     case: str
     kappa: float
     beta: float
@@ -72,6 +79,8 @@ class Impact(NamedTuple):
     psi_1: float
     elements: int
     steps: int
+    spin: float = 0.0  # about the normal, and what opposes it less: `NormalSpin`
+    lightness: float = 0.0
 
 
 class Row(NamedTuple):
@@ -169,7 +178,21 @@ def drawn(label: str, grid: int) -> Iterator[Impact]:
         chi, kappa = drawn_chi(rng), drawn_kappa(rng)
         beta, friction = (0.0, 1.0) if kind == "like" else drawn_strength(rng)
         numbers = (round(n, 6) for n in (kappa, beta, friction, chi, drawn_psi(rng, chi)))
-        yield Impact(label, f"{number}", *numbers, *GRIDS[grid])
+        impact = Impact(label, f"{number}", *numbers, *GRIDS[grid])
+        yield impact._replace(**drawn_spin(rng)) if "spin" in label else impact
+
+
+def drawn_spin(rng: np.random.Generator) -> dict[str, float]:
+    """Return a spin about the normal, evenly in its logarithm."""
+    spin = np.exp(rng.uniform(*np.log(SPINS)))
+    return {"spin": round(float(spin), 6), "lightness": round(float(rng.uniform(*LIGHTNESS)), 6)}
+
+
+def still(impacts: Iterable[Impact]) -> Iterator[Impact]:
+    """Yield each impact and the one without spin about the normal."""
+    for impact in impacts:
+        yield impact
+        yield impact._replace(label=f"still {impact.label}", spin=0.0, lightness=0.0)
 
 
 JUDGED = {"nu 0": 80, "like": 80, "unlike": 40}  # impacts of the study of errors
@@ -193,6 +216,10 @@ def plan() -> list[Impact]:
         every += [*control(drawn(label, 32)), *control(drawn(label, 48))]
     for label in ("unlike", "apart unlike"):
         every += [*drawn(label, 16), *drawn(label, 32)]
+    for label in ("spin", "apart spin"):
+        every += [i for grid in (16, 32) for i in still(drawn(label, grid))]
+    for label in ("spin unlike", "apart spin unlike"):
+        every += [*still(drawn(label, 16))]
     every += [i for grid in (32, 64) for ratio in RATIOS for i in control(solid(ratio, grid))]
     every += [*pairs(16), *pairs(32)]
     every += [*judge("unlike", 48), *judge("unlike", 64)]
@@ -204,7 +231,8 @@ def compute(impact: Impact) -> Row:
     started = time.process_time()
     materials = Materials(impact.kappa, impact.beta, impact.friction)
     grid = Resolution(impact.elements, impact.steps)
-    found = solve(impact.psi_1, impact.chi, materials, grid)
+    spin = NormalSpin(impact.spin, impact.lightness)
+    found = solve(impact.psi_1, impact.chi, materials, grid, spin=spin)
     work = np.maximum(found.column("lost"), 0.0)
     micro = work * (found.column("slip_share") < 1.0)
     return Row(
@@ -263,7 +291,7 @@ WIDTH = len(Impact._fields) + len(Row._fields)
 def _parsed(row: list[str]) -> tuple[Impact, Row]:
     numbers = [float(text) for text in row[2:]]
     grid = [int(number) for number in numbers[5:7]]
-    return Impact._make([*row[:2], *numbers[:5], *grid]), Row._make(numbers[7:])
+    return Impact._make([*row[:2], *numbers[:5], *grid, *numbers[7:9]]), Row._make(numbers[9:])
 
 
 def _line(impact: Impact, row: Row) -> str:

@@ -75,7 +75,8 @@ def test_energies_of_the_history_add_up(both):
     assert np.abs(total / total[0] - 1.0).max() < 1e-3  # 16 elements, linear between steps
     masses = full.pair.normal_mass, full.pair.tangential_mass
     moving = sum(m * v**2 / 2.0 for m, v in zip(masses, (1.0, full.contact_velocity), strict=True))
-    worst = np.abs(total - total[0]).max() / moving
+    steps = full.solution.column("time") * full.scales.time
+    worst = np.abs(np.interp(steps, history.time, total) - total[0]).max() / moving
     assert full.energy_error == pytest.approx(worst, rel=0.05)
     assert full.energy_error < 1e-3
 
@@ -167,7 +168,7 @@ def test_bodies_swapped_leave_alike():
 def test_a_bar_is_shown_when_asked_for(capsys, monkeypatch):
     monkeypatch.setattr("carom.io.progress.PATIENCE", 0.0)
     carom.impact(against_wall(), speed=1.0, angle="20 deg", method=TINY, progress=True)
-    assert "30/30" in capsys.readouterr().err
+    assert "35/35" in capsys.readouterr().err
     carom.impact(against_wall(), speed=1.0, angle="20 deg", method=TINY)
     assert capsys.readouterr().err == ""
 

@@ -14,7 +14,8 @@ import pytest
 
 import carom
 from carom.halfspace.compliance import Materials
-from carom.halfspace.solution import Resolution, solve
+from carom.halfspace.refinement import Resolution
+from carom.halfspace.solution import solve
 from carom.impacts.validity import rebound_error
 
 TABLE = Path(__file__).parents[2] / "studies" / "halfspace_study.csv"

@@ -91,6 +91,11 @@ def inertia(body: Sphere) -> float:
     return body.mass * body.gyration_ratio * body.radius**2
 
 
+def normal_inertia(pair: Pair) -> float:
+    """Return what opposes a change of relative spin about the normal, 1/sum(1/I_i), in kg m^2."""
+    return 1.0 / sum(1.0 / inertia(body) for body in pair.moving)
+
+
 @dataclass(frozen=True, eq=False)
 class Kinematics(ABC):
     """What two impulses make of two rigid bodies; SI units, numbers or arrays of one shape.

@@ -62,6 +62,13 @@ def impact_command(
     tangential_speed: Annotated[Text, _flag("tangential_speed", "1")] = None,
     spin: Annotated[Text, _flag("spin", "'100 rad/s'")] = None,
     spin2: Annotated[Text, _flag("spin2", "0")] = None,
+    normal_spin: Annotated[
+        Text,
+        typer.Option(
+            help="Spin about the line of impact, e.g. '500 rad/s' [rad/s]; solved for by "
+            "--method halfspace."
+        ),
+    ] = None,
     restitution: Annotated[
         Text, typer.Option(help="Normal restitution of a viscous (Kelvin-Voigt) contact, e.g. 0.9.")
     ] = None,
@@ -85,7 +92,7 @@ def impact_command(
         str,
         typer.Option(
             help="'exact': the theory; 'halfspace': the full contact in three dimensions, "
-            "by boundary elements in ten seconds, a minute for unlike materials."
+            "by boundary elements in two seconds, half a minute for unlike materials."
         ),
     ] = "exact",
     elements: Annotated[
@@ -133,7 +140,8 @@ def impact_command(
     losses = losses_of(content)
     _check_outputs(files, content)
     solver = _method(method, elements, steps)
-    hit = carom.impact(pair_of(content), **motion_of(content), losses=losses, method=solver)
+    motion = motion_of(content) | ({} if normal_spin is None else {"normal_spin": normal_spin})
+    hit = carom.impact(pair_of(content), **motion, losses=losses, method=solver)
     paths = list(_store(hit, files))
     typer.echo(json.dumps(hit.to_dict(), indent=2) if as_json else str(hit))
     for path in paths:

@@ -21,27 +21,13 @@ from carom.halfspace.motion import (
     responses,
 )
 from carom.halfspace.quasistatic import ContactStep, Patch
+from carom.halfspace.refinement import STANDARD, Resolution
 from carom.halfspace.stages import SlipStage, stages
 from carom.halfspace.transforms import Mirrors
 
 Progress = Callable[[int], object]
 FAINT = 1e-6  # of the normal force: slip that pulls so little has no sign
 SNAPSHOTS = 60  # steps of an impact whose fields are kept, about
-
-
-class Resolution(NamedTuple):
-    """Elements across the largest contact, and steps in the duration of Hertz's impact."""
-
-    elements: int = 64
-    steps: int = 300
-
-    @property
-    def half(self) -> "Resolution":
-        """Half as fine in space and time."""
-        return Resolution(max(self.elements // 2, 2), max(self.steps // 2, 2))
-
-
-STANDARD = Resolution()
 
 
 class GridHistory(NamedTuple):
@@ -63,6 +49,14 @@ class GridHistory(NamedTuple):
     normal_lost: Field
     slip_angle: Field
     slip_angle_max: Field
+
+
+class Turning(NamedTuple):
+    """Spin about the normal at some times, the moment against it, velocity across the motion."""
+
+    speed: Field
+    moment: Field
+    velocity_across: Field
 
 
 class Snapshot(NamedTuple):
@@ -171,6 +165,12 @@ class HalfspaceSolution:
         return GridHistory(
             time, *(np.interp(time, self.column("time"), c) for c in self._columns())
         )
+
+    def turning(self, n: int) -> "Turning":
+        """Return the spin about the normal at n evenly spaced times, and what goes with it."""
+        time = np.linspace(0.0, self.duration, n)
+        names = ("turn_velocity", "moment", "velocity_across")
+        return Turning(*(np.interp(time, self.column("time"), self.column(name)) for name in names))
 
     def snapshot(self, time: float) -> Snapshot:
         """Return the kept step that ends nearest to a time."""

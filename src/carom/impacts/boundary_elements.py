@@ -7,13 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.bodies.kinematics import Tangential
+from carom.bodies.kinematics import Tangential, normal_inertia
 from carom.bodies.pairs import Pair
 from carom.contacts.fields import OUTSIDE, SLIP, STICK, ZONES
 from carom.dimensionless.states import SlipAngle
 from carom.halfspace.compliance import Materials
 from carom.halfspace.ledger import LedgerEntry
-from carom.halfspace.solution import HalfspaceSolution, Resolution, solve
+from carom.halfspace.motion import NormalSpin
+from carom.halfspace.refinement import Resolution, refinement_error
+from carom.halfspace.solution import HalfspaceSolution, solve
 from carom.impacts.result import ImpactResult
 from carom.impacts.validity import judge_contact, judge_errors
 from carom.io.citations import ELEMENTS, bibtex
@@ -93,18 +95,38 @@ class HalfspaceImpact(ImpactResult):
     """
 
     solution: HalfspaceSolution = field(repr=False)
-    coarse_psi_out: float = field(kw_only=True)  # on a grid and steps half as fine
+    coarser: tuple[float, float] = field(kw_only=True)  # psi_out, a quarter and half as fine
+
+    @property
+    def normal_spin_out(self) -> float:
+        """Spin about the normal after, of the first body less that of the second, in rad/s."""
+        return self.solution.spin_out * self._spin_unit
+
+    @property
+    def contact_velocity_across(self) -> float:
+        """Velocity of the contact point across the motion before, after the impact, in m/s.
+
+        Unlike bodies that spin about the normal veer off.
+        """
+        unit = self.pair.kappa * self.scales.tangential_speed
+        return float(self.solution.column("velocity_across")[-1]) * unit
 
     @property
     def psi_out_error(self) -> float:
-        """Change of psi_out from a grid and steps half as fine: a guide to its error, no bound."""
-        return abs(self.solution.psi_out - self.coarse_psi_out)
+        """Error of psi_out by grid and steps, from two coarser ones: of 200, 95 % were smaller."""
+        return refinement_error(*self.coarser, self.solution.psi_out)
 
     @property
     def dissipated_energy(self) -> float:
-        """Energy lost to friction, in J: for unlike materials of the normal motion, too."""
+        """Energy lost to friction, in J: that of the spin about the normal included.
+
+        Unlike materials lose some of the normal motion to it, too.
+        """
         normal = super().lost_energy if self.pair.dundurs_beta else 0.0
-        return super().dissipated_energy + normal
+        across = 0.5 * self.pair.tangential_mass * self.contact_velocity_across**2
+        turning = 0.5 * normal_inertia(self.pair)
+        turned = turning * (self.normal_spin**2 - self.normal_spin_out**2)
+        return super().dissipated_energy + normal + turned - across
 
     @property
     def lost_energy(self) -> float:
@@ -133,7 +155,8 @@ class HalfspaceImpact(ImpactResult):
     def scalars(self) -> dict[str, float]:
         """Return the numbers of the result by name."""
         errors = {"psi_out_error": self.psi_out_error, "energy_error": self.energy_error}
-        return super().scalars() | errors
+        spin = {"normal_spin_out": self.normal_spin_out} if self.normal_spin else {}
+        return super().scalars() | spin | errors
 
     def inputs(self) -> dict[str, Any]:
         """Return what the impact was made from, as plain numbers and words."""
@@ -216,10 +239,27 @@ class HalfspaceImpact(ImpactResult):
             "tangential_force": entry.tangential_force * scales.tangential_force,
         }
 
+    @property
+    def _spin_unit(self) -> float:
+        return self.pair.friction * self.normal_speed / self.scales.radius
+
     def _columns(self, n: int) -> dict[str, Any]:
         history = self.solution.history(n)
         angles = {"slip_angle": history.slip_angle, "slip_angle_max": history.slip_angle_max}
-        return super()._columns(n) | angles
+        return super()._columns(n) | angles | (self._turning(n) if self.normal_spin else {})
+
+    def _turning(self, n: int) -> dict[str, Any]:
+        """Return the columns that spin about the normal adds."""
+        turn = self.solution.turning(n)
+        spin = turn.speed * self._spin_unit
+        moment = self.pair.friction * self._pressure_unit * self.scales.radius**3
+        across = self.pair.kappa * self.scales.tangential_speed * turn.velocity_across
+        return {
+            "normal_spin": spin,
+            "frictional_moment": turn.moment * moment,
+            "contact_velocity_across": across,
+            "normal_spin_kinetic_energy": 0.5 * normal_inertia(self.pair) * spin**2,
+        }
 
     def _picture(self, time: float) -> xr.Dataset:
         return self.fields(time)
@@ -229,6 +269,7 @@ def solve_by_elements(
     pair: Pair,
     normal_speed: float,
     motion: Tangential,
+    normal_spin: float,
     method: BoundaryElements,
     progress: Progress,
 ) -> HalfspaceImpact:
@@ -245,9 +286,22 @@ def solve_by_elements(
         allowed = f"boundary elements take it up to {LARGEST_PSI:g}; leave method out"
         raise refusal("psi_1", psi, allowed)
     materials = Materials(pair.kappa, pair.dundurs_beta, pair.friction)
+    spin = spin_about_normal(pair, normal_speed, normal_spin)
     fine = Resolution(method.elements, method.steps)
-    coarse = fine.half
-    total = fine.steps + coarse.steps
+    grids = (fine.half.half, fine.half, fine)
+    total = sum(grid.steps for grid in grids)
     with advancing("boundary elements", total, progress, unit="steps") as advance:
-        found = [solve(psi, pair.chi, materials, grid, progress=advance) for grid in (coarse, fine)]
-    return HalfspaceImpact(pair, normal_speed, *motion, found[1], coarse_psi_out=found[0].psi_out)
+        *coarse, found = (
+            solve(psi, pair.chi, materials, grid, spin=spin, progress=advance) for grid in grids
+        )
+    coarser = coarse[0].psi_out, coarse[1].psi_out
+    return HalfspaceImpact(
+        pair, normal_speed, *motion, found, coarser=coarser, normal_spin=normal_spin
+    )
+
+
+def spin_about_normal(pair: Pair, normal_speed: float, normal_spin: float) -> NormalSpin:
+    """Return a spin about the normal as boundary elements take it; 0 without friction."""
+    radius = pair.scales(normal_speed).radius
+    speed = normal_spin * radius / (pair.friction * normal_speed)
+    return NormalSpin(speed, pair.normal_mass * radius**2 / normal_inertia(pair))

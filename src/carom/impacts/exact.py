@@ -133,12 +133,16 @@ class Impact(ImpactResult, InContact):
 
 
 def solve_exactly(
-    pair: Pair, normal_speed: float, motion: Tangential, losses: LossLaw | None
+    pair: Pair,
+    normal_speed: float,
+    motion: Tangential,
+    losses: LossLaw | None,
+    normal_spin: float = 0.0,
 ) -> Impact:
     """Return an impact solved within the theory; see `carom.impact`."""
     psi = pair.psi(motion.contact_velocity(pair), normal_speed)
     solution = _solution(pair, normal_speed, psi if isfinite(psi) else 0.0, losses)
-    return Impact(pair, normal_speed, *motion, solution, losses)
+    return Impact(pair, normal_speed, *motion, solution, losses, normal_spin=normal_spin)
 
 
 def _solution(

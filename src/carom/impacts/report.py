@@ -13,6 +13,7 @@ from carom.io.labels import MARKS, Validity
 from carom.quantities.glossary import GLOSSARY
 
 OF_LOSSES = ("normal_restitution", "lost_energy", "shear_lost_energy")  # 1 and 0 without
+OF_ELEMENTS = ("normal_spin_out", "psi_out_error", "energy_error")
 NOTES = {
     "exact": "  * angle between slip and x in degrees, which the theory neglects",
     "lossy": "  * angle between slip and x, which is known without losses only",
@@ -43,7 +44,7 @@ def impact_text(hit: Reported) -> str:
     note = NOTES["lossy" if hit.losses is not None else method]
     loses = hit.losses is not None or (method != "exact" and hit.pair.dundurs_beta != 0.0)
     shown = ["chi", *(name for name in RESULTS if loses or name not in OF_LOSSES)]
-    shown += [name for name in ("psi_out_error", "energy_error") if name in scalars]
+    shown += [name for name in OF_ELEMENTS if name in scalars]
     if len(hit.pair.moving) == 1:
         shown.remove("spin2_out")
     lines = [

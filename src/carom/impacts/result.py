@@ -64,6 +64,7 @@ class ImpactResult(Outcome, Result):
     """How two bodies leave an impact, and the way there: phases, history, validity."""
 
     solution: InTime = field(repr=False)
+    normal_spin: float = field(default=0.0, kw_only=True)
 
     @cached_property
     def phases(self) -> tuple[Phase, ...]:
@@ -229,6 +230,11 @@ class ImpactResult(Outcome, Result):
         count = counted("frames", frames, 1, MOST_FRAMES)
         times = (np.arange(count) + 0.5) / count * self.duration
         return plots.animate(self.history(), Film(self._picture, times), path, progress)
+
+    def inputs(self) -> dict[str, Any]:
+        """Return what the impact was made from, as plain numbers and words."""
+        about_normal = {"normal_spin": self.normal_spin} if self.normal_spin else {}
+        return super().inputs() | about_normal
 
     @abstractmethod
     def _picture(self, time: float) -> xr.Dataset:

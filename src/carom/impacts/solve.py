@@ -27,6 +27,7 @@ class MotionInputs(TypedDict, total=False):
     tangential_speed: Value | None
     spin: Value
     spin2: Value
+    normal_spin: Value
 
 
 @overload
@@ -67,6 +68,7 @@ def impact(
     tangential_speed: Value | None = None,
     spin: Value = 0.0,
     spin2: Value = 0.0,
+    normal_spin: Value = 0.0,
     losses: LossLaw | None = None,
     method: str | BoundaryElements = "exact",
     progress: Progress = None,
@@ -90,11 +92,15 @@ def impact(
     spin, spin2 : float or str
         Spin of the first body, and of the second if it is a sphere, in rad/s; positive spin adds
         to the tangential speed of the contact point.
+    normal_spin : float or str
+        Spin about the line of impact of the first body, less that of the second, in rad/s. The
+        theory leaves it out, and `validity` tells what that may be in psi_2; boundary elements
+        solve for it.
     losses : KelvinVoigt, StandardLinearSolid or ElasticPlastic, optional
         What the impact loses energy to; by default nothing, the bodies are elastic.
     method : "exact", "halfspace" or BoundaryElements
         The theory, in which slip is parallel to x and unlike materials do not couple; or the full
-        contact in three dimensions, which assumes neither and takes ten seconds, a minute for
+        contact in three dimensions, which assumes neither and takes two seconds, half a minute for
         unlike materials. BoundaryElements says how finely.
     progress : bool or callable, optional
         Whether the boundary elements show a bar, by default in a notebook and on a terminal; or
@@ -128,24 +134,21 @@ def impact(
         raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
     approaching, tangential = approach(speed, angle, normal_speed, tangential_speed)
     first_spin, second_spin = finite("spin", spin), finite("spin2", spin2)
+    about_normal = finite("normal_spin", normal_spin)
     if second_spin and not isinstance(pair.second, Sphere):
         raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
     motion = Tangential(tangential, first_spin, second_spin)
     checked_scales(pair, approaching, motion.contact_velocity(pair))
     if isinstance(method, str) and method == "exact":
-        return solve_exactly(pair, approaching, motion, losses)
-    return _by_elements(pair, approaching, motion, method, losses, progress)
+        return solve_exactly(pair, approaching, motion, losses, about_normal)
+    elements = _elements(method, losses)
+    from carom.impacts.boundary_elements import solve_by_elements
+
+    return solve_by_elements(pair, approaching, motion, about_normal, elements, progress)
 
 
-def _by_elements(
-    pair: Pair,
-    normal_speed: float,
-    motion: Tangential,
-    method: str | BoundaryElements,
-    losses: LossLaw | None,
-    progress: Progress,
-) -> HalfspaceImpact:
-    from carom.impacts.boundary_elements import BoundaryElements, solve_by_elements
+def _elements(method: str | BoundaryElements, losses: LossLaw | None) -> BoundaryElements:
+    from carom.impacts.boundary_elements import BoundaryElements
 
     named = isinstance(method, str) and method == "halfspace"
     elements = BoundaryElements() if named else method
@@ -154,4 +157,4 @@ def _by_elements(
         raise refusal("method", method, allowed)
     if losses is not None:
         raise refusal("losses", losses, "boundary elements are elastic; leave it or method out")
-    return solve_by_elements(pair, normal_speed, motion, elements, progress)
+    return elements

@@ -50,6 +50,9 @@ GLOSSARY = {
     "tangential_speed": Quantity("$v_t$", "m/s", "tangential speed of the centres"),
     "spin": Quantity(r"$\omega$", "rad/s", "spin of the first body"),
     "spin2": Quantity(r"$\omega_2$", "rad/s", "spin of the second body"),
+    "normal_spin": Quantity(
+        r"$\omega_n$", "rad/s", "spin about the line of impact, of the first body less the second"
+    ),
     # of a pair
     "effective_modulus": Quantity("$E^*$", "Pa", "effective modulus of both bodies"),
     "effective_shear_modulus": Quantity("$G^*$", "Pa", "effective shear modulus of both bodies"),
@@ -116,6 +119,15 @@ GLOSSARY = {
     "displacement": Quantity("$U$", "m", "tangential displacement of the bodies since the start"),
     "normal_force": Quantity("$F_z$", "N", "normal force"),
     "tangential_force": Quantity("$F_x$", "N", "tangential force, positive against $V_x$"),
+    "frictional_moment": Quantity(
+        "$M$", "N m", "moment of friction about the line of impact, against the spin"
+    ),
+    "contact_velocity_across": Quantity(
+        "$V_y$", "m/s", "velocity of the contact point across the motion before"
+    ),
+    "normal_spin_kinetic_energy": Quantity(
+        "$T_n$", "J", "kinetic energy of the relative spin about the line of impact"
+    ),
     "contact_radius": Quantity("$b$", "m", "radius of the contact"),
     "stick_radius": Quantity("$a$", "m", "radius of the stick zone"),
     "normal_kinetic_energy": Quantity("$T_n$", "J", "kinetic energy of the normal motion"),
@@ -193,8 +205,13 @@ GLOSSARY = {
     "tangential_speed_out": Quantity("$v_t'$", "m/s", "tangential speed of the centres after"),
     "spin_out": Quantity(r"$\omega'$", "rad/s", "spin of the first body after"),
     "spin2_out": Quantity(r"$\omega_2'$", "rad/s", "spin of the second body after"),
+    "normal_spin_out": Quantity(
+        r"$\omega_n'$", "rad/s", "spin about the line of impact after, first body less the second"
+    ),
     "dissipated_energy": Quantity("$W$", "J", "energy lost to friction"),
-    "psi_out_error": Quantity(r"$\delta\psi_2$", "1", "change of psi_2 from a grid half as fine"),
+    "psi_out_error": Quantity(
+        r"$\delta\psi_2$", "1", "error of psi_2 by grid and steps, as coarser ones tell it"
+    ),
     "energy_error": Quantity(
         r"$\delta E$", "1", "largest change of the sum of all energies, as a share"
     ),
