@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 import carom
 from carom.dimensionless.fields.surface import slip_shape
 from carom.halfspace.compliance import Materials
-from carom.halfspace.ledger import slipping
 from carom.halfspace.solution import HalfspaceSolution, Snapshot, solve
 
 Array = NDArray[np.float64]
@@ -54,6 +53,12 @@ def polar(found: HalfspaceSolution) -> tuple[Array, Array]:
     return np.hypot(x, y), np.arctan2(y, x)
 
 
+def pulled(found: HalfspaceSolution, kept: Snapshot) -> tuple[Array, NDArray[np.bool_]]:
+    """Return the traction on the whole grid, and where it is as large as friction allows."""
+    grid = found.patch.grid
+    return grid.whole_vector(kept.step.state.traction), grid.whole(kept.step.slips)
+
+
 def draw_map(axis: Axes, angle: Array, inside: NDArray[np.bool_], found: HalfspaceSolution) -> None:
     """Colour the elements that slip by the angle of slip, the others grey."""
     line = found.patch.grid.line
@@ -72,9 +77,9 @@ def draw_map(axis: Axes, angle: Array, inside: NDArray[np.bool_], found: Halfspa
 def draw_maps(full: Axes, theory: Axes, found: HalfspaceSolution) -> None:
     """Draw the angle of slip over the contact, by both solutions, nu = 0.5."""
     kept, (radii, angles) = found.snapshot(TIME), polar(found)
-    inside = np.asarray(kept.step.state.pressure > 0.0)
-    pull = kept.step.state.traction
-    slips = np.where(slipping(kept.step), pull[0], np.nan)
+    inside = found.patch.grid.whole(kept.step.touching)
+    pull, slipping = pulled(found, kept)
+    slips = np.where(slipping, pull[0], np.nan)
     draw_map(full, turned(slips, pull[1]), inside, found)
     angle, front = by_theory(0.5, kept, radii, angles)
     round_contact = radii <= np.sqrt(kept.step.state.depth)
@@ -88,9 +93,9 @@ def draw_maps(full: Axes, theory: Axes, found: HalfspaceSolution) -> None:
 def draw_directions(axis: Axes, poisson: float, found: HalfspaceSolution) -> None:
     """Draw the angle at 45 degrees to the motion, from the front to the edge, by both solutions."""
     kept, (radii, angles) = found.snapshot(TIME), polar(found)
-    pull = kept.step.state.traction
+    pull, slipping = pulled(found, kept)
     near = np.abs(np.abs(np.abs(angles) - 0.5 * np.pi) - 0.25 * np.pi) < np.radians(5.0)
-    seen = near & slipping(kept.step)
+    seen = near & slipping
     edge = np.sqrt(kept.step.state.depth)
     sizes = -np.sign(np.sin(2.0 * angles[seen])) * turned(pull[0][seen], pull[1][seen])
     label = rf"$\nu$ = {poisson:g}"

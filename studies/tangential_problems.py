@@ -65,7 +65,7 @@ def recorded(grid: int, case: Case, wanted: int) -> Iterator[Task]:
     patch, motions = impact(grid, case, Tolerances(1e-8, 1e-8))
     found, changes = [], []
     for place, (before, after) in enumerate(pairwise(motions[:-1])):
-        traction, bound = after.step.state.traction, after.step.touching * after.step.state.pressure
+        traction, bound = after.step.state.traction, after.step.state.bound
         if not bound.any():
             continue
         given = after.step.moved + patch.compliance.tangential(traction)

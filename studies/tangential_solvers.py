@@ -70,7 +70,7 @@ class Run(NamedTuple):
 
 def cost_of(compliance: Compliance) -> int:
     """Return the number of transforms of padded fields, others counted by their size."""
-    return compliance.transforms + compliance.rough_transforms // 4
+    return compliance.padded.count + compliance.rough.count // 4
 
 
 def newton(problem: Problem, start: Field, circulant: bool) -> Iterates:

@@ -42,7 +42,8 @@ class Compliance:
         if materials.beta and mirrors.x:
             raise ValueError("what pressure does along x is odd there, traction along x even")
         self.size, self.spacing, self.materials, self.mirrors = size, spacing, materials, mirrors
-        self.padded, self.rough = (Transform(size, mirrors, padding) for padding in (2, 1))
+        self.transforms = Transform(size, mirrors, 2), Transform(size, mirrors, 1)
+        self.padded, self.rough = self.transforms
         offsets = np.fft.fftfreq(2 * size, 1.0 / (2 * size))
         unit = influence(*np.meshgrid(offsets, offsets, indexing="ij"))
         scale, lateral = spacing / pi, materials.lateral

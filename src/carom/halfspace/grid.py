@@ -1,9 +1,11 @@
 """The elements of a contact: where they are, what their tractions add to."""
 
 from math import ceil
+from typing import Any
 
 import numpy as np
 import scipy.fft
+from numpy.typing import NDArray
 
 from carom.halfspace.influence import Field
 from carom.halfspace.transforms import Mirrors
@@ -43,8 +45,8 @@ class Grid:
         """Return the displacement of the surfaces with that of the bodies, shape (3,)."""
         return np.tensordot(displacement, self.modes, 1)
 
-    def whole(self, field: Field, odd: bool = False) -> Field:
-        """Return a field on both sides of the mirrors."""
+    def whole(self, field: NDArray[Any], odd: bool = False) -> NDArray[Any]:
+        """Return a field, or a mask, on both sides of the mirrors."""
         for axis, mirrored in zip((-2, -1), self.mirrors, strict=True):
             if mirrored:
                 other = np.flip(field, axis)
