@@ -42,7 +42,7 @@ def test_the_table_tells_the_error_and_files_are_stored(run, tmp_path):
     files = ["--plot", "hit.png", "--output", "hit.nc"]
     code, out, err = run(*BALL, *MOTION, *COARSE, *files)
     assert code == 0
-    assert "change of psi_2 from a grid half as fine" in out
+    assert "error of psi_2 by grid and steps" in out
     assert "energy lost in the normal motion" not in out, "like materials lose none"
     assert (tmp_path / "hit.png").stat().st_size > 20_000
     assert carom.read(tmp_path / "hit.nc").slip_angle.dims == ("time",)
@@ -53,6 +53,18 @@ def test_unlike_materials_show_what_the_normal_motion_loses(run):
     code, out, _ = run(*BALL, *MOTION, *COARSE, "--second-material", "steel")
     assert code == 0
     assert "energy lost in the normal motion" in out
+
+
+def test_spin_about_the_normal(run):
+    """It slows down, and the table says to what."""
+    code, out, _ = run(*BALL, *MOTION, *COARSE, "--normal-spin", "3000 rpm", "--json")
+    told = json.loads(out)
+    assert code == 0
+    before, after = told["inputs"]["normal_spin"], told["result"]["normal_spin_out"]
+    assert before == pytest.approx(100.0 * 3.141592653589793)
+    assert 0.9 * before < after < before
+    code, out, _ = run(*BALL, *MOTION, *COARSE, "--normal-spin", "3000 rpm")
+    assert "spin about the line of impact after" in out
 
 
 @pytest.mark.parametrize(

@@ -60,7 +60,7 @@ def drawn(folder, progress):
 
 
 LONG = [
-    (by_elements, "boundary elements", 30),
+    (by_elements, "boundary elements", 35),
     (swept, "sweep", 6),
     (posterior, "posterior", 120),
     (ranked, "ranking", 2),

@@ -1,0 +1,88 @@
+"""Spin about the line of impact, by boundary elements with units: what is kept, what is lost."""
+
+from math import gamma, pi, sqrt
+
+import numpy as np
+import pytest
+
+import carom
+from carom.bodies.kinematics import normal_inertia
+from carom.impacts.boundary_elements import spin_about_normal
+
+GRID = carom.BoundaryElements(elements=16, steps=75)
+STEEL, GLASS = carom.material("steel"), carom.material("soda-lime-glass")
+
+
+def pair(first=STEEL, second=STEEL, friction=0.2):
+    ball = carom.Sphere(radius="10 mm", material=first)
+    return carom.Pair(ball, carom.HalfSpace(material=second), friction=friction)
+
+
+def hit(bodies, spin, angle="30 deg"):
+    return carom.impact(bodies, speed=1.0, angle=angle, normal_spin=spin, method=GRID)
+
+
+ENERGIES = (
+    *("normal_kinetic_energy", "tangential_kinetic_energy", "spin_kinetic_energy"),
+    *("normal_spin_kinetic_energy", "normal_elastic_energy", "tangential_elastic_energy"),
+    "frictional_work",
+)
+
+
+@pytest.mark.parametrize("second", [STEEL, GLASS])
+def test_energy(second):
+    """What friction takes is what the motions lose, that of the spin and across included."""
+    found = hit(pair(second=second), 400.0)
+    history = found.history(400)
+    across = 0.5 * found.pair.tangential_mass * history.contact_velocity_across.values**2
+    total = sum(history[name].values for name in ENERGIES) + across
+    moving = history.normal_kinetic_energy.values[0]
+    assert np.abs(total - total[0]).max() <= 2e-3 * moving
+    assert found.dissipated_energy == pytest.approx(float(history.frictional_work[-1]), rel=5e-3)
+    assert (abs(found.contact_velocity_across) > 1e-4) == (second is GLASS)
+
+
+def test_angular_momentum():
+    """The moment over time is the inertia times the change of spin; two spheres share it."""
+    ball = carom.Sphere(radius="10 mm", material=STEEL)
+    for bodies in (pair(), carom.Pair(ball, ball, friction=0.2)):
+        found = hit(bodies, 400.0)
+        history = found.history(2000)
+        taken = float(np.trapezoid(history.frictional_moment, history.time))
+        change = normal_inertia(bodies) * (400.0 - found.normal_spin_out)
+        assert taken == pytest.approx(change, rel=2e-3)
+    one = 0.4 * ball.mass * ball.radius**2
+    assert normal_inertia(bodies) == pytest.approx(0.5 * one)
+
+
+def test_fast_spin_slips_all_around():
+    """M = (3 pi/16) mu P b throughout: taken are (15/16)(pi/4)(4/5) B(6/5, 1/2) lightnesses."""
+    bodies = pair()
+    found = hit(bodies, 3e5, angle="0 deg")
+    scaled = spin_about_normal(bodies, 1.0, 3e5)
+    taken = scaled.speed * (1.0 - found.normal_spin_out / 3e5)
+    path = 0.8 * gamma(1.2) * sqrt(pi) / gamma(1.7)
+    assert scaled.speed > 50.0
+    assert taken / scaled.lightness == pytest.approx(15.0 / 16.0 * pi / 4.0 * path, rel=5e-3)
+
+
+def test_slow_spin_is_linear():
+    """Far below mu V_1/a nothing slips around the normal: the same share of spin is kept."""
+    kept = [hit(pair(), spin, angle="0 deg").normal_spin_out / spin for spin in (0.01, 1.0)]
+    assert kept[0] == pytest.approx(kept[1], abs=1e-4)
+    assert 0.9 < kept[0] < 1.0
+
+
+def test_fast_spin_lets_the_ball_slide_freely():
+    """Friction turns with the spin, and little of it is left along the motion."""
+    still, fast = hit(pair(), 0.0), hit(pair(), 3e5)
+    assert still.tangential_restitution < 0.7
+    assert fast.tangential_restitution > 0.97
+
+
+def test_no_spin_changes_nothing():
+    """And the result tells of none."""
+    plain = carom.impact(pair(), speed=1.0, angle="30 deg", method=GRID)
+    assert hit(pair(), 0.0).psi_out == plain.psi_out
+    assert "normal_spin" not in plain.inputs()
+    assert "frictional_moment" not in plain.history(5)
