@@ -16,6 +16,8 @@ from .bodies.shapes import Cup as Cup, HalfSpace as HalfSpace, Sphere as Sphere
 from .collisions import (
     Collisions as Collisions,
     CollisionStatus as CollisionStatus,
+    JudgedCollisions as JudgedCollisions,
+    Judgement as Judgement,
     collide as collide,
 )
 from .contacts.load_paths import LoadPath as LoadPath, load_path as load_path

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.collisions.compiled import Motions, collide_all
+from carom.collisions.judged import Incidence, JudgedCollisions, Judgement, incidence, judged
 from carom.collisions.portable import collide_arrays
 from carom.collisions.records import (
     NAMES,
@@ -29,7 +30,14 @@ from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag, refusal
 from carom.quantities.units import threads_or_none
 
-__all__ = ["CollisionLaw", "CollisionStatus", "Collisions", "collide"]
+__all__ = [
+    "CollisionLaw",
+    "CollisionStatus",
+    "Collisions",
+    "JudgedCollisions",
+    "Judgement",
+    "collide",
+]
 
 
 class CollisionLaw(Protocol):
@@ -39,6 +47,34 @@ class CollisionLaw(Protocol):
         """Return what a collision of this pair needs."""
 
 
+@overload
+def collide(
+    pair: Pair,
+    *,
+    velocity1: Any,
+    spin1: Any = None,
+    velocity2: Any = None,
+    spin2: Any = None,
+    normal: Any,
+    law: CollisionLaw | None = None,
+    inplace: bool = False,
+    threads: int | None = None,
+    judge: Literal[False] = False,
+) -> Collisions: ...
+@overload
+def collide(
+    pair: Pair,
+    *,
+    velocity1: Any,
+    spin1: Any = None,
+    velocity2: Any = None,
+    spin2: Any = None,
+    normal: Any,
+    law: None = None,
+    inplace: bool = False,
+    threads: int | None = None,
+    judge: Literal[True],
+) -> JudgedCollisions: ...
 @known_keywords
 def collide(
     pair: Pair,
@@ -51,7 +87,8 @@ def collide(
     law: CollisionLaw | None = None,
     inplace: bool = False,
     threads: int | None = None,
-) -> Collisions:
+    judge: bool = False,
+) -> Collisions | JudgedCollisions:
     """Return velocities and spins after collisions of a pair of bodies in three dimensions.
 
     With V = v_1 - v_2 + (R_1 omega_1 + R_2 omega_2) x n at the contact point, V_n = V . n and
@@ -77,10 +114,13 @@ def collide(
     threads : int, optional
         How many threads to use on NumPy arrays, all cores by default; the result does not depend
         on it.
+    judge : bool
+        Whether to tell for each collision how far psi_2 may be off by what the theory leaves out:
+        spin about the normal, slip off the motion, the coupling of unlike materials.
 
     Returns
     -------
-    Collisions
+    Collisions, or JudgedCollisions if judge is true
         velocity1, spin1, velocity2, spin2 in the shape and type of what was given, float32 or
         float64, and status, shape (...): `CollisionStatus`. Pairs that do not approach, or with
         numbers that cannot be used, are left alone; a UserWarning tells how many have normals that
@@ -110,6 +150,11 @@ def collide(
     threads, inplace = threads_or_none(threads), flag("inplace", inplace)
     rule = _rule(law, pair)
     given = (velocity1, spin1, velocity2, spin2, normal)
+    if flag("judge", judge):
+        met = _incidence(pair, given, law)
+        found = _collide_numpy(given, inertia_of(pair), rule, inplace, threads)
+        warn_of_unusable(found.status)
+        return judged(pair, met, found)
     if any(is_foreign(each) for each in given):
         if inplace:
             raise refusal("inplace", inplace, "only NumPy arrays can be written into")
@@ -118,6 +163,17 @@ def collide(
         found = _collide_numpy(given, inertia_of(pair), rule, inplace, threads)
     warn_of_unusable(found.status)
     return found
+
+
+def _incidence(pair: Pair, given: tuple[Any, ...], law: CollisionLaw | None) -> Incidence:
+    """Return how bodies meet, before they may be written over."""
+    if law is not None:
+        raise refusal("law", law, "judge=True is about the exact one; leave one of them out")
+    if any(is_foreign(each) for each in given):
+        raise refusal("judge", True, "goes with NumPy arrays; convert others, or leave it out")
+    arrays = [vectors(name, values) for name, values in zip(NAMES, given, strict=True)]
+    shape = common_shape(arrays)
+    return incidence(pair, tuple(_whole(each, shape, np.dtype(float)) for each in arrays))
 
 
 def _rule(law: CollisionLaw | None, pair: Pair) -> Rule:

@@ -58,7 +58,8 @@ class Impact(ImpactResult, InContact):
         found: tuple[Finding, ...] = ()
         if isinstance(self.solution, LossySolution):
             found = (judge_losses(self.solution.losses, self.normal_restitution, self.pair.chi),)
-        return judge(self.pair, self.normal_speed, self.duration, self.psi_in, found)
+        given = self.pair, self.normal_speed, self.duration, self.psi_in
+        return judge(*given, found, self.normal_spin)
 
     @property
     def slip_angles(self) -> tuple[SlipAngle, ...]:

@@ -57,10 +57,7 @@ def impact_text(hit: Reported) -> str:
     ]
     columns = f"{'from (s)':>12s} {'to (s)':>12s} {'mean*':>9s} {'max*':>9s}"
     head = f"  {'':14s}{columns}   ended by"
-    findings = [
-        f"  {MARKS[f.holds]} {f.name + ' = ' + format(f.value, '.3g'):34s} {f.verdict}"
-        for f in hit.validity.findings
-    ]
+    findings = [f"  {MARKS[f.holds]} {f.told:38s} {f.verdict}" for f in hit.validity.findings]
     parts = ("Rebound", *lines, "Phases", head, *phases, note, "Validity", *findings)
     return "\n".join(parts)
 

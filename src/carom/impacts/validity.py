@@ -1,11 +1,12 @@
 """Whether the assumptions of the theory hold for an impact, as numbers with a verdict."""
 
-from math import inf, isfinite, isinf, sqrt
+from math import inf, isfinite, isinf, nan, sqrt
 
 from carom.bodies.materials import Material
 from carom.bodies.pairs import Pair
 from carom.bodies.plausibility import doubts
 from carom.dimensionless.lossy.law import Loss, LossNumbers
+from carom.dimensionless.neglected import SPIN, not_studied, rebound_error, spin_error
 from carom.io.labels import Finding, Validity
 
 SMALL_CONTACT = 0.1  # a_max/R*: Hertz's parabolic gap against the sphere (Johnson 1985, 4.2)
@@ -15,11 +16,16 @@ WEAK_COUPLING = 0.01  # |Dundurs' beta|: what is left uncoupled is below a hundr
 CLOSE_REBOUND = 0.01  # of psi_2, also against the full contact in three dimensions
 STUDIED, LEAST_STUDIED = (0.3, 5.0), 0.5  # chi, and e, for which solids of one e were compared
 FAST, YIELDED = 10.0, 0.05  # V_1/V_y up to which psi_2 is as close as this to rings of traction
-LATERAL, RADIAL, COUPLED = 0.008, 0.22, 0.8  # of its bound, studies/halfspace_study.csv
+FULL = "psi_2 is as close as this to the full contact in three dimensions"
 
 
 def judge(
-    pair: Pair, normal_speed: float, duration: float, psi: float, losses: tuple[Finding, ...] = ()
+    pair: Pair,
+    normal_speed: float,
+    duration: float,
+    psi: float,
+    losses: tuple[Finding, ...] = (),
+    normal_spin: float = 0.0,
 ) -> Validity:
     """Return the findings on an impact: small contact, no yield, slow contact, no coupling."""
     coupling = _judged(
@@ -29,14 +35,43 @@ def judge(
         "normal and tangential contact do not couple",
         "unlike materials: the answer is the uncoupled one, an approximation",
     )
-    close = _judged(
-        "error of psi_2",
-        rebound_error(pair.kappa, pair.dundurs_beta, pair.friction, pair.chi, psi),
-        CLOSE_REBOUND,
-        "psi_2 is as close as this to the full contact in three dimensions",
-        "coupling may turn psi_2 by as much; method='halfspace' solves the full contact",
-    )
-    return Validity((*judge_contact(pair, normal_speed, duration), *losses, coupling, close))
+    spinning = (_judge_spin(pair, normal_speed, psi, normal_spin),) if normal_spin else ()
+    close = _judge_rebound(pair, psi, bool(losses))
+    contact = judge_contact(pair, normal_speed, duration)
+    return Validity((*contact, *losses, coupling, *spinning, close))
+
+
+def _judge_rebound(pair: Pair, psi: float, loses: bool) -> Finding:
+    """Return the finding on what slip off the motion and coupling may do to psi_2."""
+    name, numbers = "error of psi_2", (pair.kappa, pair.dundurs_beta, pair.friction, pair.chi)
+    if pair.friction == 0.0 or not isfinite(psi):
+        return Finding(name, 0.0, CLOSE_REBOUND, True, FULL)
+    outside = not_studied(*numbers)
+    if outside:
+        words = f"not studied: {outside}; method='halfspace' solves the full contact"
+        return Finding(name, nan, CLOSE_REBOUND, None, words)
+    error = rebound_error(*numbers, psi)
+    if loses:
+        words = f"not studied with losses; of elastic bodies it is at most {error:.2g}"
+        return Finding(name, nan, CLOSE_REBOUND, None, words)
+    bad = "coupling may turn psi_2 by as much; method='halfspace' solves the full contact"
+    return _judged(name, error, CLOSE_REBOUND, FULL, bad)
+
+
+def _judge_spin(pair: Pair, normal_speed: float, psi: float, normal_spin: float) -> Finding:
+    """Return the finding on what spin about the normal, which the theory leaves out, may do."""
+    name, cure = "error of psi_2 by normal spin", "method='halfspace' solves for it"
+    if pair.friction == 0.0 or not isfinite(psi):
+        return Finding(name, 0.0, CLOSE_REBOUND, True, "without friction nothing turns")
+    radius = pair.scales(normal_speed).radius
+    spin = abs(normal_spin) * radius / (pair.friction * normal_speed)
+    outside = not_studied(pair.kappa, pair.dundurs_beta, pair.friction, pair.chi)
+    if spin > SPIN.most:
+        outside = f"spin of {spin:.3g} mu V_1/a_max is above {SPIN.most:g}"
+    if outside:
+        return Finding(name, nan, CLOSE_REBOUND, None, f"not studied: {outside}; {cure}")
+    bad = f"the theory leaves it out; {cure}"
+    return _judged(name, spin_error(pair.chi, psi, spin), CLOSE_REBOUND, "it hardly matters", bad)
 
 
 def judge_losses(losses: LossNumbers, restitution: float, chi: float) -> Finding:
@@ -115,23 +150,6 @@ def _transit(pair: Pair) -> float:
 
 def _wave_speed(material: Material) -> float:
     return inf if isinf(material.young) else sqrt(material.young / (material.density or 1.0))
-
-
-def rebound_error(kappa: float, beta: float, friction: float, chi: float, psi: float) -> float:
-    """Return how far psi_2 of the theory may be from that of the full contact.
-
-    [0.008 nu^2 + 0.22 rho^2/(1 + rho) + 0.8 beta^2] min(1, 2 |psi_1|)/(1 + e)^2 with nu of like
-    materials of the same kappa, rho = |beta|/mu, and e what |psi_1| exceeds 4 chi - 1 by; 2 |psi_1|
-    at most, and nothing without friction. An envelope of boundary element solutions with kappa from
-    2/3 to 1, |beta| up to 0.45, mu from 0.02 to 1 (docs/halfspace_study.md); a guide beyond.
-    """
-    if friction == 0.0 or not isfinite(psi):
-        return 0.0
-    poisson, radial = 2.0 * (1.0 - kappa) / (2.0 - kappa), abs(beta) / friction
-    turned = RADIAL * radial * abs(beta) / (friction + abs(beta))  # rho^2/(1 + rho)
-    size = LATERAL * poisson**2 + turned + COUPLED * beta**2
-    beyond = 1.0 + max(abs(psi) - max(4.0 * chi - 1.0, 1.0), 0.0)
-    return min(size * min(1.0, 2.0 * abs(psi)) / beyond / beyond, 2.0 * abs(psi))
 
 
 def judge_errors(psi_out: float, energy: float) -> tuple[Finding, ...]:

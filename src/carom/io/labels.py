@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Mapping, Sequence
+from math import isnan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -30,6 +31,11 @@ class Finding(NamedTuple):
     holds: bool | None  # None: cannot be judged
     verdict: str
 
+    @property
+    def told(self) -> str:
+        """Name and value, the name alone where no value is known."""
+        return self.name if isnan(self.value) else f"{self.name} = {self.value:.3g}"
+
 
 class Validity(NamedTuple):
     """All findings on one impact."""
@@ -42,9 +48,7 @@ class Validity(NamedTuple):
         return all(finding.holds is not False for finding in self.findings)
 
     def __str__(self) -> str:
-        return "\n".join(
-            f"{MARKS[f.holds]} {f.name} = {f.value:.3g}: {f.verdict}" for f in self.findings
-        )
+        return "\n".join(f"{MARKS[f.holds]} {f.told}: {f.verdict}" for f in self.findings)
 
 
 def flags(meanings: Sequence[str], first: int = 0) -> dict[str, Any]:

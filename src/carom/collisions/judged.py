@@ -1,0 +1,97 @@
+"""How far the full contact may leave collisions elsewhere than the theory does."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.bodies.pairs import Pair
+from carom.bodies.shapes import Sphere
+from carom.collisions.records import Collisions, CollisionStatus
+from carom.dimensionless.neglected import SPIN, not_studied, rebound_error, spin_error
+from carom.quantities.statuses import WordedStatus
+
+
+class Judgement(WordedStatus):
+    """What `psi_out_error` of a collision says; its `message` is that in words.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.Judgement(1).message
+    'not studied: materials, inertia or spin are outside the domain of the bound'
+    """
+
+    BOUNDED = 0, "bounded: psi_2 is at most as far off as psi_out_error says"
+    NOT_STUDIED = 1, "not studied: materials, inertia or spin are outside the domain of the bound"
+    NOT_COLLIDED = 2, "not judged: the bodies did not collide"
+
+
+class JudgedCollisions(NamedTuple):
+    """What `collide` gives with `judge=True`: `Collisions`, and how far psi_2 may be off.
+
+    psi_out_error, shape (...), bounds what spin about the normal, slip off the motion and unlike
+    materials do to psi_2 = kappa V_t/(mu V_n), a velocity V_t by mu V_n/kappa times that; NaN where
+    `judgement`, shape (...), is not 0 (`Judgement`).
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="28.6 mm", material="steel")
+    >>> pair = carom.Pair(ball, ball, friction=0.2)
+    >>> found = carom.collide(
+    ...     pair, velocity1=[1.0, 1.0, 0.0], normal=[1.0, 0.0, 0.0], spin1=[20.0, 0.0, 0.0],
+    ...     judge=True,
+    ... )
+    >>> float(found.psi_out_error) < 0.5, int(found.judgement)
+    (True, 0)
+    """
+
+    velocity1: Any
+    spin1: Any
+    velocity2: Any
+    spin2: Any
+    status: Any
+    psi_out_error: NDArray[np.float64]
+    judgement: NDArray[np.int8]
+
+
+class Incidence(NamedTuple):
+    """How bodies meet: psi_1, and spin about the normal in friction V_n/a_max; arrays."""
+
+    psi: NDArray[np.float64]
+    spin: NDArray[np.float64]
+
+
+def incidence(pair: Pair, before: tuple[NDArray[np.floating], ...]) -> Incidence:
+    """Return how bodies meet: velocity1, spin1, velocity2, spin2 and normals, shape (..., 3)."""
+    velocity1, spin1, velocity2, spin2, normal = (each.astype(float) for each in before)
+    other = pair.second.radius if isinstance(pair.second, Sphere) else 0.0
+    carried = np.cross(pair.first.radius * spin1 + other * spin2, normal)
+    velocity = velocity1 - velocity2 + carried
+    approach = np.sum(velocity * normal, axis=-1)
+    tangential = velocity - approach[..., None] * normal
+    turning = np.abs(np.sum((spin1 - spin2) * normal, axis=-1))
+    with np.errstate(all="ignore"):
+        unit = pair.friction * approach
+        radius = pair.scales(1.0).radius * approach**0.4
+        psi = pair.kappa * np.linalg.norm(tangential, axis=-1) / unit
+        return Incidence(psi, turning * radius / unit)
+
+
+def judged(pair: Pair, met: Incidence, found: Collisions) -> JudgedCollisions:
+    """Return collisions with how far their psi_2 may be off."""
+    collided = found.status == CollisionStatus.COLLIDED
+    numbers = pair.kappa, pair.dundurs_beta, pair.friction, pair.chi
+    outside = pair.friction > 0.0 and bool(not_studied(*numbers))
+    unknown = outside | ((met.spin > SPIN.most) & (pair.friction > 0.0))
+    kinds = [~collided, unknown]
+    values = [Judgement.NOT_COLLIDED.value, Judgement.NOT_STUDIED.value]
+    judgement = np.select(kinds, values, Judgement.BOUNDED.value).astype(np.int8)
+    if pair.friction == 0.0:
+        error = np.zeros(judgement.shape)
+    else:
+        with np.errstate(all="ignore"):
+            error = rebound_error(*numbers, met.psi) + spin_error(pair.chi, met.psi, met.spin)
+    error = np.where(judgement == Judgement.BOUNDED, error, np.nan)
+    return JudgedCollisions(*found, error, judgement)
