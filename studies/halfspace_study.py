@@ -52,7 +52,7 @@ PAIRS = {  # ball, half-space, friction
 # Impacts drawn at random: label, seed, how many, of like or unlike materials
 DRAWN = {
     "like": (20261124, 300, "like"),
-    "unlike": (20261125, 500, "unlike"),
+    "unlike": (20261125, 300, "unlike"),
     "apart like": (20261126, 50, "like"),  # kept apart: no bound has seen them
     "apart unlike": (20261127, 50, "unlike"),
     "spin": (20261129, 200, "like"),

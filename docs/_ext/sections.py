@@ -26,6 +26,7 @@ SECTIONS = {
         "fitting",
         "losses",
         "halfspace",
+        "normal_spin",
     ],
     "theory": ["theory/*", "phases", "scripts"],
     "reference/index": [
@@ -39,7 +40,7 @@ SECTIONS = {
         "reference/commands",
         "schema",
     ],
-    "accuracy": ["twin", "halfspace_study"],
+    "accuracy": ["twin", "halfspace_study", "coupling"],
 }
 TITLED = re.compile(r"(.+) <(.+)>")
 

@@ -1,0 +1,113 @@
+"""Collisions that are judged: how far psi_2 may be off by what the theory leaves out."""
+
+import numpy as np
+import pytest
+
+import carom
+from carom.dimensionless.neglected import rebound_error, spin_error
+
+STEEL = carom.Sphere(radius="10 mm", material="steel")
+LIKE = carom.Pair(STEEL, STEEL, friction=0.2)
+UNLIKE = carom.Pair(STEEL, carom.HalfSpace(material="soda-lime-glass"), friction=0.2)
+UP = [0.0, 0.0, 1.0]
+RANDOM = np.random.default_rng(20261124)
+
+
+def judged(pair, **given):
+    return carom.collide(pair, **given, judge=True)
+
+
+@pytest.mark.parametrize("pair", [LIKE, UNLIKE])
+def test_a_judged_collision_is_the_same_collision(pair):
+    motion = {
+        "velocity1": RANDOM.normal(size=(50, 3)) + np.array(UP),
+        "spin1": RANDOM.normal(size=(50, 3)) * 50.0,
+        "normal": UP,
+    }
+    found, plain = judged(pair, **motion), carom.collide(pair, **motion)
+    for name in plain._fields:
+        assert np.array_equal(getattr(found, name), getattr(plain, name)), name
+    collided = plain.status == 0
+    assert 5 < collided.sum() < 50
+    assert np.all((found.judgement == 2) == ~collided)
+    assert np.all(np.isnan(found.psi_out_error) == (found.judgement != 0))
+
+
+def test_the_error_is_that_of_the_impact():
+    """Motion along x and spin about the normal, as `impact` takes and judges them."""
+    for pair in (LIKE, UNLIKE):
+        spin = 300.0
+        hit = carom.impact(
+            pair, normal_speed=1.0, tangential_speed=0.4, spin=20.0, normal_spin=spin
+        )
+        found = judged(pair, velocity1=[0.4, 0.0, 1.0], spin1=[0.0, -20.0, spin], normal=UP)
+        parts = [f.value for f in hit.validity.findings if f.name.startswith("error of psi_2")]
+        assert len(parts) == 2
+        assert float(found.psi_out_error) == pytest.approx(sum(parts), rel=1e-12)
+        assert min(parts) > 0.0
+
+
+def test_direction_does_not_matter():
+    """A frame turned at random sees the same error."""
+    turned, _ = np.linalg.qr(RANDOM.normal(size=(3, 3)))
+    turned *= np.sign(np.linalg.det(turned))
+    velocity, spin = np.array([0.4, 0.1, 1.0]), np.array([5.0, -20.0, 100.0])
+    one = judged(LIKE, velocity1=velocity, spin1=spin, normal=UP)
+    other = judged(
+        LIKE, velocity1=turned @ velocity, spin1=turned @ spin, normal=turned @ np.array(UP)
+    )
+    assert float(other.psi_out_error) == pytest.approx(float(one.psi_out_error), rel=1e-9)
+
+
+def test_spins_that_roll_on_each_other_do_not_count():
+    """Two spheres that spin alike about the normal: nothing turns between them."""
+    both = {"spin1": [0.0, 0.0, 300.0], "spin2": [0.0, 0.0, 300.0]}
+    found = judged(LIKE, velocity1=[0.4, 0.0, 1.0], **both, normal=UP)
+    still = judged(LIKE, velocity1=[0.4, 0.0, 1.0], normal=UP)
+    apart = judged(LIKE, velocity1=[0.4, 0.0, 1.0], spin1=both["spin1"], normal=UP)
+    assert float(found.psi_out_error) == float(still.psi_out_error)
+    assert float(apart.psi_out_error) > 5.0 * float(still.psi_out_error)
+
+
+def test_outside_the_domain_there_is_no_number():
+    slow = {"velocity1": [0.0, 0.0, 1e-3], "normal": UP}
+    fast = judged(LIKE, **slow, spin1=[0.0, 0.0, 1e4])
+    assert (int(fast.judgement), np.isnan(fast.psi_out_error)) == (1, True)
+    assert carom.Judgement(1).message.startswith("not studied")
+    slippery = carom.Pair(STEEL, carom.HalfSpace(material="soda-lime-glass"), friction=0.001)
+    assert int(judged(slippery, **slow).judgement) == 1
+    smooth = judged(carom.Pair(STEEL, STEEL, friction=0.0), velocity1=[1.0, 0.0, 1.0], normal=UP)
+    assert (int(smooth.judgement), float(smooth.psi_out_error)) == (0, 0.0)
+
+
+def test_written_in_place_it_is_judged_as_it_was():
+    velocity, spin = np.array([[0.4, 0.0, 1.0]]), np.array([[0.0, 0.0, 300.0]])
+    others = {"velocity2": np.zeros((1, 3)), "spin2": np.zeros((1, 3)), "normal": UP}
+    before = judged(LIKE, velocity1=velocity, spin1=spin, **others)
+    after = judged(LIKE, velocity1=velocity, spin1=spin, **others, inplace=True)
+    assert after.velocity1 is velocity
+    assert np.array_equal(after.psi_out_error, before.psi_out_error)
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        ({"law": carom.SmoothLaw()}, r"^law: .*judge=True is about the exact one"),
+        ({"judge": "yes"}, r"^judge: "),
+    ],
+)
+def test_what_cannot_be_judged_is_refused(more, said):
+    with pytest.raises(carom.InputError, match=said):
+        carom.collide(LIKE, velocity1=UP, normal=UP, **{"judge": True, **more})
+
+
+def test_errors_take_arrays():
+    """Nothing without tangential motion, at most a reversal, less far above sliding."""
+    psi = np.array([0.0, 1e-3, 1.0, 30.0])
+    radial = rebound_error(0.8, 0.3, 0.1, 1.4, psi)
+    assert radial[0] == 0.0
+    assert np.all(radial <= 2.0 * psi)
+    assert radial[3] < 0.01 * radial[2]
+    turned = spin_error(1.4, psi, 1.0)
+    assert turned.shape == psi.shape
+    assert np.all(spin_error(1.4, psi, 0.0) == 0.0)
