@@ -6,7 +6,7 @@ python studies/halfspace_slip.py    a minute; draws docs/figures/halfspace_slip.
 from pathlib import Path
 
 import numpy as np
-from halfspace_study import GRIDS, SOLID, shared
+from halfspace_plan import GRIDS, SOLID, shared
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle

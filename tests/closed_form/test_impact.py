@@ -7,7 +7,7 @@ import pytest
 
 import carom
 from carom import Cup, HalfSpace, InputError, Material, Pair, Sphere
-from carom.impacts.validity import rebound_error
+from carom.dimensionless.neglected import not_studied, rebound_error
 
 STEEL = Material(young="210 GPa", poisson=0.3, density=7850)
 GLASS = Material(young="70 GPa", poisson=0.23, density=2500)
@@ -191,17 +191,53 @@ def test_validity_speaks_up():
 
 
 def test_error_of_the_rebound():
-    """0.008 nu^2 for like materials; with coupling by hand; none in normal impacts, less beyond."""
-    assert rebound_error(0.7 / 0.85, 0.0, 0.2, 1.44, 1.0) == close(0.008 * 0.3**2)
-    coupled = 0.22 * 0.5**2 / 1.5 + 0.8 * 0.1**2
-    assert rebound_error(1.0, -0.1, 0.2, 1.44, -1.0) == close(coupled)
-    assert rebound_error(1.0, 0.1, 0.2, 1.44, 0.25) == close(0.5 * coupled)
-    assert rebound_error(1.0, 0.1, 0.2, 1.5, 6.0) == close(coupled / 4.0)
+    """0.011 chi nu^2 for like materials; with coupling by hand; none in normal impacts."""
+    assert rebound_error(0.7 / 0.85, 0.0, 0.2, 1.44, 1.0) == close(0.011 * 1.44 * 0.3**2)
+    coupled = 0.32 * 16.0**0.25 * 0.5**2 / 1.5 + 1.8 * 0.1**2
+    tie = 0.12 * 0.5 / 1.5
+    assert rebound_error(1.0, -0.1, 0.2, 16.0, -1.0) == close(coupled + tie)
+    assert rebound_error(1.0, 0.1, 0.2, 16.0, 0.75) == close(coupled + 0.5 * tie)
+    assert rebound_error(1.0, 0.1, 0.2, 16.0, 0.25) == close(0.5 * coupled)
+    assert rebound_error(1.0, 0.1, 0.2, 16.0, 64.0) == close(coupled / 4.0)
     assert rebound_error(0.8, 0.1, 0.2, 1.44, 0.0) == 0.0
+    assert rebound_error(1.0, 0.5, 1e-200, 1.44, 1e-3) == 2e-3
     frictionless = carom.impact(Pair(BALL, HalfSpace(material="glass"), 0.0), speed=1, angle=0.5)
     assert frictionless.validity.findings[-1].value == 0.0
-    assert rebound_error(1.0, 0.0, 0.0, 1.44, 0.0) == 0.0
-    assert rebound_error(1.0, 0.5, 1e-200, 1.44, 1e-3) == 2e-3
+
+
+def test_outside_the_study_no_error_is_told():
+    """Each parameter at its limit and beyond; the line says which, and what to do."""
+    inside = {"kappa": 0.8, "beta": 0.1, "friction": 0.2, "chi": 1.44}
+    limits = {
+        "kappa": (2.0 / 3.0, 1.2),
+        "beta": (-0.5, 0.5),
+        "friction": (0.02, 1.0),
+        "chi": (0.3, 8.0),
+    }
+    assert not_studied(**inside) == ""
+    for name, ends in limits.items():
+        for end, beyond in zip(ends, (-1.0, 1.0), strict=True):
+            assert not_studied(**(inside | {name: end})) == "", name
+            said = not_studied(**(inside | {name: end + 1e-3 * beyond}))
+            assert name in said.replace("Dundurs' ", ""), name
+            assert "outside" in said
+    said = not_studied(0.8, 0.3, 0.02, 1.44)
+    assert said == "Dundurs' beta over friction of 15 is outside 0 to 10"
+    assert not_studied(0.8, 0.0, 5.0, 1.44) == "", "like materials with any friction"
+    loaded = Sphere(radius="10 mm", material="steel", gyration_radius="1 mm")
+    bodies = Pair(loaded, HalfSpace(material="steel"), 0.2)
+    finding = carom.impact(bodies, speed=0.1, angle=0.3).validity.findings[-1]
+    assert math.isnan(finding.value)
+    assert finding.holds is None
+    assert finding.told == "error of psi_2"
+    assert finding.verdict.startswith("not studied: chi of ")
+
+
+def test_losses_are_not_in_the_study():
+    lossy = carom.KelvinVoigt(restitution=0.9)
+    finding = carom.impact(PLATE, speed=0.1, angle=0.3, losses=lossy).validity.findings[-1]
+    assert (finding.holds, math.isnan(finding.value)) == (None, True)
+    assert "not studied with losses" in finding.verdict
 
 
 @pytest.mark.parametrize(

@@ -91,6 +91,7 @@ def tables():
         carom.HardSphere: {"tangential_restitution": 0.4, "restitution": 0.9},
     }
     MOTION = {"spin": 3.0, "spin2": 1.0, "losses": None, "method": "exact", "progress": False}
+    MOTION["normal_spin"] = 100.0
     POLAR, CARTESIAN = {"speed": 2.0, "angle": 0.5}, {"normal_speed": 1.0, "tangential_speed": 0.5}
     STEPS = {"normal_force": "10 N", "tangential_force": [0.0, 1.0, -1.0]}
     PLACES = {"x": [0.0, 1e-5], "y": [0.0], "points": None}
@@ -156,6 +157,8 @@ def tables():
                                     "inplace": False, "threads": 1}),
         "collide, balls": (carom.collide, {"pair": BALLS, **VECTORS, "spin2": [0.0, 0.0, 1.0],
                                            "normal": [0.0, 0.0, 1.0], "law": carom.RoughLaw()}),
+        "collide, judged": (carom.collide, {"pair": PAIR, **VECTORS, "normal": [0.0, 0.0, 1.0],
+                                            "judge": True}),
         "convert": (lambda wanted, **known: carom.convert(PAIR, known=known, wanted=wanted),
                     {"speed": 2.0, "angle": [0.1, 0.5], "contact_beta": 0.3, "spin": 1.0,
                      "normal_restitution": 0.9, "wanted": "rebound_angle"}),

@@ -33,7 +33,8 @@ ALSO = {
     "plots.style.style": {"YD01"},  # `with` yields nothing
 }
 MADE = {  # by functions, which say what is in them
-    *("Bench", "Collisions", "Estimate", "Fit", "HalfspaceImpact", "Impact", "LoadPath"),
+    *("Bench", "Collisions", "Estimate", "Fit", "HalfspaceImpact", "Impact", "JudgedCollisions"),
+    "LoadPath",
     *("Obliquity", "Ranking", "Score", "Solution", "Tuning", "WaltonFit"),
 }
 WITHOUT_EXAMPLE = {"InputError", "EngineError", "Bench"}  # the last needs a program to be run

@@ -6,6 +6,7 @@ import pytest
 from carom.halfspace.compliance import Compliance, Materials
 from carom.halfspace.influence import influence
 from carom.halfspace.quasistatic import Patch
+from carom.halfspace.transforms import DENSE, NO_MIRRORS, Mirrors
 
 SIZE, SPACING = 9, 0.23
 UNLIKE = Materials(kappa=0.81, beta=-0.34, friction=0.6)
@@ -163,6 +164,49 @@ def test_rough_inverse_is_positive(materials):
         product = np.sort(np.linalg.eigvals(rough @ matrix(exact, parts)).real)
         assert product[0] > 0.2
         assert product[-1] < 5.0
+
+
+def unfolded(field, mirrors, odd):
+    """Return a field on both sides of its mirrors, by indices."""
+    sign = -1.0 if odd else 1.0
+    for axis, mirrored in enumerate(mirrors):
+        if mirrored:
+            field = np.concatenate([sign * np.flip(field, axis), field], axis)
+    return field
+
+
+@pytest.mark.parametrize("size", [8, 2 * DENSE + 4])  # as a product with a matrix, by FFT
+@pytest.mark.parametrize("mirrors", [Mirrors(True, True), Mirrors(True, False), Mirrors(y=True)])
+def test_a_mirrored_grid_gives_way_as_the_whole(size, mirrors):
+    """Every operator, and both rough inverses."""
+    materials = Materials(0.8, 0.0 if mirrors.x else 0.3, 0.5)
+    whole, part = (Compliance(size, 0.2, materials, kept) for kept in (NO_MIRRORS, mirrors))
+    shape = [size // 2 if mirrored else size for mirrored in mirrors]
+    p, q = random(*shape), random(2, *shape, seed=2)
+
+    def vector(field):
+        return np.stack([unfolded(field[0], mirrors, False), unfolded(field[1], mirrors, True)])
+
+    def scalar(field):
+        return unfolded(field, mirrors, False)
+
+    for name, load, given, found in [
+        ("normal", p, scalar, scalar),
+        ("tangential", q, vector, vector),
+        ("normal_of_traction", q, vector, scalar),
+        ("tangential_of_pressure", p, scalar, vector),
+        ("roughly_pressure", p, scalar, scalar),
+        ("roughly_traction", q, vector, vector),
+    ]:
+        exact = getattr(whole, name)(given(load))
+        off = np.abs(found(getattr(part, name)(load)) - exact).max()
+        assert off <= 1e-12 * max(np.abs(exact).max(), 1e-3), name
+
+
+def test_unlike_materials_are_not_mirrored_along_the_motion():
+    """Pressure pulls outwards, that is against itself in the mirror."""
+    with pytest.raises(ValueError, match="odd there"):
+        Compliance(8, 0.2, UNLIKE, Mirrors(x=True))
 
 
 def test_diagonals_are_those_of_the_matrices():

@@ -20,7 +20,7 @@ BETA, FRICTION, RATIO = Studied(-0.5, 0.5), Studied(0.02, 1.0), Studied(0.0, 10.
 SPIN = Studied(0.0, 20.0)
 LIKE = 1e-9  # of Dundurs' beta: as good as none, so that friction drops out
 ROUNDING = 1e-9
-LATERAL, RADIAL, COUPLED = 0.010, 0.22, 0.8
+LATERAL, RADIAL, COUPLED, TIED = 0.011, 0.32, 1.8, 0.12
 TURNED = 1.5
 
 
@@ -40,17 +40,20 @@ def not_studied(kappa: float, beta: float, friction: float, chi: float) -> str:
 def rebound_error(kappa: float, beta: float, friction: float, chi: float, psi: Any) -> Any:
     """Return how far psi_2 of the theory may be from that of the full contact.
 
-    For a number or an array psi, with friction: [0.010 chi nu^2 + 0.22 rho^2/(1 + rho) + 0.8
-    beta^2] min(1, 2 |psi|)/(1 + e)^2, nu of like materials of the same kappa, rho = |beta|/mu, e
-    what |psi| exceeds 4 chi - 1 by; 2 |psi| at most. It bounds impacts that `not_studied` does not
-    exclude.
+    w [0.011 chi nu^2 + 0.32 chi^(1/4) B^2/(1 + B) + 1.8 beta^2] + 0.12 max(0, 1 - 2 |psi - 1|) B/(1 +
+    B), with B = |beta|/mu, nu of like materials of the same kappa, w = min(1, 2 psi)/(1 + e)^2, e
+    what psi, its sign left out, exceeds 4 chi - 1 by; 2 psi at most. The terms are slip off the
+    motion, radial slip, elastic coupling, and the tie of stick and slip at psi = 1, where a little
+    coupling decides. psi is a number or an array, friction not zero; `not_studied` tells where the
+    bound was never compared with full solutions.
     """
-    radial = abs(beta) / friction
-    lateral = LATERAL * chi * poisson(kappa) ** 2
-    size = lateral + RADIAL * radial**2 / (1.0 + radial) + COUPLED * beta**2
-    beyond = 1.0 + np.maximum(np.abs(psi) - max(4.0 * chi - 1.0, 1.0), 0.0)
-    most = 2.0 * np.abs(psi)
-    return np.minimum(size * np.minimum(1.0, most) / beyond**2, most)
+    psi, ratio = np.abs(psi), abs(beta) / friction
+    size = LATERAL * chi * poisson(kappa) ** 2 + COUPLED * beta**2
+    held = ratio / (1.0 + ratio)
+    size += RADIAL * chi**0.25 * ratio * held
+    beyond = 1.0 + np.maximum(psi - max(4.0 * chi - 1.0, 1.0), 0.0)
+    tie = TIED * held * np.maximum(1.0 - 2.0 * np.abs(psi - 1.0), 0.0)
+    return np.minimum(size * np.minimum(1.0, 2.0 * psi) / beyond**2 + tie, 2.0 * psi)
 
 
 def spin_error(chi: float, psi: Any, spin: Any) -> Any:

@@ -50,7 +50,7 @@ def _judge_rebound(pair: Pair, psi: float, loses: bool) -> Finding:
     if outside:
         words = f"not studied: {outside}; method='halfspace' solves the full contact"
         return Finding(name, nan, CLOSE_REBOUND, None, words)
-    error = rebound_error(*numbers, psi)
+    error = float(rebound_error(*numbers, psi))
     if loses:
         words = f"not studied with losses; of elastic bodies it is at most {error:.2g}"
         return Finding(name, nan, CLOSE_REBOUND, None, words)
@@ -71,7 +71,8 @@ def _judge_spin(pair: Pair, normal_speed: float, psi: float, normal_spin: float)
     if outside:
         return Finding(name, nan, CLOSE_REBOUND, None, f"not studied: {outside}; {cure}")
     bad = f"the theory leaves it out; {cure}"
-    return _judged(name, spin_error(pair.chi, psi, spin), CLOSE_REBOUND, "it hardly matters", bad)
+    error = float(spin_error(pair.chi, psi, spin))
+    return _judged(name, error, CLOSE_REBOUND, "it hardly matters", bad)
 
 
 def judge_losses(losses: LossNumbers, restitution: float, chi: float) -> Finding:

@@ -1,0 +1,40 @@
+"""What three grids tell of the error: sequences whose limits are known."""
+
+import pytest
+
+from carom.halfspace.refinement import Resolution, refinement_error
+
+
+@pytest.mark.parametrize("order", [1.0, 1.5, 2.0, 3.0])
+def test_an_error_of_known_order_is_covered(order):
+    """1 + h^p on grids of 4 h, 2 h and h: covered, by the last change or a fifth of the first."""
+    quarter, half, whole = (1.0 + (0.01 * n) ** order for n in (4.0, 2.0, 1.0))
+    error = whole - 1.0
+    assert error <= refinement_error(quarter, half, whole) * (1.0 + 1e-9)
+    last = 2.0**order - 1.0
+    assert (
+        refinement_error(quarter, half, whole) <= max(last, 0.2 * 2.0**order * last) * 1.001 * error
+    )
+
+
+def test_slow_convergence_is_recognised():
+    """Of order 1/2 changes fall by 0.71 only: their geometric series is the error."""
+    quarter, half, whole = (1.0 + (0.01 * n) ** 0.5 for n in (4.0, 2.0, 1.0))
+    found = refinement_error(quarter, half, whole)
+    assert found == pytest.approx(whole - 1.0, rel=1e-9)
+    assert found > 2.0 * abs(whole - half)
+
+
+def test_no_convergence_is_told():
+    """Changes that grow: three times the last, at least."""
+    assert refinement_error(0.0, 0.1, 0.3) == pytest.approx(0.6)
+
+
+def test_errors_of_both_signs_do_not_hide():
+    """The last two agree by chance: a fifth of the change before is still told."""
+    assert refinement_error(0.5, 0.0, 0.0) == pytest.approx(0.1)
+
+
+def test_half_as_fine():
+    assert Resolution(64, 300).half.half == (16, 75)
+    assert Resolution(3, 3).half == (2, 2)
