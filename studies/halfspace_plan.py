@@ -25,8 +25,10 @@ DRAWN = {
     "apart unlike": (20261127, 50, "unlike"),
     "spin": (20261129, 200, "like"),
     "spin unlike": (20261130, 40, "unlike"),
-    "apart spin": (20261131, 40, "like"),
-    "apart spin unlike": (20261132, 10, "unlike"),
+    "spin again": (20261131, 40, "like"),  # kept apart until one was beyond the bound
+    "spin again unlike": (20261132, 10, "unlike"),
+    "apart spin": (20261133, 40, "like"),
+    "apart spin unlike": (20261134, 10, "unlike"),
 }
 SPINS, LIGHTNESS = (0.02, 20.0), (0.0005, 0.03)  # a_max/R up to 0.1
 LEAST_CHI, LARGEST_CHI, LARGEST_NU = 0.3, 8.0, 0.5
@@ -170,7 +172,7 @@ def plan() -> list[Impact]:
         every += [*control(drawn(label, 16)), *control(drawn(label, 32))]
     every += [*control(pairs(16)), *control(pairs(32))]
     every += [i for grid in (32, 64) for ratio in RATIOS for i in control(solid(ratio, grid))]
-    for label in ("spin", "spin unlike", "apart spin", "apart spin unlike"):
+    for label in (name for name in DRAWN if "spin" in name):
         every += [*still(drawn(label, 16))]
     every += [*judge("unlike", 48)]
     return list(dict.fromkeys(every))

@@ -25,6 +25,8 @@ SERIES = {
     "unlike": "unlike materials",
     "spin": "like materials, spin",
     "spin unlike": "unlike materials, spin",
+    "spin again": "like materials, spin, again",
+    "spin again unlike": "unlike materials, spin, again",
 }
 APART = {"apart like": "like materials", "apart unlike": "unlike materials"}
 APART_SPIN = {"apart spin": "like materials, spin", "apart spin unlike": "unlike materials, spin"}

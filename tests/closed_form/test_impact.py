@@ -193,12 +193,12 @@ def test_validity_speaks_up():
 def test_error_of_the_rebound():
     """0.011 chi nu^2 for like materials; with coupling by hand; none in normal impacts."""
     assert rebound_error(0.7 / 0.85, 0.0, 0.2, 1.44, 1.0) == close(0.011 * 1.44 * 0.3**2)
-    coupled = 0.32 * 16.0**0.25 * 0.5**2 / 1.5 + 1.8 * 0.1**2
-    tie = 0.12 * 0.5 / 1.5
-    assert rebound_error(1.0, -0.1, 0.2, 16.0, -1.0) == close(coupled + tie)
-    assert rebound_error(1.0, 0.1, 0.2, 16.0, 0.75) == close(coupled + 0.5 * tie)
-    assert rebound_error(1.0, 0.1, 0.2, 16.0, 0.25) == close(0.5 * coupled)
-    assert rebound_error(1.0, 0.1, 0.2, 16.0, 64.0) == close(coupled / 4.0)
+    coupled = 0.7 * (0.28 * 0.5**2 / 1.5 + 0.6 * 0.1**2)
+    tie = 0.34 * math.exp(0.02) * 0.5 / 1.5
+    assert rebound_error(1.0, -0.1, 0.2, 0.49, -1.0) == close(coupled + tie)
+    assert rebound_error(1.0, 0.1, 0.2, 0.49, 0.75) == close(coupled + 0.5 * tie)
+    assert rebound_error(1.0, 0.1, 0.2, 0.49, 0.25) == close(0.5 * coupled)
+    assert rebound_error(1.0, 0.1, 0.2, 0.49, 2.0) == close(coupled / 4.0)
     assert rebound_error(0.8, 0.1, 0.2, 1.44, 0.0) == 0.0
     assert rebound_error(1.0, 0.5, 1e-200, 1.44, 1e-3) == 2e-3
     frictionless = carom.impact(Pair(BALL, HalfSpace(material="glass"), 0.0), speed=1, angle=0.5)

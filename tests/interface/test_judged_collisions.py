@@ -40,7 +40,7 @@ def test_the_error_is_that_of_the_impact():
         hit = carom.impact(
             pair, normal_speed=1.0, tangential_speed=0.4, spin=20.0, normal_spin=spin
         )
-        found = judged(pair, velocity1=[0.4, 0.0, 1.0], spin1=[0.0, -20.0, spin], normal=UP)
+        found = judged(pair, velocity1=[0.4, 0.0, 1.0], spin1=[0.0, 20.0, spin], normal=UP)
         parts = [f.value for f in hit.validity.findings if f.name.startswith("error of psi_2")]
         assert len(parts) == 2
         assert float(found.psi_out_error) == pytest.approx(sum(parts), rel=1e-12)

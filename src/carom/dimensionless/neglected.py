@@ -20,8 +20,8 @@ BETA, FRICTION, RATIO = Studied(-0.5, 0.5), Studied(0.02, 1.0), Studied(0.0, 10.
 SPIN = Studied(0.0, 20.0)
 LIKE = 1e-9  # of Dundurs' beta: as good as none, so that friction drops out
 ROUNDING = 1e-9
-LATERAL, RADIAL, COUPLED, TIED = 0.011, 0.32, 1.8, 0.12
-TURNED = 1.5
+LATERAL, RADIAL, COUPLED, TIED = 0.011, 0.28, 0.6, 0.34
+TURNED = 1.45
 
 
 def not_studied(kappa: float, beta: float, friction: float, chi: float) -> str:
@@ -40,25 +40,33 @@ def not_studied(kappa: float, beta: float, friction: float, chi: float) -> str:
 def rebound_error(kappa: float, beta: float, friction: float, chi: float, psi: Any) -> Any:
     """Return how far psi_2 of the theory may be from that of the full contact.
 
-    w [0.011 chi nu^2 + 0.32 chi^(1/4) B^2/(1 + B) + 1.8 beta^2] + 0.12 max(0, 1 - 2 |psi - 1|) B/(1 +
-    B), with B = |beta|/mu, nu of like materials of the same kappa, w = min(1, 2 psi)/(1 + e)^2, e
-    what psi, its sign left out, exceeds 4 chi - 1 by; 2 psi at most. The terms are slip off the
-    motion, radial slip, elastic coupling, and the tie of stick and slip at psi = 1, where a little
-    coupling decides. psi is a number or an array, friction not zero; `not_studied` tells where the
-    bound was never compared with full solutions.
+    w [0.011 chi nu^2 + sqrt(chi) (0.28 B^2/(1 + B) + 0.6 beta^2)] + t B/(1 + B), B = |beta|/mu, nu
+    of like materials of the same kappa, w = min(1, 2 psi)/(1 + e)^2, e what psi, its sign left out,
+    exceeds 4 chi - 1 by, t = 0.34 exp(1 - 2 chi) max(0, 1 - 2 |psi - 1|); 2 psi at most. The terms
+    are slip off the motion, radial slip, elastic coupling, and the tie of stick and slip at
+    psi = 1, where a little coupling decides if chi is small. psi may be an array, friction is not
+    zero; `not_studied` tells where the bound was never compared with full solutions.
     """
     psi, ratio = np.abs(psi), abs(beta) / friction
-    size = LATERAL * chi * poisson(kappa) ** 2 + COUPLED * beta**2
     held = ratio / (1.0 + ratio)
-    size += RADIAL * chi**0.25 * ratio * held
+    coupling = np.sqrt(chi) * (RADIAL * ratio * held + COUPLED * beta**2)
+    size = LATERAL * chi * poisson(kappa) ** 2 + coupling
     beyond = 1.0 + np.maximum(psi - max(4.0 * chi - 1.0, 1.0), 0.0)
-    tie = TIED * held * np.maximum(1.0 - 2.0 * np.abs(psi - 1.0), 0.0)
+    tie = TIED * np.exp(1.0 - 2.0 * chi) * held * np.maximum(1.0 - 2.0 * np.abs(psi - 1.0), 0.0)
     return np.minimum(size * np.minimum(1.0, 2.0 * psi) / beyond**2 + tie, 2.0 * psi)
 
 
 def spin_error(chi: float, psi: Any, spin: Any) -> Any:
-    """Return how far spin about the normal may turn psi_2; arrays, or numbers."""
-    return np.minimum(TURNED * np.abs(spin), 2.0 * np.abs(psi))
+    """Return how far spin about the normal may turn psi_2.
+
+    1.45 sqrt(max(1, chi)) tau min(1, 2 psi) min(1, (1 + tau)/(1 + e))^2, tau = omega_n a_max/(mu
+    V_1), signs left out, e as in `rebound_error`; 2 psi at most. psi and spin may be arrays.
+    """
+    psi, spin = np.abs(psi), np.abs(spin)
+    beyond = 1.0 + np.maximum(psi - max(4.0 * chi - 1.0, 1.0), 0.0)
+    along = np.minimum(1.0, (1.0 + spin) / beyond) ** 2
+    size = TURNED * max(1.0, chi) ** 0.5 * spin
+    return np.minimum(size * np.minimum(1.0, 2.0 * psi) * along, 2.0 * psi)
 
 
 def poisson(kappa: float) -> float:
