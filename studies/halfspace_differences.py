@@ -101,11 +101,14 @@ def difference(case: Case) -> Known:
     return extrapolated(differences(case))
 
 
+REGIMES = ("up to 1", "up to 2 chi", "to 4 chi - 1", "from 4 chi - 1")
+
+
 def regime(impact: Impact) -> str:
     """Return how an impact starts and ends."""
     psi, chi = impact.psi_1, impact.chi
-    limits = ((1.0, "up to 1"), (2.0 * chi, "up to 2 chi"), (4.0 * chi - 1.001, "to 4 chi - 1"))
-    return next((name for limit, name in limits if psi <= limit), "from 4 chi - 1")
+    limits = zip((1.0, 2.0 * chi, 4.0 * chi - 1.001), REGIMES[:3], strict=True)
+    return next((name for limit, name in limits if psi <= limit), REGIMES[3])
 
 
 class Judged(NamedTuple):

@@ -174,5 +174,5 @@ def plan() -> list[Impact]:
     every += [i for grid in (32, 64) for ratio in RATIOS for i in control(solid(ratio, grid))]
     for label in (name for name in DRAWN if "spin" in name):
         every += [*still(drawn(label, 16))]
-    every += [*judge("unlike", 48)]
+    every += [*judge("unlike", 48), *judge("unlike", 64)]
     return list(dict.fromkeys(every))

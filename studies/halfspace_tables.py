@@ -10,7 +10,16 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
-from halfspace_differences import Estimated, Known, cases, difference, estimates, finest, judged
+from halfspace_differences import (
+    REGIMES,
+    Estimated,
+    Known,
+    cases,
+    difference,
+    estimates,
+    finest,
+    judged,
+)
 from halfspace_plan import JUDGED, PAIRS, RATIOS, Impact
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -97,8 +106,8 @@ def bound_table(series: dict[str, str]) -> Iterator[str]:
     yield "| series | psi_1 | impacts | half of them below | largest share of the bound | in |"
     yield "|---|---|---|---|---|---|"
     for label, words in series.items():
-        for where in dict.fromkeys(one.regime for one in judged(label)):
-            there = [one for one in judged(label) if one.regime == where]
+        for where in ("all",) if "spin" in label else REGIMES:
+            there = [one for one in judged(label) if where in (one.regime, "all")]
             shares = [one.size / one.bound for one in there]
             worst = there[int(np.argmax(shares))]
             half, most = np.median(shares), max(shares)
