@@ -39,8 +39,8 @@ SERIES = {
 }
 APART = {"apart like": "like materials", "apart unlike": "unlike materials"}
 APART_SPIN = {"apart spin": "like materials, spin", "apart spin unlike": "unlike materials, spin"}
-COLORS = ("#0072B2", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#E69F00")
-MARKERS = "os^DvP"
+COLORS = ("#0072B2", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#E69F00", "#56B4E9", "#E69F00")
+MARKERS = "os^DvPvP"
 
 
 def shown(known: Known, unit: float = 1e-3) -> str:
@@ -156,14 +156,15 @@ def draw_bound(axis: Axes, series: dict[str, str]) -> None:
     """Draw differences against the bound."""
     for (label, words), color, marker in zip(series.items(), COLORS, MARKERS, strict=False):
         bounds, sizes = [one.bound for one in judged(label)], [one.size for one in judged(label)]
-        axis.loglog(bounds, sizes, marker, color=color, ms=3.5, mfc="none", label=words)
+        name = words if "again" not in words else None
+        axis.loglog(bounds, sizes, marker, color=color, ms=3.5, mfc="none", label=name)
     line = np.array([1e-6, 10.0])
     axis.loglog(line, line, color="0.3", linewidth=1.0)
     axis.set_xlim(1e-6, 10.0)
     axis.set_ylim(1e-7, 10.0)
     axis.set_xlabel(r"bound on the difference of $\psi_2$")
     axis.set_ylabel(r"|difference|, with its error")
-    axis.legend(frameon=False, fontsize=8, loc="lower right")
+    axis.legend(frameon=False, fontsize=9, loc="upper left")
 
 
 def draw_errors(axis: Axes, elements: int) -> None:
@@ -184,9 +185,10 @@ def draw_errors(axis: Axes, elements: int) -> None:
 
 
 def draw(name: str, *drawings: Callable[[Axes], None]) -> None:
-    """Draw and store a row of pictures."""
-    figure = Figure(figsize=(4.4 * len(drawings), 4.3), layout="constrained")
-    axes = np.atleast_1d(figure.subplots(1, len(drawings)))
+    """Draw and store pictures, two in a row."""
+    rows = len(drawings) // 2
+    figure = Figure(figsize=(10.0, 4.2 * rows), layout="constrained")
+    axes = np.ravel(figure.subplots(rows, 2))
     for axis, drawing, letter in zip(axes, drawings, "abcd", strict=False):
         drawing(axis)
         axis.set_title(f"({letter})", loc="left")

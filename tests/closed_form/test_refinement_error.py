@@ -7,13 +7,13 @@ from carom.halfspace.refinement import Resolution, refinement_error
 
 @pytest.mark.parametrize("order", [1.0, 1.5, 2.0, 3.0])
 def test_an_error_of_known_order_is_covered(order):
-    """1 + h^p on grids of 4 h, 2 h and h: covered, by the last change or a fifth of the first."""
+    """1 + h^p on grids of 4 h, 2 h and h: covered, by the last change or three tenths of the first."""
     quarter, half, whole = (1.0 + (0.01 * n) ** order for n in (4.0, 2.0, 1.0))
     error = whole - 1.0
     assert error <= refinement_error(quarter, half, whole) * (1.0 + 1e-9)
     last = 2.0**order - 1.0
     assert (
-        refinement_error(quarter, half, whole) <= max(last, 0.2 * 2.0**order * last) * 1.001 * error
+        refinement_error(quarter, half, whole) <= max(last, 0.3 * 2.0**order * last) * 1.001 * error
     )
 
 
@@ -31,8 +31,8 @@ def test_no_convergence_is_told():
 
 
 def test_errors_of_both_signs_do_not_hide():
-    """The last two agree by chance: a fifth of the change before is still told."""
-    assert refinement_error(0.5, 0.0, 0.0) == pytest.approx(0.1)
+    """The last two agree by chance: three tenths of the change before are still told."""
+    assert refinement_error(0.5, 0.0, 0.0) == pytest.approx(0.15)
 
 
 def test_half_as_fine():

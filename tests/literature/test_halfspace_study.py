@@ -60,7 +60,7 @@ def test_the_estimate_tells_something(judged):
 
 @pytest.mark.parametrize("kind", ["nu 0", "like"])
 def test_the_default_grid_is_right_to_1e_4(kind):
-    """Like materials on 64 elements: half within 1e-5; 1e-4 up to chi = 2, 1e-3 up to 8."""
+    """Like materials on 64 elements: half within 1e-5; 1e-4 up to chi = 2, 3e-4 up to 8."""
     error = np.array([one.error for one in study.estimates(kind, 64)])
     chi = np.array(
         [study.finest(c)[0].chi for c in study.cases("judge") if c[1].startswith(f"{kind} ")]
@@ -68,7 +68,7 @@ def test_the_default_grid_is_right_to_1e_4(kind):
     assert error.size == 80
     assert np.median(error) <= 1e-5
     assert error[chi <= 2.0].max() <= 1e-4
-    assert error.max() <= 1e-3
+    assert error.max() <= 3e-4
 
 
 @pytest.mark.parametrize("label", [*tables.SERIES, *tables.APART, *tables.APART_SPIN])

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-LEAST = 0.2  # of the last but one refinement: what errors of both signs may hide in the last
+LEAST = 0.3  # of the last but one refinement: what errors of both signs may hide in the last
 MOST = 3.0  # refinements of the last kind are still to come, if they do not get smaller
 
 
@@ -25,7 +25,8 @@ def refinement_error(quarter: float, half: float, whole: float) -> float:
     """Return about the error of a number that was found on a whole grid, half and a quarter of it.
 
     The last change, as for an error of first order in the grid; more where changes fall by less
-    than that, less than half, by their geometric series; and at least a fifth of the change before.
+    than that, less than half, by their geometric series; and at least three tenths of the change
+    before.
     """
     before, last = abs(half - quarter), abs(whole - half)
     slow = before < 2.0 * last
