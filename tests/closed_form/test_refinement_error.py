@@ -7,7 +7,7 @@ from carom.halfspace.refinement import Resolution, refinement_error
 
 @pytest.mark.parametrize("order", [1.0, 1.5, 2.0, 3.0])
 def test_an_error_of_known_order_is_covered(order):
-    """1 + h^p on grids of 4 h, 2 h and h: covered, by the last change or three tenths of the first."""
+    """1 + h^p on grids of 4 h, 2 h and h: covered, by the last change or part of the first."""
     quarter, half, whole = (1.0 + (0.01 * n) ** order for n in (4.0, 2.0, 1.0))
     error = whole - 1.0
     assert error <= refinement_error(quarter, half, whole) * (1.0 + 1e-9)

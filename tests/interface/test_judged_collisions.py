@@ -111,3 +111,27 @@ def test_errors_take_arrays():
     turned = spin_error(1.4, psi, 1.0)
     assert turned.shape == psi.shape
     assert np.all(spin_error(1.4, psi, 0.0) == 0.0)
+
+
+def test_contacts_too_large_for_hertz_are_not_judged():
+    rubber = carom.Sphere(radius="10 mm", material="rubber")
+    found = judged(
+        carom.Pair(rubber, carom.HalfSpace(material="rubber"), friction=0.5),
+        velocity1=[[0.1, 0.0, v] for v in (0.01, 30.0)],
+        normal=UP,
+    )
+    assert found.judgement.tolist() == [0, 1]
+
+
+def test_it_is_printed_and_compared_as_collisions_are():
+    motion = {"velocity1": [[0.4, 0.0, 1.0], [0.4, 0.0, -1.0]], "normal": UP}
+    one, other = judged(LIKE, **motion), judged(LIKE, **motion)
+    assert one == other, "NaN and NaN, too"
+    assert one != judged(LIKE, **motion, spin1=[0.0, 0.0, 100.0])
+    assert one != carom.collide(LIKE, **motion)
+    lines = repr(one).splitlines()
+    assert lines[0].startswith("2 collisions")
+    assert any("bounded: psi_2" in line and line.endswith(": 1") for line in lines)
+    assert "bounded" in one._repr_html_()
+    with pytest.raises(TypeError, match="unhashable"):
+        hash(one)

@@ -86,3 +86,43 @@ def test_no_spin_changes_nothing():
     assert hit(pair(), 0.0).psi_out == plain.psi_out
     assert "normal_spin" not in plain.inputs()
     assert "frictional_moment" not in plain.history(5)
+
+
+def test_energies_of_the_figure_add_up():
+    """Shares of the stored energy, of motion, and of friction: one all the time."""
+    for second, spin in ((STEEL, 3e5), (GLASS, 400.0)):
+        figure = hit(pair(second=second), spin).plot()
+        (axis,) = (one for one in figure.axes if one.get_ylabel() == "share of energy")
+        edges = axis.collections[-1].get_paths()[0].vertices[:, 1]
+        assert edges.max() == pytest.approx(1.0, abs=3e-3)
+        labels = [text.get_text() for text in axis.get_legend().get_texts()]
+        assert "spin about the normal" in labels
+
+
+def test_energy_error_does_not_hide_behind_the_spin():
+    """A spin a thousand times faster has a million times the energy, and about the same error."""
+    slow, fast = (hit(pair(), spin).energy_error for spin in (3e2, 3e5))
+    assert 1e-6 < fast < 1e-2
+    assert 0.05 < fast / slow < 20.0
+
+
+def test_a_spin_beyond_numbers_is_refused():
+    with pytest.raises(
+        carom.InputError, match=r"^normal_spin: 1000000000000000.0 .*take up to .* rad/s here"
+    ):
+        hit(pair(), 1e15)
+
+
+def test_validity_names_the_spin():
+    """A bound of its own; the other one says that it does not count spin; none with losses."""
+    bodies, motion = pair(), {"speed": 1.0, "angle": "30 deg", "normal_spin": 400.0}
+    *_, spinning, rebound = carom.impact(bodies, **motion).validity.findings
+    assert spinning.name == "error of psi_2 by normal spin"
+    assert spinning.value > rebound.value > 0.0
+    assert "but for spin" in rebound.verdict
+    lossy = carom.impact(bodies, **motion, losses=carom.KelvinVoigt(restitution=0.9))
+    *_, spinning, rebound = lossy.validity.findings
+    assert spinning.holds is rebound.holds is None
+    assert all("not studied with losses" in one.verdict for one in (spinning, rebound))
+    fast = carom.impact(bodies, **(motion | {"normal_spin": 1e6})).validity.findings[-2]
+    assert fast.verdict.startswith("not studied: spin of ")

@@ -7,8 +7,15 @@ from numpy.typing import NDArray
 
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
-from carom.collisions.records import Collisions, CollisionStatus
-from carom.dimensionless.neglected import SPIN, not_studied, rebound_error, spin_error
+from carom.collisions.records import Collisions, CollisionStatus, same_numbers
+from carom.dimensionless.neglected import (
+    SMALL_CONTACT,
+    SPIN,
+    not_studied,
+    rebound_error,
+    spin_error,
+)
+from carom.plots.result import card
 from carom.quantities.statuses import WordedStatus
 
 
@@ -19,11 +26,11 @@ class Judgement(WordedStatus):
     --------
     >>> import carom
     >>> carom.Judgement(1).message
-    'not studied: materials, inertia or spin are outside the domain of the bound'
+    'not studied: materials, inertia, spin or size of the contact are outside'
     """
 
     BOUNDED = 0, "bounded: psi_2 is at most as far off as psi_out_error says"
-    NOT_STUDIED = 1, "not studied: materials, inertia or spin are outside the domain of the bound"
+    NOT_STUDIED = 1, "not studied: materials, inertia, spin or size of the contact are outside"
     NOT_COLLIDED = 2, "not judged: the bodies did not collide"
 
 
@@ -31,8 +38,9 @@ class JudgedCollisions(NamedTuple):
     """What `collide` gives with `judge=True`: `Collisions`, and how far psi_2 may be off.
 
     psi_out_error, shape (...), bounds what spin about the normal, slip off the motion and unlike
-    materials do to psi_2 = kappa V_t/(mu V_n), a velocity V_t by mu V_n/kappa times that; NaN where
-    `judgement`, shape (...), is not 0 (`Judgement`).
+    materials do to psi_2, mu V_n/kappa times that the velocity of the contact point along the
+    motion; NaN where `judgement`, shape (...), is not 0 (`Judgement`). That unlike bodies with spin
+    veer off is not bounded.
 
     Examples
     --------
@@ -55,12 +63,38 @@ class JudgedCollisions(NamedTuple):
     psi_out_error: NDArray[np.float64]
     judgement: NDArray[np.int8]
 
+    def __repr__(self) -> str:
+        """Return in a few lines how many pairs there are, what became of them, what is known."""
+        lines = [repr(Collisions._make(self[:5])), *map(": ".join, self._counted())]
+        return "\n  ".join(lines)
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether all numbers are the same."""
+        return isinstance(other, JudgedCollisions) and all(map(same_numbers, self, other))
+
+    def __ne__(self, other: object) -> bool:
+        """Return whether any number differs."""
+        return not self == other
+
+    def __hash__(self) -> int:
+        """Raise TypeError: arrays can change."""
+        raise TypeError(f"unhashable type: {type(self).__name__!r}")
+
+    def _repr_html_(self) -> str:
+        """Return a table for a notebook."""
+        return card("Judged collisions", dict(self._counted()))
+
+    def _counted(self) -> list[tuple[str, str]]:
+        counts = ((each, np.count_nonzero(self.judgement == each)) for each in Judgement)
+        return [(each.message, f"{count:,}") for each, count in counts if count]
+
 
 class Incidence(NamedTuple):
-    """How bodies meet: psi_1, and spin about the normal in friction V_n/a_max; arrays."""
+    """How bodies meet: psi_1, spin about the normal in friction V_n/a_max, a_max/R*; arrays."""
 
     psi: NDArray[np.float64]
     spin: NDArray[np.float64]
+    reach: NDArray[np.float64]
 
 
 def incidence(pair: Pair, before: tuple[NDArray[np.floating], ...]) -> Incidence:
@@ -76,16 +110,15 @@ def incidence(pair: Pair, before: tuple[NDArray[np.floating], ...]) -> Incidence
         unit = pair.friction * approach
         radius = pair.scales(1.0).radius * approach**0.4
         psi = pair.kappa * np.linalg.norm(tangential, axis=-1) / unit
-        return Incidence(psi, turning * radius / unit)
+        return Incidence(psi, turning * radius / unit, radius / pair.effective_radius)
 
 
 def judged(pair: Pair, met: Incidence, found: Collisions) -> JudgedCollisions:
     """Return collisions with how far their psi_2 may be off."""
     collided = found.status == CollisionStatus.COLLIDED
     numbers = pair.kappa, pair.dundurs_beta, pair.friction, pair.chi
-    outside = pair.friction > 0.0 and bool(not_studied(*numbers))
-    unknown = outside | ((met.spin > SPIN.most) & (pair.friction > 0.0))
-    kinds = [~collided, unknown]
+    outside = (met.spin > SPIN.most) | (met.reach > SMALL_CONTACT) | bool(not_studied(*numbers))
+    kinds = [~collided, outside & (pair.friction > 0.0)]
     values = [Judgement.NOT_COLLIDED.value, Judgement.NOT_STUDIED.value]
     judgement = np.select(kinds, values, Judgement.BOUNDED.value).astype(np.int8)
     if pair.friction == 0.0:

@@ -80,7 +80,7 @@ class Collisions(NamedTuple):
 
     def __eq__(self, other: object) -> bool:
         """Return whether all numbers are the same."""
-        return isinstance(other, Collisions) and all(map(_same, self, other))
+        return isinstance(other, Collisions) and all(map(same_numbers, self, other))
 
     def __ne__(self, other: object) -> bool:
         """Return whether any number differs."""
@@ -135,7 +135,7 @@ def _counted(number: int, noun: str) -> str:
     return f"{number:,} {noun}" if number == 1 else f"{number:,} {noun}s"
 
 
-def _same(one: Any, other: Any) -> bool:
+def same_numbers(one: Any, other: Any) -> bool:
     """Return whether two arrays have the same numbers, or two other things are equal."""
     try:
         xp = array_api_compat.array_namespace(one, other)

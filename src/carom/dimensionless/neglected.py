@@ -18,6 +18,7 @@ class Studied(NamedTuple):
 CHI, KAPPA = Studied(0.3, 8.0), Studied(2.0 / 3.0, 1.2)  # Poisson's ratio 0.5 to -0.5
 BETA, FRICTION, RATIO = Studied(-0.5, 0.5), Studied(0.02, 1.0), Studied(0.0, 10.0)
 SPIN = Studied(0.0, 20.0)
+SMALL_CONTACT = 0.1  # a_max/R*: Hertz's parabolic gap against the sphere (Johnson 1985, 4.2)
 LIKE = 1e-9  # of Dundurs' beta: as good as none, so that friction drops out
 ROUNDING = 1e-9
 LATERAL, RADIAL, COUPLED, TIED = 0.011, 0.28, 0.6, 0.34
@@ -27,7 +28,7 @@ TURNED = 1.45
 def not_studied(kappa: float, beta: float, friction: float, chi: float) -> str:
     """Return which parameter lies outside the study of the bounds, in words; empty if none does."""
     known = [("chi", chi, CHI), ("kappa", kappa, KAPPA)]
-    if abs(beta) > LIKE:
+    if abs(beta) > LIKE and friction > 0.0:
         known += [("Dundurs' beta", beta, BETA), ("friction", friction, FRICTION)]
         known += [("Dundurs' beta over friction", abs(beta) / friction, RATIO)]
     for name, value, (least, most) in known:

@@ -27,6 +27,7 @@ from carom.halfspace.transforms import Mirrors
 
 Progress = Callable[[int], object]
 FAINT = 1e-6  # of the normal force: slip that pulls so little has no sign
+VELOCITIES = ("velocity", "velocity_across", "turn_velocity")
 SNAPSHOTS = 60  # steps of an impact whose fields are kept, about
 
 
@@ -131,15 +132,19 @@ class HalfspaceSolution:
 
     @property
     def energy_error(self) -> float:
-        """Largest change of the sum of all energies, as a share of those before the impact."""
+        """Largest change of the sum of all energies, as a share of those before the impact.
+
+        Of spin about the normal what it loses counts: all of it may be as large as one likes.
+        """
         response = responses(self.chi, self.materials.kappa, self.spin.lightness)
-        columns = ("velocity", "velocity_across", "turn_velocity")
-        moving = (self.column(name) ** 2 for name in columns)
-        kinetic = sum(v / r for v, r in zip(moving, response, strict=True) if r > 0.0)
-        tangential = 0.5 * kinetic + self.column("tangential_stored")
-        normal = 0.5 * self.column("approach") ** 2 / NORMAL + self.column("normal_stored")
+        along, across, around = (
+            0.5 * self.column(name) ** 2 / each if each > 0.0 else np.zeros(len(self.ledger))
+            for name, each in zip(VELOCITIES, response, strict=True)
+        )
         lost = np.cumsum(self.column("lost"))
-        total = normal + self.materials.friction**2 * (tangential + lost)
+        tangential = along + across + around - around[-1] + self.column("tangential_stored") + lost
+        normal = 0.5 * self.column("approach") ** 2 / NORMAL + self.column("normal_stored")
+        total = normal + self.materials.friction**2 * tangential
         return float(np.abs(total - total[0]).max() / total[0])
 
     @property
@@ -166,7 +171,7 @@ class HalfspaceSolution:
             time, *(np.interp(time, self.column("time"), c) for c in self._columns())
         )
 
-    def turning(self, n: int) -> "Turning":
+    def turning(self, n: int) -> Turning:
         """Return the spin about the normal at n evenly spaced times, and what goes with it."""
         time = np.linspace(0.0, self.duration, n)
         names = ("turn_velocity", "moment", "velocity_across")

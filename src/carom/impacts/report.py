@@ -13,7 +13,7 @@ from carom.io.labels import MARKS, Validity
 from carom.quantities.glossary import GLOSSARY
 
 OF_LOSSES = ("normal_restitution", "lost_energy", "shear_lost_energy")  # 1 and 0 without
-OF_ELEMENTS = ("normal_spin_out", "psi_out_error", "energy_error")
+OF_ELEMENTS = ("normal_spin_out", "contact_velocity_across", "psi_out_error", "energy_error")
 NOTES = {
     "exact": "  * angle between slip and x in degrees, which the theory neglects",
     "lossy": "  * angle between slip and x, which is known without losses only",

@@ -93,9 +93,9 @@ def impact(
         Spin of the first body, and of the second if it is a sphere, in rad/s; positive spin adds
         to the tangential speed of the contact point.
     normal_spin : float or str
-        Spin about the line of impact of the first body, less that of the second, in rad/s. The
-        theory leaves it out, and `validity` tells what that may be in psi_2; boundary elements
-        solve for it.
+        Spin about the line of impact of the first body, less that of the second, in rad/s;
+        positive is clockwise seen from the first body. The theory leaves it out, and `validity`
+        says how much that may change psi_2; boundary elements solve for it.
     losses : KelvinVoigt, StandardLinearSolid or ElasticPlastic, optional
         What the impact loses energy to; by default nothing, the bodies are elastic.
     method : "exact", "halfspace" or BoundaryElements

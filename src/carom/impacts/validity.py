@@ -6,10 +6,15 @@ from carom.bodies.materials import Material
 from carom.bodies.pairs import Pair
 from carom.bodies.plausibility import doubts
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.neglected import SPIN, not_studied, rebound_error, spin_error
+from carom.dimensionless.neglected import (
+    SMALL_CONTACT,
+    SPIN,
+    not_studied,
+    rebound_error,
+    spin_error,
+)
 from carom.io.labels import Finding, Validity
 
-SMALL_CONTACT = 0.1  # a_max/R*: Hertz's parabolic gap against the sphere (Johnson 1985, 4.2)
 YIELD_PRESSURE = 1.60  # p_0/Y at first yield of a sphere, von Mises (Johnson 1985, 6.1)
 SLOW_CONTACT = 3.0  # contact time in transits of a wave through the sphere and back (Love 1927)
 WEAK_COUPLING = 0.01  # |Dundurs' beta|: what is left uncoupled is below a hundredth
@@ -35,17 +40,18 @@ def judge(
         "normal and tangential contact do not couple",
         "unlike materials: the answer is the uncoupled one, an approximation",
     )
-    spinning = (_judge_spin(pair, normal_speed, psi, normal_spin),) if normal_spin else ()
-    close = _judge_rebound(pair, psi, bool(losses))
+    spin = pair, normal_speed, psi, normal_spin
+    spinning = (_judge_spin(*spin, bool(losses)),) if normal_spin else ()
+    close = _judge_rebound(pair, psi, bool(losses), "but for spin, " if normal_spin else "")
     contact = judge_contact(pair, normal_speed, duration)
     return Validity((*contact, *losses, coupling, *spinning, close))
 
 
-def _judge_rebound(pair: Pair, psi: float, loses: bool) -> Finding:
+def _judge_rebound(pair: Pair, psi: float, loses: bool, but: str) -> Finding:
     """Return the finding on what slip off the motion and coupling may do to psi_2."""
     name, numbers = "error of psi_2", (pair.kappa, pair.dundurs_beta, pair.friction, pair.chi)
     if pair.friction == 0.0 or not isfinite(psi):
-        return Finding(name, 0.0, CLOSE_REBOUND, True, FULL)
+        return Finding(name, 0.0, CLOSE_REBOUND, True, "without friction nothing is left out")
     outside = not_studied(*numbers)
     if outside:
         words = f"not studied: {outside}; method='halfspace' solves the full contact"
@@ -54,11 +60,14 @@ def _judge_rebound(pair: Pair, psi: float, loses: bool) -> Finding:
     if loses:
         words = f"not studied with losses; of elastic bodies it is at most {error:.2g}"
         return Finding(name, nan, CLOSE_REBOUND, None, words)
-    bad = "coupling may turn psi_2 by as much; method='halfspace' solves the full contact"
-    return _judged(name, error, CLOSE_REBOUND, FULL, bad)
+    bad = "psi_2 may be off by as much; method='halfspace' solves it in full"
+    verdicts = (f"inside the study: {but}{words}" for words in (FULL, bad))
+    return _judged(name, error, CLOSE_REBOUND, *verdicts)
 
 
-def _judge_spin(pair: Pair, normal_speed: float, psi: float, normal_spin: float) -> Finding:
+def _judge_spin(
+    pair: Pair, normal_speed: float, psi: float, normal_spin: float, loses: bool
+) -> Finding:
     """Return the finding on what spin about the normal, which the theory leaves out, may do."""
     name, cure = "error of psi_2 by normal spin", "method='halfspace' solves for it"
     if pair.friction == 0.0 or not isfinite(psi):
@@ -68,11 +77,14 @@ def _judge_spin(pair: Pair, normal_speed: float, psi: float, normal_spin: float)
     outside = not_studied(pair.kappa, pair.dundurs_beta, pair.friction, pair.chi)
     if spin > SPIN.most:
         outside = f"spin of {spin:.3g} mu V_1/a_max is above {SPIN.most:g}"
+    if loses:
+        words = "not studied with losses; the theory leaves it out"
+        return Finding(name, nan, CLOSE_REBOUND, None, words)
     if outside:
         return Finding(name, nan, CLOSE_REBOUND, None, f"not studied: {outside}; {cure}")
-    bad = f"the theory leaves it out; {cure}"
+    good, bad = "inside the study: it hardly matters", f"the theory leaves it out; {cure}"
     error = float(spin_error(pair.chi, psi, spin))
-    return _judged(name, error, CLOSE_REBOUND, "it hardly matters", bad)
+    return _judged(name, error, CLOSE_REBOUND, good, f"inside the study: {bad}")
 
 
 def judge_losses(losses: LossNumbers, restitution: float, chi: float) -> Finding:

@@ -20,6 +20,9 @@ ENERGIES = {
     "tangential_elastic_energy": ("elastic, tangential", "#E69F00", ""),
     "frictional_work": ("lost to friction", "#6E6E6E", "\\\\\\\\"),
 }
+SPUN = {  # what of it friction takes
+    "normal_spin_kinetic_energy": ("spin about the normal", "#009E73", "oo")
+}
 LOST = {  # where there is any
     "normal_loss": ("normal losses", "#DDA6C3", "xxxx"),
     "shear_loss": ("losses in shear", "#B07AA1", "----"),
@@ -196,6 +199,11 @@ def radii_panel(axis: Axes, dataset: xr.Dataset) -> None:
     style.legend_above(axis, 2)
 
 
+def _taken(energy: Array) -> Array:
+    """Return an energy less what is left of it at the end: all of it would hide the others."""
+    return np.asarray(energy - energy[-1])
+
+
 def _stick_line(stick: Array, contact: Array) -> Array:
     """Return the radius of the stick zone while there is one, to where it has shrunk to nothing.
 
@@ -211,6 +219,9 @@ def energies_panel(axis: Axes, dataset: xr.Dataset) -> None:
     lossy = any(name in dataset and np.any(dataset[name].values) for name in LOST)
     drawn = ENERGIES | LOST if lossy else ENERGIES
     parts = np.array([dataset[name].values for name in drawn])
+    if all(name in dataset for name in SPUN):
+        drawn = drawn | SPUN
+        parts = np.vstack([parts, *(_taken(dataset[name].values) for name in SPUN)])
     total = float(parts[:, 0].sum())
     shares = axis.stackplot(time, parts / total, colors=[face for _, face, _ in drawn.values()])
     for area, (name, _, hatch) in zip(shares, drawn.values(), strict=True):

@@ -126,7 +126,7 @@ GLOSSARY = {
         "$V_y$", "m/s", "velocity of the contact point across the motion before"
     ),
     "normal_spin_kinetic_energy": Quantity(
-        "$T_n$", "J", "kinetic energy of the relative spin about the line of impact"
+        r"$T_{\omega n}$", "J", "kinetic energy of the relative spin about the line of impact"
     ),
     "contact_radius": Quantity("$b$", "m", "radius of the contact"),
     "stick_radius": Quantity("$a$", "m", "radius of the stick zone"),
