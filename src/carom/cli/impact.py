@@ -92,7 +92,7 @@ def impact_command(
         str,
         typer.Option(
             help="'exact': the theory; 'halfspace': the full contact in three dimensions, "
-            "by boundary elements in two seconds, half a minute for unlike materials."
+            "by boundary elements in two seconds, fifteen for unlike materials."
         ),
     ] = "exact",
     elements: Annotated[

@@ -100,8 +100,8 @@ def impact(
         What the impact loses energy to; by default nothing, the bodies are elastic.
     method : "exact", "halfspace" or BoundaryElements
         The theory, in which slip is parallel to x and unlike materials do not couple; or the full
-        contact in three dimensions, which assumes neither and takes two seconds, half a minute for
-        unlike materials. BoundaryElements says how finely.
+        contact in three dimensions, which assumes neither and takes two seconds, fifteen for unlike
+        materials. BoundaryElements says how finely.
     progress : bool or callable, optional
         Whether the boundary elements show a bar, by default in a notebook and on a terminal; or
         what is called with the steps done and their number.
