@@ -123,7 +123,7 @@ GLOSSARY = {
         "$M$", "N m", "moment of friction about the line of impact, against the spin"
     ),
     "contact_velocity_across": Quantity(
-        "$V_y$", "m/s", "velocity of the contact point across the motion before"
+        "$V_y$", "m/s", "velocity of the contact point across the plane of incidence"
     ),
     "normal_spin_kinetic_energy": Quantity(
         r"$T_{\omega n}$", "J", "kinetic energy of the relative spin about the line of impact"
