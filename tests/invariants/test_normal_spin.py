@@ -96,7 +96,7 @@ def test_energies_of_the_figure_add_up():
         edges = axis.collections[-1].get_paths()[0].vertices[:, 1]
         assert edges.max() == pytest.approx(1.0, abs=3e-3)
         labels = [text.get_text() for text in axis.get_legend().get_texts()]
-        assert "spin about the normal" in labels
+        assert "normal spin" in labels
 
 
 def test_energy_error_does_not_hide_behind_the_spin():

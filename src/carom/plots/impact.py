@@ -21,7 +21,7 @@ ENERGIES = {
     "frictional_work": ("lost to friction", "#6E6E6E", "\\\\\\\\"),
 }
 SPUN = {  # what of it friction takes
-    "normal_spin_kinetic_energy": ("spin about the normal", "#009E73", "oo")
+    "normal_spin_kinetic_energy": ("normal spin", "#009E73", "oo")
 }
 LOST = {  # where there is any
     "normal_loss": ("normal losses", "#DDA6C3", "xxxx"),
