@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Literal, Protocol, overload
+from typing import Any, Literal, Protocol, Required, TypedDict, Unpack, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,34 +47,31 @@ class CollisionLaw(Protocol):
         """Return what a collision of this pair needs."""
 
 
+class CollisionInputs(TypedDict, total=False):
+    """Collisions and how they are computed, by the names of `collide`."""
+
+    velocity1: Required[Any]
+    spin1: Any
+    velocity2: Any
+    spin2: Any
+    normal: Required[Any]
+    law: CollisionLaw | None
+    inplace: bool
+    threads: int | None
+
+
 @overload
 def collide(
-    pair: Pair,
-    *,
-    velocity1: Any,
-    spin1: Any = None,
-    velocity2: Any = None,
-    spin2: Any = None,
-    normal: Any,
-    law: CollisionLaw | None = None,
-    inplace: bool = False,
-    threads: int | None = None,
-    judge: Literal[False] = False,
+    pair: Pair, *, judge: Literal[False] = False, **given: Unpack[CollisionInputs]
 ) -> Collisions: ...
 @overload
 def collide(
-    pair: Pair,
-    *,
-    velocity1: Any,
-    spin1: Any = None,
-    velocity2: Any = None,
-    spin2: Any = None,
-    normal: Any,
-    law: None = None,
-    inplace: bool = False,
-    threads: int | None = None,
-    judge: Literal[True],
+    pair: Pair, *, judge: Literal[True], **given: Unpack[CollisionInputs]
 ) -> JudgedCollisions: ...
+@overload
+def collide(
+    pair: Pair, *, judge: bool, **given: Unpack[CollisionInputs]
+) -> Collisions | JudgedCollisions: ...
 @known_keywords
 def collide(
     pair: Pair,
