@@ -118,13 +118,13 @@ def judged(pair: Pair, met: Incidence, found: Collisions) -> JudgedCollisions:
     collided = found.status == CollisionStatus.COLLIDED
     numbers = pair.kappa, pair.dundurs_beta, pair.friction, pair.chi
     outside = (met.spin > SPIN.most) | (met.reach > SMALL_CONTACT) | bool(not_studied(*numbers))
-    kinds = [~collided, outside & (pair.friction > 0.0)]
-    values = [Judgement.NOT_COLLIDED.value, Judgement.NOT_STUDIED.value]
-    judgement = np.select(kinds, values, Judgement.BOUNDED.value).astype(np.int8)
-    if pair.friction == 0.0:
-        error = np.zeros(judgement.shape)
-    else:
+    held = np.isfinite(met.psi)  # by friction: without it nothing is left out
+    kinds, values = [~collided, outside & held], [Judgement.NOT_COLLIDED, Judgement.NOT_STUDIED]
+    judgement = np.select(kinds, values, Judgement.BOUNDED).astype(np.int8)
+    error = np.zeros(judgement.shape)
+    if pair.friction > 0.0:
         with np.errstate(all="ignore"):
-            error = rebound_error(*numbers, met.psi) + spin_error(pair.chi, met.psi, met.spin)
+            bound = rebound_error(*numbers, met.psi) + spin_error(pair.chi, met.psi, met.spin)
+        error = np.where(held, bound, error)
     error = np.where(judgement == Judgement.BOUNDED, error, np.nan)
     return JudgedCollisions(*found, error, judgement)
