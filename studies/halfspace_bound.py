@@ -12,7 +12,7 @@ from halfspace_differences import TOLERANCE, Case, cases, difference, finest
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
-from carom.dimensionless.neglected import LATERAL, TURNED, poisson, spin_error
+from carom.dimensionless.neglected import LATERAL, TURNED, beyond_sliding, poisson, spin_error
 
 Array = NDArray[np.float64]
 
@@ -49,8 +49,7 @@ def spun() -> float:
 
 def window(chi: Array, psi: Array) -> Array:
     """Return the factor of psi_1 in the bound."""
-    beyond = 1.0 + np.maximum(psi - np.maximum(4.0 * chi - 1.0, 1.0), 0.0)
-    return np.minimum(1.0, 2.0 * psi) / beyond**2
+    return np.minimum(1.0, 2.0 * psi) / (1.0 + beyond_sliding(chi, psi)) ** 2
 
 
 def main() -> None:

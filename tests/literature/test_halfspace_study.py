@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carom.dimensionless.neglected import not_studied
+from carom.dimensionless.neglected import not_studied, rebound_error
 from carom.halfspace.compliance import Materials
 from carom.halfspace.motion import NormalSpin
 from carom.halfspace.refinement import Resolution
@@ -94,6 +94,20 @@ def test_what_is_kept_apart_is_many():
         sum(len(study.judged(one)) for one in set_) for set_ in (tables.APART, tables.APART_SPIN)
     ]
     assert counts == [100, 50]
+
+
+@pytest.mark.parametrize("beyond", [10.0, 40.0, 200.0])
+@pytest.mark.parametrize(
+    ("chi", "beta", "friction"), [(1.5, 0.5, 1.0), (7.0, 0.4, 0.05), (7.0, 0.05, 0.5)]
+)
+def test_bounds_hold_far_beyond_sliding(chi, beta, friction, beyond):
+    """Differences fall slowly there: the bound stays what it is where the study ends."""
+    psi, grid = 4.0 * chi - 1.0 + beyond, Resolution(8, 38)
+    full, plain = (
+        solve(psi, chi, materials, grid).psi_out
+        for materials in (Materials(0.85, beta, friction), Materials(1.0))
+    )
+    assert 1e-6 < abs(full - plain) <= rebound_error(0.85, beta, friction, chi, psi)
 
 
 @pytest.mark.parametrize(

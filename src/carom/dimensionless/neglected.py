@@ -21,6 +21,7 @@ SPIN = Studied(0.0, 20.0)
 SMALL_CONTACT = 0.1  # a_max/R*: Hertz's parabolic gap against the sphere (Johnson 1985, 4.2)
 LIKE = 1e-9  # of Dundurs' beta: as good as none, so that friction drops out
 ROUNDING = 1e-9
+FARTHEST = 10.0  # beyond sliding, psi_1 - 4 chi + 1
 LATERAL, RADIAL, COUPLED, TIED = 0.011, 0.28, 0.6, 0.34
 TURNED = 1.45
 
@@ -43,16 +44,16 @@ def rebound_error(kappa: float, beta: float, friction: float, chi: float, psi: A
 
     w [0.011 chi nu^2 + sqrt(chi) (0.28 B^2/(1 + B) + 0.6 beta^2)] + t B/(1 + B), B = |beta|/mu, nu
     of like materials of the same kappa, w = min(1, 2 psi)/(1 + e)^2, e what psi, its sign left out,
-    exceeds 4 chi - 1 by, t = 0.34 exp(1 - 2 chi) max(0, 1 - 2 |psi - 1|); 2 psi at most. The terms
-    are slip off the motion, radial slip, elastic coupling, and the tie of stick and slip at
-    psi = 1, where a little coupling decides if chi is small. psi may be an array, friction is not
-    zero; `not_studied` tells where the bound was never compared with full solutions.
+    exceeds 4 chi - 1 by, 10 at most, t = 0.34 exp(1 - 2 chi) max(0, 1 - 2 |psi - 1|); 2 psi at
+    most. The terms are slip off the motion, radial slip, elastic coupling, and the tie of stick and
+    slip at psi = 1, where a little coupling decides if chi is small. psi may be an array, friction
+    is not zero; `not_studied` tells where the bound was never compared with full solutions.
     """
     psi, ratio = np.abs(psi), abs(beta) / friction
     held = ratio / (1.0 + ratio)
     coupling = np.sqrt(chi) * (RADIAL * ratio * held + COUPLED * beta**2)
     size = LATERAL * chi * poisson(kappa) ** 2 + coupling
-    beyond = 1.0 + np.maximum(psi - max(4.0 * chi - 1.0, 1.0), 0.0)
+    beyond = 1.0 + beyond_sliding(chi, psi)
     tie = TIED * np.exp(1.0 - 2.0 * chi) * held * np.maximum(1.0 - 2.0 * np.abs(psi - 1.0), 0.0)
     return np.minimum(size * np.minimum(1.0, 2.0 * psi) / beyond**2 + tie, 2.0 * psi)
 
@@ -64,10 +65,17 @@ def spin_error(chi: float, psi: Any, spin: Any) -> Any:
     V_1), signs left out, e as in `rebound_error`; 2 psi at most. psi and spin may be arrays.
     """
     psi, spin = np.abs(psi), np.abs(spin)
-    beyond = 1.0 + np.maximum(psi - max(4.0 * chi - 1.0, 1.0), 0.0)
-    along = np.minimum(1.0, (1.0 + spin) / beyond) ** 2
+    along = np.minimum(1.0, (1.0 + spin) / (1.0 + beyond_sliding(chi, psi))) ** 2
     size = TURNED * max(1.0, chi) ** 0.5 * spin
     return np.minimum(size * np.minimum(1.0, 2.0 * psi) * along, 2.0 * psi)
+
+
+def beyond_sliding(chi: Any, psi: Any) -> Any:
+    """Return what psi exceeds the border of sliding throughout by, as far as that was studied.
+
+    Farther out slip is along the motion ever more, and differences fall, if slowly.
+    """
+    return np.clip(psi - np.maximum(4.0 * chi - 1.0, 1.0), 0.0, FARTHEST)
 
 
 def poisson(kappa: float) -> float:
