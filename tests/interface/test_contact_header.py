@@ -315,6 +315,16 @@ def test_a_contact_that_is_loaded_again_meets_what_is_left(functions):
     assert np.all((differences[0] / differences[1] > 1.8) & (differences[0] / differences[1] < 2.3))
 
 
+def test_what_dies_away_becomes_nothing(functions):
+    """Denormal numbers, which never shrink to zero by rounding, would slow every later step."""
+    contact, dt = Stepped(functions, 32, 0.05, 0.05, VISCOUS | SINGLE), 0.01
+    for d, v, slide in [(1.0, 1.0, 0.3), (0.3, -1.0, 0.2), *[(0.3, 0.0, 0.0)] * 1500]:
+        contact.step(d, v, slide, 0.1, dt)
+    left = np.abs(np.frombuffer(contact.memory, dtype=np.float32))
+    assert np.count_nonzero(left) > 20
+    assert not np.any((left > 0.0) & (left < np.finfo(np.float32).tiny))
+
+
 @pytest.mark.parametrize(
     ("pair", "motion", "status"),
     [

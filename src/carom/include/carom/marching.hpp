@@ -22,7 +22,8 @@ struct Sums {
 template <int N, class Real> struct Numbers {
     using L = Lanes<Real, N>;
     typename L::Type zero = L::fixed(0), half = L::fixed(Real(0.5)), one = L::fixed(1);
-    typename L::Type tiny = L::fixed(std::numeric_limits<Real>::min()), steep = L::of(1e20);
+    typename L::Type tiny = L::fixed(std::numeric_limits<Real>::min());
+    typename L::Type faint = L::of(1e-20), steep = L::of(1e20);
 };
 
 /// The springs of a step: what they share, in each lane of a register, and what they add up to.
@@ -31,13 +32,13 @@ template <int N, class Real, unsigned P> struct March {
     using V = typename L::Type;
     static constexpr Places<N, Real> places{};
 
-    V zero, half, one, tiny, steep;
+    V zero, half, one, tiny, faint, steep;
     V depth, before, limit, rim, keep, kept, least, full, moved_x, moved_y, drag_x, drag_y;
     V along{}, across{}, rubbed{}, dragged{};
     bool viscous_shear, turns;
 
     March(const Numbers<N, Real>& n, const Now& now, double edge, bool sheared)
-        : zero(n.zero), half(n.half), one(n.one), tiny(n.tiny), steep(n.steep),
+        : zero(n.zero), half(n.half), one(n.one), tiny(n.tiny), faint(n.faint), steep(n.steep),
           depth(L::of(now.depth)), before(L::of(now.before)), limit(L::of(now.limit)),
           rim(L::of(edge)), keep(L::of(now.keep)), least(L::of(now.least)), full(L::of(now.most)),
           moved_x(L::of(now.moved_x)), moved_y(L::of(now.moved_y)), drag_x(L::of(now.drag_x)),
@@ -45,6 +46,9 @@ template <int N, class Real, unsigned P> struct March {
           turns((P & viscous) == 0 || !sheared || !(now.keep > 0.0)) {
         kept = turns ? zero : keep;
     }
+
+    /// Make nothing of what has died away: denormal numbers would last, and take long.
+    V settled(V v) const { return (v + faint) - faint; }
 
     /// Factor that cuts vectors back to lengths, and one over the length that they had.
     V cut(V x, V y, V most, V& inverse) const {
@@ -60,7 +64,8 @@ template <int N, class Real, unsigned P> struct March {
         V bearable = larger(pressed, zero), most = bearable, free_x = x0, free_y = y0, inverse;
         if constexpr ((P & viscous) != 0) {
             const V inside = (rim - s) * steep;  // beyond the edge springs are free
-            const V held = L::load(c.pressed + k), is = larger(larger(pressed, held * keep), zero);
+            const V held = L::load(c.pressed + k);
+            const V is = settled(larger(larger(pressed, held * keep), zero));
             const V grown = is - larger(larger(before - s, held), zero) * keep;
             L::store(c.pressed + k, is);
             bearable = larger(smaller(limit - s, inside), zero);
@@ -80,8 +85,8 @@ template <int N, class Real, unsigned P> struct March {
         }
         V bears_x = x, bears_y = y;
         if constexpr ((P & viscous) != 0) {  // with what dashpots bear
-            x += x0 * kept;
-            y += y0 * kept;
+            x = settled(x + x0 * kept);
+            y = settled(y + y0 * kept);
             bears_x = x + drag_x;
             bears_y = y + drag_y;
             const V bears = cut(bears_x, bears_y, bearable, inverse);
