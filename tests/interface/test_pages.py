@@ -9,8 +9,9 @@ import pytest
 ROOT = Path(__file__).parents[2]
 sys.path[:0] = [str(ROOT / "docs/make"), str(ROOT / "studies")]
 
+from page_blocks import blocks  # noqa: E402
 from run_pages import PAGES, pictures, run  # noqa: E402
-from speed import fill, read  # noqa: E402
+from speed import PAGE, lines, read  # noqa: E402
 
 ACCURACY = ROOT / "docs" / "accuracy.md"
 
@@ -36,7 +37,7 @@ def test_accuracy_names_tests_that_are_there_and_times_of_the_table():
     named = re.findall(r"`((?:tests|studies|benchmarks|docs)/[\w/]+\.py)`", text)
     assert len(named) > 20
     assert [name for name in named if not (ROOT / name).exists()] == []
-    assert fill(text, read()) == text
+    assert blocks(PAGE)["speed"] == lines(read())
 
 
 def written(folder, text):

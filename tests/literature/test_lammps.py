@@ -6,6 +6,7 @@ Each program computes all its impacts in one process, a folder an experiment.
 import os
 import shutil
 import subprocess
+import sys
 import sysconfig
 from itertools import product
 from pathlib import Path
@@ -18,6 +19,8 @@ from carom.verify.engines.experiments import Experiment, psi_out
 from carom.verify.engines.lammps import INPUT, Lammps
 from carom.verify.engines.lammps_unittest import unit_test_yaml
 from carom.verify.engines.running import run
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "examples/lammps/verification"))
 
 PSI = (0.1, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 6)
 SHARES = (0.5, 0.0, 1.0, 1.5)  # of the contact velocity that is spin, also against drift
@@ -206,43 +209,22 @@ def test_one_run_alone(path, found):
         assert np.array_equal(mine, theirs)
 
 
-def driven(page, folder):
-    """Return the largest relative errors as the driver of LAMMPS's own suite takes them."""
-    again = f"{page['post_commands']}timestep {page['timestep']}\nthermo 2\n"
-    flight = "run 4 post no start 0 stop 8\n"
-    dump = "write_dump all custom {} id x y z vx vy vz modify sort id format float %.17g\n"
-    text = (
-        f"{page['pre_commands']}pair_style zero 8.0\npair_coeff 1 1\n{again}run 0 post no\n{flight}"
-        f"write_restart half\n{flight}{dump.format('whole.txt')}"
-        f"clear\nread_restart half\n{again}{flight}{dump.format('restarted.txt')}"
-    )
-    (folder / "in.test").write_text(text)
-    command = [programs()["wheel"], "-in", "in.test"]
-    subprocess.run(command, cwd=folder, check=True, capture_output=True, timeout=60)
-    rows = [page[block].splitlines() for block in ("run_pos", "run_vel")]
-    expected = np.hstack([np.loadtxt(block)[:, 1:] for block in rows])
-    errors = []
-    for name in ("whole.txt", "restarted.txt"):
-        found = np.loadtxt(folder / name, skiprows=9)[:, 1:]
-        smaller = np.minimum(np.abs(found), np.abs(expected))
-        errors.append(np.max(np.abs(found - expected) / np.where(smaller == 0.0, 1.0, smaller)))
-    return max(errors)
-
-
 @pytest.mark.parametrize("name", ["wall", "unequal spheres"])
-def test_unit_test_of_lammps(latest, name, tmp_path):
+def test_unit_test_of_lammps(latest, name):
     """The file for LAMMPS's own suite passes where its tolerance is above the error of the law."""
     yaml = pytest.importorskip("yaml")
+    from run_tests import errors
+
     law = carom.LammpsMindlin("mindlin")
     wanted, own = latest[name, law, STEPS, (0.5,)]
     error = np.max(np.abs(law.rebound(PSI, wanted.pair.chi) - carom.rebound(PSI, wanted.pair.chi)))
     page = yaml.safe_load(unit_test_yaml(wanted, tolerance=1.2 * error))
-    worst = driven(page, tmp_path)
+    worst = max(errors(page))
     assert worst < float(page["epsilon"])
     tight = yaml.safe_load(unit_test_yaml(wanted, tolerance=0.8 * error))
     assert worst > float(tight["epsilon"])
     page = yaml.safe_load(unit_test_yaml(wanted, tolerance=1e-4, outcomes=own))
-    assert driven(page, tmp_path) < float(page["epsilon"])
+    assert max(errors(page)) < float(page["epsilon"])
 
 
 def test_unit_test_needs_an_elastic_law():

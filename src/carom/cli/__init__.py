@@ -17,6 +17,7 @@ from carom.cli.explore import explore_command
 from carom.cli.fit import fit_command
 from carom.cli.impact import impact_command
 from carom.cli.lammps import app as lammps_app
+from carom.cli.liggghts import app as liggghts_app
 from carom.cli.materials import materials_command
 from carom.cli.once import Commands
 from carom.cli.sweep import sweep_command
@@ -40,6 +41,7 @@ app.command("explore")(explore_command)
 app.command("materials")(materials_command)
 app.add_typer(verify_app)
 app.add_typer(lammps_app)
+app.add_typer(liggghts_app)
 
 
 @app.callback(invoke_without_command=True)

@@ -46,13 +46,13 @@ def build_command(
 
     Example: carom lammps build
     """
+    from carom.adapters import lammps as adapter
     from carom.io.progress import advancing
-    from carom.lammps import building
 
-    found = building.from_sources(tuple(include), sizes) if include else building.installed()
-    target = building.folder(found.version) if folder is None else folder
+    found = adapter.from_sources(tuple(include), sizes) if include else adapter.installed()
+    target = adapter.folder(found.version) if folder is None else folder
     with advancing("compiling", None):
-        built = building.build(found, target)
+        built = adapter.build(found, target)
     if as_json:
         told = {"file": str(built.path), "version": built.version, "command": list(built.command)}
         typer.echo(json.dumps(told, indent=2))

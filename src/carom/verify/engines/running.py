@@ -56,6 +56,7 @@ class Engine(ABC):
     arguments: ClassVar[tuple[str, ...]]  # that run its inputs
     advice: ClassVar[str]  # how to get it
     greeting: ClassVar[str]  # the pattern in which it prints its version
+    builder: ClassVar[str] = ""  # the command that builds it with the exact law
 
     @abstractmethod
     def supports(self, law: ContactLaw) -> bool:

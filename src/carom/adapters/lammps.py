@@ -1,10 +1,8 @@
 """Building the plugin for the LAMMPS that is installed, and where it is found again.
 
-The sources in `plugin/` are under the GPL, as LAMMPS demands; what they include is not.
+The sources in `lammps_plugin/` are under the GPL, as LAMMPS demands; what they include is not.
 """
 
-import shutil
-import subprocess
 import sys
 from datetime import datetime
 from importlib import metadata
@@ -13,25 +11,15 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
+from carom.adapters import building
+from carom.adapters.building import Built
 from carom.quantities.refusals import InputError, refusal
 
-HERE = Path(__file__).parent
-SOURCES = HERE / "plugin"
-HEADERS = HERE.parent / "include"
-COMPILERS = ("c++", "g++", "clang++")
-FLAGS = (
-    "-std=c++17",
-    "-O3",
-    "-fno-math-errno",
-    "-fno-trapping-math",
-    "-fPIC",
-    "-shared",
-    "-fvisibility=hidden",
-)
-OWN = ("-march=native",)  # it is built where it runs
+SOURCES = building.HERE / "lammps_plugin"
+FLAGS = ("-std=c++17", "-O3", *building.MATHS, "-fPIC", "-shared", "-fvisibility=hidden")
 SIZES = ("smallbig", "bigbig")  # of integers, as LAMMPS was built
 NAME = "caromplugin.so"  # LAMMPS loads *plugin.so
-WORDS = 400  # of a compiler that failed
+COMMAND = "lammps build"
 
 
 class Lammps(NamedTuple):
@@ -40,14 +28,6 @@ class Lammps(NamedTuple):
     version: int
     include: tuple[Path, ...]
     sizes: str = SIZES[0]
-
-
-class Built(NamedTuple):
-    """A plugin: where it is, for which version, by which command."""
-
-    path: Path
-    version: int
-    command: tuple[str, ...]
 
 
 def installed() -> Lammps:
@@ -91,37 +71,23 @@ def from_sources(include: tuple[Path, ...], sizes: str = SIZES[0]) -> Lammps:
     return Lammps(int(date.strftime("%Y%m%d")), include, sizes)
 
 
-def home() -> Path:
-    """Return the folder of this environment's plugins."""
-    return Path(sys.prefix) / "share" / "carom" / "lammps"
-
-
 def folder(version: int) -> Path:
     """Return where the plugin for a version is looked for."""
-    return home() / str(version)
+    return building.home("lammps") / str(version)
 
 
-def build(lammps: Lammps, target: Path, processor: tuple[str, ...] = OWN) -> Built:
+def build(lammps: Lammps, target: Path, processor: tuple[str, ...] = building.OWN) -> Built:
     """Compile the plugin into a folder, or raise InputError; what was there is replaced whole."""
-    compiler = next((found for name in COMPILERS if (found := shutil.which(name))), None)
-    if compiler is None:
-        raise InputError("lammps build: there is no C++ compiler; install g++ or clang++")
+    compiler = building.compiler(COMMAND)
     sources = sorted(str(path) for path in SOURCES.glob("*.cpp"))
-    includes = [f"-isystem{path}" for path in lammps.include] + [f"-I{HEADERS}", f"-I{SOURCES}"]
+    includes = [f"-isystem{path}" for path in lammps.include]
+    includes += [f"-I{building.HEADERS}", f"-I{SOURCES}"]
     with TemporaryDirectory() as scratch:
         made = Path(scratch) / NAME
         known = [f"-DLAMMPS_{lammps.sizes.upper()}", f"-DCAROM_LAMMPS={lammps.version}"]
         command = [compiler, *FLAGS, *processor, *known, *includes, *sources, "-o", str(made)]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode:
-            raise InputError(f"lammps build: the compiler failed: {done.stderr.strip()[:WORDS]}")
-        try:
-            target.mkdir(parents=True, exist_ok=True)
-            placed = shutil.copy(made, target / (NAME + ".new"))
-            Path(placed).replace(target / NAME)
-        except OSError as error:
-            allowed = f"cannot be written: {error.strerror}; name another by --folder"
-            raise refusal("folder", str(target), allowed) from error
+        building.carry_out(COMMAND, command)
+        building.place(made, target / NAME)
     return Built(target / NAME, lammps.version, tuple(command))
 
 
@@ -131,7 +97,8 @@ def search_path() -> str:
     A plugin for another version is passed over, with a line that says what to do.
     """
     version = wheel_version()
-    if not (folder(version) / NAME).exists() and (others := sorted(home().glob(f"*/{NAME}"))):
+    others = sorted(building.home("lammps").glob(f"*/{NAME}"))
+    if others and not (folder(version) / NAME).exists():
         built = others[-1].parent.name
         print(
             f"carom: pair_style carom was built for LAMMPS {built}, this is {version}; "

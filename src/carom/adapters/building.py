@@ -1,0 +1,67 @@
+"""What building for a DEM program takes: a compiler, a command that may fail, a place."""
+
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from carom.quantities.refusals import InputError, refusal
+
+HERE = Path(__file__).parent
+HEADERS = HERE.parent / "include"
+COMPILERS = ("c++", "g++", "clang++")
+MATHS = ("-fno-math-errno", "-fno-trapping-math")  # without them roots are not vectors
+OWN = ("-march=native",)  # it is built where it runs
+WORDS = 400  # of a compiler that failed
+
+
+class Built(NamedTuple):
+    """What was built: where it is, for which version, by which command."""
+
+    path: Path
+    version: int | str
+    command: tuple[str, ...]
+
+
+def home(program: str) -> Path:
+    """Return the folder of this environment for what is built for a program."""
+    return Path(sys.prefix) / "share" / "carom" / program
+
+
+def compiler(command: str) -> str:
+    """Return where a C++ compiler is, or raise InputError for the command that asks."""
+    found = next((found for name in COMPILERS if (found := shutil.which(name))), None)
+    if found is None:
+        raise InputError(f"{command}: there is no C++ compiler; install g++ or clang++")
+    return found
+
+
+def carry_out(
+    command: str, words: Sequence[str], tell: Callable[[str], object] = lambda line: None
+) -> None:
+    """Run what compiles, telling each line of it, or raise InputError with its complaint."""
+    said: list[str] = []
+    with subprocess.Popen(
+        words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace"
+    ) as running:
+        assert running.stdout is not None
+        for line in running.stdout:
+            said.append(line)
+            tell(line)
+    if running.returncode:
+        first = next((i for i, line in enumerate(said) if "error" in line.lower()), 0)
+        complaint = "".join(said[first:]).strip()[:WORDS]
+        raise InputError(f"{command}: the compiler failed: {complaint}")
+
+
+def place(made: Path, target: Path) -> None:
+    """Put what was made into its place, whole, or raise InputError."""
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        copied = shutil.copy(made, target.with_name(target.name + ".new"))
+        Path(copied).replace(target)
+    except OSError as error:
+        allowed = f"cannot be written: {error.strerror}; name another by --folder"
+        raise refusal("folder", str(target.parent), allowed) from error

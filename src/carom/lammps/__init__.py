@@ -1,1 +1,0 @@
-"""The exact contact law as a plugin for LAMMPS."""

@@ -1,0 +1,102 @@
+// Two like spheres meet, with the force of the tangential model as LIGGGHTS would ask for it.
+//
+//     in_liggghts SPRINGS STEPS TURNS PSI...
+//
+// prints psi_2 of each psi_1. TURNS times within the contact it becomes the other sphere's, as when
+// one of the two crosses a border; the slide is along y and z at once.
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "tangential_model_carom.h"
+
+using namespace LIGGGHTS;
+using namespace LIGGGHTS::ContactModels;
+using carom::cross;
+using carom::dot;
+using carom::plus;
+using carom::times;
+using carom::Vector;
+
+constexpr double radius = 1e6, friction = 0.3, kappa = 0.8, mass = 2.0, deepest = 1.0, speed = 1.0;
+const double modulus = 0.9375 * 0.5 * mass / std::sqrt(0.5 * radius);  // so that d_max = V_1 = 1
+const double duration = 2.9432751843247047;
+
+struct Impact {
+    LAMMPS lammps{{}, {0.0}, {200, 100000}};
+    IContactHistorySetup setup;
+    TangentialModel<TANGENTIAL_CAROM> model{&lammps, &setup, nullptr};
+    double tables[3] = {modulus, 0.25 * kappa * modulus, friction};
+    std::vector<double> memory;
+
+    explicit Impact(double springs) {
+        Settings settings{springs};
+        PropertyRegistry registry{{&tables[0], &tables[1], &tables[2]}};
+        model.registerSettings(settings);
+        model.postSettings(&setup, nullptr);
+        model.connectToProperties(registry);
+        memory.assign(setup.changes_sign.size(), 0.0);
+    }
+
+    void turn() {
+        for (std::size_t k = 0; k < memory.size(); ++k)
+            if (setup.changes_sign[k]) memory[k] = -memory[k];
+    }
+
+    /// Force on the first sphere and torque on each, told from the side of either.
+    void force(double side, double distance, Vector velocity, Vector spin, Vector &f, Vector &t) {
+        SurfacesIntersectData met{};
+        const Vector normal = {side, 0.0, 0.0};
+        met.contact_history = memory.data();
+        met.radi = met.radj = radius;
+        met.meff = 0.5 * mass;
+        met.deltan = 2.0 * radius - distance;
+        met.cri = met.crj = radius - 0.5 * met.deltan;
+        met.omega_i = met.omega_j = spin.data();
+        Vector slide = plus(times(side, velocity), -2.0 * met.cri, cross(spin, normal));
+        met.vn = dot(slide, normal);
+        slide = plus(slide, -met.vn, normal);
+        met.vtr1 = slide[0], met.vtr2 = slide[1], met.vtr3 = slide[2];
+        for (std::size_t k = 0; k < 3; ++k) met.en[k] = normal[k];
+        met.Fn = 4.0 / 3.0 * modulus * std::sqrt(0.5 * radius) * std::pow(met.deltan, 1.5);
+        ForceData one, other;
+        model.surfacesIntersect(met, one, other);
+        for (std::size_t k = 0; k < 3; ++k) {
+            f[k] = side * one.delta_F[k] + met.Fn * (k == 0);
+            t[k] = one.delta_torque[k];
+            if (one.delta_F[k] != -other.delta_F[k]) throw std::runtime_error("forces");
+        }
+    }
+
+    double rebound(double psi, int steps, int turns) {
+        const double dt = lammps.update.dt = duration / steps, slide = psi * friction / kappa;
+        const double inertia = 0.4 * mass * radius * radius, half = std::sqrt(0.5);
+        const Vector along = {0.0, half, half}, normal = {1.0, 0.0, 0.0};
+        Vector velocity = plus(times(slide, along), -speed, normal), spin{}, f{}, t{};
+        double distance = 2.0 * radius, side = 1.0;
+        for (int step = 1; step <= 2 * steps && distance <= 2.0 * radius; ++step) {
+            velocity = plus(velocity, 0.5 * dt / (0.5 * mass), f);
+            spin = plus(spin, 0.5 * dt / inertia, t);
+            distance += dt * velocity[0];
+            f = t = Vector{};
+            if (turns && step % (steps / (turns + 1)) == 0) {
+                turn();
+                side = -side;
+            }
+            if (distance < 2.0 * radius) force(side, distance, velocity, spin, f, t);
+            velocity = plus(velocity, 0.5 * dt / (0.5 * mass), f);
+            spin = plus(spin, 0.5 * dt / inertia, t);
+        }
+        const Vector left = plus(velocity, -2.0 * radius, cross(spin, normal));
+        return kappa / friction * dot(left, along);
+    }
+};
+
+int main(int, char **given) try {
+    const double springs = std::atof(given[1]);
+    for (char **psi = given + 4; *psi; ++psi)
+        std::printf("%.17g\n", Impact(springs).rebound(std::atof(*psi), std::atoi(given[2]),
+                                                      std::atoi(given[3])));
+} catch (const std::exception &error) {
+    std::puts(error.what());
+}

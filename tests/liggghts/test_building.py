@@ -1,0 +1,177 @@
+"""`carom liggghts build` and the model's source, without LIGGGHTS."""
+
+import shutil
+import stat
+import subprocess
+import sys
+import tarfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import carom
+from carom.adapters import building, liggghts
+from carom.cli import main
+from carom.quantities.refusals import InputError
+from carom.verify.engines.liggghts import INPUT
+
+CPP = Path(__file__).parents[1] / "cpp"
+HEADERS = (
+    *("contact_models", "error", "global_properties"),
+    *("neighbor", "tangential_model_base", "update"),
+)
+BALL = carom.Sphere(radius=5e-3, material="steel")
+WALL = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
+SPHERES = carom.Pair(BALL, BALL, friction=0.2)
+compiles = pytest.mark.skipif(
+    shutil.which("c++") is None or shutil.which("make") is None,
+    reason="no C++ compiler, or no make",
+)
+
+
+@pytest.fixture(scope="module")
+def model(tmp_path_factory):
+    """Run impacts with the model, compiled with a stand-in for the headers of LIGGGHTS."""
+    folder = tmp_path_factory.mktemp("model")
+    for name in HEADERS:
+        (folder / f"{name}.h").write_text('#include "liggghts.h"\n')
+    includes = [f"-I{path}" for path in (building.HEADERS, liggghts.MODEL, folder, CPP)]
+    flags = ["-std=c++17", "-O2", "-Wall", "-Wextra", "-pedantic", "-Werror", *building.MATHS]
+    source = str(CPP / "in_liggghts.cpp")
+    subprocess.run(["c++", *flags, *includes, source, "-o", folder / "run"], check=True)
+
+    def run(*words):
+        command = [folder / "run", *map(str, words)]
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+    return run
+
+
+@compiles
+@pytest.mark.parametrize("springs", liggghts.SPRINGS)
+@pytest.mark.parametrize("turns", [0, 1, 3])
+def test_model_is_the_law_of_carom(model, springs, turns):
+    """Also where the contact becomes the other sphere's: without mirroring it would be off by 1."""
+    psi = np.linspace(0.25, 5.0, 8)
+    found = np.array(model(springs, 100, turns, *psi).split(), dtype=float)
+    expected = carom.MemoryLaw(springs).rebound(psi, 3.5 * 0.8 / 2.0, steps=100)
+    np.testing.assert_allclose(found, expected, atol=1e-5)
+
+
+@compiles
+def test_model_refuses_other_springs(model):
+    assert "springs must be 16, 32 or 64" in model(20, 100, 0, 1.0)
+
+
+@pytest.fixture
+def sources(tmp_path):
+    """A LIGGGHTS of one file, which prints what it was told, and what C++17 refuses of it."""
+    src = tmp_path / "LIGGGHTS-PUBLIC" / "src"
+    (src / "STUBS").mkdir(parents=True)
+    (src / "tangential_model_base.h").write_text("")
+    (src / "version_liggghts.txt").write_text("3.8.0\n")
+    (src / "utils.h").write_text(
+        "#include <string>\nstd::string text(int a) {\n"
+        "    return static_cast<std::ostringstream &>(std::ostringstream() << a).str();\n}\n"
+    )
+    (src / "finish.cpp").write_text("bool has(int **x) { return x->numneigh > 0; }\n")
+    (src / "dump_mesh_vtk.cpp").write_text("#include <vtk.h>\n")
+    (src / "lammps.cpp").write_text(
+        '#include "carom/contact.hpp"\n#include "utils.h"\n'
+        f'int main() {{ return text(1) != "1"; }}  // {liggghts.MARK.decode()}\n'
+        f'extern const char *said; const char *said = "{liggghts.MARK.decode()}";\n'
+    )
+    (src / "Makefile").write_text(
+        "stubs:\n\t@true\n"
+        "serial:\n\t$(CC) $(CCFLAGS) -c lammps.cpp\n\t$(LINK) lammps.o -o lmp_serial\n"
+    )
+    return src.parent
+
+
+@compiles
+@pytest.mark.parametrize("packed", [False, True], ids=["folder", "tarball"])
+def test_build(sources, tmp_path, monkeypatch, capsys, packed):
+    """Made from a copy, with the model and its headers; then the bench finds it."""
+    given = sources
+    if packed:
+        given = tmp_path / "liggghts.orig.tar.xz"
+        with tarfile.open(given, "w:xz") as archive:
+            archive.add(sources, sources.name)
+    before = sorted(path.name for path in (sources / "src").iterdir())
+    monkeypatch.setattr(building, "home", lambda program: tmp_path / "home")
+    assert not carom.verify.Liggghts().supports(carom.MemoryLaw(32))
+    assert main(["liggghts", "build", "--source", str(given)]) == 0
+    assert "built LIGGGHTS 3.8.0 with tangential model carom" in capsys.readouterr().out
+    assert sorted(path.name for path in (sources / "src").iterdir()) == before
+    engine = carom.verify.Liggghts()
+    assert engine.executable() == tmp_path / "home" / "liggghts"
+    assert engine.executable().stat().st_mode & stat.S_IXUSR
+    for springs in liggghts.SPRINGS:
+        assert engine.supports(carom.MemoryLaw(springs))
+    assert not engine.supports(carom.MemoryLaw(48))
+    assert not engine.supports(carom.MemoryLaw(32, restitution=0.9))
+
+
+def test_sources_with_the_model(sources):
+    """What is added, and what C++17 or a machine without VTK refuses."""
+    src = sources / "src"
+    liggghts.add_model(src)
+    assert (src / "tangential_model_carom.h").read_text().startswith("// Tangential model carom")
+    assert (src / "carom" / "contact_in_space.hpp").exists()
+    assert "HERTZ, TANGENTIAL_CAROM" in (src / "style_contact_model.whitelist").read_text()
+    assert "return std::to_string(a);" in (src / "utils.h").read_text()
+    assert "numneigh != 0" in (src / "finish.cpp").read_text()
+    assert not (src / "dump_mesh_vtk.cpp").exists()
+
+
+@compiles
+def test_refusals(sources, tmp_path, monkeypatch, capsys):
+    with tarfile.open(tmp_path / "whole.tar.xz", "w:xz") as archive:
+        archive.add(CPP)
+    whole = (tmp_path / "whole.tar.xz").read_bytes()
+    cut, spoilt = tmp_path / "cut.tar.xz", tmp_path / "spoilt.tar.xz"
+    cut.write_bytes(whole[: len(whole) // 2])
+    spoilt.write_bytes(whole[: len(whole) // 2] + bytes(len(whole)))
+    for bad in (tmp_path / "none", tmp_path, CPP / "impacts.cpp", cut, spoilt):
+        assert main(["liggghts", "build", "--source", str(bad)]) == 2
+        line = capsys.readouterr().err
+        assert line.count("\n") == 1
+        assert "must be the folder or the tarball of LIGGGHTS-PUBLIC 3.8.0" in line
+    (sources / "src" / "lammps.cpp").write_text("int main() { return nothing; }\n")
+    with pytest.raises(InputError, match=r"the compiler failed: .*nothing"):
+        liggghts.build(sources, tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+    monkeypatch.setattr(liggghts.shutil, "which", lambda name: "c++" if name != "make" else None)
+    with pytest.raises(InputError, match="there is no make"):
+        liggghts.build(sources, tmp_path / "out")
+    monkeypatch.setattr(building, "COMPILERS", ())
+    with pytest.raises(InputError, match="no C\\+\\+ compiler"):
+        liggghts.build(sources, tmp_path / "out")
+
+
+@pytest.mark.parametrize("pair", [WALL, SPHERES], ids=["wall", "spheres"])
+def test_inputs_with_the_law(pair):
+    experiment = carom.verify.Experiment(
+        pair=pair, law=carom.MemoryLaw(64), normal_speed=1e-4, tangential_speed=(1e-4,), steps=100
+    )
+    text = carom.verify.Liggghts().files(experiment)[INPUT]
+    assert text.count("hertz tangential carom") == (2 if pair is WALL else 1)
+    assert "pair_style      gran model hertz tangential carom springs 64\n" in text
+    assert "fix coefficientRestitution all property/global coefficientRestitution" in text
+    assert " one 100 " in text
+
+
+@pytest.mark.parametrize(
+    ("program", "said"),
+    [
+        ([], "LIGGGHTS: not found; install Debian's package liggghts, or carom liggghts build"),
+        (["--program", sys.executable], "until carom liggghts build has built it"),
+    ],
+    ids=["no program", "no model"],
+)
+def test_a_line_says_what_to_do(tmp_path, monkeypatch, capsys, program, said):
+    monkeypatch.setattr(building, "home", lambda program: tmp_path)
+    monkeypatch.setenv("PATH", "")
+    assert main(["verify", "liggghts", "--law", "carom", *program]) == 2
+    assert said in capsys.readouterr().err
