@@ -1,9 +1,10 @@
 // Two like spheres meet, with the force of the tangential model as LIGGGHTS would ask for it.
 //
-//     in_liggghts SPRINGS STEPS TURNS PSI...
+//     in_liggghts SPRINGS STEPS TURNS COHESION PSI...
 //
 // prints psi_2 of each psi_1. TURNS times within the contact it becomes the other sphere's, as when
-// one of the two crosses a border; the slide is along y and z at once.
+// one of the two crosses a border; the slide is along y and z at once. COHESION is the part of the
+// normal force that a model of cohesion takes away.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -28,8 +29,9 @@ struct Impact {
     TangentialModel<TANGENTIAL_CAROM> model{&lammps, &setup, nullptr};
     double tables[3] = {modulus, 0.25 * kappa * modulus, friction};
     std::vector<double> memory;
+    double cohesion;
 
-    explicit Impact(double springs) {
+    Impact(double springs, double share) : cohesion(share) {
         Settings settings{springs};
         PropertyRegistry registry{{&tables[0], &tables[1], &tables[2]}};
         model.registerSettings(settings);
@@ -58,11 +60,16 @@ struct Impact {
         slide = plus(slide, -met.vn, normal);
         met.vtr1 = slide[0], met.vtr2 = slide[1], met.vtr3 = slide[2];
         for (std::size_t k = 0; k < 3; ++k) met.en[k] = normal[k];
-        met.Fn = 4.0 / 3.0 * modulus * std::sqrt(0.5 * radius) * std::pow(met.deltan, 1.5);
+        const double hertz =
+            4.0 / 3.0 * modulus * std::sqrt(0.5 * radius) * std::pow(met.deltan, 1.5);
         ForceData one, other;
+        for (std::size_t k = 0; k < 3; ++k) {
+            one.delta_F[k] = (1.0 - cohesion) * hertz * normal[k];
+            other.delta_F[k] = -one.delta_F[k];
+        }
         model.surfacesIntersect(met, one, other);
         for (std::size_t k = 0; k < 3; ++k) {
-            f[k] = side * one.delta_F[k] + met.Fn * (k == 0);
+            f[k] = side * one.delta_F[k];
             t[k] = one.delta_torque[k];
             if (one.delta_F[k] != -other.delta_F[k]) throw std::runtime_error("forces");
         }
@@ -93,10 +100,12 @@ struct Impact {
 };
 
 int main(int, char **given) try {
-    const double springs = std::atof(given[1]);
-    for (char **psi = given + 4; *psi; ++psi)
-        std::printf("%.17g\n", Impact(springs).rebound(std::atof(*psi), std::atoi(given[2]),
-                                                      std::atoi(given[3])));
+    const double springs = std::atof(given[1]), cohesion = std::atof(given[4]);
+    for (char **psi = given + 5; *psi; ++psi) {
+        Impact impact(springs, cohesion);
+        std::printf("%.17g\n", impact.rebound(std::atof(*psi), std::atoi(given[2]),
+                                              std::atoi(given[3])));
+    }
 } catch (const std::exception &error) {
     std::puts(error.what());
 }

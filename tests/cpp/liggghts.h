@@ -76,7 +76,7 @@ struct SurfacesCloseData {
     double *omega_i, *omega_j;
 };
 struct SurfacesIntersectData : SurfacesCloseData {
-    double en[3], Fn, vn, deltan, cri, crj, vtr1, vtr2, vtr3, meff;
+    double en[3], vn, deltan, cri, crj, vtr1, vtr2, vtr3, meff;
 };
 struct ForceData {
     double delta_F[3] = {0, 0, 0}, delta_torque[3] = {0, 0, 0};

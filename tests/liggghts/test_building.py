@@ -54,14 +54,19 @@ def model(tmp_path_factory):
 def test_model_is_the_law_of_carom(model, springs, turns):
     """Also where the contact becomes the other sphere's: without mirroring it would be off by 1."""
     psi = np.linspace(0.25, 5.0, 8)
-    found = np.array(model(springs, 100, turns, *psi).split(), dtype=float)
+    found = np.array(model(springs, 100, turns, 0.0, *psi).split(), dtype=float)
     expected = carom.MemoryLaw(springs).rebound(psi, 3.5 * 0.8 / 2.0, steps=100)
     np.testing.assert_allclose(found, expected, atol=1e-5)
 
 
 @compiles
 def test_model_refuses_other_springs(model):
-    assert "springs must be 16, 32 or 64" in model(20, 100, 0, 1.0)
+    assert "springs must be 16, 32 or 64" in model(20, 100, 0, 0.0, 1.0)
+
+
+@compiles
+def test_model_refuses_cohesion(model):
+    assert "the normal force must be that of elastic spheres" in model(32, 100, 0, 1e-3, 1.0)
 
 
 @pytest.fixture
@@ -116,6 +121,7 @@ def test_build(sources, tmp_path, monkeypatch, capsys, packed):
 def test_sources_with_the_model(sources):
     """What is added, and what C++17 or a machine without VTK refuses."""
     src = sources / "src"
+    (src / "carom").mkdir()  # as a LIGGGHTS that has the model has it
     liggghts.add_model(src)
     assert (src / "tangential_model_carom.h").read_text().startswith("// Tangential model carom")
     assert (src / "carom" / "contact_in_space.hpp").exists()
@@ -142,12 +148,31 @@ def test_refusals(sources, tmp_path, monkeypatch, capsys):
     with pytest.raises(InputError, match=r"the compiler failed: .*nothing"):
         liggghts.build(sources, tmp_path / "out")
     assert not (tmp_path / "out").exists()
+    for folder in (cut, cut / "new"):
+        with pytest.raises(InputError, match=r"cannot be written: .*; name another by --folder"):
+            liggghts.build(tmp_path / "none", folder)
     monkeypatch.setattr(liggghts.shutil, "which", lambda name: "c++" if name != "make" else None)
     with pytest.raises(InputError, match="there is no make"):
         liggghts.build(sources, tmp_path / "out")
     monkeypatch.setattr(building, "COMPILERS", ())
     with pytest.raises(InputError, match="no C\\+\\+ compiler"):
         liggghts.build(sources, tmp_path / "out")
+
+
+def test_the_first_error_of_a_compiler_is_told():
+    """Not the names of files that are compiled: LIGGGHTS has an error.cpp."""
+    said = 50 * "g++ -c ../error.cpp\n" + "a.cpp:1:2: error: no such thing\n"
+    command = [sys.executable, "-c", f"print({said!r}); raise SystemExit(1)"]
+    with pytest.raises(InputError, match=r"the compiler failed: a\.cpp:1:2: error: no such thing"):
+        building.carry_out("build", command)
+
+
+def test_nothing_half_written_is_left(tmp_path):
+    (tmp_path / "made").write_text("new")
+    (tmp_path / "there" / "program").mkdir(parents=True)
+    with pytest.raises(InputError, match="cannot be written"):
+        building.place(tmp_path / "made", tmp_path / "there" / "program")
+    assert [path.name for path in (tmp_path / "there").iterdir()] == ["program"]
 
 
 @pytest.mark.parametrize("pair", [WALL, SPHERES], ids=["wall", "spheres"])

@@ -1,5 +1,8 @@
 """What building for a DEM program takes: a compiler, a command that may fail, a place."""
 
+import contextlib
+import os
+import re
 import shutil
 import subprocess
 import sys
@@ -14,7 +17,8 @@ HEADERS = HERE.parent / "include"
 COMPILERS = ("c++", "g++", "clang++")
 MATHS = ("-fno-math-errno", "-fno-trapping-math")  # without them roots are not vectors
 OWN = ("-march=native",)  # it is built where it runs
-WORDS = 400  # of a compiler that failed
+FAILURE = re.compile(r"error:|undefined reference|\*\*\*", re.IGNORECASE)
+CHARACTERS = 400  # of what a compiler that failed has said
 
 
 class Built(NamedTuple):
@@ -51,17 +55,32 @@ def carry_out(
             said.append(line)
             tell(line)
     if running.returncode:
-        first = next((i for i, line in enumerate(said) if "error" in line.lower()), 0)
-        complaint = "".join(said[first:]).strip()[:WORDS]
+        first = next((i for i, line in enumerate(said) if FAILURE.search(line)), 0)
+        complaint = "".join(said[first:]).strip()[:CHARACTERS]
         raise InputError(f"{command}: the compiler failed: {complaint}")
+
+
+def check_folder(folder: Path) -> None:
+    """Raise InputError if a folder is none or cannot be written, before it takes minutes."""
+    there = next(path for path in (folder, *folder.absolute().parents) if os.path.exists(path))
+    if not there.is_dir():
+        raise _unwritable(folder, f"{there} is not a folder")
+    if not os.access(there, os.W_OK | os.X_OK):
+        raise _unwritable(folder, "permission denied")
 
 
 def place(made: Path, target: Path) -> None:
     """Put what was made into its place, whole, or raise InputError."""
+    copied = target.with_name(target.name + ".new")
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        copied = shutil.copy(made, target.with_name(target.name + ".new"))
-        Path(copied).replace(target)
+        shutil.copy(made, copied)
+        copied.replace(target)
     except OSError as error:
-        allowed = f"cannot be written: {error.strerror}; name another by --folder"
-        raise refusal("folder", str(target.parent), allowed) from error
+        with contextlib.suppress(OSError):
+            copied.unlink()
+        raise _unwritable(target.parent, str(error.strerror)) from error
+
+
+def _unwritable(folder: Path, why: str) -> InputError:
+    return refusal("folder", str(folder), f"cannot be written: {why}; name another by --folder")

@@ -51,18 +51,19 @@ def build(source: Path, target: Path, processor: tuple[str, ...] = building.OWN)
     compiler, make = building.compiler(COMMAND), shutil.which("make")
     if make is None:
         raise InputError(f"{COMMAND}: there is no make; install it")
+    building.check_folder(target)
     with TemporaryDirectory() as scratch:
         folder = copied(source, Path(scratch))
-        version = (folder / "version_liggghts.txt").read_text(encoding="utf-8").strip()
+        told = (folder / "version_liggghts.txt").read_text(encoding="utf-8", errors="replace")
         add_model(folder)
         command = [make, "-C", str(folder), f"-j{os.cpu_count() or 1}"]
         building.carry_out(COMMAND, [*command, "stubs"])
-        told = [f"CC={compiler}", f"LINK={compiler}", f"CCFLAGS={' '.join((*FLAGS, *processor))}"]
-        command += [MACHINE, "DEPENDS=", *told]  # compiled once: no need for what depends on what
+        words = [f"CC={compiler}", f"LINK={compiler}", f"CCFLAGS={' '.join((*FLAGS, *processor))}"]
+        command += [MACHINE, "DEPENDS=", *words]  # compiled once: no need for what depends on what
         with advancing("compiling", len(list(folder.glob("*.cpp")))) as advance:
             building.carry_out(COMMAND, command, lambda line: advance(int(" -c " in line)))
         building.place(folder / f"lmp_{MACHINE}", target / NAME)
-    return Built(target / NAME, version, tuple(command))
+    return Built(target / NAME, told.strip(), tuple(command))
 
 
 def copied(source: Path, scratch: Path) -> Path:
@@ -92,7 +93,7 @@ def add_model(folder: Path) -> None:
     """Put the model, with the headers that it includes, among the sources of LIGGGHTS."""
     for file in MODEL.iterdir():
         shutil.copy(file, folder)
-    shutil.copytree(building.HEADERS / "carom", folder / "carom")
+    shutil.copytree(building.HEADERS / "carom", folder / "carom", dirs_exist_ok=True)
     for name, refused, instead in REFUSED:
         text = (folder / name).read_text(encoding="utf-8", errors="surrogateescape")
         corrected = re.sub(refused, instead, text)

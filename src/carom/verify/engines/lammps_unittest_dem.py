@@ -65,7 +65,7 @@ $spins
 def dem_test_yaml(experiment: Experiment, *, epsilon: float) -> str:
     """Return impacts as a file dem04-*.yaml of LAMMPS's unittest/granular/tests.
 
-    The driver compares places, velocities, torques and spins, each to a relative epsilon: while
+    The driver compares positions, velocities, torques and spins, each to a relative epsilon: while
     the bodies approach, while they part, and when they have parted.
 
     Parameters
