@@ -29,6 +29,7 @@ SECTIONS = {
         "normal_spin",
     ],
     "theory": ["theory/*", "phases", "scripts"],
+    "laws": ["bulk"],
     "reference/index": [
         "reference/impacts",
         "reference/many",

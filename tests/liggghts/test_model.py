@@ -67,6 +67,7 @@ fix m5 all property/global kn peratomtypepair 1 1e4
 fix m6 all property/global kt peratomtypepair 1 1e4
 fix m7 all property/global gamman peratomtypepair 1 0
 fix m8 all property/global gammat peratomtypepair 1 0
+fix m9 all property/global cohesionEnergyDensity peratomtypepair 1 1e5
 fix m4 all property/global coefficientRestitution peratomtypepair 1 {restitution}
 pair_style gran model {model}
 pair_coeff * *
@@ -139,10 +140,14 @@ def test_only_asking_for_forces_moves_no_spring(run):
             {"model": "hooke/stiffness tangential carom"},
             "the normal force must be that of elastic spheres",
         ),
+        (
+            {"model": "hertz tangential carom cohesion sjkr"},
+            "the normal force must be that of elastic spheres",
+        ),
         ({"model": "hertz tangential carom springs 20"}, "springs must be 16, 32 or 64"),
         ({"run": "neigh_modify one 5000\nrun 1"}, "neigh_modify one 200"),
     ],
-    ids=["losses", "another normal force", "springs", "pages"],
+    ids=["losses", "another normal force", "cohesion", "springs", "pages"],
 )
 def test_refuses(run, changes, said):
     printed, end = run(**changes)

@@ -1,0 +1,156 @@
+"""The tables of docs/bulk.md, from the simulations that bulk_study.py has stored.
+
+python studies/bulk_tables.py            write the tables into the page, draw its figures
+python studies/bulk_tables.py --check    only tell whether they are true
+"""
+
+import argparse
+from collections.abc import Iterator
+from itertools import product
+from pathlib import Path
+
+from bulk import gas, modulus, shear
+from bulk.cells import both_ways, cooled, flowing, left, over_blocks, sheared, turned
+from bulk.contact_laws import EXACT, FINER, LAWS
+from bulk.results import CELLS, Cell, Mean, excess, mean, ratio
+from bulk_figures import draw
+from page_blocks import blocks, page_with, table
+
+PAGE = Path(__file__).parents[1] / "docs" / "bulk.md"
+FRICTIONS = (0.1, 0.3, 0.5)
+OTHERS = LAWS[1:]
+FLOWS = [*((0.3, i) for i in sorted(shear.LENGTHS)), *product((0.1, 0.5), (1e-3, 1e-2, 1e-1))]
+DAMPED = [*((0.1, x) for x in (3e-5, 1e-4, 1e-3)), *((0.3, x) for x in modulus.STRAINS[1:])]
+
+
+def decays() -> Iterator[str]:
+    """Yield what each law leaves of the kinetic energy, over what the exact one leaves."""
+    cases = [(mu, e) for e in (1.0, 0.9) for mu in FRICTIONS]
+    exact = (f"{100 * mean(left(EXACT.name, mu, e)).value:.2g} %" for mu, e in cases)
+    yield f"exact, of the first | {' | '.join(exact)}"
+    for law in OTHERS:
+        found = (ratio(left(law.name, mu, e)) for mu, e in cases)
+        yield f"{law.name} | {' | '.join(each.text(2) for each in found)}"
+
+
+def moduli() -> Iterator[str]:
+    """Yield the modulus by the exact law, those by others over it."""
+    for law in LAWS:
+        cells = [sheared(law.name, 0.3, strain, "modulus") for strain in modulus.STRAINS]
+        found = (mean(cell).scaled(1e3) if law is EXACT else ratio(cell) for cell in cells)
+        yield f"{law.name} | {' | '.join(each.text(3) for each in found)}"
+
+
+def dampings() -> Iterator[str]:
+    """Yield the damping ratio by the exact law in percent, the excess of others over it."""
+    for law in LAWS:
+        cells = [sheared(law.name, *case, "damping") for case in DAMPED]
+        found = (mean(cell) if law is EXACT else excess(cell) for cell in cells)
+        yield f"{law.name} | {' | '.join(each.scaled(100.0).text(3) for each in found)}"
+
+
+def flows(quantity: str, digits: int) -> Iterator[str]:
+    """Yield a quantity of simple shear by each law."""
+    for law in LAWS:
+        cells = (flowing(law.name, *case, quantity) for case in FLOWS)
+        yield f"{law.name} | {' | '.join(over_blocks(cell).text(digits) for cell in cells)}"
+
+
+def drums() -> Iterator[str]:
+    """Yield the slopes in the drum by each law."""
+    for law in LAWS:
+        found = [over_blocks(turned(law.name, mu, "turning")).text(1) for mu in FRICTIONS]
+        found += [mean(turned(law.name, mu, "rest")).text(1) for mu in FRICTIONS]
+        yield f"{law.name} | {' | '.join(found)}"
+
+
+def circle() -> Iterator[str]:
+    """Yield the energies of a gas by time stepping and by events, in percent of the first."""
+    for friction in FRICTIONS:
+        for quantity in ("translational", "rotational"):
+            cells = []
+            for time in (10.0, 20.0, 40.0):
+                stepped, events = both_ways(friction, quantity, time)
+                percent = (each.scaled(100.0).text(2) for each in (stepped, events))
+                cells += percent
+            yield f"{friction}, {quantity} | {' | '.join(cells)}"
+
+
+def gases() -> Iterator[str]:
+    """Yield the energies of a gas by other laws over those by the exact one."""
+    cases = [(name, time) for name in ("translational", "rotational") for time in (10.0, 40.0)]
+    for law in OTHERS:
+        found = (ratio(cooled(law.name, 0.3, *case)).text(2) for case in cases)
+        yield f"{law.name} | {' | '.join(found)}"
+
+
+POINTS = {  # one point of each experiment: cell, size of a larger one over its own, unit
+    "kinetic energy left, friction 0.3, e = 1 (%)": (left(EXACT.name, 0.3, 1.0), 4, 100.0),
+    "modulus (1e-3 E), strain 3e-4": (sheared(EXACT.name, 0.3, 3e-4, "modulus"), 4, 1e3),
+    "damping ratio (%), strain 3e-4": (sheared(EXACT.name, 0.3, 3e-4, "damping"), 4, 100.0),
+    "stress ratio, I = 0.01": (flowing(EXACT.name, 0.3, 1e-2, "ratio"), 4, 1.0),
+    "volume fraction, I = 0.01": (flowing(EXACT.name, 0.3, 1e-2, "fraction"), 4, 1.0),
+    "turning drum (degrees)": (turned(EXACT.name, 0.3, "turning"), 1.5, 1.0),
+    "drum at rest (degrees)": (turned(EXACT.name, 0.3, "rest"), 1.5, 1.0),
+    "energy of a moving gas (%)": (cooled(EXACT.name, 0.3, "translational", 20.0), 4, 100.0),
+    "the same, by events (%)": (cooled(gas.EVENTS, 0.3, "translational", 20.0), 4, 100.0),
+}
+
+
+def of_two(cell: Cell, unit: float) -> str:
+    """Return the mean of seeds 1 and 2 with its standard error, a dash if they are not there."""
+    if cell not in CELLS:
+        return "-"
+    one, other = (unit * CELLS[cell][seed] for seed in (1, 2))
+    return Mean((one + other) / 2, abs(one - other) / 2).text(3 if one < 10.0 else 2)
+
+
+def converged() -> Iterator[str]:
+    """Yield one point of each experiment, then with half the time step, more spheres or springs."""
+    for name, (cell, larger, unit) in POINTS.items():
+        changes = [{}, {"step": 0.5}, {"size": round(larger * cell.size)}]
+        cells = [cell._replace(**change) for change in changes]
+        cells.append(cell._replace(law=FINER.name))
+        if cell.law == EXACT.name:
+            cells += [each._replace(law=LAWS[1].name) for each in cells[:3]]
+        cells += [cell._replace(law="")] * (7 - len(cells))
+        yield f"{name} | {' | '.join(of_two(each, unit) for each in cells)}"
+
+
+def tables() -> dict[str, str]:
+    """Return the blocks of the page by name."""
+    frictions = " | ".join(f"mu = {mu}" for mu in FRICTIONS)
+    strains = " | ".join(f"{strain:g}" for strain in modulus.STRAINS)
+    damped = " | ".join(f"mu = {mu}, {strain:g}" for mu, strain in DAMPED)
+    shears = "law | " + " | ".join(f"mu = {mu}, I = {inertia:g}" for mu, inertia in FLOWS)
+    kinds = ("stepped", "events")
+    times = " | ".join(f"{kind}, {time}" for time in (10, 20, 40) for kind in kinds)
+    other = "law | translational, 10 | 40 | rotational, 10 | 40"
+    more = "half the step | larger"
+    return {
+        "decay": table(f"law | e = 1: {frictions} | e = 0.9: {frictions}", decays()),
+        "modulus": table(f"law | {strains}", moduli()),
+        "damping": table(f"law | {damped}", dampings()),
+        "ratio": table(shears, flows("ratio", 3)),
+        "fraction": table(shears, flows("fraction", 4)),
+        "drum": table(f"law | turning: {frictions} | at rest: {frictions}", drums()),
+        "circle": table(f"friction, energy | {times}", circle()),
+        "gas": table(other, gases()),
+        "converged": table(f"point | exact | {more} | 64 springs | mindlin | {more}", converged()),
+    }
+
+
+def main() -> None:
+    """Write the tables and figures, or check the tables."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--check", action="store_true", help="only tell whether they are true")
+    if parser.parse_args().check:
+        wrong = [name for name, text in tables().items() if blocks(PAGE)[name] != text]
+        print(f"no longer true: {', '.join(wrong)}" if wrong else "all is true")
+        raise SystemExit(1 if wrong else 0)
+    PAGE.write_text(page_with(PAGE, tables()), encoding="utf-8")
+    draw()
+
+
+if __name__ == "__main__":
+    main()
