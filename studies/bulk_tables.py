@@ -26,8 +26,8 @@ DAMPED = [*((0.1, x) for x in (3e-5, 1e-4, 1e-3)), *((0.3, x) for x in modulus.S
 def decays() -> Iterator[str]:
     """Yield what each law leaves of the kinetic energy, over what the exact one leaves."""
     cases = [(mu, e) for e in (1.0, 0.9) for mu in FRICTIONS]
-    exact = (f"{100 * mean(left(EXACT.name, mu, e)).value:.2g} %" for mu, e in cases)
-    yield f"exact, of the first | {' | '.join(exact)}"
+    exact = (f"{mean(left(EXACT.name, mu, e)).scaled(100.0).text(3)} %" for mu, e in cases)
+    yield f"exact | {' | '.join(exact)}"
     for law in OTHERS:
         found = (ratio(left(law.name, mu, e)) for mu, e in cases)
         yield f"{law.name} | {' | '.join(each.text(2) for each in found)}"
@@ -117,23 +117,31 @@ def converged() -> Iterator[str]:
         yield f"{name} | {' | '.join(of_two(each, unit) for each in cells)}"
 
 
+def by_laws(first: str, cases: list[str], rows: Iterator[str]) -> str:
+    """Return a table of cases below each other, from rows of laws: they are beside each other."""
+    laws, *columns = zip(*(row.split(" | ") for row in rows), strict=True)
+    lines = (" | ".join([case, *column]) for case, column in zip(cases, columns, strict=True))
+    return table(" | ".join([first, *laws]), lines)
+
+
 def tables() -> dict[str, str]:
     """Return the blocks of the page by name."""
-    frictions = " | ".join(f"mu = {mu}" for mu in FRICTIONS)
-    strains = " | ".join(f"{strain:g}" for strain in modulus.STRAINS)
-    damped = " | ".join(f"mu = {mu}, {strain:g}" for mu, strain in DAMPED)
-    shears = "law | " + " | ".join(f"mu = {mu}, I = {inertia:g}" for mu, inertia in FLOWS)
+    boosted = [f"e = {e}, mu = {mu}" for e in (1, 0.9) for mu in FRICTIONS]
+    strains = [f"{strain:g}" for strain in modulus.STRAINS]
+    damped = [f"mu = {mu}, {strain:g}" for mu, strain in DAMPED]
+    shears = [f"mu = {mu}, I = {inertia:g}" for mu, inertia in FLOWS]
+    slopes = [f"{when}, mu = {mu}" for when in ("turning", "at rest") for mu in FRICTIONS]
     kinds = ("stepped", "events")
     times = " | ".join(f"{kind}, {time}" for time in (10, 20, 40) for kind in kinds)
     other = "law | translational, 10 | 40 | rotational, 10 | 40"
     more = "half the step | larger"
     return {
-        "decay": table(f"law | e = 1: {frictions} | e = 0.9: {frictions}", decays()),
-        "modulus": table(f"law | {strains}", moduli()),
-        "damping": table(f"law | {damped}", dampings()),
-        "ratio": table(shears, flows("ratio", 3)),
-        "fraction": table(shears, flows("fraction", 4)),
-        "drum": table(f"law | turning: {frictions} | at rest: {frictions}", drums()),
+        "decay": by_laws("restitution, friction", boosted, decays()),
+        "modulus": by_laws("strain", strains, moduli()),
+        "damping": by_laws("friction, strain", damped, dampings()),
+        "ratio": by_laws("friction, I", shears, flows("ratio", 3)),
+        "fraction": by_laws("friction, I", shears, flows("fraction", 4)),
+        "drum": by_laws("drum, friction", slopes, drums()),
         "circle": table(f"friction, energy | {times}", circle()),
         "gas": table(other, gases()),
         "converged": table(f"point | exact | {more} | 64 springs | mindlin | {more}", converged()),

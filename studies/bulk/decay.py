@@ -66,6 +66,4 @@ def compute(asked: Run, packings: Path, folder: Path) -> list[Found]:
     time = 2.0 * np.arange(1, len(moving) + 1) - 1.0  # in durations of an impact
     first = 1.5 * TEMPERATURE
     kept = [0, 1, 2, 4, 7, 12, 24, 49, 74, 99]
-    return [Found("kinetic", time[i], (moving[i] + turning[i]) / first) for i in kept] + [
-        Found("spin", time[i], turning[i] / first) for i in kept
-    ]
+    return [Found("kinetic", time[i], (moving[i] + turning[i]) / first) for i in kept]

@@ -165,7 +165,7 @@ def test_other_laws_fail(texts):
 
 
 @engine
-@pytest.mark.parametrize("mistake", study.broken().keys() - {"none"})
+@pytest.mark.parametrize("mistake", [name for name in study.broken() if name != "none"])
 def test_mistakes_fail(mistake):
     """References with a mistake, signs and torques among them, are not what LAMMPS computes."""
     wanted = study.experiment("wall", study.BROKEN)
