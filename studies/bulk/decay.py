@@ -7,7 +7,7 @@ import numpy as np
 
 from bulk.contact_laws import FINER, LAWS, Setting, duration, named, overlap, pairs, secant
 from bulk.experiment import Found, Run
-from bulk.packings import packing
+from bulk.packings import BEGIN, packing
 from bulk.program import run
 
 PRESSURE, TEMPERATURE = 1e-4, 1e-7
@@ -15,13 +15,9 @@ SPEED = (2 * np.pi * TEMPERATURE) ** 0.5  # at which spheres meet: 1.4 times the
 STEPS, CONTACTS = 60, 200  # time steps of an impact, length in impacts
 SIZE, SEEDS = 1000, (1, 2, 3, 4)
 
-INPUT = """\
-boundary p p p
-neighbor 0.1 bin
-read_data {packing}
-{law}
-timestep {step}
-fix motion all nve/sphere
+INPUT = (
+    BEGIN
+    + """\
 velocity all create {temperature} {seed} dist gaussian
 compute turning all erotate/sphere
 variable moving equal ke
@@ -29,6 +25,7 @@ variable turned equal c_turning/atoms
 fix told all ave/time {every} {often} {window} v_moving v_turned file energies.txt
 run {run}
 """
+)
 
 
 def runs() -> list[Run]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from bulk.contact_laws import FINER, LAWS, Setting, named, pairs, secant
 from bulk.experiment import Found, Run
-from bulk.packings import packing
+from bulk.packings import BEGIN, packing
 from bulk.program import run
 
 PRESSURE = 1e-4
@@ -17,13 +17,9 @@ STRAINS = (1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3)
 SIZE, SEEDS = 500, {0.1: (1, 2), 0.3: (1, 2, 3), 0.5: (1, 2)}  # by friction
 PHASES = 500  # a cycle is told at so many instants
 
-INPUT = """\
-boundary p p p
-neighbor 0.1 bin
-read_data {packing}
-{law}
-timestep {step}
-fix motion all nve/sphere
+INPUT = (
+    BEGIN
+    + """\
 compute stress all pressure NULL virial
 variable strain equal xy/ly
 variable stream atom 2*PI*{strain}/{period}*(y-ylo-ly/2)
@@ -33,6 +29,7 @@ fix told all ave/time {every} 1 {every} v_strain c_stress[4] c_stress file stres
 fix squeeze all deform 1 xy wiggle ${{amplitude}} {period} remap v
 run {run}
 """
+)
 
 
 def runs() -> list[Run]:

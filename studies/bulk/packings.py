@@ -30,6 +30,14 @@ fix drag all viscous 0.01
 run {steps}
 write_data {file}
 """
+BEGIN = """\
+boundary p p p
+neighbor 0.1 bin
+read_data {packing}
+{law}
+timestep {step}
+fix motion all nve/sphere
+"""  # of what is done with a packing
 LOOSE = 0.45  # volume fraction at the start
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from bulk.contact_laws import LAWS, Setting, named, pairs, secant
 from bulk.experiment import Found, Run
-from bulk.packings import packing
+from bulk.packings import BEGIN, packing
 from bulk.program import run
 
 PRESSURE, DEPTH, STEP = 1e-3, 1.3e-2, 0.2
@@ -17,19 +17,16 @@ SIZE, FRICTIONS = 500, (0.1, 0.3, 0.5)
 BLOCKS, WINDOWS, OFTEN = 8, 8, 50  # means of so many, windows of a block, looks in a window
 FAST = 1e-3  # slower flows begin with this inertial number
 
-INPUT = """\
-boundary p p p
-neighbor 0.1 bin
-read_data {packing}
-{law}
-timestep {step}
+INPUT = (
+    BEGIN
+    + """\
 compute stress all pressure NULL virial
 variable fraction equal atoms*PI/6/vol
-fix motion all nve/sphere
 variable stream atom {rate}*y
 velocity all set v_stream 0 0
 fix told all ave/time {every} {often} {window} c_stress[2] c_stress[4] v_fraction file stress.txt
 """
+)
 FLOW = """\
 fix squeeze all deform/pressure 1 xy erate {rate} y pressure {pressure} {rate} &
     normalize/pressure yes max/rate {fastest} remap v flip yes
