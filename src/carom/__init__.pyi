@@ -60,4 +60,6 @@ from .quantities.refusals import InputError as InputError
 from .sweeps import sweep as sweep
 from .sweeps.designs import Grid as Grid, LatinHypercube as LatinHypercube
 from .sweeps.points import PointStatus as PointStatus
+from .sweeps.strength_map import strength as strength
 from .sweeps.tables import Table as Table
+from .sweeps.wearing import wear as wear

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.fields.extremes import SURFACE, largest, principal_stresses, von_mises
+from carom.dimensionless.fields.extremes import largest, principal_stresses, von_mises
+from carom.dimensionless.fields.peaks import TENSION, VON_MISES
 from carom.dimensionless.fields.subsurface import COMPONENTS, stresses
 
 STEEL = carom.Material(young="210 GPa", poisson=0.3, density=7850)
@@ -87,18 +88,12 @@ def test_nothing_is_larger_than_the_largest(psi, chi, friction):
         at[:2000, 2] = 0.0
         at[:1000, 1] = 0.0
 
-        def stress(places, profile=profile):
-            return stresses(places, profile, friction=friction, poisson=0.3)
-
-        def tension(places, stress=stress):
-            return principal_stresses(stress(places))[:, 0]
-
-        def mises(places, stress=stress):
-            return von_mises(stress(places))
-
-        worst, pulled = largest(mises, profile), largest(tension, profile, SURFACE)
-        assert worst.value >= mises(at).max()
-        assert pulled.value >= tension(at[:2000]).max()
+        given = {"friction": friction, "poisson": 0.3}
+        stress = stresses(at, profile, **given)
+        worst = largest(VON_MISES, profile, **given)
+        pulled = largest(TENSION, profile, **given, deepest=0.0)
+        assert worst.value >= von_mises(stress).max()
+        assert pulled.value >= principal_stresses(stress[:2000])[:, 0].max()
         assert worst.y == pytest.approx(0.0, abs=1e-6)
         assert pulled.y == pytest.approx(0.0, abs=1e-6)
 

@@ -223,23 +223,30 @@ def test_near_the_edges(depth, monkeypatch):
     nodes, weights = np.polynomial.legendre.leggauss(20)
     for r in (0.0, 1e-7, 0.3, 1.0 - 1e-6, 1.0, 1.0 + 1e-6, 1.5):
         at = (0.6 * r, 0.8 * r, depth)
+        parts = np.zeros(subsurface.PARTS)
         halved = 0.5 ** np.arange(-1, 48)
         cuts = np.unique(np.clip(np.concatenate([-halved, [0.0], halved]), -r, 1.0 - r))
         half = 0.5 * np.diff(cuts)[:, np.newaxis]
         beyond = cuts[:-1, np.newaxis] + half * (1.0 + nodes)
         s = r + beyond
         distance = np.sqrt((depth + 1j * beyond) * (depth + 1j * (s + r)))
-        force = subsurface.point_force.py_func(*at, depth + 1j * s, distance, 0.3, FRICTION * s * s)
-        expected = [np.sum(half * weights * s * component) for component in force]
+        amounts = half * weights * s, half * weights * s**3  # of CURVED, g = s^2
+        for point in zip(depth + 1j * s.ravel(), distance.ravel(), *map(np.ravel, amounts)):
+            zeta, away, push, pull = point
+            subsurface.add_point.py_func(parts, r, depth, zeta, away, 0.3, push, pull)
+        expected = np.empty(6)
+        subsurface.turn(expected, parts, 0.6, 0.8, FRICTION)
         stress = stresses([at], CURVED, friction=FRICTION, poisson=0.3)[0]
         assert stress == pytest.approx(expected, abs=3e-13)
 
 
 def test_compiled_equals_uncompiled():
     """Kernels give what their Python gives."""
-    arguments = (0.3, -0.4, 0.2, 0.2 + 0.7j, 0.5 + 0.3j, 0.3, 0.6)
-    compiled = subsurface.point_force(*arguments)
-    assert compiled == pytest.approx(subsurface.point_force.py_func(*arguments), abs=1e-14)
+    arguments = (0.5, 0.2, 0.2 + 0.7j, 0.5 + 0.3j, 0.3, 0.4, 0.6)
+    found, plain = np.zeros((2, subsurface.PARTS))
+    subsurface.add_point(found, *arguments)
+    subsurface.add_point.py_func(plain, *arguments)
+    assert found == pytest.approx(plain, abs=1e-14)
     for way, z in [(subsurface.BELOW, 0.2), (subsurface.INSIDE, 0.0), (subsurface.OUTSIDE, 0.0)]:
         s = 0.3 if way == subsurface.INSIDE else 0.9
         u = subsurface.way_to(way, 0.5, z, s)

@@ -81,7 +81,8 @@ def test_values_of_materials_with_and_without_gaps():
         (lambda: material_values({"poisson": 0.6}), "poisson: 0.6"),
         (
             lambda: material_values({"xyz": 1}),
-            "^xyz: unknown in a material; known are young, poisson, density, yield_strength, name$",
+            "^xyz: unknown in a material; known are young, poisson, density, yield_strength, "
+            "tensile_strength, fracture_toughness, flaw_size, name$",
         ),
         (lambda: material_values({"modulus": 1}), "modulus: unknown in a material"),
         (lambda: read_material("young=210 GPa, poisson=0,3, density=7850"), POINTS),

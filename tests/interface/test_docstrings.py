@@ -65,6 +65,7 @@ SOURCED = [  # what implements a formula of others
     *("impact", "load_path", "rebound", "regime_map", "solve", "sweep"),
     *("Fit.advice", "Fit.posterior", "Impact.fields"),
     *("Impact.stress", "Pair.contact_scales", "Pair.scales", "Pair.lateral_ratio"),
+    *("Impact.wear", "wear"),
     *("Solution.traction", "Solution.slip_angles", "classical.cattaneo_mindlin"),
     *("classical.critical_obliquity", "classical.loop_energy", "verify.damping"),
     *("verify.error_map", "verify.poisson_from_kappa", "verify.score", "verify.stiffnesses"),

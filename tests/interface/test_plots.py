@@ -48,6 +48,8 @@ def figures(hit, history, fields):
         "forces": plots.plot_forces(history),
         "radii": plots.plot_radii(history),
         "cone": plots.plot_cone(history),
+        "spectrum": plots.plot_spectrum(hit.spectrum()),
+        "wear": plots.plot_wear(hit.wear()),
         "patch": plots.plot_patch(fields),
         "pressure": plots.plot_patch(fields, "pressure"),
         "line": plots.plot_profiles(fields),
@@ -61,7 +63,7 @@ def figures(hit, history, fields):
 
 NAMES = (
     *("impact", "forces", "radii", "cone", "patch", "pressure"),
-    *("line", "memory", "stress", "curve", "curves", "map"),
+    *("line", "memory", "stress", "curve", "curves", "map", "spectrum", "wear"),
 )
 
 
@@ -103,7 +105,7 @@ def test_labels_are_those_of_the_glossary(figures):
 
 
 def _fits(quantity, text):
-    has_unit = quantity.unit == "1" or text.endswith(f"{quantity.unit})")
+    has_unit = quantity.unit == "1" or text.replace("²", "^2").endswith(f"{quantity.unit})")
     words = text.split(",")[0]
     return has_unit and (
         words.split("\u00a0")[0] == quantity.symbol
@@ -145,7 +147,7 @@ def _texts(figure):
 def test_widths_are_those_of_one_and_two_columns(figures, tmp_path):
     """86 mm and 178 mm, and 300 dots per inch once stored."""
     for name in NAMES:
-        width = 178.0 if name in ("impact", "map") else 86.0
+        width = 178.0 if name in ("impact", "map", "wear") else 86.0
         assert figures[name].get_figwidth() == pytest.approx(width * MM)
     stored = plots.save_figure(figures["cone"], tmp_path / "cone.png")
     with Image.open(stored) as picture:

@@ -16,6 +16,8 @@ DRAWN = {
     "stress": ("plot_stress",),
     "curve": ("plot_curve",),
     "map": ("plot_regime_map",),
+    "spectrum": ("plot_spectrum",),
+    "wear": ("plot_wear",),
     "impact": (),
 }
 
@@ -61,6 +63,8 @@ def test_datasets_of_another_kind_are_refused_in_one_line(hit, kind):
         "stress": lambda: hit.stress(MICROSLIP),
         "curve": lambda: carom.curve(1.44, [0.0, 1.0]),
         "map": lambda: regime_map([0.5, 2.0], [1.0, 1.44]),
+        "spectrum": lambda: hit.spectrum(n=51),
+        "wear": lambda: hit.wear(),
         "impact": lambda: hit,
     }
     given = makes[kind]()

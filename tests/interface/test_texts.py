@@ -266,10 +266,23 @@ def test_the_time_of_a_refusal_is_bounded(text):
     assert time.process_time() - begun < 10.0
 
 
-@pytest.mark.parametrize("unit", texts.COMMON)
+@pytest.mark.parametrize("unit", [unit for unit in texts.COMMON if unit != texts.TOUGHNESS])
 def test_common_units_are_those_of_pint(unit, monkeypatch):
     """The table that spares loading pint, against pint, to the last bit."""
     for expression, ratio in texts.COMMON[unit].items():
         with monkeypatch.context() as without:
             without.setattr(texts, "COMMON", {})
             assert texts._factor.__wrapped__(expression, unit) == texts.as_factor(ratio), expression
+
+
+def test_toughness_is_in_units_of_pint():
+    """The only unit with half a power stands in the table alone; pint knows what it is."""
+    registry = pytest.importorskip("pint").UnitRegistry()
+    for prefix, size in {"": 1.0, "k": 1e3, "M": 1e6}.items():
+        one = registry.Quantity(size, "Pa * m**0.5").to(f"{prefix}Pa * m**0.5")
+        assert one.magnitude == pytest.approx(1.0)
+        for root in (" m^0.5", " sqrt(m)", "√m"):
+            assert texts.read_text(f"3 {prefix}Pa{root}", texts.TOUGHNESS) == 3.0 * size
+    for other in ("3 MPa", "3 MPa m", "3 MPa m^2", "3 psi m^0.5", "3 N m^-1.5"):
+        with pytest.raises(texts.Unreadable, match="no unit of fracture toughness"):
+            texts.read_text(other, texts.TOUGHNESS)

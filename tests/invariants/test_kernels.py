@@ -39,6 +39,9 @@ print(json.dumps({
     "rebounds": [carom.rebound(*case) for case in cases],
     "histories": [carom.solve(*case).history(9).force.tolist() for case in cases[:4]],
     "memory": [carom.solve(*case).memory(2.0).q([0.01, 0.2, 0.5]).tolist() for case in cases[:4]],
+    "worn": [carom.solve(*case).friction_work([0.0, 0.3, 0.82, 0.97]).ravel().tolist()
+             for case in [*cases[:4], (9.0, 1.44)]],
+    "pressed": [carom.solve(*cases[0]).pressed([0.0, 0.3, 0.82]).tolist()],
     "fields": [v for t in (0.3, 0.6, 0.8)
                for v in values(hit.fields(t * hit.duration, points=reach).drop_vars("zone"), unit)],
     "stress": [subsurface.stresses(below, hit.contact(t * hit.duration).profile, friction=0.2,

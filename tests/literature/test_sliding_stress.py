@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from carom.dimensionless.fields.extremes import SURFACE, largest, principal_stresses, von_mises
+from carom.dimensionless.fields.extremes import largest
+from carom.dimensionless.fields.peaks import SHEAR, TENSION, VON_MISES
 from carom.dimensionless.fields.profile import flat, stacked
 from carom.dimensionless.fields.subsurface import stresses
 
@@ -16,24 +17,16 @@ def below(friction, poisson=0.3):
 
 
 def worst(friction, poisson=0.3):
-    return largest(lambda at: von_mises(below(friction, poisson)(at)), SLIDING)
+    return largest(VON_MISES, SLIDING, friction=friction, poisson=poisson)
 
 
 def tension(friction, poisson):
-    def stretched(at):
-        return principal_stresses(below(friction, poisson)(at))[:, 0]
-
-    return largest(stretched, SLIDING, SURFACE)
+    return largest(TENSION, SLIDING, friction=friction, poisson=poisson, deepest=0.0)
 
 
 def test_largest_shear_below_a_sphere_at_rest():
     """Johnson (1985), section 3.4: nu = 0.3, largest shear 0.31 p_0 at a depth of 0.48 b."""
-
-    def shear(at):
-        principal = principal_stresses(below(0.0)(at))
-        return 0.5 * (principal[:, 0] - principal[:, 2])
-
-    found = largest(shear, SLIDING)
+    found = largest(SHEAR, SLIDING, friction=0.0, poisson=0.3)
     assert found.value == pytest.approx(0.31, abs=5e-4)
     assert found.z == pytest.approx(0.48, abs=5e-3)
     assert (found.x, found.y) == pytest.approx((0.0, 0.0), abs=1e-5)

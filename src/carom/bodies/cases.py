@@ -4,12 +4,13 @@ import re
 import tomllib
 from collections import Counter
 from collections.abc import Callable, Container, Iterable, Mapping
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from carom.bodies.kinematics import slope
-from carom.bodies.materials import VALUES, Material, as_material
+from carom.bodies.materials import VALUES, Material, as_material, material
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.io.files import read_text
@@ -42,7 +43,7 @@ SIZES: dict[str, Callable[[str, Any], float]] = {
 }
 BODY = (*SIZES, "material")
 MATERIAL = (*VALUES, "name")
-OUTPUT = ("plot", "animation", "data")
+OUTPUT = ("plot", "animation", "data", "spectrum")
 TABLES = {"first": BODY, "second": ("kind", *BODY), "output": OUTPUT}
 KINDS = ("half-space", "sphere", "cup")
 SHAPES = (HalfSpace, Sphere, Cup)
@@ -247,15 +248,25 @@ def read_material(value: Any) -> Material:
     table = _as_table(value)
     if not isinstance(table, Mapping):
         return as_material(table)
+    if _adds_to_catalogue(table):
+        return material(**table)
     for key in ("young", "poisson"):
         if key not in table:
             raise InputError(f"{key}: missing in the material; give young, poisson and density")
     return Material(**table)
 
 
+def _adds_to_catalogue(table: Mapping[str, Any]) -> bool:
+    """Tell whether a table names a material of the catalogue instead of elastic constants."""
+    return isinstance(table.get("name"), str) and not {"young", "poisson"} & set(table)
+
+
 def material_values(value: Any) -> dict[str, float]:
     """Return what is known of a material, in SI units; a table may leave values out."""
     table = _as_table(value)
+    if isinstance(table, Mapping) and _adds_to_catalogue(table):
+        with suppress(InputError):  # the name may be one's own, for what the case leaves out
+            table = material(**table)
     if isinstance(table, Mapping):
         known = Material(**{"young": 1.0, "poisson": 0.0, **table})
         return {name: getattr(known, name) for name in VALUES if table.get(name) is not None}

@@ -8,10 +8,11 @@ from importlib.resources import files
 from typing import Any, TypeVar
 
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import nearest, refusal
+from carom.quantities.refusals import InputError, hint, nearest, refusal
 from carom.quantities.units import Value, number, positive
 
-VALUES = ("young", "poisson", "density", "yield_strength")
+STRENGTHS = ("yield_strength", "tensile_strength", "fracture_toughness", "flaw_size")
+VALUES = ("young", "poisson", "density", *STRENGTHS)
 T = TypeVar("T")
 
 
@@ -43,7 +44,13 @@ class Material:
     density : float or str, optional
         Needed only for a body that moves.
     yield_strength : float or str, optional
-        Used only to judge whether the impact stays elastic.
+        Von Mises stress at which it yields.
+    tensile_strength : float or str, optional
+        Tensile stress at which it breaks.
+    fracture_toughness : float or str, optional
+        Stress intensity at which cracks run, in Pa m^0.5, e.g. "0.75 MPa m^0.5".
+    flaw_size : float or str, optional
+        Depth of the flaws of its surface, from which they do.
     name : str, optional
         How results call it.
 
@@ -64,6 +71,9 @@ class Material:
     poisson: float
     density: float | None
     yield_strength: float | None
+    tensile_strength: float | None
+    fracture_toughness: float | None
+    flaw_size: float | None
     name: str | None
 
     @known_keywords
@@ -74,6 +84,9 @@ class Material:
         poisson: Value,
         density: Value | None = None,
         yield_strength: Value | None = None,
+        tensile_strength: Value | None = None,
+        fracture_toughness: Value | None = None,
+        flaw_size: Value | None = None,
         name: str | None = None,
     ) -> None:
         ratio = number("poisson", poisson)
@@ -83,10 +96,11 @@ class Material:
             self,
             young=_stiffness(young),
             poisson=ratio,
-            density=None if density is None else positive("density", density),
-            yield_strength=None
-            if yield_strength is None
-            else positive("yield_strength", yield_strength),
+            density=_positive_or_none("density", density),
+            yield_strength=_positive_or_none("yield_strength", yield_strength),
+            tensile_strength=_positive_or_none("tensile_strength", tensile_strength),
+            fracture_toughness=_positive_or_none("fracture_toughness", fracture_toughness),
+            flaw_size=_positive_or_none("flaw_size", flaw_size),
             name=_text_or_none(name),
         )
 
@@ -105,6 +119,10 @@ def _stiffness(young: Any) -> float:
     """Return a positive modulus, infinite for what does not deform, or raise InputError."""
     rigid = isinstance(young, float) and young == math.inf
     return math.inf if rigid else positive("young", young)
+
+
+def _positive_or_none(name: str, value: Value | None) -> float | None:
+    return None if value is None else positive(name, value)
 
 
 def _text_or_none(name: Any) -> str | None:
@@ -139,43 +157,52 @@ def materials() -> dict[str, Material]:
     return {name: material(name) for name in _catalogue()}
 
 
-def material(name: str) -> Material:
+def material(name: str, **values: Value) -> Material:
     """Return a material of the catalogue by its name or an alias; "rigid" does not deform.
 
     Parameters
     ----------
     name : str
         As `materials` has it, or an alias of it such as "glass".
+    **values : float or str
+        What is known better, or besides, by the names of `Material`.
 
     Returns
     -------
     Material
-        E in Pa, nu, density in kg/m^3, yield strength in Pa; what is not known is None.
+        E in Pa, nu, density in kg/m^3, strengths in Pa, fracture toughness in Pa m^0.5; what is not
+        known is None.
 
     Raises
     ------
     InputError
-        If there is none of that name; the message offers the nearest.
+        If there is none of that name, the message offers the nearest; or a value is not known, out
+        of range or of another unit.
 
     Examples
     --------
     >>> import carom
     >>> carom.material("steel").young
     210000000000.0
+    >>> carom.material("glass", flaw_size="20 um").flaw_size
+    2e-05
     """
     if not isinstance(name, str):
         raise refusal("material", name, "give the name of one, or carom.Material(young=, poisson=)")
+    for key in values:
+        if key not in VALUES:
+            raise InputError(f"{key}: unknown in a material; {hint(key, VALUES)}")
     wanted = name.strip().lower()
     if wanted == "rigid":
-        return Material(young=math.inf, poisson=0.0, name="rigid")
+        return Material(**{"young": math.inf, "poisson": 0.0, **values}, name="rigid")
     for key, entry in _catalogue().items():
         if wanted in (key, *entry.get("aliases", ())):
-            values: dict[str, Any] = {k: entry.get(k) for k in VALUES}
-            return Material(**values, name=key)
+            stored: dict[str, Any] = {k: entry.get(k) for k in VALUES}
+            return Material(**stored | values, name=key)
     entries = _catalogue().items()
     known = [alias for key, entry in entries for alias in (key, *entry.get("aliases", ()))]
-    hint = nearest(wanted, [*known, "rigid"]) or "carom materials lists what there is"
-    raise refusal("material", name, f"no material of that name; {hint}")
+    near = nearest(wanted, [*known, "rigid"]) or "carom materials lists what there is"
+    raise refusal("material", name, f"no material of that name; {near}")
 
 
 def material_sources(name: str) -> dict[str, str]:

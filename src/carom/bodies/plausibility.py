@@ -32,6 +32,9 @@ LIKELY = {
     "young": Likely(1e3, 5e12, "GPa"),
     "density": Likely(10.0, 3e4, "g/cm^3"),
     "yield_strength": Likely(1e3, 1e12, "MPa"),
+    "tensile_strength": Likely(1e3, 1e12, "MPa"),
+    "fracture_toughness": Likely(1e3, 1e10, "MPa m^0.5"),
+    "flaw_size": Likely(0.0, 0.01, "um"),
     "friction": Likely(0.0, 5.0, "%"),
 }
 

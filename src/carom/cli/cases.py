@@ -67,6 +67,7 @@ class Output(NamedTuple):
     plot: str | None
     animation: str | None
     data: str | None
+    spectrum: str | None
 
 
 def merged(case: "Case", flags: Mapping[str, Any]) -> "Case":

@@ -16,15 +16,18 @@ from carom.cli.cases import (
     file_argument,
     merged,
     outputs,
+    refuse_same,
     stored,
     tell_sweep,
     whole_option,
 )
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import whole
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from carom.impacts.boundary_elements import BoundaryElements
     from carom.impacts.result import ImpactResult
 
@@ -107,6 +110,12 @@ def impact_command(
         Text, typer.Option(help="Store an animation of the patch: .gif, or .mp4 with ffmpeg.")
     ] = None,
     output: Annotated[Text, typer.Option(help="Store the history: .nc or .csv.")] = None,
+    spectrum: Annotated[
+        Text, typer.Option(help="Store the spectra of the forces: .nc or .csv.")
+    ] = None,
+    peaks: Annotated[
+        bool, typer.Option("--peaks", help="Tell the largest stresses in both bodies, too.")
+    ] = False,
 ) -> None:
     """Solve one oblique impact: the rebound, and every phase of stick and slip.
 
@@ -115,6 +124,10 @@ def impact_command(
     A ball that loses energy: the same with --restitution 0.9, or --yield-velocity "0.1 m/s"
 
     Slip in any direction, unlike materials coupled: the same with --method halfspace
+
+    Sources for sensors: the same with --spectrum forces.csv
+
+    What it does to the bodies: the same with --peaks
 
     A case file with figures: carom impact examples/steel_ball.toml --plot hit.png --animate hit.gif
     """
@@ -129,6 +142,7 @@ def impact_command(
         "second.radius": second_radius,
         "second.material": second_material,
         **{"output.plot": plot, "output.animation": animate, "output.data": output},
+        "output.spectrum": spectrum,
         **{"friction": friction, "speed": speed, "angle": angle, "spin": spin, "spin2": spin2},
         **{"normal_speed": normal_speed, "tangential_speed": tangential_speed},
         **{"restitution": restitution, "loss_time": loss_time, "yield_velocity": yield_velocity},
@@ -142,10 +156,30 @@ def impact_command(
     solver = _method(method, elements, steps)
     motion = motion_of(content) | ({} if normal_spin is None else {"normal_spin": normal_spin})
     hit = carom.impact(pair_of(content), **motion, losses=losses, method=solver)
+    found = _peaks(hit) if peaks else None
     paths = list(_store(hit, files))
-    typer.echo(json.dumps(hit.to_dict(), indent=2) if as_json else str(hit))
+    typer.echo(_record(hit, found) if as_json else _text(hit, found))
     for path in paths:
         stored(path)
+
+
+def _peaks(hit: "ImpactResult") -> "xr.Dataset":
+    if not isinstance(hit, carom.Impact):
+        raise InputError("peaks: boundary elements tell no stress below; leave --method out")
+    return hit.peaks()
+
+
+def _record(hit: "ImpactResult", peaks: "xr.Dataset | None") -> str:
+    from carom.impacts.peaks import peaks_record
+
+    more = {} if peaks is None else {"peaks": peaks_record(peaks)}
+    return json.dumps(hit.to_dict() | more, indent=2)
+
+
+def _text(hit: "ImpactResult", peaks: "xr.Dataset | None") -> str:
+    from carom.impacts.peaks import peaks_text
+
+    return str(hit) if peaks is None else f"{hit}\n{peaks_text(peaks)}"
 
 
 def _method(name: str, elements: str | None, steps: str | None) -> "str | BoundaryElements":
@@ -167,7 +201,8 @@ def _method(name: str, elements: str | None, steps: str | None) -> "str | Bounda
 def _check_outputs(files: Output, case: Mapping[str, Any]) -> None:
     from carom.io.files import FIGURES, TABLES
 
-    check_outputs((files.plot, FIGURES), (files.data, TABLES))
+    check_outputs((files.plot, FIGURES), (files.data, TABLES), (files.spectrum, TABLES))
+    refuse_same({"plot": files.plot, "output": files.data, "spectrum": files.spectrum})
     if files.animation is not None:
         for key in ("yield_velocity", "relaxation_time"):
             if key in case:
@@ -179,6 +214,8 @@ def _check_outputs(files: Output, case: Mapping[str, Any]) -> None:
 def _store(hit: "ImpactResult", files: Output) -> Iterator[Path]:
     if files.data is not None:
         yield carom.save(hit, files.data)
+    if files.spectrum is not None:
+        yield carom.save(hit.spectrum(), files.spectrum)
     if files.plot is not None:
         hit.plot(files.plot)
         yield Path(files.plot)

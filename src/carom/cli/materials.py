@@ -81,9 +81,10 @@ def _record(name: str) -> dict[str, Any]:
 
 def _list(records: dict[str, dict[str, Any]]) -> str:
     head = f"{'name':22s} {'E (GPa)':>9s} {'nu':>6s} {'rho (kg/m^3)':>13s} {'Y (MPa)':>9s}"
+    head += f" {'K_c (MPa m^0.5)':>16s}"
     lines = [
         f"{name:22s} {r['young'] / 1e9:9.4g} {r['poisson']:6.3g} {r['density']:13.5g} "
-        + (f"{r['yield_strength'] / 1e6:9.4g}" if r["yield_strength"] else f"{'-':>9s}")
+        f"{_in_mega(r['yield_strength']):>9s} {_in_mega(r['fracture_toughness']):>16s}"
         for name, r in records.items()
     ]
     return "\n".join(
@@ -93,6 +94,10 @@ def _list(records: dict[str, dict[str, Any]]) -> str:
             "and: rigid. Sources: carom materials NAME; of pairs: carom materials --pairs",
         ]
     )
+
+
+def _in_mega(value: float | None) -> str:
+    return "-" if value is None else f"{value / 1e6:.4g}"
 
 
 def _details(records: dict[str, dict[str, Any]]) -> str:

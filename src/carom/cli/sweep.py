@@ -40,6 +40,10 @@ def sweep_command(
     resume: Annotated[
         bool, typer.Option("--resume", help="Continue what the store has of this sweep.")
     ] = False,
+    quantities: Annotated[
+        str | None,
+        typer.Option(help="What to compute, e.g. 'rebound_angle, yield_speed_second'."),
+    ] = None,
     output: Annotated[str | None, typer.Option(help="Store at the end: .nc or .csv.")] = None,
     scheduler: Annotated[
         str | None, typer.Option(help="Use a dask cluster, e.g. tcp://host:8786.")
@@ -56,6 +60,8 @@ def sweep_command(
     Example: carom sweep examples/sweep.toml --output sweep.nc
 
     One that may be killed: carom sweep examples/sweep.toml --store sweep.zarr --resume
+
+    From which speed on the bodies yield: the same with --quantities yield_speed_second
     """
     from carom.io.files import TABLES
     from carom.sweeps.plans import plan
@@ -65,6 +71,8 @@ def sweep_command(
     file = _file(content) if output is None else output
     check_outputs((file, TABLES))
     design, chosen = plan(content, case, named_values("column", column, "omega=spin"))
+    if quantities is not None:
+        chosen = [name.strip() for name in quantities.split(",")]
     tell(design.doubts())
     with _stopping():
         threads = None if workers is None else whole("workers", workers, 1)
@@ -81,11 +89,11 @@ def sweep_command(
 
 
 def _file(content: "Case") -> str | None:
-    """Return the file that the case asks for; figures are of one impact."""
+    """Return the file that the case asks for; figures and spectra are of one impact."""
     files = outputs(content)
-    for name in ("plot", "animation"):
+    for name, verb in (("plot", "draws"), ("animation", "draws"), ("spectrum", "computes")):
         if (path := getattr(files, name)) is not None:
-            raise refusal(name, path, "a sweep draws none; leave it out")
+            raise refusal(name, path, f"a sweep {verb} none; leave it out")
     return files.data
 
 

@@ -1,19 +1,13 @@
 """Stress below the surface of either body of a contact."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.contacts.contact import Contact
-from carom.dimensionless.fields.extremes import (
-    DEPTHS,
-    SURFACE,
-    Largest,
-    largest,
-    principal_stresses,
-    von_mises,
-)
+from carom.dimensionless.fields.extremes import Largest, largest, principal_stresses, von_mises
+from carom.dimensionless.fields.peaks import TENSION, VON_MISES
 from carom.dimensionless.fields.subsurface import COMPONENTS, stresses
 from carom.io.labels import labelled_dataset
 from carom.quantities.arrays import Array, places
@@ -50,20 +44,16 @@ def stress_dataset(
     dims, coords, at = places("xyz", {"x": x, "z": z}, default, points)
     _refuse_outside("z" if points is None else "points", at[..., 2], top)
 
-    def stress_at(where: Array) -> Array:
-        return stresses(where, contact.profile, friction=friction, poisson=poisson, rim=contact.rim)
-
+    given: Any = {"friction": friction, "poisson": poisson, "rim": contact.rim}
     with np.errstate(over="ignore"):
         where = np.clip(at.reshape(-1, 3) / contact.scales.radius, -FAR, FAR)
-    stress = contact.scales.pressure * stress_at(where)
+    stress = contact.scales.pressure * stresses(where, contact.profile, **given)
     columns = {name: (dims, v.reshape(at.shape[:-1])) for name, v in _columns(stress).items()}
-    depths = SHALLOW + DEPTHS if contact.rim else DEPTHS
-    mises = largest(lambda where: von_mises(stress_at(where)), contact.profile, depths)
+    shallow = SHALLOW if contact.rim else 0.0
+    mises = largest(VON_MISES, contact.profile, **given, shallow=shallow)
     numbers = _entries(contact, "max_von_mises", mises)
     if not contact.rim:
-        tension = largest(
-            lambda where: principal_stresses(stress_at(where))[:, 0], contact.profile, SURFACE
-        )
+        tension = largest(TENSION, contact.profile, **given, deepest=0.0)
         numbers |= _entries(contact, "max_tension", tension)
     return labelled_dataset(
         {**columns, **numbers, **contact.numbers(), "poisson": poisson},

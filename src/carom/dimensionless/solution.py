@@ -7,7 +7,7 @@ from typing import ClassVar, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.dimensionless.elastic import dense_output as dense, slip
+from carom.dimensionless.elastic import dense_output as dense, friction_work, slip
 from carom.dimensionless.elastic.annuli import memory_at
 from carom.dimensionless.elastic.batch import LINEAR, TOLERANCE
 from carom.dimensionless.elastic.motion import PSI
@@ -185,6 +185,19 @@ class Solution(Trajectory):
 
     def _touched(self, radii: Array) -> Array:
         return np.array([hertz.time(r * r, np.sqrt(max(1.0 - r**5, 0.0))) for r in radii])
+
+    def _friction_work(self, radii: Array) -> Array:
+        out = np.empty((radii.size, 2))
+        friction_work.work(self._record.nodes, self._record.series, self.chi, radii, out)
+        return self.scale**2 * out
+
+    def _pressed(self, radii: Array) -> Array:
+        out = np.empty(radii.size)
+        friction_work.pressed(radii, out)
+        return out
+
+    def _slip_borders(self) -> Array:
+        return friction_work.borders(self._record.nodes, self._record.series)
 
     def slip_rate(self, time: float) -> float:
         """Return psi - sigma v, the rate of slip far outside the stick zone; 0 in stick.

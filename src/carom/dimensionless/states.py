@@ -154,6 +154,78 @@ class Trajectory(ABC):
             raise refusal("radii", far, f"the contact grows to a radius of {most:.6g}")
         return self._touched(places)
 
+    @abstractmethod
+    def _friction_work(self, radii: Array) -> Array:
+        """Return the radial functions of the work of friction per area of the whole impact."""
+
+    @abstractmethod
+    def _pressed(self, radii: Array) -> Array:
+        """Return the integral of the pressure over the time of the impact."""
+
+    @abstractmethod
+    def _slip_borders(self) -> Array:
+        """Return rising radii, from 0 to `max_radius`, between which the work is smooth."""
+
+    def friction_work(self, radii: ArrayLike) -> Array:
+        """Return the work of friction per area at given radii, over the whole impact.
+
+        The integral over time of traction times slip rate along x, W_0 - lambda W_2 cos 2 theta.
+
+        Parameters
+        ----------
+        radii : array_like, shape (n,)
+            In sqrt(R* d_max).
+
+        Returns
+        -------
+        numpy.ndarray, shape (n, 2)
+            W_0 and W_2 in units of mu^2 p_max d_max/kappa, zero where the bodies never touch.
+
+        Raises
+        ------
+        InputError
+            If a radius is negative, the impact is not solved, or the bodies are solids whose
+            contact is not known.
+
+        Examples
+        --------
+        >>> import carom
+        >>> carom.solve(0.5, 1.44).friction_work([0.0, 0.8])[:, 0].round(6)
+        array([0.019084, 0.031222])
+        """
+        self._check_solved()
+        return self._friction_work(places_of(radii))
+
+    def pressed(self, radii: ArrayLike) -> Array:
+        """Return the integral of the pressure over the time of the impact at given radii.
+
+        Without friction, bodies slide at a constant speed, and this times it is what wears them.
+
+        Parameters
+        ----------
+        radii : array_like, shape (n,)
+            In sqrt(R* d_max).
+
+        Returns
+        -------
+        numpy.ndarray, shape (n,)
+            In units of p_max d_max/V_1.
+
+        Raises
+        ------
+        InputError
+            If a radius is negative, the impact is not solved, or the bodies are solids whose
+            contact is not known.
+
+        Examples
+        --------
+        >>> import carom
+        >>> carom.solve(0.5, 1.44).pressed([0.0, 0.8]).round(4)
+        array([2.2196, 0.7413])
+        """
+        self._check_solved()
+        return self._pressed(places_of(radii))
+
     def phase_at(self, time: float) -> Phase:
         """Return the phase at a time; the instant of a change belongs to the later one.
 

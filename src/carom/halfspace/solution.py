@@ -165,8 +165,11 @@ class HalfspaceSolution:
         return float(self.column("slip_angle_max")[within].max()), float(mean)
 
     def history(self, n: int) -> GridHistory:
-        """Return the impact at n evenly spaced times, linear between the steps."""
-        time = np.linspace(0.0, self.duration, n)
+        """Return the impact at n evenly spaced times."""
+        return self.at(np.linspace(0.0, self.duration, n))
+
+    def at(self, time: Field) -> GridHistory:
+        """Return the impact at times, linear between the steps."""
         return GridHistory(
             time, *(np.interp(time, self.column("time"), c) for c in self._columns())
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,12 +11,14 @@ import numpy as np
 from carom.bodies.kinematics import Tangential, normal_inertia
 from carom.bodies.pairs import Pair
 from carom.contacts.fields import OUTSIDE, SLIP, STICK, ZONES
+from carom.dimensionless import solution as theory
 from carom.dimensionless.states import SlipAngle
 from carom.halfspace.compliance import Materials
 from carom.halfspace.ledger import LedgerEntry
 from carom.halfspace.motion import NormalSpin
 from carom.halfspace.refinement import Resolution, refinement_error
 from carom.halfspace.solution import HalfspaceSolution, solve
+from carom.impacts.peaks import judge_strength, struck_bodies
 from carom.impacts.result import ImpactResult
 from carom.impacts.validity import judge_contact, judge_errors
 from carom.io.citations import ELEMENTS, bibtex
@@ -150,7 +153,11 @@ class HalfspaceImpact(ImpactResult):
     @property
     def validity(self) -> Validity:
         """How far the assumptions hold that are left, and whether the grid is fine enough."""
-        assumed = judge_contact(self.pair, self.normal_speed, self.duration)
+        psi = self.psi_in if isfinite(self.psi_in) else 0.0
+        strength = judge_strength(
+            struck_bodies(self.pair, self.scales, theory.solve(psi, self.pair.chi))
+        )
+        assumed = judge_contact(self.pair, self.normal_speed, self.duration, strength)
         return Validity((*assumed, *judge_errors(self.psi_out_error, self.energy_error)))
 
     def scalars(self) -> dict[str, float]:

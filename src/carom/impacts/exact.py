@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from math import isfinite, nan
 from typing import TYPE_CHECKING
 
@@ -16,15 +17,18 @@ from carom.contacts.contact import Contact, contact_in_impact
 from carom.contacts.in_contact import InContact
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import LossNumbers, checked_law
+from carom.dimensionless.lossy.marched_solution import MarchedSolution
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution, solve, solve_with
 from carom.dimensionless.states import SlipAngle
+from carom.impacts.peaks import judge_strength, peaks_dataset, struck_bodies
 from carom.impacts.result import ImpactResult
-from carom.impacts.validity import judge, judge_losses
+from carom.impacts.validity import judge, judge_losses, judge_pressure
+from carom.impacts.wear import wear_of
 from carom.io.citations import IMPACT, bibtex
 from carom.io.labels import Finding, Validity
 from carom.quantities.refusals import refusal
-from carom.quantities.units import Value
+from carom.quantities.units import Value, not_negative
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -59,7 +63,13 @@ class Impact(ImpactResult, InContact):
         if isinstance(self.solution, LossySolution):
             found = (judge_losses(self.solution.losses, self.normal_restitution, self.pair.chi),)
         given = self.pair, self.normal_speed, self.duration, self.psi_in
-        return judge(*given, found, self.normal_spin)
+        return judge(*given, self._strength, found, self.normal_spin)
+
+    @cached_property
+    def _strength(self) -> tuple[Finding, ...]:
+        if isinstance(self.solution, MarchedSolution):
+            return (judge_pressure(self.pair, self.scales.pressure),)
+        return judge_strength(struck_bodies(self.pair, self.scales, self.solution))
 
     @property
     def slip_angles(self) -> tuple[SlipAngle, ...]:
@@ -103,6 +113,113 @@ class Impact(ImpactResult, InContact):
 
     def radial(self, time: Value, n: int = 401) -> xr.Dataset:
         return super().radial(time, n)
+
+    def wear(
+        self,
+        n: int = 201,
+        *,
+        coefficient: Value | None = None,
+        x: ArrayLike | None = None,
+        y: ArrayLike | None = None,
+    ) -> xr.Dataset:
+        """Return the work of friction per area through the impact, and the depth of wear.
+
+        W_A = integral of mu p w dt, with the pressure p and the slip rate w along x, along which
+        the theory lets points slip; depth h = k/mu W_A, and its volume k/mu times the work of
+        friction (Archard 1953, J. Appl. Phys. 24:981). Without friction h = integral of k p w dt.
+
+        Parameters
+        ----------
+        n : int
+            How many distances from the centre, from 2 to 100,000.
+        coefficient : float or str, optional
+            Archard's coefficient k of the body whose wear is asked for, in m^2/N: volume that is
+            removed over load and sliding distance, "1e-13 m^2/N" or "1e-4 mm^3 N^-1 m^-1". The sum
+            of both bodies' coefficients gives the depth and the volume that both lose together.
+        x, y : array_like, shapes (nx,) and (ny,)
+            Positions in m of the map, x along V_x; by default 101 by 101 points over the contact.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along `distance` in m mean_friction_work in J/m^2, the mean around the centre; along (y,
+            x) friction_work; as numbers dissipated_energy, the work of friction, max_friction_work
+            and its distance max_wear_radius, and work_error, by how much the work per area summed
+            over the contact differs: 1e-8 of elastic bodies, 1e-5 or so of viscous ones, of which
+            energies are known to some 1e-8. With a coefficient also mean_wear_depth, wear_depth,
+            max_wear_depth in m and worn_volume in m^3.
+
+        Raises
+        ------
+        InputError
+            If n is out of range, the coefficient is negative, positions are not finite, or the
+            bodies are spheres that yield or standard linear solids, whose contact is not known.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+        >>> worn = hit.wear(coefficient="1e-13 m^2/N")
+        >>> round(float(worn.max_friction_work), 1), worn.friction_work.units
+        (4515.6, 'J/m^2')
+        >>> f"{float(worn.max_wear_depth) * 1e9:.2f} nm"
+        '2.26 nm'
+        """
+        return wear_of(self, n, coefficient, x, y)
+
+    def peaks(self, *, depth: Value | None = None) -> xr.Dataset:
+        """Return the largest stresses of the whole impact in each body: value, place and instant.
+
+        Von Mises stress, shear stress (s_1 - s_3)/2 and tensile stress s_1 of principal stresses
+        s_i, of the stress that `stress` tells, over all places and instants. A scan finds the
+        peaks, which are then refined; the error is below 1e-4 of the value, and as stresses are
+        flat there, about 0.01 of the contact radius in place and of the duration in time. The
+        stress intensity is that of surface cracks up to `flaw_size`, long and straight down across
+        the plane of the impact, K = 2 sqrt(c/pi) integral of (1.3 - 0.3 u^(5/4))
+        sigma(c u)/sqrt(1 - u^2) du (Tada, Paris & Irwin 2000), to 0.5 %.
+
+        Parameters
+        ----------
+        depth : float or str, optional
+            From which depth on, in m. By default from the surface; for viscous bodies, of which the
+            stress at the surface is infinite while they are loaded, from 0.2 of the largest contact
+            radius.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along `body`, those that deform: peak_von_mises, peak_shear, peak_tension in Pa, and
+            where flaws are known stress_intensity in Pa m^0.5, told at the mouth of the flaw, with
+            its depth, critical_flaw; each with _x, _y, _z, its place in m (z the depth), and _time
+            in s; yield_ratio, tension_ratio, toughness_ratio, of the strengths that are known. The
+            attribute `missing` tells what is not, `notes` that a body yields, so that these are
+            upper bounds, or that the materials are unlike, of which the theory leaves radial
+            tractions out.
+
+        Raises
+        ------
+        InputError
+            If the depth is negative, zero for viscous bodies, or the stress is not known, as in
+            spheres that yield.
+
+        Examples
+        --------
+        >>> import carom
+        >>> ball = carom.Sphere(radius="5 mm", material="steel")
+        >>> glass = carom.material("glass", flaw_size="20 um")
+        >>> pair = carom.Pair(ball, carom.HalfSpace(material=glass), friction=0.2)
+        >>> peaks = carom.impact(pair, speed=2.0, angle="30 deg").peaks().sel(body="second")
+        >>> round(float(peaks.peak_tension) / 1e6), round(float(peaks.toughness_ratio), 2)  # MPa
+        (1234, 6.92)
+        """
+        from_depth = None if depth is None else not_negative("depth", depth, "m")
+        if from_depth == 0.0 and isinstance(self.solution, LossySolution):
+            allowed = "viscous bodies have infinite stresses at the surface; give a positive depth"
+            raise refusal("depth", depth, allowed)
+        bodies = struck_bodies(self.pair, self.scales, self.solution, from_depth)
+        return peaks_dataset(self.pair, bodies, {"inputs": self.inputs()})
 
     def cite(self) -> str:
         """Return what to cite for this result, as BibTeX.

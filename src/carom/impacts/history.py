@@ -42,12 +42,13 @@ class Solved(Protocol):
 
 
 class InTime(Solved, Protocol):
-    """What a history needs besides: phases, and the dimensionless state at n times."""
+    """What a history needs besides: phases, and the dimensionless state at times, or at n."""
 
     @property
     def psi_in(self) -> float: ...
     @property
     def phases(self) -> tuple[Any, ...]: ...
+    def at(self, time: Any) -> Any: ...
     def history(self, n: int) -> Any: ...
 
 

@@ -29,10 +29,14 @@ def judge(
     normal_speed: float,
     duration: float,
     psi: float,
+    strength: tuple[Finding, ...],
     losses: tuple[Finding, ...] = (),
     normal_spin: float = 0.0,
 ) -> Validity:
-    """Return the findings on an impact: small contact, no yield, slow contact, no coupling."""
+    """Return the findings on an impact: small contact, no yield, slow contact, no coupling.
+
+    `strength` are those on what the bodies bear.
+    """
     coupling = _judged(
         "Dundurs beta",
         pair.dundurs_beta,
@@ -43,7 +47,7 @@ def judge(
     spin = pair, normal_speed, psi, normal_spin
     spinning = (_judge_spin(*spin, bool(losses)),) if normal_spin else ()
     close = _judge_rebound(pair, psi, bool(losses), "but for spin, " if normal_spin else "")
-    contact = judge_contact(pair, normal_speed, duration)
+    contact = judge_contact(pair, normal_speed, duration, strength)
     return Validity((*contact, *losses, coupling, *spinning, close))
 
 
@@ -114,8 +118,10 @@ def _others(loss: int, restitution: float, chi: float) -> str:
     return f"others of this e differ in psi_2 by up to {most:.2g}"
 
 
-def judge_contact(pair: Pair, normal_speed: float, duration: float) -> tuple[Finding, ...]:
-    """Return the findings on what does not depend on friction: small contact, no yield, slow.
+def judge_contact(
+    pair: Pair, normal_speed: float, duration: float, strength: tuple[Finding, ...]
+) -> tuple[Finding, ...]:
+    """Return the findings on a contact by whatever method: small, strong bodies, slow.
 
     Before them those on values that are hardly meant.
     """
@@ -134,7 +140,7 @@ def judge_contact(pair: Pair, normal_speed: float, duration: float) -> tuple[Fin
         else f"elastic waves matter: the contact should last {SLOW_CONTACT:g} transits at least"
     )
     waves = Finding("contact time/wave transit", transits, SLOW_CONTACT, slow, verdict)
-    return *doubts(pair), small, _yield(pair, scales.pressure), waves
+    return *doubts(pair), small, *strength, waves
 
 
 def _judged(name: str, value: float, limit: float, good: str, bad: str) -> Finding:
@@ -143,7 +149,11 @@ def _judged(name: str, value: float, limit: float, good: str, bad: str) -> Findi
     return Finding(name, value, limit, holds, good if holds else bad)
 
 
-def _yield(pair: Pair, pressure: float) -> Finding:
+def judge_pressure(pair: Pair, pressure: float) -> Finding:
+    """Return the finding on yield where stresses are not known: by the pressure, without friction.
+
+    First yield of a sphere under a pressure of Hertz's (Johnson 1985, section 6.1).
+    """
     strengths = [
         m.yield_strength for m in (pair.first.material, pair.second.material) if m.yield_strength
     ]

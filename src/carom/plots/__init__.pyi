@@ -7,5 +7,8 @@ from .patch import plot_patch as plot_patch
 from .profiles import plot_profiles as plot_profiles
 from .regimes import plot_curve as plot_curve, plot_regime_map as plot_regime_map
 from .scores import plot_score as plot_score
+from .spectrum import plot_spectrum as plot_spectrum
+from .strength import plot_strength as plot_strength
 from .stress import plot_stress as plot_stress
 from .style import save_figure as save_figure
+from .wear import plot_wear as plot_wear

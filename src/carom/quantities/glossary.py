@@ -43,6 +43,9 @@ GLOSSARY = {
     "poisson": Quantity(r"$\nu$", "1", "Poisson's ratio"),
     "density": Quantity(r"$\rho$", "kg/m^3", "density"),
     "yield_strength": Quantity("$Y$", "Pa", "yield strength"),
+    "tensile_strength": Quantity(r"$\sigma_t$", "Pa", "tensile strength"),
+    "fracture_toughness": Quantity("$K_c$", "Pa m^0.5", "fracture toughness"),
+    "flaw_size": Quantity("$c$", "m", "depth of the flaws of the surface"),
     "friction": Quantity(r"$\mu$", "1", "coefficient of friction"),
     "speed": Quantity("$V$", "m/s", "speed of approach of the centres"),
     "angle": Quantity(r"$\theta$", "rad", "angle of incidence from the normal"),
@@ -173,6 +176,35 @@ GLOSSARY = {
     "slip_y": Quantity("$w_y$", "m", "slip along $y$, since the points met"),
     "slip_velocity_x": Quantity(r"$\dot w_x$", "m/s", "slip velocity along $x$"),
     "slip_velocity_y": Quantity(r"$\dot w_y$", "m/s", "slip velocity along $y$"),
+    "friction_work": Quantity("$W_A$", "J/m^2", "work of friction per area"),
+    "mean_friction_work": Quantity(
+        r"$\bar W_A$", "J/m^2", "work of friction per area, mean around the centre"
+    ),
+    "max_friction_work": Quantity(
+        r"$\max\bar W_A$", "J/m^2", "largest work of friction per area, mean around the centre"
+    ),
+    "max_wear_radius": Quantity("$r_w$", "m", "distance from the centre at which wear is largest"),
+    "work_error": Quantity(
+        r"$\delta W$", "1", "work per area, summed over the contact, against the work, as a share"
+    ),
+    "wear_coefficient": Quantity(
+        "$k$", "m^2/N", "coefficient of wear, volume over load and sliding distance"
+    ),
+    "wear_depth": Quantity("$h_w$", "m", "depth of wear"),
+    "mean_wear_depth": Quantity(r"$\bar h_w$", "m", "depth of wear, mean around the centre"),
+    "max_wear_depth": Quantity(
+        r"$\max\bar h_w$", "m", "largest depth of wear, mean around the centre"
+    ),
+    "worn_volume": Quantity("$V_w$", "m^3", "volume that wear removes"),
+    "counts": Quantity("$N$", "1", "how often the impact happens"),
+    "area": Quantity("$A$", "m^2", "area over which impacts are spread"),
+    "total_friction_work": Quantity(r"$\sum W$", "J", "work of friction of all impacts"),
+    "total_worn_volume": Quantity(r"$\sum V_w$", "m^3", "volume that all impacts remove"),
+    "spread_friction_work": Quantity(
+        r"$\sum W/A$", "J/m^2", "work of friction per area, spread evenly"
+    ),
+    "spread_wear_depth": Quantity(r"$\sum V_w/A$", "m", "depth of wear, spread evenly"),
+    "unsolved_impacts": Quantity("$N_0$", "1", "impacts that are left out as they are not solved"),
     "sigma_xx": Quantity(r"$\sigma_{xx}$", "Pa", "stress along x, tension positive"),
     "sigma_yy": Quantity(r"$\sigma_{yy}$", "Pa", "stress along y, tension positive"),
     "sigma_zz": Quantity(r"$\sigma_{zz}$", "Pa", "stress along the depth, tension positive"),
@@ -192,6 +224,23 @@ GLOSSARY = {
     "max_tension_x": Quantity("$x_t$", "m", "where the surface tension is largest, along x"),
     "max_tension_y": Quantity("$y_t$", "m", "where the surface tension is largest, along y"),
     "max_tension_z": Quantity("$z_t$", "m", "depth of the largest surface tension: zero"),
+    # of the bodies through a whole impact
+    "peak_von_mises": Quantity(r"$\hat\sigma_M$", "Pa", "largest von Mises stress of the impact"),
+    "peak_shear": Quantity(r"$\hat\tau$", "Pa", "largest shear stress of the impact"),
+    "peak_tension": Quantity(r"$\hat\sigma_1$", "Pa", "largest tensile stress of the impact"),
+    "searched_depth": Quantity("$z_0$", "m", "depth from which on peaks are searched for"),
+    "stress_intensity": Quantity("$K$", "Pa m^0.5", "largest stress intensity at a flaw"),
+    "critical_flaw": Quantity("$c_K$", "m", "depth of the flaw at which it is"),
+    "yield_ratio": Quantity(r"$\hat\sigma_M/Y$", "1", "largest von Mises stress to yield strength"),
+    "tension_ratio": Quantity(
+        r"$\hat\sigma_1/\sigma_t$", "1", "largest tensile stress to tensile strength"
+    ),
+    "toughness_ratio": Quantity("$K/K_c$", "1", "largest stress intensity to fracture toughness"),
+    "yield_speed": Quantity("$V_Y$", "m/s", "speed from which on the body yields"),
+    "tensile_speed": Quantity(
+        "$V_t$", "m/s", "speed from which on the tensile strength is exceeded"
+    ),
+    "crack_speed": Quantity("$V_c$", "m/s", "speed from which on flaws of the surface crack"),
     # a result
     "duration": Quantity("$t_c$", "s", "duration of the contact"),
     "max_penetration": Quantity("$d_{max}$", "m", "largest penetration"),
@@ -215,4 +264,83 @@ GLOSSARY = {
     "energy_error": Quantity(
         r"$\delta E$", "1", "largest change of the sum of all energies, as a share"
     ),
+    # spectra of forces
+    "frequency": Quantity("$f$", "Hz", "frequency"),
+    "max_frequency": Quantity("$f_{max}$", "Hz", "highest frequency"),
+    "normal_spectrum": Quantity(r"$|\hat F_z|$", "N s", "amplitude spectrum of the normal force"),
+    "normal_spectrum_real": Quantity(
+        r"$\mathrm{Re}\,\hat F_z$", "N s", "real part of the spectrum of the normal force"
+    ),
+    "normal_spectrum_imag": Quantity(
+        r"$\mathrm{Im}\,\hat F_z$", "N s", "imaginary part of the spectrum of the normal force"
+    ),
+    "tangential_spectrum": Quantity(
+        r"$|\hat F_x|$", "N s", "amplitude spectrum of the tangential force"
+    ),
+    "tangential_spectrum_real": Quantity(
+        r"$\mathrm{Re}\,\hat F_x$", "N s", "real part of the spectrum of the tangential force"
+    ),
+    "tangential_spectrum_imag": Quantity(
+        r"$\mathrm{Im}\,\hat F_x$", "N s", "imaginary part of the spectrum of the tangential force"
+    ),
+    "moment_spectrum": Quantity(
+        r"$R|\hat F_x|$", "N m s", "amplitude spectrum of the moment about the first centre"
+    ),
+    "moment_spectrum_real": Quantity(
+        r"$R\,\mathrm{Re}\,\hat F_x$",
+        "N m s",
+        "real part of the spectrum of the moment about the first centre",
+    ),
+    "moment_spectrum_imag": Quantity(
+        r"$R\,\mathrm{Im}\,\hat F_x$",
+        "N m s",
+        "imaginary part of the spectrum of the moment about the first centre",
+    ),
+    "normal_impulse": Quantity("$J_n$", "N s", "impulse of the normal force"),
+    "normal_corner_frequency": Quantity(
+        r"$f_{-3\,dB}$", "Hz", "frequency at which the normal spectrum has fallen by 3 dB"
+    ),
+    "normal_half_frequency": Quantity(
+        r"$f_{-6\,dB}$", "Hz", "frequency at which the normal spectrum has fallen by 6 dB"
+    ),
+    "normal_notch_frequency": Quantity(
+        "$f_0$", "Hz", "frequency of the first minimum of the normal spectrum"
+    ),
+    "tangential_peak_frequency": Quantity(
+        "$f_{p,x}$", "Hz", "frequency at which the tangential spectrum is largest"
+    ),
+    "tangential_corner_frequency": Quantity(
+        r"$f_{-3\,dB,x}$", "Hz", "frequency at which it has fallen by 3 dB beyond the largest"
+    ),
+    "tangential_half_frequency": Quantity(
+        r"$f_{-6\,dB,x}$", "Hz", "frequency at which it has fallen by 6 dB beyond the largest"
+    ),
 }
+NEEDED_STRENGTHS: dict[str, tuple[str, ...]] = {  # of a body, for what a sweep tells of it
+    "peak_von_mises": (),
+    "peak_shear": (),
+    "peak_tension": (),
+    "stress_intensity": ("flaw_size",),
+    "yield_speed": ("yield_strength",),
+    "tensile_speed": ("tensile_strength",),
+    "crack_speed": ("fracture_toughness", "flaw_size"),
+}
+for _name in NEEDED_STRENGTHS:
+    for _body in ("first", "second"):
+        _known = GLOSSARY[_name]
+        GLOSSARY[f"{_name}_{_body}"] = _known._replace(meaning=f"{_known.meaning}, {_body} body")
+PEAKS = {  # of an impact: what they are of, the index of their symbol
+    "peak_von_mises": ("von Mises stress is largest", "M"),
+    "peak_shear": ("shear stress is largest", r"\tau"),
+    "peak_tension": ("tensile stress is largest", "1"),
+    "stress_intensity": ("stress intensity is largest", "K"),
+}
+for _name, (_largest, _index) in PEAKS.items():
+    for _axis, _unit, _where in (
+        ("x", "m", "where the {0}, along x"),
+        ("y", "m", "where the {0}, along y"),
+        ("z", "m", "depth where the {0}"),
+        ("time", "s", "time at which the {0}"),
+    ):
+        _symbol = f"${_axis[0]}_{{{_index}}}$"
+        GLOSSARY[f"{_name}_{_axis}"] = Quantity(_symbol, _unit, _where.format(_largest))

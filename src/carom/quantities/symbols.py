@@ -48,6 +48,11 @@ SYMBOLS: dict[str, tuple[str, ...]] = {  # the first that is known where one is 
     "psi1": ("psi_in",),
     "psi2": ("psi_out",),
     "sigma_y": ("yield_strength",),
+    "sigma_t": ("tensile_strength",),
+    "K_c": ("fracture_toughness",),
+    "K_Ic": ("fracture_toughness",),
+    "toughness": ("fracture_toughness",),
+    "flaw": ("flaw_size",),
 }
 REMARKS = {
     "diameter": "radius, half of it",

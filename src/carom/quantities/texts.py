@@ -55,9 +55,14 @@ COMMON = {  # of most texts: for these pint, which takes a quarter of a second, 
     "s": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6},
     "N": {"N": 1.0, "mN": 1e-3, "kN": 1e3},
     "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9},
+    "Hz": {"Hz": 1.0, "kHz": 1e3, "MHz": 1e6},
     "kg/m^3": {"kg/m^3": 1.0, "g/cm^3": 1e3},
     "1": {"%": 1e-2},
 }
+TOUGHNESS = "Pa m^0.5"  # the only unit with half a power: read as it is usually written, no other
+SIZES = {"": 1.0, "k": 1e3, "M": 1e6}
+ROOTS = (" m^0.5", " m^(1/2)", " m^1/2", " sqrt(m)", "√m", " √m", "*sqrt(m)", "*m^0.5", "·m^0.5")
+COMMON[TOUGHNESS] = {f"{k}Pa{root}": size for k, size in SIZES.items() for root in ROOTS}
 
 
 class Unreadable(ValueError):
@@ -153,6 +158,8 @@ def _factor(expression: str, unit: str) -> Factor | Unreadable:
     known = COMMON.get(unit, {}).get(expression)
     if known is not None:
         return as_factor(known)
+    if unit == TOUGHNESS:
+        return Unreadable(f"{expression!r} is no unit of fracture toughness")
     try:
         given, wanted = _root(_terms(expression)), _root(_terms("" if unit == "1" else unit))
         if given[1] == wanted[1]:

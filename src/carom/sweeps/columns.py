@@ -8,17 +8,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.bodies import cases
+from carom.bodies.materials import STRENGTHS
 from carom.quantities.refusals import InputError
 from carom.quantities.units import not_negative
 from carom.sweeps.designs import Design
-from carom.sweeps.inputs import BODIES, ELASTIC, STRENGTH, leaf, refuse_contradictions
+from carom.sweeps.inputs import BODIES, ELASTIC, leaf, refuse_contradictions
 
+OF_STRENGTH = tuple(f"material.{name}" for name in STRENGTHS)
 OF_SECOND = {  # what describes a second body of each kind
-    "half-space": ("material.young", "material.poisson", f"material.{STRENGTH}"),
-    "cup": ("radius", "material.young", "material.poisson", f"material.{STRENGTH}"),
-    "sphere": (*cases.SIZES, *(f"material.{name}" for name in (*ELASTIC, STRENGTH))),
+    "half-space": ("material.young", "material.poisson", *OF_STRENGTH),
+    "cup": ("radius", "material.young", "material.poisson", *OF_STRENGTH),
+    "sphere": (*cases.SIZES, *(f"material.{name}" for name in ELASTIC), *OF_STRENGTH),
 }
-OPTIONAL = ("gyration_radius", "inner_radius", f"material.{STRENGTH}")
+OPTIONAL = ("gyration_radius", "inner_radius", *OF_STRENGTH)
+YIELD = "yield_strength"
 AT_REST = {"angle": 0.0, "tangential_speed": 0.0, "spin": 0.0, "spin2": 0.0}
 
 
@@ -28,7 +31,7 @@ class Common:
 
     `kinds` are those of the second body, `inherits` whether it is made of what the first is; `loss`
     is what the normal motion loses energy to, if it does, and `yields` whether the yield velocity
-    is that of the yield strengths.
+    is that of the yield strengths; `strengths` are those on which the outputs depend.
     """
 
     design: Design
@@ -37,6 +40,7 @@ class Common:
     inherits: bool
     loss: str | None
     yields: bool
+    strengths: tuple[str, ...]
 
     def columns(self, given: Mapping[str, Any], kind: str) -> dict[str, Any]:
         """Return the inputs of impacts on a body of this kind: numbers, or an array of them."""
@@ -57,7 +61,7 @@ class Common:
         numbers = {}
         for key in self.numbers:
             known = [
-                choice.strength if key == STRENGTH else choice.values.get(key, np.nan)
+                {**choice.strengths, **choice.values}.get(key, np.nan)
                 for choice in self.design.choices[name]
             ]
             numbers[f"{name}.{key}"] = np.array([*known, np.nan])[codes]
@@ -66,7 +70,17 @@ class Common:
     @property
     def numbers(self) -> tuple[str, ...]:
         """Names of the numbers of a material on which the impacts depend."""
-        return (*ELASTIC, STRENGTH) if self.yields else ELASTIC
+        return (*ELASTIC, *self.strengths)
+
+    def tells(self, name: str) -> bool:
+        """Tell whether a number of a material is given, for every impact or for some."""
+        body = name.partition(".")[0]
+        places = [body, *(["first"] if body == "second" and self.inherits else [])]
+        given = (*self.fixed, *self.design.names)
+        return any(
+            f"{place}.{name.partition('.')[2]}" in given or f"{place}.material" in given
+            for place in places
+        )
 
     def groups(self, given: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
         """Yield the kinds of second bodies, and the points of each."""
@@ -79,8 +93,8 @@ class Common:
                 yield kind, where
 
 
-def common(case: cases.Case, design: Design) -> Common:
-    """Return what the impacts have in common.
+def common(case: cases.Case, design: Design, strengths: tuple[str, ...] = ()) -> Common:
+    """Return what the impacts have in common; `strengths` are those on which outputs depend.
 
     Raises InputError if case and design do not give everything that an impact needs, or something
     in two ways, or what the second body does not have.
@@ -94,15 +108,17 @@ def common(case: cases.Case, design: Design) -> Common:
     inherits = second.get("material") is None and "second.material" not in names
     fixed = {name: value for name, value in _numbers(case) if not _replaced(name, names)}
     yields = "yield_velocity" in losses and "yield_velocity" not in (*names, *fixed)
-    if not yields:
-        fixed = {name: value for name, value in fixed.items() if leaf(name) != STRENGTH}
+    if yields:
+        strengths = tuple(dict.fromkeys((YIELD, *strengths)))
+    unneeded = set(STRENGTHS) - set(strengths)
+    fixed = {name: value for name, value in fixed.items() if leaf(name) not in unneeded}
     if fixed.get("spin2") == 0.0:  # every body may be without
         del fixed["spin2"]
     if "sphere" not in kinds:  # a material may have more than a fixed body needs
         fixed.pop("second.material.density", None)
     cases.refuse_half({*names, *losses, *fixed})
     refuse_contradictions({*names, *losses, *(name for name in fixed if "material" not in name)})
-    whole = Common(design, fixed, kinds, inherits, next(iter(losses), None), yields)
+    whole = Common(design, fixed, kinds, inherits, next(iter(losses), None), yields, strengths)
     _refuse_foreign(whole)
     _refuse_missing(whole)
     if not any("." in name for name in names):
@@ -163,5 +179,5 @@ def _refuse_missing(whole: Common) -> None:
         for name in needed:
             if name not in columns:
                 raise InputError(f"{name}: missing; give it in the case or in the design")
-        if whole.yields and not any(leaf(name) == STRENGTH for name in columns):
+        if whole.yields and not any(leaf(name) == YIELD for name in columns):
             raise InputError("yield_velocity: missing, as no yield strength is known; give it")

@@ -2,12 +2,13 @@
 
 from collections.abc import Iterable, Mapping
 from itertools import combinations
-from math import isinf, nan
+from math import isinf
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from carom.bodies import cases
+from carom.bodies.materials import STRENGTHS
 from carom.io.labels import attributes
 from carom.quantities.refusals import InputError, clipped, hint, refusal
 from carom.quantities.symbols import meant, remark
@@ -15,7 +16,6 @@ from carom.quantities.symbols import meant, remark
 CODE = np.int8
 
 ELASTIC = ("young", "poisson", "density")
-STRENGTH = "yield_strength"
 BODIES = ("first", "second")
 CHOSEN = ("first.material", "second.material", "second.kind")  # by name, not by number
 INPUTS = (
@@ -44,7 +44,7 @@ class Choice(NamedTuple):
 
     label: str
     values: dict[str, float]
-    strength: float = nan  # of a material, which elastic impacts do not depend on
+    strengths: Mapping[str, float] = {}  # of a material, which elastic impacts do not depend on
 
     def description(self) -> dict[str, Any]:
         """Return it as JSON can hold it."""
@@ -136,4 +136,5 @@ def read_choice(name: str, value: Any) -> Choice:
     known = {key: number for key, number in values.items() if key in ELASTIC}
     unnamed = ", ".join(f"{key}={number:g}" for key, number in known.items())
     label = value if isinstance(value, str) else stuff.name or unnamed
-    return Choice(label, known, values.get(STRENGTH, nan))
+    strengths = {key: number for key, number in values.items() if key in STRENGTHS}
+    return Choice(label, known, strengths)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from carom.bodies.cases import RATIO, law_of
 from carom.bodies.kinematics import components
 from carom.bodies.losses import SMALLEST_RESTITUTION, STIFFEST, LossLaw
-from carom.bodies.materials import Material, unchecked
+from carom.bodies.materials import STRENGTHS, Material, unchecked
 from carom.bodies.pairs import Counterbody, Pair, representable
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.dimensionless.elastic.phases import Status
@@ -22,7 +22,8 @@ from carom.impacts.history import PAIR
 from carom.impacts.outcome import Outcome
 from carom.quantities.arrays import Array
 from carom.quantities.statuses import WordedStatus
-from carom.sweeps.inputs import ELASTIC, STRENGTH, leaf
+from carom.sweeps.inputs import ELASTIC, leaf
+from carom.sweeps.strength import WANTED, strength_values
 
 Codes = NDArray[np.int8]
 Columns = Mapping[str, Any]  # inputs by name: a number, or an array with one for every point
@@ -98,17 +99,24 @@ def evaluate(
         lost = (status == PointStatus.SOLVED) & np.logical_not(fits)
         status[lost] = PointStatus.BEYOND_FLOATING_POINT
         if loss is None:
-            _solve(outcome, solution, status, threads)
+            solve_elastic(outcome, solution, status, threads)
         else:
             law = law_of(loss, columns.get(loss), columns.get(RATIO))
-            _solve_with_losses(outcome, law, solution, status, threads)
+            solve_with_losses(outcome, law, solution, status, threads)
         solved = status == PointStatus.SOLVED
-        found = {name: getattr(outcome.pair if name in PAIR else outcome, name) for name in outputs}
-        values = {name: np.where(solved, found[name], np.nan) for name in outputs}
+        told = strength_values(outcome, size, solved, [n for n in outputs if n in WANTED])
+        plain = (name for name in outputs if name not in WANTED)
+        found = {name: getattr(outcome.pair if name in PAIR else outcome, name) for name in plain}
+        unknown = np.logical_or.reduce([solved & np.isnan(values) for values in told.values()])
+        status[unknown & solved] = PointStatus.NOT_A_NUMBER
+        solved = status == PointStatus.SOLVED
+        values = {name: np.where(solved, value, np.nan) for name, value in (found | told).items()}
     return values, status
 
 
-def _solve(outcome: Outcome, solution: BlockSolution, status: Codes, threads: int | None) -> None:
+def solve_elastic(
+    outcome: Outcome, solution: BlockSolution, status: Codes, threads: int | None
+) -> None:
     """Fill in the elastic impacts whose status is SOLVED, and what became of them."""
     psi, chi = (np.broadcast_to(x, status.shape) for x in (outcome.psi_in, outcome.pair.chi))
     run = (status == PointStatus.SOLVED) & np.isfinite(psi)  # without friction psi is infinite
@@ -116,7 +124,7 @@ def _solve(outcome: Outcome, solution: BlockSolution, status: Codes, threads: in
     solution.psi_out[run], status[run] = found, FROM_SOLVER[ended]
 
 
-def _solve_with_losses(
+def solve_with_losses(
     outcome: Outcome, law: LossLaw, solution: BlockSolution, status: Codes, threads: int | None
 ) -> None:
     """Fill in the impacts with losses, also those without friction: e and the like differ."""
@@ -145,16 +153,19 @@ def _status(columns: Columns, kind: str, size: int) -> Codes:
         if leaf(name) in IN_RANGE:
             mark(~IN_RANGE[leaf(name)](values), PointStatus.OUT_OF_RANGE)
     mark(_misfit(columns, kind), PointStatus.OUT_OF_RANGE)
-    for name in ("speed", "normal_speed"):
-        if name in columns:
-            mark(~(columns[name] > 0.0), PointStatus.NOT_APPROACHING)
-    if "speed" in columns:
-        mark(~(np.abs(columns["angle"]) < pi / 2), PointStatus.NOT_APPROACHING)
+    mark(~approaches(columns), PointStatus.NOT_APPROACHING)
     for name, values in columns.items():
         rigid = values == np.inf if leaf(name) == "young" else False
-        unneeded = leaf(name) == STRENGTH  # that of the other body may do
+        unneeded = leaf(name) in STRENGTHS  # that of the other body may do
         mark(~(np.isfinite(values) | rigid | unneeded), PointStatus.NOT_A_NUMBER)
     return status
+
+
+def approaches(columns: Columns) -> Any:
+    """Return where bodies approach each other."""
+    if "speed" in columns:
+        return (columns["speed"] > 0.0) & (np.abs(columns["angle"]) < pi / 2)
+    return np.asarray(columns["normal_speed"]) > 0.0
 
 
 def _misfit(columns: Columns, kind: str) -> Any:
@@ -200,6 +211,7 @@ def _sphere(columns: Columns, body: str) -> Sphere:
 
 
 def _material(columns: Columns, body: str) -> Material:
-    values = {name: columns.get(f"{body}.material.{name}") for name in ELASTIC}
-    strength = columns.get(f"{body}.material.{STRENGTH}")
-    return unchecked(Material, **values, yield_strength=strength, name=None)
+    names = (*ELASTIC, *STRENGTHS)
+    return unchecked(
+        Material, name=None, **{name: columns.get(f"{body}.material.{name}") for name in names}
+    )

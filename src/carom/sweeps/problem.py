@@ -1,7 +1,7 @@
 """What a sweep computes: a case, its design, its outputs; any block of it, alone."""
 
 from collections.abc import Mapping, Sequence
-from math import isnan, prod
+from math import prod
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,16 +13,9 @@ from carom.quantities.refusals import InputError, hint, refusal
 from carom.sweeps.blocks import Box, Values, chunk_shape
 from carom.sweeps.columns import AT_REST, common
 from carom.sweeps.designs import Design
-from carom.sweeps.inputs import (
-    CODE,
-    STRENGTH,
-    UNREADABLE,
-    input_attributes,
-    jsonable,
-    leaf,
-    variable,
-)
+from carom.sweeps.inputs import CODE, UNREADABLE, input_attributes, jsonable, leaf, variable
 from carom.sweeps.points import PointStatus, evaluate
+from carom.sweeps.strength import WANTED, needed_by, needed_strengths
 
 OUTPUTS = (
     "psi_in",
@@ -46,6 +39,7 @@ OF_LOSSES = ("normal_restitution", "lost_energy", "shear_lost_energy")
 # By what tells the losses: blocks are smaller by so much, as impacts cost more, and take seconds.
 COSTLIER = {None: 1, "yield_velocity": 50, "relaxation_time": 100}
 VISCOUS = 16
+SEARCHED = 500  # where the largest stresses are wanted
 
 
 class VariableInfo(NamedTuple):
@@ -95,10 +89,12 @@ class SweepProblem:
             raise refusal("design", design, "must be a Grid, LatinHypercube or Table")
         if not isinstance(case, Mapping):
             raise refusal("case", case, "must be a mapping like a case file, {'friction': 0.2}")
-        self.design, self._common = design, common(dict(case), design)
+        needed = needed_strengths(outputs or ())
+        self.design, self._common = design, common(dict(case), design, needed)
         usual = tuple(n for n in OUTPUTS if n != "spin2_out" or "sphere" in self._common.kinds)
         usual += OF_LOSSES if self.loses else ()
         self.outputs = usual if outputs is None else _checked(outputs, design.names)
+        self._refuse_unknown()
 
     @property
     def loses(self) -> bool:
@@ -107,7 +103,9 @@ class SweepProblem:
 
     def chunks(self) -> tuple[int, ...]:
         """Return the shape of the blocks into which the sweep is cut."""
-        return chunk_shape(self.design.shape, COSTLIER.get(self._common.loss, VISCOUS))
+        searched = any(name in WANTED for name in self.outputs)
+        cost = SEARCHED if searched else COSTLIER.get(self._common.loss, VISCOUS)
+        return chunk_shape(self.design.shape, cost)
 
     def block(self, box: Box, threads: int | None = 1) -> Values:
         """Return the outputs, sampled inputs and status of a box of points, in its shape.
@@ -146,7 +144,7 @@ class SweepProblem:
         numbers = jsonable({**at_rest, **self._common.fixed})
         if self._common.yields:
             numbers["yield_velocity"] = FROM_STRENGTH
-            numbers |= self._strengths()
+        numbers |= self._strengths()
         return {
             "case": dict(sorted(numbers.items())),
             "second": list(self._common.kinds),
@@ -155,12 +153,29 @@ class SweepProblem:
         }
 
     def _strengths(self) -> dict[str, Any]:
-        """Return the yield strengths of the materials that are inputs, None where not known."""
+        """Return the strengths of the materials that are inputs, None where not known."""
         return {
-            f"{name}.{STRENGTH}": [None if isnan(x.strength) else x.strength for x in choices]
+            f"{name}.{strength}": [choice.strengths.get(strength) for choice in choices]
             for name, choices in self.design.choices.items()
             if leaf(name) == "material"
+            for strength in self._common.strengths
         }
+
+    def _refuse_unknown(self) -> None:
+        """Raise InputError if outputs need strengths that nothing tells, or losses do without."""
+        for output in self.outputs:
+            if output not in WANTED:
+                continue
+            if self.loses:
+                allowed = "with losses a sweep does not search for stresses; leave them out"
+                raise refusal("outputs", output, allowed)
+            body = WANTED[output].body
+            for name in needed_by(output):
+                if not self._common.tells(f"{body}.material.{name}"):
+                    raise InputError(
+                        f"{name}: missing for the {body} body, which {output} needs; give it in "
+                        "its material"
+                    )
 
     def _input_info(self, name: str) -> VariableInfo:
         known = input_attributes(name, self.design.choices)
@@ -171,7 +186,7 @@ class SweepProblem:
 
 
 def _checked(outputs: Sequence[str], names: Sequence[str]) -> tuple[str, ...]:
-    known = tuple(dict.fromkeys((*RESULTS, *PAIR)))
+    known = tuple(dict.fromkeys((*RESULTS, *PAIR, *WANTED)))
     if not isinstance(outputs, list | tuple) or not outputs:
         raise refusal("outputs", outputs, "must be a list of names, e.g. ['rebound_angle']")
     for name in outputs:

@@ -71,6 +71,8 @@ def gross_progress(
     duration = hertz.time(b * b, v) - hertz.time(b0 * b0, v0)
     u = (psi0 - 2.0 * chi * sign * v0) * duration + 2.0 * chi * sign * (b * b - b0 * b0)
     drop = v0 - v
+    if abs(v0 + v) > 1.5:  # near the touch speeds are alike to rounding, radii are not
+        drop = (b**5 - b0**5) / (v0 + v)
     excess = sign * psi0 - v0
     return u, 8.0 / 15.0 * drop * (excess - 0.5 * (2.0 * chi - 1.0) * drop)
 

@@ -51,29 +51,29 @@ class Memory:
         """Return q at the given s >= 0, zero outside the contact."""
         return self._read(s)[1]
 
-    def profile(self) -> Profile:
-        """Return g and q as piecewise polynomials over the radius, to rounding."""
+    def profile(self, error: float = RESOLVED) -> Profile:
+        """Return g and q as piecewise polynomials over the radius, by default to rounding."""
         edges: list[float] = []
         rows: list[tuple[Array, Array]] = []
         for annulus in self.annuli:
-            for outer, row in self._panels(annulus, annulus.inner, annulus.outer):
+            for outer, row in self._panels(annulus, annulus.inner, annulus.outer, error):
                 edges.append(outer)
                 rows.append(row)
         return stacked(edges, rows, self.rim)
 
     def _panels(
-        self, annulus: Annulus, low: float, high: float
+        self, annulus: Annulus, low: float, high: float, error: float
     ) -> Iterator[tuple[float, tuple[Array, Array]]]:
         """Yield the outer edges and rows of as many panels as an annulus needs."""
         g, q = self._inside(annulus, radii(low, high))
         series = coefficients(g)
         tail = np.max(np.abs(series[-3:])) * np.sqrt(high - low)
-        if annulus.sign or tail <= RESOLVED or high - low <= NARROW:
+        if annulus.sign or tail <= error or high - low <= NARROW:
             yield high, (coefficients(q), series)
             return
         middle = 0.5 * (low + high)
-        yield from self._panels(annulus, low, middle)
-        yield from self._panels(annulus, middle, high)
+        yield from self._panels(annulus, low, middle, error)
+        yield from self._panels(annulus, middle, high, error)
 
     def _read(self, s: ArrayLike) -> tuple[Array, Array]:
         places = np.asarray(s, dtype=np.float64)

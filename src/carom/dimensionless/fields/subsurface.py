@@ -18,9 +18,8 @@ from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
 from carom.dimensionless.numerics.chebyshev import evaluate
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
-Components = tuple[complex, complex, complex, complex, complex, complex]
-Stress = tuple[float, float, float, float, float, float]
-Place = tuple[float, float, float, float]  # x, y, z, and the radius sqrt(x^2 + y^2)
+NormalStress = tuple[complex, complex, complex, complex]
+TangentialStress = tuple[complex, complex, complex, complex, complex, complex]
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
@@ -29,6 +28,11 @@ NEGLIGIBLE = 1e-30  # of the contact radius: less deep is the surface, nearer th
 FAR = 1e50  # of the contact radius: taken for all that is farther, the stress being nil
 
 BELOW, INSIDE, OUTSIDE = range(3)  # ways along s: at depth; on the surface, s < r and s > r
+
+# In cylindrical coordinates pressure gives stresses that do not depend on the angle, friction along
+# x some that go with its cosine and some that go with its sine: ten numbers at a radius and depth.
+P_RR, P_TT, P_ZZ, P_RZ, C_RR, C_TT, C_ZZ, C_RZ, S_RT, S_TZ = range(10)
+PARTS = 10
 
 
 class Load(NamedTuple):
@@ -40,10 +44,10 @@ class Load(NamedTuple):
 
     edges: Vector
     g: Matrix
-    friction: float  # positive where it pulls along +x
     poisson: float
     pressed: float
     pulled: float
+    parts: Vector  # where `stress_parts` writes
 
 
 @kernel
@@ -55,50 +59,60 @@ def inverse(c: complex) -> complex:
 
 @kernel
 def normal_force(
-    x: float, y: float, z: float, depth: complex, p: complex, t: complex, poisson: float
-) -> Components:
-    """Return S for a unit force into the body; p = 1/R and t = 1/(R + zeta), zeta the depth."""
-    tp, ttp = t * p, t * t * p
-    bend = tp * p * (t + p)
+    r: float, z: float, depth: complex, p: complex, t: complex, poisson: float
+) -> NormalStress:
+    """Return rr, tt, zz, rz of S for a unit force into the body.
+
+    p = 1/R and t = 1/(R + zeta), zeta the depth.
+    """
+    tp, ttp, zp3 = t * p, t * t * p, z * p * p * p
     soft, hard = 1.0 - 2.0 * poisson, 2.0 * poisson
-    xx = hard * p + soft * (t - x * x * ttp) - z * (tp - x * x * bend)
-    yy = hard * p + soft * (t - y * y * ttp) - z * (tp - y * y * bend)
-    xy = x * y * (z * bend - soft * ttp)
-    zp3 = z * p * p * p
-    return xx, yy, p + depth * zp3, xy, x * zp3, y * zp3
+    ring = hard * p + soft * t - z * tp
+    radial = ring - r * r * (soft * ttp - z * tp * p * (t + p))
+    return radial, ring, p + depth * zp3, r * zp3
 
 
 @kernel
 def tangential_force(
-    x: float, y: float, z: float, p: complex, t: complex, poisson: float
-) -> Components:
-    """Return S for a unit force along x."""
+    r: float, z: float, p: complex, t: complex, poisson: float
+) -> TangentialStress:
+    """Return S for a unit force along x: rr, tt, zz, rz over the cosine, rt, tz over the sine."""
     tp, tt, ttp, tttp = t * p, t * t, t * t * p, t * t * t * p
-    bend, twist = tp * p * (t + p), ttp * p * (2.0 * t + p)
-    hard = 2.0 * poisson
-    xx = 2.0 * tp + hard * (tp + x * x * tttp - 1.5 * tt) - z * (3.0 * ttp - x * x * twist)
-    yy = hard * (tp + y * y * tttp - 0.5 * tt) - z * (ttp - y * y * twist)
-    xy = tp + hard * (x * x * tttp - 0.5 * tt) - z * (ttp - x * x * twist)
-    xz = p - z * (tp - x * x * bend)
-    return x * xx, x * yy, z * x * p * p * p, y * xy, xz, z * x * y * bend
+    bend, twist, hard = tp * p * (t + p), ttp * p * (2.0 * t + p), 2.0 * poisson
+    ring = hard * (tp - 0.5 * tt) - z * ttp
+    radial = 2.0 * tp + hard * (tp + r * r * tttp - 1.5 * tt) - z * (3.0 * ttp - r * r * twist)
+    shear = z * ttp - tp + 0.5 * hard * tt
+    along = p - z * tp
+    return r * radial, r * ring, z * r * p * p * p, along + z * r * r * bend, r * shear, -along
 
 
 @kernel
-def point_force(
-    x: float, y: float, z: float, depth: complex, distance: complex, poisson: float, pull: float
-) -> Stress:
-    """Return Im S for a unit force into the body together with a force `pull` along x."""
+def add_point(
+    parts: Array,
+    r: float,
+    z: float,
+    depth: complex,
+    distance: complex,
+    poisson: float,
+    push: float,
+    pull: float,
+) -> None:
+    """Add Im S of a point at this depth, for a force `push` into the body and `pull` along x."""
     p, t = inverse(distance), inverse(distance + depth)
-    one = normal_force(x, y, z, depth, p, t, poisson)
-    other = tangential_force(x, y, z, p, t, poisson)
-    return (
-        (one[0] + pull * other[0]).imag,
-        (one[1] + pull * other[1]).imag,
-        (one[2] + pull * other[2]).imag,
-        (one[3] + pull * other[3]).imag,
-        (one[4] + pull * other[4]).imag,
-        (one[5] + pull * other[5]).imag,
-    )
+    rr, tt, zz, rz = normal_force(r, z, depth, p, t, poisson)
+    parts[P_RR] += push * rr.imag
+    parts[P_TT] += push * tt.imag
+    parts[P_ZZ] += push * zz.imag
+    parts[P_RZ] += push * rz.imag
+    if pull == 0.0:
+        return
+    rr, tt, zz, rz, rt, tz = tangential_force(r, z, p, t, poisson)
+    parts[C_RR] += pull * rr.imag
+    parts[C_TT] += pull * tt.imag
+    parts[C_ZZ] += pull * zz.imag
+    parts[C_RZ] += pull * rz.imag
+    parts[S_RT] += pull * rt.imag
+    parts[S_TZ] += pull * tz.imag
 
 
 @kernel
@@ -128,9 +142,8 @@ def along(way: int, r: float, z: float, u: float) -> tuple[float, complex, float
 
 
 @kernel
-def add_slices(total: Array, at: Place, way: int, panel: int, load: Load) -> None:
+def add_slices(parts: Array, r: float, z: float, way: int, panel: int, load: Load) -> None:
     """Add the stress due to the slices of one panel of the memory that lie on this way."""
-    x, y, z, r = at
     inner, outer = load.edges[panel], load.edges[panel + 1]
     low = max(inner, r) if way == OUTSIDE else inner
     high = min(outer, r) if way == INSIDE else outer
@@ -142,42 +155,51 @@ def add_slices(total: Array, at: Place, way: int, panel: int, load: Load) -> Non
     for node in range(pieces * NODES.size):
         piece, k = divmod(node, NODES.size)
         s, distance, rate = along(way, r, z, start + half * (2.0 * piece + 1.0 + NODES[k]))
-        pull = load.friction * evaluate(load.g[panel], inner, outer, s)
-        stress = point_force(x, y, z, complex(z, s), distance, load.poisson, pull)
-        for component in range(total.size):
-            total[component] += WEIGHTS[k] * half * rate * s * stress[component]
+        push = WEIGHTS[k] * half * rate * s
+        pull = push * evaluate(load.g[panel], inner, outer, s)
+        add_point(parts, r, z, complex(z, s), distance, load.poisson, push, pull)
 
 
 @kernel
-def add_rim(total: Array, at: Place, load: Load) -> None:
-    """Add the stress due to the slice of no width at the edge."""
-    x, y, z, r = at
-    distance = np.sqrt(complex(z * z + (r - 1.0) * (r + 1.0), 2.0 * z))
-    pull = load.friction * load.pulled / load.pressed
-    stress = point_force(x, y, z, complex(z, 1.0), distance, load.poisson, pull)
-    for component in range(total.size):
-        total[component] += load.pressed * stress[component]
-
-
-@kernel
-def stress_at(total: Array, x: float, y: float, z: float, load: Load) -> None:
-    """Add up the stress at one point."""
-    r = max(np.hypot(x, y), NEGLIGIBLE)
-    if load.pressed != 0.0:
-        add_rim(total, (x, y, z, r), load)
+def stress_parts(r: float, z: float, load: Load) -> Array:
+    """Return the ten numbers of the stress at a radius and depth, for friction of coefficient 1."""
+    parts = load.parts
+    parts[:] = 0.0
+    if load.pressed != 0.0:  # the slice of no width at the edge
+        distance = np.sqrt(complex(z * z + (r - 1.0) * (r + 1.0), 2.0 * z))
+        depth = complex(z, 1.0)
+        add_point(parts, r, z, depth, distance, load.poisson, load.pressed, load.pulled)
     for panel in range(load.edges.size - 1):
         if z > NEGLIGIBLE:
-            add_slices(total, (x, y, z, r), BELOW, panel, load)
+            add_slices(parts, r, z, BELOW, panel, load)
         else:
-            add_slices(total, (x, y, 0.0, r), INSIDE, panel, load)
-            add_slices(total, (x, y, 0.0, r), OUTSIDE, panel, load)
+            add_slices(parts, r, 0.0, INSIDE, panel, load)
+            add_slices(parts, r, 0.0, OUTSIDE, panel, load)
+    return parts
+
+
+@kernel
+def turn(stress: Array, parts: Array, cos: float, sin: float, friction: float) -> None:
+    """Write the stress in the directions of x, y and z at an angle from x."""
+    rr, tt = parts[P_RR] + friction * cos * parts[C_RR], parts[P_TT] + friction * cos * parts[C_TT]
+    rt, rz = friction * sin * parts[S_RT], parts[P_RZ]
+    stress[0] = rr * cos * cos + tt * sin * sin - 2.0 * rt * sin * cos
+    stress[1] = rr * sin * sin + tt * cos * cos + 2.0 * rt * sin * cos
+    stress[2] = parts[P_ZZ] + friction * cos * parts[C_ZZ]
+    stress[3] = (rr - tt) * sin * cos + rt * (cos - sin) * (cos + sin)
+    stress[4] = rz * cos + friction * (cos * cos * parts[C_RZ] - sin * sin * parts[S_TZ])
+    stress[5] = rz * sin + friction * sin * cos * (parts[C_RZ] + parts[S_TZ])
 
 
 @entry_point()
-def fill(stress: Matrix, points: Matrix, load: Load) -> None:
-    """Compute the stress at many points."""
+def fill(stress: Matrix, points: Matrix, friction: float, load: Load) -> None:
+    """Compute the stress at many points; positive friction pulls along +x."""
     for row in range(points.shape[0]):
-        stress_at(stress[row], points[row, 0], points[row, 1], points[row, 2], load)
+        x, y = points[row, 0], points[row, 1]
+        r = np.hypot(x, y)
+        cos, sin = (x / r, y / r) if r > NEGLIGIBLE else (1.0, 0.0)
+        parts = stress_parts(max(r, NEGLIGIBLE), points[row, 2], load)
+        turn(stress[row], parts, cos, sin, friction)
 
 
 def stresses(
@@ -214,8 +236,14 @@ def stresses(
     where = np.asarray(points, dtype=np.float64)
     stress = np.zeros((where.shape[0], len(COMPONENTS)))
     if b > 0.0:
-        rims = 0.5 * rim / b**2, 0.5 * profile.rim / b**2
-        load = Load(profile.edges / b, profile.g, float(friction), float(poisson), *rims)
-        fill(stress, np.clip(where / b, -FAR, FAR), load)
+        scaled = np.clip(where / b, -FAR, FAR)
+        fill(stress, scaled, float(friction), load_of(profile, poisson, rim))
     stress *= b
     return stress
+
+
+def load_of(profile: Profile, poisson: float, rim: float = 0.0) -> Load:
+    """Return what acts on a body, lengths in radii of the contact."""
+    b = profile.edges[-1]
+    rims = 0.5 * rim / b**2, 0.5 * profile.rim / b**2
+    return Load(profile.edges / b, profile.g, float(poisson), *rims, np.empty(PARTS))

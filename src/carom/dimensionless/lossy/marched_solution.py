@@ -51,6 +51,15 @@ class MarchedSolution(LossySolution):
     def _touched(self, radii: Array) -> NoReturn:
         _refuse_fields()
 
+    def _friction_work(self, radii: Array) -> NoReturn:
+        _refuse_fields()
+
+    def _pressed(self, radii: Array) -> NoReturn:
+        _refuse_fields()
+
+    def _slip_borders(self) -> NoReturn:
+        _refuse_fields()
+
 
 def _refuse_fields() -> NoReturn:
     raise InputError("losses: fields are not known of this solid; take KelvinVoigt, or no losses")

@@ -8,7 +8,7 @@ import numpy as np
 from carom.dimensionless.elastic.phases import Kind
 from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import Profile
-from carom.dimensionless.lossy import layout
+from carom.dimensionless.lossy import friction_work, layout
 from carom.dimensionless.lossy.law import LossNumbers
 from carom.dimensionless.lossy.panels.collocation import NODES, TO_SERIES, place
 from carom.dimensionless.lossy.panels.plans import TOLERANCE
@@ -16,7 +16,7 @@ from carom.dimensionless.lossy.panels.record import Trace, new_record
 from carom.dimensionless.lossy.panels.work import new_work
 from carom.dimensionless.lossy.rebounds import outgoing
 from carom.dimensionless.lossy.solution import LossySolution, outcome, phases_told
-from carom.dimensionless.lossy.viscoelastic.instant import Instant, Replay
+from carom.dimensionless.lossy.viscoelastic.instant import Instant, Replay, displaced
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.chebyshev import extrema, from_extrema
 from carom.dimensionless.states import ContactState
@@ -40,17 +40,27 @@ class ViscoelasticSolution(LossySolution):
         def slipping(radii: Array) -> Array:
             shapes = [surface.slip_shape(instant.stuck, radius) for radius in radii]
             within = (radii <= instant.radius)[:, np.newaxis]
-            found = rate * np.array(shapes).reshape(-1, 2) + _displaced(change, radii)
+            found = rate * np.array(shapes).reshape(-1, 2) + displaced(change, radii)
             return self._scale * within * found
 
         def slid(radii: Array) -> Array:
             within = radii <= instant.radius
             found = np.zeros((radii.size, 2))
-            found[within] = _displaced(lags, radii[within]) - self._lag_at_touch(radii[within])
+            found[within] = displaced(lags, radii[within]) - self._lag_at_touch(radii[within])
             return self._scale * found
 
         profile = _scaled(instant.forces(), self._scale)
         return ContactState(instant.radius, instant.shift, profile, slid, slipping)
+
+    def _friction_work(self, radii: Array) -> Array:
+        given = self._record, self._replay, self.losses.parameter
+        return self._scale**2 * friction_work.work(*given, radii)
+
+    def _pressed(self, radii: Array) -> Array:
+        return friction_work.pressed(self._record, self.losses.parameter, radii)
+
+    def _slip_borders(self) -> Array:
+        return friction_work.borders(self._record)
 
     def _replay(self, number: int) -> Replay:
         first = float(self._record.rows[0, layout.AT_PSI, 0])
@@ -81,7 +91,7 @@ class ViscoelasticSolution(LossySolution):
         for number in np.flatnonzero(edges[:, -1] > edges[:, 0]).tolist():
             replay, places = self._replay(number), extrema(LAG_DEGREE)
             instants = [Instant(replay, float(x)) for x in places]
-            lags = [_displaced(at.lags(), np.array([at.radius]))[0] for at in instants]
+            lags = [displaced(at.lags(), np.array([at.radius]))[0] for at in instants]
             found[number] = from_extrema(LAG_DEGREE) @ np.array(lags)
         return found
 
@@ -110,13 +120,6 @@ class ViscoelasticSolution(LossySolution):
         for i, (panel, x) in enumerate(self._places(wanted)):
             found[:, i] = np.polynomial.chebyshev.chebval(x, series[panel].T)
         return found
-
-
-def _displaced(profile: Profile, radii: Array) -> Array:
-    """Return the radial functions w_0, w_2 of what springs with this profile have slipped."""
-    out = np.empty((radii.size, 5))
-    surface.sample(profile, 0.0, 0.0, 0.0, np.ascontiguousarray(radii), out)
-    return np.asarray(out[:, 3:] * np.array([1.0, -1.0]))
 
 
 def _scaled(profile: Profile, scale: float) -> Profile:

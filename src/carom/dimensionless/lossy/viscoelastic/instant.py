@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import Profile, coefficients, radii, stacked
 from carom.dimensionless.lossy.layout import NUMBERS
 from carom.dimensionless.lossy.panels.collocation import NODES, place
@@ -239,6 +240,13 @@ class Instant:
             return excess * decay, change * decay / self._slope(n, FRONT, x)
 
         return read
+
+
+def displaced(profile: Profile, radii: Array) -> Array:
+    """Return the radial functions w_0, w_2 of what springs with this profile have slipped."""
+    out = np.empty((radii.size, 5))
+    surface.sample(profile, 0.0, 0.0, 0.0, np.ascontiguousarray(radii), out)
+    return np.asarray(out[:, 3:] * np.array([1.0, -1.0]))
 
 
 def _terms(x: Array | float) -> Array:

@@ -1,0 +1,111 @@
+"""Which impact cracks glass
+=========================
+
+From which speed on a steel ball cracks a glass plate, against its size, its angle and friction.
+
+Left: head on, against the diameter of the ball, for flaws up to three depths. Where a flaw of the
+worst depth is there, the force that cracks is proportional to the radius: Auerbach's law (1891).
+Carom's straight edge cracks give P E*/(K_c^2 R) = 2492, a lower bound; measured on ceramics is
+8600 (Rhee et al. 2001, J. Am. Ceram. Soc. 84:561). Right: a ball of 5 mm against the angle of
+incidence. With friction the worst impact is the oblique one that slides until the force is largest.
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+import carom
+from carom.plots.style import (
+    BLACK,
+    DASHES,
+    DOUBLE,
+    LINES,
+    legend_above,
+    new_figure,
+    save_figure,
+    styled,
+)
+
+MEASURED = 8600.0  # P E*/(K_c^2 R), Rhee et al. 2001
+DIAMETERS = np.geomspace(0.5, 20.0, 25)  # mm
+FLAWS = (1.0, 5.0, 20.0)  # um
+FRICTIONS = (0.0, 0.1, 0.2, 0.3, 0.4)
+ANGLES = np.arange(0.0, 86.0)  # deg
+
+
+def on_glass(diameter, flaw):
+    """Return a ball of a diameter in mm on glass with flaws up to a depth in um."""
+    glass = carom.material("float glass", flaw_size=f"{flaw} um")
+    ball = carom.Sphere(radius=0.5e-3 * diameter, material="bearing steel")
+    return carom.Pair(ball, carom.HalfSpace(material=glass), friction=0.0)
+
+
+def auerbach(pair, speed):
+    """Return P E*/(K_c^2 R) of an impact at a right angle."""
+    force = carom.impact(pair, speed=speed, angle=0.0).max_force
+    toughness = pair.second.material.fracture_toughness
+    return force * pair.effective_modulus / (toughness**2 * pair.first.radius)
+
+
+@styled
+def draw(head_on, measured, oblique):
+    """Draw the speeds against diameter and against angle."""
+    figure, (axes,) = new_figure(1, 2, width=DOUBLE, height=72.0)
+    left, right = axes
+    for i, (flaw, speeds) in enumerate(head_on.items()):
+        left.plot(DIAMETERS, speeds, color=LINES[i], ls=DASHES[i], label=f"flaws up to {flaw:g} µm")
+    left.plot(DIAMETERS, measured, color=BLACK, ls=DASHES[4], label="measured constant")
+    left.set(xscale="log", yscale="log", xlim=DIAMETERS[[0, -1]], ylim=(0.2, 20.0))
+    left.set(xlabel="diameter of the ball (mm)", ylabel="speed from which on glass cracks (m/s)")
+    left.set_xticks([0.5, 1, 2, 5, 10, 20], minor=False)
+    left.text(0.6, 0.24, "head on")
+    for i, (mu, speeds) in enumerate(zip(FRICTIONS, oblique, strict=True)):
+        right.plot(ANGLES, speeds, color=LINES[i], ls=DASHES[i], label=f"$\\mu$ = {mu:g}")
+        if mu:
+            worst = speeds.argmin()
+            right.plot(ANGLES[worst], speeds[worst], "o", color=LINES[i], mfc="white")
+    right.set(yscale="log", xlim=(0.0, 85.0), ylim=(0.03, 10.0))
+    right.set(xlabel="angle of incidence from the normal (deg)")
+    for axis in axes:
+        axis.yaxis.set_major_formatter("{x:g}")
+        axis.xaxis.set_major_formatter("{x:g}")
+        axis.minorticks_off()
+    right.text(3.0, 0.036, "5 mm ball, flaws up to 20 µm")
+    legend_above(left, 2)
+    legend_above(right, 3)
+    return figure
+
+
+def main(folder: str | Path = ".") -> str:
+    """Find the speeds that crack, compare them with Auerbach's law, and draw them."""
+    head_on = {
+        flaw: np.array(
+            [
+                float(carom.strength(on_glass(d, flaw), angle=0.0).crack_speed_second.squeeze())
+                for d in DIAMETERS
+            ]
+        )
+        for flaw in FLAWS
+    }
+    deep = head_on[20.0]
+    constants = [auerbach(on_glass(d, 20.0), v) for d, v in zip(DIAMETERS, deep, strict=True)]
+    np.testing.assert_allclose(constants, 2492.0, rtol=1e-3)
+    np.testing.assert_allclose(deep / deep[0], (DIAMETERS / 0.5) ** (-5 / 6), rtol=1e-3)
+    assert np.all(head_on[1.0] > head_on[5.0] * 0.999), "shallow flaws alone need more speed"
+    measured = deep * (MEASURED / 2492.0) ** (5 / 6)  # P ~ V^(6/5)
+
+    found = carom.strength(on_glass(5.0, 20.0), angle=np.radians(ANGLES), friction=FRICTIONS)
+    oblique = found.crack_speed_second.values
+    worst = ANGLES[oblique.argmin(axis=1)]
+    np.testing.assert_array_equal(worst, [0.0, 18.0, 30.0, 39.0, 44.0])
+
+    save_figure(draw(head_on, measured, oblique), Path(folder) / "glass_cracks.png")
+    return (
+        f"P E*/(K_c^2 R) = {np.median(constants):.0f}; a ball of 5 mm cracks glass from"
+        f" {oblique[0, 0]:.2f} m/s on head on, with mu = 0.2 from {oblique[2].min():.2f} m/s on"
+        f" at {worst[2]:.0f} deg"
+    )
+
+
+if __name__ == "__main__":
+    print(main())

@@ -1,0 +1,85 @@
+"""Where wear is largest against the angle
+=======================================
+
+A steel ball on steel: what friction takes, where in the contact, and at which angle the most.
+
+Where the ball slides throughout, friction takes W = 2 mu m_n V_1 (V_x - mu m_n V_1/m_t). That is
+largest where tan 2 theta = -m_t/(mu m_n), at 55 degrees from the normal for mu = 0.1 and at 77 for
+0.6. The work per area is largest in the centre there. Near the normal the middle of the contact
+sticks for a long time, and the largest work per area lies on a ring. The depth of wear is k/mu
+times the work per area by Archard's law.
+Archard (1953), J. Appl. Phys. 24:981; Maw, Barber & Fawcett (1976), Wear 38:101.
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+import carom
+from carom.impacts.curves import borders
+from carom.plots.style import DASHES, DOUBLE, LINES, new_figure, save_figure, styled
+
+BALL = carom.Sphere(radius="5 mm", material="steel")
+PLANE = carom.HalfSpace(material="steel")
+FRICTION = (0.1, 0.3, 0.6)
+SPEED = 2.0
+ANGLES = np.arange(1.0, 89.5, 1.0)
+COLUMNS = ("dissipated_energy", "max_friction_work", "max_wear_radius", "max_radius", "work_error")
+
+
+def worn(pair):
+    """What the wear of an impact is told by, for each angle."""
+    found = [carom.impact(pair, speed=SPEED, angle=a).wear(101, x=[0], y=[0]) for a in radians()]
+    return {name: np.array([float(each[name]) for each in found]) for name in COLUMNS}
+
+
+def radians():
+    return np.radians(ANGLES)
+
+
+@styled
+def main(folder: str | Path = ".") -> str:
+    """Check the sum over the contact, sliding in closed form, and the worst angle; draw all."""
+    figure, (axes,) = new_figure(1, 3, width=DOUBLE, height=62)
+    most, error = {}, 0.0
+    for mu, color, dash in zip(FRICTION, LINES, DASHES, strict=False):
+        pair = carom.Pair(BALL, PLANE, friction=mu)
+        ratio, energy = pair.normal_mass / pair.tangential_mass, 0.5 * BALL.mass * SPEED**2
+        result, theta = worn(pair), radians()
+        share = result["dissipated_energy"] / energy
+        error = max(error, result["work_error"].max())
+        normal, along = np.cos(theta), np.sin(theta)
+        slides = pair.kappa / mu * along / normal > borders(pair.chi)[2]
+        sliding = 4.0 * mu * normal * (along - mu * ratio * normal)
+        np.testing.assert_allclose(share[slides], sliding[slides], rtol=1e-9)
+        worst = np.pi / 2.0 - 0.5 * np.arctan(1.0 / (mu * ratio))
+        most[mu] = float(np.degrees(worst))
+        assert abs(ANGLES[share.argmax()] - most[mu]) <= 0.5, "the worst angle is that of sliding"
+        inner = result["max_wear_radius"] / result["max_radius"]
+        assert np.all(inner[slides] < 1e-6), "sliding wears the centre most"
+        assert inner[ANGLES < 6.0].min() > 0.5, "a ring is worn most"
+        style = {"color": color, "ls": dash, "label": rf"$\mu$ = {mu}"}
+        axes[0].plot(ANGLES, 100.0 * share, **style)
+        axes[1].plot(ANGLES, result["max_friction_work"] / 1e3, **style)
+        axes[2].plot(ANGLES, inner, **style)
+        axes[0].plot(ANGLES[share.argmax()], 100.0 * share.max(), "o", color=color)
+    assert error < 1e-8, f"the work per area is off by {error:.0e} of the work"
+    labels = (
+        "work of friction, share of the energy (%)",
+        "largest work per area (kJ/m²)",
+        "where it lies, $r_w/a_{max}$",
+    )
+    for axis, label in zip(axes, labels, strict=True):
+        axis.set(xlabel=r"angle of incidence, $\theta$ (deg)", ylabel=label, xlim=(0, 90))
+        axis.set_ylim(bottom=0.0)
+    axes[2].set_ylim(-0.02, 1.0)
+    axes[0].legend(loc="upper left")
+    save_figure(figure, Path(folder) / "wear_against_angle.png")
+    angles = ", ".join(f"{angle:.0f}" for angle in most.values())
+    return (
+        f"summed over the contact to {error:.0e}; most at {angles} degrees, where the ball slides"
+    )
+
+
+if __name__ == "__main__":
+    print(main())

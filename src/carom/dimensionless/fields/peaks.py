@@ -1,0 +1,171 @@
+"""Where the stress below a contact at one instant is largest: a scan of places, then a climb.
+
+At a radius and depth, stress depends on the angle by its cosine and sine alone (`subsurface`), so
+that the largest value around a circle needs no stress but that of one point.
+"""
+
+import numpy as np
+
+from carom.dimensionless.fields.profile import Profile
+from carom.dimensionless.fields.subsurface import (
+    C_RR,
+    C_RZ,
+    C_TT,
+    C_ZZ,
+    NEGLIGIBLE,
+    P_RR,
+    P_RZ,
+    P_TT,
+    P_ZZ,
+    S_RT,
+    S_TZ,
+    Load,
+    stress_parts,
+)
+from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
+from carom.dimensionless.numerics.kernels import entry_point, kernel
+
+VON_MISES, SHEAR, TENSION = MEASURES = range(3)
+VALUE, RADIUS, DEPTH, COSINE = range(4)  # columns of what is found
+FOUND = 4
+
+COSINES = np.cos(np.linspace(0.0, np.pi, 9))
+ALIKE = 1e-7  # a place in the plane of the motion whose value comes so near is taken
+TURNS = 24  # by which an angle between two of them is found, to a thousandth
+GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
+MOST_STEPS = 400
+WAYS = np.array([[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, -1], [1, -1], [-1, 1]], dtype=float)
+
+# Places of the scan in contact radii: on the surface, and below.
+ON_SURFACE = np.array([0.0, 0.25, 0.5, 0.7, 0.85, 0.95, 1.05, 1.15])
+BELOW = np.stack(
+    np.meshgrid([0.0, 0.25, 0.5, 0.75, 1.0], [0.1, 0.25, 0.38, 0.5, 0.65]), -1
+).reshape(-1, 2)
+
+
+@kernel
+def extreme_principals(
+    rr: float, tt: float, zz: float, rt: float, rz: float, tz: float
+) -> tuple[float, float]:
+    """Return the largest and the smallest principal stress.
+
+    Where shear across the plane of r and z is nil by two of them, else by the angle of the
+    deviator, which is good to 1e-8 where two principal stresses are nearly the same.
+    """
+    if rt == 0.0 and tz == 0.0:
+        middle, radius = 0.5 * (rr + zz), np.hypot(0.5 * (rr - zz), rz)
+        return max(middle + radius, tt), min(middle - radius, tt)
+    mean = (rr + tt + zz) / 3.0
+    a, b, c = rr - mean, tt - mean, zz - mean
+    size = np.sqrt((a * a + b * b + c * c + 2.0 * (rt * rt + rz * rz + tz * tz)) / 6.0)
+    if size == 0.0:
+        return mean, mean
+    determinant = a * (b * c - tz * tz) - rt * (rt * c - tz * rz) + rz * (rt * tz - b * rz)
+    angle = np.arccos(min(max(0.5 * determinant / size**3, -1.0), 1.0)) / 3.0
+    low = np.cos(angle + 2.0 * np.pi / 3.0)
+    return mean + 2.0 * size * np.cos(angle), mean + 2.0 * size * low
+
+
+@kernel
+def measured(measure: int, parts: Array, cos: float, friction: float) -> float:
+    """Return a measure of the stress at an angle of this cosine."""
+    along, across = friction * cos, friction * np.sqrt(max(1.0 - cos * cos, 0.0))
+    rr, tt = parts[P_RR] + along * parts[C_RR], parts[P_TT] + along * parts[C_TT]
+    zz, rz = parts[P_ZZ] + along * parts[C_ZZ], parts[P_RZ] + along * parts[C_RZ]
+    rt, tz = across * parts[S_RT], across * parts[S_TZ]
+    if measure == VON_MISES:
+        shears = rt * rt + rz * rz + tz * tz
+        normals = (rr - tt) ** 2 + (tt - zz) ** 2 + (zz - rr) ** 2
+        return float(np.sqrt(0.5 * normals + 3.0 * shears))
+    high, low = extreme_principals(rr, tt, zz, rt, rz, tz)
+    return 0.5 * (high - low) if measure == SHEAR else high
+
+
+@kernel
+def around(measure: int, parts: Array, friction: float) -> tuple[float, float]:
+    """Return the largest value around the circle and the cosine of its angle."""
+    ahead, behind = (
+        measured(measure, parts, 1.0, friction),
+        measured(measure, parts, -1.0, friction),
+    )
+    best, end = (ahead, 1.0) if ahead >= behind else (behind, -1.0)
+    place, least = -1, best + ALIKE * abs(best)
+    for i in range(1, COSINES.size - 1):
+        value = measured(measure, parts, COSINES[i], friction)
+        if value > least:
+            best, place, least = value, i, value
+    if place < 0:
+        return best, end
+    low, high = np.arccos(COSINES[place - 1]), np.arccos(COSINES[place + 1])
+    for _ in range(TURNS):
+        one, two = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+        if measured(measure, parts, np.cos(one), friction) > measured(
+            measure, parts, np.cos(two), friction
+        ):
+            high = two
+        else:
+            low = one
+    cos = float(np.cos(0.5 * (low + high)))
+    return max(best, measured(measure, parts, cos, friction)), cos
+
+
+@entry_point()
+def scan(measure: int, places: Matrix, friction: float, load: Load, best: Vector) -> None:
+    """Write the largest value of a measure among places (radius, depth), and where it is."""
+    best[VALUE] = -np.inf
+    for row in range(places.shape[0]):
+        r, z = places[row, 0], places[row, 1]
+        parts = stress_parts(max(r, NEGLIGIBLE), z, load)
+        value, cos = around(measure, parts, friction)
+        if value > best[VALUE]:
+            best[VALUE], best[RADIUS], best[DEPTH], best[COSINE] = value, r, z, cos
+
+
+@entry_point()
+def climb(
+    measure: int,
+    friction: float,
+    load: Load,
+    shallow: float,
+    deepest: float,
+    step: float,
+    last: float,
+    best: Vector,
+) -> None:
+    """Move the best place uphill along radius and depth until steps are smaller than the last.
+
+    No place leaves the depths between `shallow` and `deepest`.
+    """
+    for _ in range(MOST_STEPS):
+        moved = False
+        for way in range(WAYS.shape[0]):
+            r = abs(best[RADIUS] + step * WAYS[way, 0])
+            z = min(max(best[DEPTH] + step * WAYS[way, 1], shallow), deepest)
+            parts = stress_parts(max(r, NEGLIGIBLE), z, load)
+            value, cos = around(measure, parts, friction)
+            if value > best[VALUE]:
+                best[VALUE], best[RADIUS], best[DEPTH], best[COSINE] = value, r, z, cos
+                moved = True
+                break
+        if not moved:
+            step *= 0.5
+            if step < last:
+                break
+
+
+def jumps(profile: Profile, shallow: float) -> Array:
+    """Return the places at the surface where the memory jumps, the edge among them."""
+    radii = profile.edges[1:] / profile.edges[-1]
+    return np.column_stack((radii, np.full(radii.size, shallow)))
+
+
+def regions(profile: Profile, shallow: float = 0.0, deepest: float = np.inf) -> list[Array]:
+    """Return the places to scan, one array for each region that may have a peak of its own.
+
+    They are near the surface, those among them where the memory jumps, and deeper down.
+    """
+    surface = np.column_stack((ON_SURFACE, np.full(ON_SURFACE.size, shallow)))
+    near = np.concatenate((surface, jumps(profile, shallow)))
+    if deepest <= shallow:
+        return [near]
+    return [near, np.clip(BELOW, [0.0, shallow], [np.inf, deepest])]

@@ -1,0 +1,1 @@
+"""What an impact does to its bodies: the largest stresses through it, and cracks from flaws."""

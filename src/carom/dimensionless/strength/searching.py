@@ -1,0 +1,160 @@
+"""A search through the contacts of one impact: for the instant, and the place at that instant."""
+
+from abc import ABC, abstractmethod
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.dimensionless.fields.peaks import COSINE, DEPTH, RADIUS, VALUE
+from carom.dimensionless.fields.profile import Profile
+from carom.dimensionless.fields.subsurface import Load, load_of
+from carom.dimensionless.lossy.solution import LossySolution
+from carom.dimensionless.numerics.arrays import Array
+from carom.dimensionless.solution import Solution
+from carom.dimensionless.states import Phase
+
+TIMES = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 9))  # of the scan, within a phase
+FIRST_RADII = np.array([0.25, 0.5, 1.0, 2.0, 4.0])  # of the contact, in depths of the search
+NEAR = 0.95  # of the largest value of the scan: instants that are searched, too
+WITHIN = 1e-2  # of the time between two scans, to which the instant is found
+RESOLVED = 1e-6  # of the memory
+FIRST_STEP, NEXT_STEP = 0.1, 0.03  # of a climb, in contact radii, and of those beside it
+LAST_STEP, FINEST_STEP = 2e-3, 1e-4  # of a climb: peaks are round; of the last one
+
+
+class Peak(NamedTuple):
+    """The largest value of a measure in units of p_L, its place and its instant."""
+
+    value: float
+    x: float
+    y: float
+    z: float
+    time: float
+
+
+class Contacts:
+    """The contacts of an impact, each solved for once; `depth` is where the search begins.
+
+    Instants of the scan are nine in each phase; in gross slip of elastic bodies the stress keeps
+    its shape, so that the largest contact is enough.
+    """
+
+    def __init__(
+        self, solution: Solution | LossySolution, friction: float, depth: float = 0.0
+    ) -> None:
+        self.solution, self.friction, self.depth = solution, friction, depth
+        self.times = self._instants()
+        self.peaks: dict[tuple[float, int], Peak] = {}  # those that are known, by nu and measure
+        self.tensions: dict[tuple[float, float], Array] = {}  # beside it, by nu and time
+        self._kept: dict[float, tuple[Profile, float]] = {}
+
+    def at(self, time: float) -> tuple[Profile, float]:
+        """Return the memory of the contact at a time and the density of pressure at its edge."""
+        if time not in self._kept:
+            if isinstance(self.solution, Solution):
+                self._kept[time] = self.solution.memory(time).profile(RESOLVED), 0.0
+            else:
+                state = self.solution.contact_at(time)
+                self._kept[time] = state.profile, state.rim
+        return self._kept[time]
+
+    def size(self, time: float) -> float:
+        """Return the radius of the contact at a time."""
+        return float(self.at(time)[0].edges[-1])
+
+    def shallow(self, time: float) -> float:
+        """Return the depth from which on is searched, in radii of the contact."""
+        return self.depth / self.size(time)
+
+    def load(self, time: float, poisson: float) -> Load:
+        """Return what acts on a body at a time."""
+        profile, rim = self.at(time)
+        return load_of(profile, poisson, rim)
+
+    def _instants(self) -> Array:
+        widest = float(self.solution.touched([self.solution.max_radius])[0])
+        phases = self.solution.phases
+        if not isinstance(self.solution, Solution):  # viscous: their first touch is like a blow
+            radii = np.minimum(self.depth * FIRST_RADII, self.solution.max_radius)
+            spread = [_spread(phase) for phase in phases]
+            return np.unique(np.concatenate([self.solution.touched(radii), *spread]))
+        if self.friction == 0.0:
+            return np.array([widest])
+        return np.unique(np.concatenate([_of_elastic(phase, widest) for phase in phases]))
+
+
+def _of_elastic(phase: Phase, widest: float) -> Array:
+    if phase.kind == "gross slip":
+        return np.array([min(max(widest, phase.start), phase.end)])
+    return _spread(phase)
+
+
+def _spread(phase: Phase) -> Array:
+    return phase.start + (phase.end - phase.start) * TIMES
+
+
+class Search(ABC):
+    """A search for the largest value of one measure through the contacts of an impact."""
+
+    def __init__(self, contacts: Contacts) -> None:
+        self.contacts = contacts
+
+    @abstractmethod
+    def scanned(self, time: float) -> Array:
+        """Return the largest values at an instant and where they are: a row for each region."""
+
+    @abstractmethod
+    def climbed(self, time: float, start: Array, step: float, last: float = LAST_STEP) -> Array:
+        """Return the largest value at an instant near a place, and where it is.
+
+        `step` and `last` are the first and the last of the steps to it, in contact radii.
+        """
+
+    def peak(self) -> Peak:
+        """Return the largest value through the impact."""
+        times = self.contacts.times
+        rows = np.array([self.scanned(time) for time in times.tolist()])
+        highest = rows[..., VALUE].max()
+        least = highest - (1.0 - NEAR) * abs(highest)
+        found = [
+            self._between(times, i, region[i])
+            for region in np.moveaxis(rows, 1, 0)
+            for i in _maxima(region[:, VALUE], least)
+        ]
+        time, row = max(found, key=lambda one: one[1][VALUE])
+        return self.told(time, self.climbed(time, row, LAST_STEP, FINEST_STEP))
+
+    def told(self, time: float, row: Array) -> Peak:
+        """Return a place at an instant in units of the impact."""
+        size = self.contacts.size(time)
+        r, z = size * row[RADIUS], size * row[DEPTH]
+        sine = np.sqrt(max(1.0 - row[COSINE] ** 2, 0.0))
+        return Peak(*map(float, (row[VALUE], r * row[COSINE], r * sine, z, time)))
+
+    def _between(self, times: Array, i: int, start: Array) -> tuple[float, Array]:
+        """Return the instant and the place of a peak, between the neighbours of an instant."""
+        low, high = times[max(i - 1, 0)], times[min(i + 1, times.size - 1)]
+        return self.nearby(float(times[i]), start, float(low), float(high))
+
+    def nearby(self, time: float, start: Array, low: float, high: float) -> tuple[float, Array]:
+        """Return the instant and the place of a peak near these, between two instants."""
+        from scipy.optimize import minimize_scalar
+
+        row = self.climbed(time, start, FIRST_STEP)
+        best = [(time, row)]
+
+        def lost(instant: float) -> float:
+            best.append((float(instant), self.climbed(float(instant), row, NEXT_STEP)))
+            return -float(best[-1][1][VALUE])
+
+        if high > low:
+            options = {"xatol": WITHIN * (high - low)}
+            minimize_scalar(lost, bounds=(low, high), method="bounded", options=options)
+        return max(best, key=lambda one: one[1][VALUE])
+
+
+def _maxima(values: Array, least: float) -> list[int]:
+    """Return which values have no higher neighbour and are not below the least."""
+    padded = np.concatenate(([-np.inf], values, [-np.inf]))
+    tops = (values >= padded[:-2]) & (values > padded[2:])
+    return np.flatnonzero(tops & (values >= least)).tolist()

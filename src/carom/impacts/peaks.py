@@ -1,0 +1,166 @@
+"""The largest stresses of an impact as a dataset, and what the strengths of its bodies say."""
+
+from collections.abc import Iterator
+from math import isfinite, isnan, nan
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from carom.bodies.pairs import Pair, Scales
+from carom.dimensionless.lossy.solution import LossySolution
+from carom.dimensionless.solution import Solution
+from carom.dimensionless.strength.searching import Contacts, Peak
+from carom.impacts.strength import BODIES, MEASURES, StruckBody, strengths_of, units_of
+from carom.impacts.validity import WEAK_COUPLING
+from carom.io.labels import Finding, labelled_dataset
+from carom.quantities.glossary import GLOSSARY, PEAKS
+from carom.quantities.units import or_none
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+DEPTH = 0.2  # of viscous bodies, in radii of the largest contact: what lies deeper is told
+RATIOS = {  # what they are a share of, and what tells how much the body bears
+    "yield_ratio": ("von Mises stress/Y", ("yield_strength",)),
+    "tension_ratio": ("tension/strength", ("tensile_strength",)),
+    "toughness_ratio": ("K/K_c", ("fracture_toughness", "flaw_size")),
+}
+BOTH = "both bodies"
+WHERE = " (carom.Material and carom.material(name, ...) take strengths)"
+UPPER_BOUND = "a body yields, so that the stresses of elastic bodies are upper bounds"
+UNCOUPLED = (
+    "the radial tractions of unlike materials are left out, which change the tension beside the "
+    "contact (Johnson, O'Connor & Woodward 1973)"
+)
+
+
+def struck_bodies(
+    pair: Pair, scales: Scales, solution: Solution | LossySolution, depth: float | None = None
+) -> dict[str, StruckBody]:
+    """Return the bodies of an impact that deform, by name; `depth` as of `Impact.peaks`, in m."""
+    usual = 0.0 if isinstance(solution, Solution) else DEPTH * solution.max_radius
+    contacts = Contacts(solution, pair.friction, usual if depth is None else depth / scales.radius)
+    bodies = {}
+    for name, side in zip(BODIES, (-1.0, 1.0), strict=True):
+        stuff = getattr(pair, name).material
+        if not stuff.is_rigid:
+            given = contacts, stuff.poisson, units_of(scales), strengths_of(stuff)
+            bodies[name] = StruckBody(*given, side)
+    return bodies
+
+
+def peaks_dataset(
+    pair: Pair, bodies: dict[str, StruckBody], attributes: dict[str, Any]
+) -> "xr.Dataset":
+    """Return the largest stresses of an impact along `body`; as `Impact.peaks`."""
+    columns: dict[str, list[float]] = {}
+    for body in bodies.values():
+        for name, value in _numbers(body):
+            columns.setdefault(name, []).append(value)
+    known = {name: ("body", np.array(v)) for name, v in columns.items() if not np.all(np.isnan(v))}
+    words = list(bodies)
+    yields = any(ratio > 1.0 for ratio in columns["yield_ratio"])
+    notes = [UPPER_BOUND] * yields + [UNCOUPLED] * (abs(pair.dundurs_beta) > WEAK_COUPLING)
+    missing = "; ".join(f"{name} body: {_missing(body)}" for name, body in bodies.items())
+    return labelled_dataset(
+        {**known, "searched_depth": next(iter(bodies.values())).searched_depth},
+        {"body": ("body", words, {"long_name": "body"})},
+        {
+            "title": "largest stresses of an impact",
+            "missing": f"{missing}{WHERE}",
+            "notes": "; ".join(notes),
+            **attributes,
+        },
+    )
+
+
+def _numbers(body: StruckBody) -> Iterator[tuple[str, float]]:
+    for name in MEASURES:
+        yield from _places(name, body.peak(name))
+    found = body.intensity()
+    yield from _places("stress_intensity", found._replace(z=0.0 * found.z))
+    yield "critical_flaw", found.z
+    for name in RATIOS:
+        yield name, getattr(body, name)()
+
+
+def _places(name: str, peak: Peak) -> Iterator[tuple[str, float]]:
+    yield name, peak.value
+    yield from ((f"{name}_{part}", getattr(peak, part)) for part in ("x", "y", "z", "time"))
+
+
+def _missing(body: StruckBody) -> str:
+    """Return what is not known of a body, in words."""
+    names = [name for name in body.strengths._fields if isnan(getattr(body.strengths, name))]
+    return ", ".join(names) or "nothing"
+
+
+def peaks_record(dataset: "xr.Dataset") -> dict[str, Any]:
+    """Return peaks as what JSON can hold, by body; what is not known is None."""
+    bodies = {
+        str(body): {
+            str(name): or_none(float(values.sel(body=body)))
+            for name, values in dataset.data_vars.items()
+            if "body" in values.dims
+        }
+        for body in dataset["body"].values
+    }
+    depth = float(dataset["searched_depth"])
+    words = {name: dataset.attrs[name] for name in ("missing", "notes")}
+    return {**bodies, "searched_depth": depth, **words}
+
+
+def peaks_text(dataset: "xr.Dataset") -> str:
+    """Return peaks as text to read."""
+    lines = []
+    for body in dataset["body"].values:
+        row = {str(name): float(values) for name, values in dataset.sel(body=body).items()}
+        lines.append(f"largest stresses in the {body} body")
+        lines += [_line(name, row) for name in PEAKS if not isnan(row.get(name, nan))]
+    lines += [f"  {note}" for note in (dataset.attrs["notes"],) if note]
+    lines.append(f"  not known of the {dataset.attrs['missing']}")
+    return "\n".join(lines)
+
+
+def _line(name: str, row: dict[str, float]) -> str:
+    place = ", ".join(f"{axis} = {1e6 * row[f'{name}_{axis}']:.4g} um" for axis in "xyz")
+    if name == "stress_intensity":
+        place += f", of {1e6 * row['critical_flaw']:.4g} um"
+    value = f"{row[name] / 1e6:.4g} M{GLOSSARY[name].unit}"
+    instant = f"t = {1e6 * row[f'{name}_time']:.4g} us"
+    return f"  {GLOSSARY[name].meaning:40s} {value:18s} at {place}, {instant}"
+
+
+def judge_strength(bodies: dict[str, StruckBody]) -> tuple[Finding, ...]:
+    """Return whether the bodies of an impact bear it: yield with friction, tension, toughness."""
+    findings = []
+    for name, (told, needed) in RATIOS.items():
+        known = {
+            which: getattr(body, name)()
+            for which, body in bodies.items()
+            if not any(isnan(getattr(body.strengths, each)) for each in needed)
+        }
+        known = {which: ratio for which, ratio in known.items() if isfinite(ratio)}
+        if known:
+            findings.append(_finding(name, told, known))
+        elif name == "yield_ratio":
+            unknown = "yield strength not known, so not judged"
+            findings.append(Finding(told, nan, 1.0, None, unknown))
+    return tuple(findings)
+
+
+def _finding(name: str, told: str, known: dict[str, float]) -> Finding:
+    which, ratio = max(known.items(), key=lambda one: one[1])
+    broken = [f"the {body} body" for body, share in known.items() if share > 1.0]
+    bodies = BOTH if len(known) == 2 and len(broken) != 1 else f"the {which} body"
+    many = bodies == BOTH
+    good, bad = {
+        "yield_ratio": (
+            f"{bodies} stay{'' if many else 's'} elastic",
+            f"{bodies} yield{'' if many else 's'}: real restitution is below 1, and stresses "
+            "are upper bounds",
+        ),
+        "tension_ratio": (f"{bodies} bear{'' if many else 's'} the tension", f"{bodies} may crack"),
+        "toughness_ratio": (f"no flaw of {bodies} cracks", f"flaws of {bodies} crack"),
+    }[name]
+    return Finding(told, ratio, 1.0, not broken, bad if broken else good)

@@ -1,0 +1,162 @@
+"""What friction does to the surfaces in an impact: its work per area, and Archard's depth of wear.
+
+Both come from the integral of pressure times slip rate over the time: times the coefficient of
+friction it is the work per area, times the coefficient of wear the depth (Archard 1953).
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from carom.dimensionless.lossy.viscoelastic_solution import ViscoelasticSolution
+from carom.dimensionless.solution import Solution
+from carom.impacts.outcome import Outcome
+from carom.impacts.result import ImpactResult
+from carom.io.labels import labelled_dataset
+from carom.quantities.arrays import Array, places
+from carom.quantities.refusals import refusal
+from carom.quantities.units import Value, counted, not_negative
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Known = Solution | ViscoelasticSolution  # solutions of which the pressure is known
+
+MOST_RADII = 100_000
+GRID = 101  # points of the map along x and y where none are asked for
+FRICTIONLESS = 1e-200  # with less friction psi_1 may be beyond floating point
+ALIKE = 1e-6  # by which works per area may differ that are one
+FARTHEST = 8.0  # by which a radius grows over a panel of the integral over the contact
+ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(16)
+
+
+class Rubbing(NamedTuple):
+    """The integral of pressure times slip rate over an impact, mean - lateral cos 2 theta, in Pa m.
+
+    At rising radii in m, and over the contact in N m: as it is known, and as these radii tell it.
+    """
+
+    radii: Array
+    mean: Array
+    lateral: Array
+    total: float
+    summed: float
+
+    @property
+    def error(self) -> float:
+        """How far the integral over the contact is off, as a share."""
+        return abs(self.summed - self.total) / self.total if self.total else 0.0
+
+    def most(self) -> tuple[float, float]:
+        """Return the largest mean around the centre, and its radius, by a parabola."""
+        i = int(np.argmax(self.mean >= (1.0 - ALIKE) * self.mean.max()))  # of like ones the inmost
+        if not 0 < i < self.mean.size - 1:
+            return float(self.mean[i]), float(self.radii[i])
+        r, level = self.radii[i], self.mean[i]
+        after, before = self.radii[i + 1] - r, self.radii[i - 1] - r
+        rise, fall = self.mean[i + 1] - level, self.mean[i - 1] - level
+        bend = (rise / after - fall / before) / (after - before)
+        slope = rise / after - bend * after
+        shift = float(np.clip(-0.5 * slope / bend, before, after)) if bend < 0.0 else 0.0
+        return float(level + shift * (slope + bend * shift)), float(r + shift)
+
+
+def wear_of(
+    hit: ImpactResult, n: int, coefficient: Value | None, x: ArrayLike | None, y: ArrayLike | None
+) -> xr.Dataset:
+    """Return the wear of an impact as a dataset; arguments and errors as `Impact.wear`."""
+    count = counted("n", n, 2, MOST_RADII)
+    per_load = None if coefficient is None else read_coefficient(coefficient)
+    side = np.linspace(-hit.max_radius, hit.max_radius, GRID)
+    dims, coords, at = places("xy", {"x": x, "y": y}, {"x": side, "y": side}, None)
+    r, angle = np.hypot(at[..., 0], at[..., 1]), 2.0 * np.arctan2(at[..., 1], at[..., 0])
+    distance = np.linspace(0.0, hit.max_radius, count)
+    found = rubbing(hit, np.concatenate((distance, r.ravel())))
+
+    def read(values: Array, where: Array) -> Array:
+        return values[np.searchsorted(found.radii, where)]
+
+    mean = read(found.mean, distance)
+    seen = read(found.mean, r) - read(found.lateral, r) * np.cos(angle)
+    most, place = found.most()
+    variables = {
+        "mean_friction_work": ("distance", hit.pair.friction * mean),
+        "friction_work": (dims, hit.pair.friction * seen),
+        "dissipated_energy": hit.dissipated_energy,
+        "work_error": found.error,
+        "max_friction_work": hit.pair.friction * most,
+        "max_wear_radius": place,
+        "max_radius": hit.max_radius,
+        "friction": hit.pair.friction,
+    }
+    if per_load is not None:
+        variables |= {
+            "mean_wear_depth": ("distance", per_load * mean),
+            "wear_depth": (dims, per_load * seen),
+            "max_wear_depth": per_load * most,
+            "worn_volume": per_load * found.total,
+            "wear_coefficient": per_load,
+        }
+    attributes = {"title": "wear of the contact by one impact", "inputs": hit.inputs()}
+    return labelled_dataset(variables, {"distance": distance, **coords}, attributes)
+
+
+def read_coefficient(given: Value) -> float:
+    """Return a coefficient of wear in m^2/N, or raise InputError."""
+    return not_negative("wear_coefficient", given)
+
+
+def rubbing(hit: ImpactResult, radii: Array) -> Rubbing:
+    """Return the integral of pressure times slip rate at radii in m, and at more of them."""
+    unit = hit.scales.radius
+    inner, areas = _quadrature(known_contact(hit))
+    asked = np.unique(np.concatenate((radii, inner * unit)))
+    mean, lateral = rubbed_at(hit, asked)
+    summed = mean[np.searchsorted(asked, inner * unit)] @ areas * unit**2
+    return Rubbing(asked, mean, lateral, float(rubbed(hit)), float(summed))
+
+
+def rubbed_at(hit: ImpactResult, radii: Array) -> tuple[Array, Array]:
+    """Return the integral of pressure times slip rate at radii in m, mean and lateral, in Pa m."""
+    solution, scales = known_contact(hit), hit.scales
+    within = radii / scales.radius
+    if hit.pair.friction > FRICTIONLESS:
+        work = scales.pressure * scales.tangential_length * solution.friction_work(within)
+        return work[:, 0], hit.pair.lateral_ratio * work[:, 1]
+    slid = abs(hit.contact_velocity) * scales.time
+    return scales.pressure * slid * solution.pressed(within), np.zeros(radii.size)
+
+
+def rubbed(outcome: Outcome) -> Any:
+    """Return the integral of pressure times slip rate over contact and time, in N m."""
+    if outcome.pair.friction > FRICTIONLESS:
+        return outcome.dissipated_energy / outcome.pair.friction
+    impulse = outcome.pair.normal_mass * outcome.normal_speed * (1.0 + outcome.normal_restitution)
+    return abs(outcome.contact_velocity) * impulse
+
+
+def known_contact(hit: ImpactResult) -> Known:
+    """Return the solution of an impact, or raise InputError if it does not tell the pressure."""
+    if isinstance(hit.solution, Known):
+        return hit.solution
+    allowed = "the contact of this solid is known by its springs alone, not over its area"
+    raise refusal("losses", hit.losses, f"{allowed}; take KelvinVoigt, or leave losses out")
+
+
+def _quadrature(solution: Known) -> tuple[Array, Array]:
+    """Return radii and the areas for which they stand, by Gauss's rule between the borders."""
+    borders = solution._slip_borders()
+    cuts = [borders[:1]]
+    for low, high in pairwise(borders.tolist()):
+        parts = int(np.ceil(np.log(high / low) / np.log(FARTHEST))) if low > 0.0 else 1
+        cuts.append(np.geomspace(low, high, parts + 1)[1:] if low > 0.0 else np.array([high]))
+    ends = np.concatenate(cuts)
+    low, width = ends[:-1, np.newaxis], np.diff(ends)[:, np.newaxis]
+    phi = 0.25 * np.pi * (1.0 + ABSCISSAS)
+    radii = low + width * np.sin(phi) ** 2
+    areas = 2.0 * np.pi * radii * width * 0.25 * np.pi * WEIGHTS * np.sin(2.0 * phi)
+    return radii.ravel(), areas.ravel()

@@ -1,0 +1,94 @@
+"""Wear of a contact by impacts: along the distance from its centre, and seen from above."""
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+
+from carom.plots import style
+
+MARGIN = 1.05  # of the map around the contact
+WORK, DEPTH = "friction_work", "wear_depth"
+
+
+@style.draws(
+    "the wear of one spot, what Impact.wear, or carom.wear without an area, returns",
+    *("mean_friction_work", "distance", "max_wear_radius"),
+    along="distance",
+)
+def plot_wear(dataset: xr.Dataset) -> Figure:
+    """Draw the depth of wear, or else the work of friction per area, around and over the contact.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        What `Impact.wear` returns, or `carom.wear` for impacts on one spot, of which there is no
+        map.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure, 178 mm wide with a map and 86 mm without.
+
+    Raises
+    ------
+    InputError
+        If the dataset is another one.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+    >>> carom.plots.plot_wear(hit.wear()).axes[0].get_ylabel()
+    'work of friction per area, $\\\\bar W_A$\\xa0(kJ/m²)'
+    """
+    name = DEPTH if f"mean_{DEPTH}" in dataset else WORK
+    mapped = name in dataset
+    if mapped:
+        style.check_grid(dataset, name, "y", "x")
+    figure, axes = style.new_figure(
+        1, 1 + mapped, width=style.DOUBLE if mapped else style.SINGLE, height=66.0
+    )
+    _profile(axes[0, 0], dataset, f"mean_{name}")
+    if mapped:
+        _map(figure, axes[0, 1], dataset, name)
+    return figure
+
+
+def _profile(axis: Axes, dataset: xr.Dataset, name: str) -> None:
+    distance, unit, length = style.scaled(dataset, "distance")
+    values, unit_of_values, _ = style.scaled(dataset, name)
+    axis.plot(distance, values, color=style.BLUE)
+    most = float(dataset["max_wear_radius"])
+    if values.any():
+        axis.axvline(most * length, color=style.BLACK, ls=style.DASHES[1], lw=0.8)
+        where = f"{style.symbol('max_wear_radius', '1')} = {most * length:.3g}\u00a0{unit}"
+        axis.set_title(f"largest at {where}" if most else "largest in the centre")
+    style.span(axis, distance)
+    axis.set_ylim(bottom=0.0)
+    axis.set_xlabel(style.label("distance", unit))
+    axis.set_ylabel(_label(name, unit_of_values))
+
+
+def _map(figure: Figure, axis: Axes, dataset: xr.Dataset, name: str) -> None:
+    x, unit, length = style.scaled(dataset, "x")
+    y = dataset["y"].values * length
+    values, unit_of_values, _ = style.scaled(dataset, name)
+    shading = axis.pcolormesh(x, y, values, cmap=style.MAP, shading="gouraud", rasterized=True)
+    edge = float(dataset["max_radius"]) * length
+    shading.set_clip_path(Circle((0.0, 0.0), edge, transform=axis.transData))
+    axis.add_patch(Circle((0.0, 0.0), edge, fill=False, ec="black", lw=1.0))
+    axis.set_aspect("equal")
+    axis.set(xlabel=style.symbol("x", unit), ylabel=style.symbol("y", unit))
+    reach = MARGIN * edge
+    style.span(axis, np.clip(x, -reach, reach), np.clip(y, -reach, reach))
+    label = _label(name, unit_of_values)
+    bar = figure.colorbar(shading, ax=axis, label=label, pad=0.02, aspect=28)
+    bar.outline.set_linewidth(0.6)
+
+
+def _label(name: str, unit: str) -> str:
+    return style.label(name, unit.replace("^2", "²"))

@@ -1,0 +1,107 @@
+"""Spectra as users have them: what is asked for, refused, stored and drawn."""
+
+import json
+
+import numpy as np
+import pytest
+
+import carom
+from carom import plots
+
+
+@pytest.fixture(scope="module")
+def hit():
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    return carom.impact(pair, speed=2.0, angle="30 deg")
+
+
+def test_frequencies_are_those_asked_for(hit):
+    np.testing.assert_array_equal(
+        hit.spectrum(["100 kHz", 0, 2.5e3]).frequency.values, [1e5, 0.0, 2.5e3]
+    )
+    np.testing.assert_array_equal(
+        hit.spectrum(max_frequency="1 MHz", n=5).frequency.values, np.linspace(0.0, 1e6, 5)
+    )
+    default = hit.spectrum().frequency.values
+    assert (default.size, default[0]) == (601, 0.0)
+    assert default[-1] * hit.duration == pytest.approx(6.0, rel=1e-14)
+
+
+def test_variables_tell_unit_and_meaning(hit):
+    found = hit.spectrum(n=5)
+    assert found.normal_spectrum.units == found.tangential_spectrum_imag.units == "N s"
+    assert found.moment_spectrum.units == "N m s"
+    assert found.normal_corner_frequency.units == found.frequency.units == "Hz"
+    assert "force" in found.tangential_spectrum.long_name
+    assert json.loads(found.attrs["inputs"])["friction"] == 0.2
+    radius = hit.pair.first.radius
+    np.testing.assert_allclose(found.moment_spectrum, radius * found.tangential_spectrum)
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ({"frequencies": [5.0, -1.0]}, "frequencies: -1.0 cannot be used; must be a list"),
+        ({"frequencies": [float("nan")]}, "frequencies: nan cannot be used; must be a list"),
+        ({"frequencies": [float("inf")]}, "frequencies: inf cannot be used; must be a list"),
+        (
+            {"frequencies": [1e9]},
+            "frequencies: 1000000000.0 cannot be used; it is known up to 3.23",
+        ),
+        ({"frequencies": []}, "frequencies: [] cannot be used"),
+        ({"frequencies": [[1.0, 2.0]]}, "frequencies: [[1.0, 2.0]] cannot be used"),
+        ({"frequencies": "5 mm"}, "frequencies: '5 mm' cannot be used; that is not a value in Hz"),
+        ({"frequencies": np.zeros(20_001)}, "frequencies: 20,001 are too many"),
+        ({"frequencies": [1.0], "n": 5}, "frequencies: give them, or max_frequency and n"),
+        ({"frequencies": [1.0], "max_frequency": 5.0}, "frequencies: give them, or max_frequency"),
+        ({"max_frequency": 0.0}, "max_frequency: 0.0 cannot be used; must be positive"),
+        ({"max_frequency": float("nan")}, "max_frequency: nan cannot be used; give a number in Hz"),
+        ({"max_frequency": "1 GHz"}, "max_frequency: '1 GHz' cannot be used; it is known up to"),
+        ({"n": 1}, "n: 1 cannot be used; must be a whole number of at least 2"),
+        ({"n": 20_001}, "n: 20001 cannot be used; must be a whole number from 2 to 20000"),
+    ],
+)
+def test_what_cannot_be_used_takes_one_line(hit, asked, said):
+    with pytest.raises(carom.InputError) as refused:
+        hit.spectrum(**asked)
+    assert str(refused.value).startswith(said)
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("ending", ["csv", "nc"])
+def test_stored_spectra_come_back_and_are_drawn(hit, tmp_path, ending):
+    found = hit.spectrum(n=101)
+    back = carom.read(carom.save(found, tmp_path / f"spectrum.{ending}"))
+    assert back.identical(found)
+    stored = plots.save_figure(plots.plot_spectrum(back), tmp_path / "spectrum.png")
+    assert stored.stat().st_size > 20_000
+
+
+def test_marks_stand_at_the_corners(hit):
+    """On the lines, in the unit of the axis, at 1/sqrt(2) and 1/2 of the largest amplitude."""
+    found = hit.spectrum(n=6001)
+    axis = plots.plot_spectrum(found).axes[0]
+    marks = [line for line in axis.lines if line.get_marker() != "None" and line.get_xdata().size]
+    places = {
+        (str(line.get_marker()), line.get_color()): (line.get_xdata()[0], line.get_ydata()[0])
+        for line in marks
+    }
+    assert len(places) == 4
+    for name, color in (("normal", plots.style.BLUE), ("tangential", plots.style.VERMILION)):
+        largest = 1e3 * float(found[f"{name}_spectrum"].max())
+        for mark, symbol, share in (("corner", "o", 0.5**0.5), ("half", "s", 0.5)):
+            place, height = places[symbol, color]
+            assert place == pytest.approx(1e-3 * float(found[f"{name}_{mark}_frequency"]))
+            assert height == pytest.approx(share * largest, rel=1e-4)
+
+
+def test_spectra_that_are_odd_are_drawn_or_refused(hit):
+    """In any order, with equal frequencies and without friction; not with one frequency."""
+    plots.plot_spectrum(hit.spectrum([3e4, 1e3, 1e3, 0.0, 2e5]))
+    smooth = carom.Pair(hit.pair.first, hit.pair.second, friction=0.0)
+    without = carom.impact(smooth, speed=2.0, angle="30 deg")
+    labels = [line.get_label() for line in plots.plot_spectrum(without.spectrum()).axes[0].lines]
+    assert not any(label.startswith("tangential") for label in labels)
+    with pytest.raises(carom.InputError, match="two frequencies above zero"):
+        plots.plot_spectrum(hit.spectrum([0.0, 1e4]))

@@ -1,0 +1,228 @@
+"""Strengths as users give them: what is missing, negative, unknown; what results say of it."""
+
+import json
+
+import numpy as np
+import pytest
+
+import carom
+from carom.sweeps.points import PointStatus
+
+
+def pair_of(first="bearing steel", second="bearing steel", friction=0.2, **given):
+    stuff = carom.material(second, **given)
+    ball = carom.Sphere(radius="5 mm", material=first)
+    return carom.Pair(ball, carom.HalfSpace(material=stuff), friction=friction)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"yield_strength": -1.0}, "yield_strength: -1.0 cannot be used; must be positive"),
+        ({"tensile_strength": "0 MPa"}, "tensile_strength: '0 MPa' cannot be used"),
+        ({"fracture_toughness": "0.75 MPa"}, "'MPa' is no unit of fracture toughness"),
+        ({"fracture_toughness": "75 MPa m"}, "'MPa m' is no unit of fracture toughness"),
+        ({"flaw_size": "20 s"}, "flaw_size: '20 s' cannot be used"),
+        ({"toughness": 1e6}, "toughness: unknown in a material; write fracture_toughness"),
+    ],
+)
+def test_strengths_that_cannot_be_used(given, words):
+    with pytest.raises(carom.InputError, match=r"^[^\n]+$") as caught:
+        carom.material("glass", **given)
+    assert words in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "text", ["0.75 MPa m^0.5", "0.75 MPa sqrt(m)", "0.75 MPa√m", "750 kPa m^1/2"]
+)
+def test_toughness_is_read_as_it_is_written(text):
+    assert carom.material("glass", fracture_toughness=text).fracture_toughness == 7.5e5
+
+
+def test_a_material_of_the_catalogue_takes_what_is_known_besides():
+    known = carom.material("float glass")
+    more = carom.material("float glass", flaw_size="20 um", young="70 GPa")
+    assert (more.young, more.poisson, more.flaw_size) == (70e9, known.poisson, 20e-6)
+    assert more.fracture_toughness == known.fracture_toughness == 0.75e6
+    case = {"radius": "5 mm", "material": {"name": "float glass", "flaw_size": "20 um"}}
+    found = carom.sweep(
+        {"friction": 0.1, "speed": 1.0, "first": case},
+        carom.Grid({"angle": [0.1]}),
+        outputs=["crack_speed_first"],
+    )
+    assert np.isfinite(found.crack_speed_first.values).all()
+
+
+def test_no_strength_at_all_is_told_with_where_to_put_it():
+    with pytest.raises(carom.InputError, match="no strength of either body is known") as caught:
+        carom.strength(pair_of("float glass", "float glass"))
+    for word in ("yield_strength", "tensile_strength", "fracture_toughness", "carom.material"):
+        assert word in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("output", "missing"),
+    [("crack_speed_second", "fracture_toughness"), ("tensile_speed_first", "tensile_strength")],
+)
+def test_an_output_whose_strength_is_missing_is_refused(output, missing):
+    case = {"friction": 0.2, "speed": 1.0, "first": {"radius": "5 mm", "material": "steel"}}
+    body = output.rpartition("_")[2]
+    words = f"^{missing}: missing for the {body} body, which {output} needs"
+    with pytest.raises(carom.InputError, match=words):
+        carom.sweep(case, carom.Grid({"angle": [0.1]}), outputs=[output])
+
+
+def test_losses_are_refused_where_stresses_are_searched():
+    case = {"friction": 0.2, "speed": 1.0, "restitution": 0.9}
+    case["first"] = {"radius": "5 mm", "material": "steel"}
+    with pytest.raises(carom.InputError, match="with losses a sweep does not search"):
+        carom.sweep(case, carom.Grid({"angle": [0.1]}), outputs=["yield_speed_first"])
+
+
+def test_a_material_without_the_strength_has_a_status_of_its_own():
+    """One of two materials has no yield strength: its point says so, the other is solved."""
+    case = {"friction": 0.2, "speed": 1.0, "first": {"radius": "5 mm", "material": "steel"}}
+    grid = carom.Grid({"second.material": ["steel", "glass"]})
+    found = carom.sweep(case, grid, outputs=["yield_speed_second", "rebound_angle"])
+    assert found.status.values.tolist() == [PointStatus.SOLVED, PointStatus.NOT_A_NUMBER]
+    assert np.isfinite(found.yield_speed_second.values).tolist() == [True, False]
+
+
+def test_points_that_cannot_be_solved_have_their_status():
+    found = carom.strength(pair_of(), angle=["30 deg", "95 deg"], friction=[0.1, -0.1])
+    assert found.status.values.tolist() == [
+        [PointStatus.SOLVED, PointStatus.NOT_APPROACHING],
+        [PointStatus.OUT_OF_RANGE, PointStatus.NOT_APPROACHING],
+    ]
+    assert np.isnan(found.yield_speed_second.values).tolist() == [[False, True], [True, True]]
+
+
+def test_the_speed_told_is_the_speed_at_which_it_happens():
+    """An impact at the speed of the map has the strength as its largest stress, spin or not."""
+    pair = pair_of(tensile_strength="1 GPa")
+    found = carom.strength(pair, angle=["15 deg"], friction=[0.2])
+    for name, share in (("yield_speed", "yield_ratio"), ("tensile_speed", "tension_ratio")):
+        speed = float(found[f"{name}_second"][0, 0])
+        peaks = carom.impact(pair, speed=speed, angle="15 deg").peaks()
+        assert float(peaks[share].sel(body="second")) == pytest.approx(1.0, rel=1e-9)
+    case = {"friction": 0.2, "speed": 1.0, "angle": "15 deg", "spin": 40.0}
+    case["first"] = {"radius": "5 mm", "material": "bearing steel"}
+    grid = carom.Grid({"second.material": ["bearing steel"]})
+    speed = float(carom.sweep(case, grid, outputs=["yield_speed_first"]).yield_speed_first[0])
+    spinning = carom.impact(pair, speed=speed, angle="15 deg", spin=40.0 * speed)
+    assert float(spinning.peaks().yield_ratio.sel(body="first")) == pytest.approx(1.0, rel=1e-9)
+
+
+def test_what_is_missing_is_said():
+    peaks = carom.impact(pair_of("steel", "glass"), speed=0.1, angle="30 deg").peaks()
+    assert "first body: tensile_strength, fracture_toughness, flaw_size" in peaks.missing
+    assert "second body: yield_strength, tensile_strength, flaw_size" in peaks.missing
+    assert "toughness_ratio" not in peaks  # which would be NaN for both
+    assert "unlike materials" in peaks.notes
+
+
+def test_bodies_that_yield_make_stresses_upper_bounds():
+    hit = carom.impact(pair_of(), speed=20.0, angle="30 deg")
+    assert "upper bounds" in hit.peaks().notes
+    finding = next(each for each in hit.validity.findings if each.name == "von Mises stress/Y")
+    assert (finding.holds, finding.value > 1.0) == (False, True)
+    assert "both bodies yield" in finding.verdict
+    assert "upper bounds" in finding.verdict
+    slow = carom.impact(pair_of(), speed=0.01, angle="30 deg")
+    assert slow.peaks().notes == ""
+    assert "both bodies stay elastic" in str(slow.validity)
+
+
+def test_validity_judges_yield_with_friction():
+    """Friction of 0.6 brings yield at a fraction of the pressure that it takes head-on."""
+    found = {}
+    for friction in (0.0, 0.6):
+        hit = carom.impact(pair_of(friction=friction), speed=1.0, angle="45 deg")
+        shares = {each.name: each.value for each in hit.validity.findings}
+        found[friction] = shares["von Mises stress/Y"]
+    assert found[0.6] == pytest.approx(found[0.0] * 1.085 / 0.62, rel=0.03)
+
+
+def test_validity_judges_each_body_by_what_it_bears():
+    hit = carom.impact(pair_of("steel", "glass", flaw_size="20 um"), speed=0.3, angle="30 deg")
+    verdicts = {each.name: each.verdict for each in hit.validity.findings}
+    assert "the first body yields" in verdicts["von Mises stress/Y"]
+    assert "flaws of the second body crack" in verdicts["K/K_c"]
+    assert "tension/strength" not in verdicts
+
+
+@pytest.mark.parametrize("body", ["first", "second"])
+def test_a_rigid_body_has_no_peaks(body):
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    rigid = carom.material("rigid", density=7850)
+    bodies = {"first": ball, "second": carom.HalfSpace(material="steel")}
+    bodies[body] = (
+        carom.Sphere(radius="5 mm", material=rigid)
+        if body == "first"
+        else carom.HalfSpace(material=rigid)
+    )
+    pair = carom.Pair(bodies["first"], bodies["second"], friction=0.2)
+    peaks = carom.impact(pair, speed=0.1, angle="30 deg").peaks()
+    assert body not in peaks.body.values.tolist()
+    assert peaks.body.size == 1
+
+
+def test_losses_are_searched_from_a_depth_on():
+    """At the surface a viscous body has no largest stress while it is loaded."""
+    hit = carom.impact(
+        pair_of(), speed=0.5, angle="30 deg", losses=carom.KelvinVoigt(restitution=0.9)
+    )
+    peaks = hit.peaks()
+    assert float(peaks.searched_depth) == pytest.approx(0.2 * hit.max_radius)
+    for name in ("peak_von_mises", "peak_shear", "peak_tension"):
+        assert (peaks[f"{name}_z"].values >= 0.2 * hit.max_radius * (1.0 - 1e-12)).all()
+    elastic = carom.impact(pair_of(), speed=0.5, angle="30 deg").peaks(depth=peaks.searched_depth)
+    assert peaks.peak_von_mises.values == pytest.approx(elastic.peak_von_mises.values, rel=0.05)
+    with pytest.raises(carom.InputError, match="depth: 0 cannot be used; viscous bodies"):
+        hit.peaks(depth=0)
+    with pytest.raises(carom.InputError, match="depth: '-1 mm' cannot be used"):
+        hit.peaks(depth="-1 mm")
+
+
+def test_spheres_that_yield_have_no_known_stress():
+    hit = carom.impact(pair_of(), speed=5.0, angle="30 deg", losses=carom.ElasticPlastic())
+    with pytest.raises(carom.InputError, match="fields are not known of this solid"):
+        hit.peaks()
+    assert any(each.name == "p_0/Y" for each in hit.validity.findings)
+
+
+def test_peaks_and_maps_are_stored_and_read_again(tmp_path):
+    peaks = carom.impact(pair_of(), speed=0.5, angle="30 deg").peaks()
+    found = carom.strength(pair_of(), angle=[0.1, 0.8], friction=[0.1, 0.3])
+    for name, dataset in (("peaks", peaks), ("strength", found)):
+        for ending in (".nc", ".csv"):
+            again = carom.read(carom.save(dataset, tmp_path / f"{name}{ending}"))
+            for variable in dataset.data_vars:
+                assert again[variable].values == pytest.approx(dataset[variable].values)
+    figure = carom.plots.plot_strength(carom.read(tmp_path / "strength.nc"))
+    assert len(figure.axes) == 2
+
+
+def test_many_frictions_are_drawn_as_a_map():
+    found = carom.strength(pair_of(), angle=[0.0, 0.5, 1.0], friction=np.linspace(0.0, 0.5, 7))
+    figure = carom.plots.plot_strength(found)
+    assert figure.axes[0].get_ylabel().startswith("coefficient of friction")
+    with pytest.raises(carom.InputError, match="no speed in this dataset is finite"):
+        carom.plots.plot_strength(found.drop_vars(["yield_speed_first", "yield_speed_second"]))
+
+
+@pytest.mark.parametrize("resume", [False, True])
+def test_a_map_can_be_stored_block_by_block(tmp_path, resume):
+    """A sweep of speeds goes on where it was stopped, and gives what it gives in memory."""
+    pytest.importorskip("zarr")
+    case = {"friction": 0.2, "speed": 1.0, "first": {"radius": "5 mm", "material": "steel"}}
+    grid = carom.Grid({"angle": np.linspace(0.0, 1.2, 5)})
+    outputs = ["yield_speed_first", "peak_shear_second"]
+    plain = carom.sweep(case, grid, outputs=outputs)
+    store = tmp_path / "map.zarr"
+    stored = carom.sweep(case, grid, outputs=outputs, store=store)
+    if resume:
+        stored = carom.sweep(case, grid, outputs=outputs, store=store, resume=True)
+    for name in outputs:
+        assert stored[name].values.tolist() == plain[name].values.tolist()
+    assert json.loads(stored.attrs["inputs"])["outputs"] == outputs
