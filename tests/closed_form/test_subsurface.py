@@ -231,8 +231,8 @@ def test_near_the_edges(depth, monkeypatch):
         s = r + beyond
         distance = np.sqrt((depth + 1j * beyond) * (depth + 1j * (s + r)))
         amounts = half * weights * s, half * weights * s**3  # of CURVED, g = s^2
-        for point in zip(depth + 1j * s.ravel(), distance.ravel(), *map(np.ravel, amounts)):
-            zeta, away, push, pull = point
+        points = (depth + 1j * s, distance, *amounts)
+        for zeta, away, push, pull in zip(*map(np.ravel, points), strict=True):
             subsurface.add_point.py_func(parts, r, depth, zeta, away, 0.3, push, pull)
         expected = np.empty(6)
         subsurface.turn(expected, parts, 0.6, 0.8, FRICTION)

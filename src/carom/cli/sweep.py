@@ -41,8 +41,7 @@ def sweep_command(
         bool, typer.Option("--resume", help="Continue what the store has of this sweep.")
     ] = False,
     quantities: Annotated[
-        str | None,
-        typer.Option(help="What to compute, e.g. 'rebound_angle, yield_speed_second'."),
+        str | None, typer.Option(help="What to compute, e.g. 'rebound_angle, yield_speed_second'.")
     ] = None,
     output: Annotated[str | None, typer.Option(help="Store at the end: .nc or .csv.")] = None,
     scheduler: Annotated[
