@@ -215,6 +215,15 @@ def tables():
         "fit_walton": (carom.fit_walton, {"pair": PAIR, "span": 5.0}),
         "hit.stress": (HIT.stress, {**INSIDE, **BELOW}),
         "path.stress": (PATH.stress, {"step": 1, **BELOW}),
+        "hit.peaks": (HIT.peaks, {"depth": 1e-5}),
+        "hit.wear": (HIT.wear, {"n": 3, "coefficient": 1e-13, "x": [0.0, 1e-5], "y": [0.0]}),
+        "hit.spectrum": (HIT.spectrum, {"frequencies": [0.0, 1e5]}),
+        "hit.spectrum, n": (HIT.spectrum, {"max_frequency": 1e5, "n": 3}),
+        "strength": (carom.strength, {"pair": PAIR, "angle": [0.5], "friction": [0.2],
+                                      "workers": 1, "progress": False}),
+        "wear": (carom.wear, {"pair": PAIR, **POLAR, "spin": 1.0, "counts": [1.0, 2.0],
+                              "coefficient": 1e-13, "area": 1e-4, "n": 3, "losses": None}),
+        "wear, components": (carom.wear, {"pair": BALLS, **CARTESIAN, "spin2": 1.0}),
         "sweep": (carom.sweep, {"case": CASE, "design": GRID, "outputs": ["psi_out"], "workers": 1,
                                 "progress": False, "scheduler": None, "resume": False}),
         "step_error": (verify.step_error, {"law": carom.LinearSpring(), "steps": 50, "psi": [0.5],
@@ -243,6 +252,7 @@ OPEN = {  # NaN or infinity that the docstring tells
         "Grid, range",
     ),
     *("RoughLaw", "sweep", "force_error", "memory", "Entry"),
+    *("hit.spectrum", "hit.spectrum, n", "strength", "wear", "wear, components"),
 }
 
 

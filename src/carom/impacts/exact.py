@@ -33,6 +33,8 @@ from carom.quantities.units import Value, not_negative
 if TYPE_CHECKING:
     import xarray as xr
 
+FARTHEST = 100.0  # of the depth from which on peaks are searched for, in contact radii
+
 
 @dataclass(frozen=True, eq=False)
 class Impact(ImpactResult, InContact):
@@ -201,8 +203,8 @@ class Impact(ImpactResult, InContact):
         Raises
         ------
         InputError
-            If the depth is negative, zero for viscous bodies, or the stress is not known, as in
-            spheres that yield.
+            If the depth is negative, above 100 contact radii, zero for viscous bodies, or the
+            stress is not known, as in spheres that yield.
 
         Examples
         --------
@@ -218,6 +220,9 @@ class Impact(ImpactResult, InContact):
         if from_depth == 0.0 and isinstance(self.solution, LossySolution):
             allowed = "viscous bodies have infinite stresses at the surface; give a positive depth"
             raise refusal("depth", depth, allowed)
+        deepest = FARTHEST * self.max_radius
+        if from_depth is not None and from_depth > deepest:
+            raise refusal("depth", depth, f"below {deepest:.3g} m hardly any stress is left")
         bodies = struck_bodies(self.pair, self.scales, self.solution, from_depth)
         return peaks_dataset(self.pair, bodies, {"inputs": self.inputs()})
 

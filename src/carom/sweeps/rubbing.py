@@ -26,6 +26,7 @@ from carom.sweeps.points import (
 )
 
 REALS = "give real numbers, one or an array of them"
+HUGE = 1e250  # N m; per area it is more
 BLOCK = 20_000  # impacts that are solved before progress is told
 
 
@@ -84,7 +85,7 @@ def motion_of(columns: Mapping[str, Any]) -> tuple[Any, Any]:
         normal, tangential = components(columns["speed"], columns["angle"])
     else:
         normal, tangential = columns["normal_speed"], columns["tangential_speed"]
-    return normal, Tangential(tangential, columns["spin"], columns.get("spin2", 0.0 * normal))
+    return normal, Tangential(tangential, columns["spin"], columns.get("spin2", np.zeros_like(normal)))
 
 
 def solve_all(
@@ -119,7 +120,9 @@ def _fill(pair: Pair, losses: LossLaw | None, block: Many) -> None:
         solve_elastic(outcome, solution, block.status, None)
     else:
         solve_with_losses(outcome, losses, solution, block.status, None)
-    block.rubbed[block.solved] = rubbed(outcome)[block.solved]
+    found = np.asarray(rubbed(outcome), dtype=np.float64)
+    block.status[block.solved & ~(found < HUGE)] = PointStatus.BEYOND_FLOATING_POINT
+    block.rubbed[block.solved] = found[block.solved]
     block.radii[block.solved] = np.asarray(outcome.max_radius)[block.solved]
 
 
