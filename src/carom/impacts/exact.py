@@ -145,11 +145,13 @@ class Impact(ImpactResult, InContact):
         -------
         xarray.Dataset
             Along `distance` in m mean_friction_work in J/m^2, the mean around the centre; along (y,
-            x) friction_work; as numbers dissipated_energy, the work of friction, max_friction_work
-            and its distance max_wear_radius, and work_error, by how much the work per area summed
-            over the contact differs: 1e-8 of elastic bodies, 1e-5 or so of viscous ones, of which
-            energies are known to some 1e-8. With a coefficient also mean_wear_depth, wear_depth,
-            max_wear_depth in m and worn_volume in m^3.
+            x) friction_work; as numbers dissipated_energy, the work of friction by the energies,
+            max_friction_work anywhere in the contact and its distance max_wear_radius, and
+            work_error, by which share the work per area summed over the contact differs from it:
+            1e-8 of elastic bodies up to chi = 6 and 2e-7 beyond, of viscous ones 1e-5 or so and
+            more near the normal, as their energies are known to some 1e-7 only. With a coefficient
+            also mean_wear_depth, wear_depth, max_wear_depth in m and worn_volume in m^3, where that
+            error is above 1e-4 by the work per area.
 
         Raises
         ------

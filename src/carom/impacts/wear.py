@@ -27,8 +27,10 @@ if TYPE_CHECKING:
 Known = Solution | ViscoelasticSolution  # solutions of which the pressure is known
 
 MOST_RADII = 100_000
+EVEN = 101  # radii at least among which the largest wear is sought
 GRID = 101  # points of the map along x and y where none are asked for
-FRICTIONLESS = 1e-200  # with less friction psi_1 may be beyond floating point
+FRICTIONLESS = 1e-9  # with less friction nothing of it is felt, and psi_1 may be too large
+TRUSTED = 1e-4  # energies that are farther from the work per area are not taken for a volume
 ALIKE = 1e-6  # by which works per area may differ that are one
 FARTHEST = 8.0  # by which a radius grows over a panel of the integral over the contact
 ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(16)
@@ -37,32 +39,48 @@ ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(16)
 class Rubbing(NamedTuple):
     """The integral of pressure times slip rate over an impact, mean - lateral cos 2 theta, in Pa m.
 
-    At rising radii in m, and over the contact in N m: as it is known, and as these radii tell it.
+    At rising radii in m, and over the contact in N m: as the energies tell it, and as the radii do.
+    `inner` are those radii that are well apart from each other.
     """
 
     radii: Array
     mean: Array
     lateral: Array
-    total: float
+    inner: Array
+    by_energies: float
     summed: float
 
     @property
+    def total(self) -> float:
+        """What the energies tell, or the radii where those of viscous bodies are but rounding."""
+        return self.by_energies if self.error <= TRUSTED else self.summed
+
+    @property
     def error(self) -> float:
-        """How far the integral over the contact is off, as a share."""
-        return abs(self.summed - self.total) / self.total if self.total else 0.0
+        """How far both integrals over the contact are apart, as a share of the larger."""
+        largest = max(abs(self.by_energies), self.summed)
+        return abs(self.summed - self.by_energies) / largest if largest else 0.0
 
     def most(self) -> tuple[float, float]:
-        """Return the largest mean around the centre, and its radius, by a parabola."""
-        i = int(np.argmax(self.mean >= (1.0 - ALIKE) * self.mean.max()))  # of like ones the inmost
-        if not 0 < i < self.mean.size - 1:
-            return float(self.mean[i]), float(self.radii[i])
-        r, level = self.radii[i], self.mean[i]
-        after, before = self.radii[i + 1] - r, self.radii[i - 1] - r
-        rise, fall = self.mean[i + 1] - level, self.mean[i - 1] - level
-        bend = (rise / after - fall / before) / (after - before)
-        slope = rise / after - bend * after
-        shift = float(np.clip(-0.5 * slope / bend, before, after)) if bend < 0.0 else 0.0
-        return float(level + shift * (slope + bend * shift)), float(r + shift)
+        """Return the largest value anywhere in the contact, and its distance from the centre."""
+        everywhere = self.mean + np.abs(self.lateral)
+        found = largest(self.inner, everywhere[np.searchsorted(self.radii, self.inner)])
+        i = int(everywhere.argmax())
+        return max(found, (float(everywhere[i]), float(self.radii[i])))
+
+
+def largest(radii: Array, values: Array) -> tuple[float, float]:
+    """Return the largest of values at rising radii and where it is, by a parabola."""
+    i = int(np.argmax(values >= (1.0 - ALIKE) * values.max()))  # of like ones the inmost
+    if not 0 < i < values.size - 1:
+        return float(values[i]), float(radii[i])
+    r, level = radii[i], values[i]
+    after, before = radii[i + 1] - r, radii[i - 1] - r
+    rise, fall = values[i + 1] - level, values[i - 1] - level
+    bend = (rise / after - fall / before) / (after - before)
+    slope = rise / after - bend * after
+    shift = float(np.clip(-0.5 * slope / bend, before, after)) if bend < 0.0 else 0.0
+    return float(level + shift * (slope + bend * shift)), float(r + shift)
 
 
 def wear_of(
@@ -107,17 +125,19 @@ def wear_of(
 
 def read_coefficient(given: Value) -> float:
     """Return a coefficient of wear in m^2/N, or raise InputError."""
-    return not_negative("wear_coefficient", given)
+    return not_negative("coefficient", given, "m^2/N")
 
 
 def rubbing(hit: ImpactResult, radii: Array) -> Rubbing:
     """Return the integral of pressure times slip rate at radii in m, and at more of them."""
     unit = hit.scales.radius
-    inner, areas = _quadrature(known_contact(hit))
-    asked = np.unique(np.concatenate((radii, inner * unit)))
+    nodes, areas = _quadrature(known_contact(hit))
+    inner = np.union1d(nodes * unit, hit.max_radius * np.linspace(0.0, 1.0, EVEN))
+    apart = np.append(np.diff(inner) > ALIKE * hit.max_radius, True)
+    asked = np.union1d(radii, inner)
     mean, lateral = rubbed_at(hit, asked)
-    summed = mean[np.searchsorted(asked, inner * unit)] @ areas * unit**2
-    return Rubbing(asked, mean, lateral, float(rubbed(hit)), float(summed))
+    summed = mean[np.searchsorted(asked, nodes * unit)] @ areas * unit**2
+    return Rubbing(asked, mean, lateral, inner[apart], float(rubbed(hit)), float(summed))
 
 
 def rubbed_at(hit: ImpactResult, radii: Array) -> tuple[Array, Array]:
@@ -132,9 +152,12 @@ def rubbed_at(hit: ImpactResult, radii: Array) -> tuple[Array, Array]:
 
 
 def rubbed(outcome: Outcome) -> Any:
-    """Return the integral of pressure times slip rate over contact and time, in N m."""
+    """Return the integral of pressure times slip rate over contact and time, in N m, by energies.
+
+    Those of viscous bodies are known to some 1e-7 of the energy before, below which it is zero.
+    """
     if outcome.pair.friction > FRICTIONLESS:
-        return outcome.dissipated_energy / outcome.pair.friction
+        return np.maximum(outcome.dissipated_energy, 0.0) / outcome.pair.friction
     impulse = outcome.pair.normal_mass * outcome.normal_speed * (1.0 + outcome.normal_restitution)
     return abs(outcome.contact_velocity) * impulse
 

@@ -180,9 +180,7 @@ GLOSSARY = {
     "mean_friction_work": Quantity(
         r"$\bar W_A$", "J/m^2", "work of friction per area, mean around the centre"
     ),
-    "max_friction_work": Quantity(
-        r"$\max\bar W_A$", "J/m^2", "largest work of friction per area, mean around the centre"
-    ),
+    "max_friction_work": Quantity(r"$\max W_A$", "J/m^2", "largest work of friction per area"),
     "max_wear_radius": Quantity("$r_w$", "m", "distance from the centre at which wear is largest"),
     "work_error": Quantity(
         r"$\delta W$", "1", "work per area, summed over the contact, against the work, as a share"
@@ -192,9 +190,7 @@ GLOSSARY = {
     ),
     "wear_depth": Quantity("$h_w$", "m", "depth of wear"),
     "mean_wear_depth": Quantity(r"$\bar h_w$", "m", "depth of wear, mean around the centre"),
-    "max_wear_depth": Quantity(
-        r"$\max\bar h_w$", "m", "largest depth of wear, mean around the centre"
-    ),
+    "max_wear_depth": Quantity(r"$\max h_w$", "m", "largest depth of wear"),
     "worn_volume": Quantity("$V_w$", "m^3", "volume that wear removes"),
     "counts": Quantity("$N$", "1", "how often the impact happens"),
     "area": Quantity("$A$", "m^2", "area over which impacts are spread"),

@@ -1,6 +1,7 @@
 """Many impacts of one pair side by side: what friction does in each, and a status for each."""
 
 from collections.abc import Mapping
+from math import nan
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,7 +11,6 @@ from carom.bodies.kinematics import Tangential, components
 from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Pair, representable
 from carom.bodies.shapes import Sphere
-from carom.dimensionless.lossy.law import checked_law
 from carom.impacts.outcome import Outcome
 from carom.impacts.wear import rubbed
 from carom.io.progress import Progress, advancing
@@ -55,7 +55,9 @@ class Many(NamedTuple):
 
     @property
     def total(self) -> float:
-        """What all solved impacts rub, each as often as it happens, in N m."""
+        """What all solved impacts rub, each as often as it happens, in N m; NaN if none is."""
+        if self.status.size and not self.solved.any():
+            return nan
         return float(self.rubbed[self.solved] @ self.counts[self.solved])
 
 
@@ -85,15 +87,15 @@ def motion_of(columns: Mapping[str, Any]) -> tuple[Any, Any]:
         normal, tangential = components(columns["speed"], columns["angle"])
     else:
         normal, tangential = columns["normal_speed"], columns["tangential_speed"]
-    return normal, Tangential(tangential, columns["spin"], columns.get("spin2", np.zeros_like(normal)))
+    return normal, Tangential(
+        tangential, columns["spin"], columns.get("spin2", np.zeros_like(normal))
+    )
 
 
 def solve_all(
     pair: Pair, columns: dict[str, Array], losses: LossLaw | None, progress: Progress
 ) -> Many:
     """Return all impacts with what each of them rubs, and a status for each."""
-    if losses is not None:
-        checked_law(losses, "loss")
     counts = columns.pop("counts")
     status = np.full(counts.size, PointStatus.NOT_RUN, dtype=np.int8)
     nothing = np.full(counts.size, np.nan)

@@ -1,16 +1,17 @@
 """Wear by many impacts of one pair: a mill, a nozzle, a chute, by their angles and speeds."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.bodies.kinematics import Tangential
-from carom.bodies.losses import LossLaw
+from carom.bodies.losses import KelvinVoigt, LossLaw
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import describe
+from carom.dimensionless.lossy.law import checked_law
 from carom.impacts.exact import solve_exactly
-from carom.impacts.wear import MOST_RADII, read_coefficient, rubbed_at
+from carom.impacts.wear import MOST_RADII, largest, read_coefficient, rubbed_at
 from carom.io.labels import flags, labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.quantities.arrays import Array
@@ -23,6 +24,7 @@ from carom.sweeps.rubbing import Many, motion_of, read_columns, solve_all
 if TYPE_CHECKING:
     import xarray as xr
 
+FINE = 201  # distances at least among which the largest wear of a spot is sought
 STATUS = {
     "long_name": "what became of the impact",
     **flags([status.message for status in PointStatus], first=PointStatus.NOT_RUN),
@@ -82,9 +84,12 @@ def wear(
     xarray.Dataset
         Along `impact` what was given, counts, status (`PointStatus`) and dissipated_energy, the
         work of friction in J of one such impact; as numbers total_friction_work, the
-        unsolved_impacts that are left out of it, and with a coefficient total_worn_volume. With an
-        area spread_friction_work and spread_wear_depth, without it mean_friction_work and
-        mean_wear_depth along `distance`, their largest values and max_wear_radius.
+        unsolved_impacts that are left out of it, and with a coefficient total_worn_volume; NaN if
+        no impact is solved. With an area spread_friction_work and spread_wear_depth, without it
+        mean_friction_work and mean_wear_depth along `distance`, means around the centre, and of the
+        deepest place max_friction_work, max_wear_depth and max_wear_radius; on one spot an elastic
+        impact takes some 2 ms, a viscous one 0.2 s. The work of each viscous impact is known to
+        some 1e-7 of its energy.
 
     Raises
     ------
@@ -110,14 +115,17 @@ def wear(
     count = counted("n", n, 2, MOST_RADII)
     per_load = None if coefficient is None else read_coefficient(coefficient)
     spread = None if area is None else positive("area", area)
+    _checked(losses, pair, spread is None)
     motion = {"speed": speed, "angle": angle, "normal_speed": normal_speed}
     motion |= {"tangential_speed": tangential_speed, "spin": spin, "spin2": spin2, "counts": counts}
     many = solve_all(pair, read_columns(pair, motion), losses, progress)
     found = {"friction": pair.friction, **_of_all(many, pair.friction, per_load)}
     coords: dict[str, Any] = {}
     if spread is None:
-        coords["distance"], summed = _on_spot(pair, many, losses, count, progress)
-        found |= _of_spot(coords["distance"], summed, pair.friction, per_load)
+        distance = _evenly(float(many.radii[many.solved].max(initial=0.0)), count)
+        spot = _on_spot(pair, many, losses, distance, progress)
+        coords["distance"] = distance
+        found |= _of_spot(distance, spot, pair.friction, per_load)
     else:
         found |= {"area": spread, "spread_friction_work": pair.friction * many.total / spread}
         found |= {} if per_load is None else {"spread_wear_depth": per_load * many.total / spread}
@@ -141,33 +149,67 @@ def _of_all(many: Many, friction: float, per_load: float | None) -> dict[str, An
     return found
 
 
+class Spot(NamedTuple):
+    """What impacts on one spot rub at rising distances: mean around the centre, lateral part."""
+
+    radii: Array
+    mean: Array
+    lateral: Array
+
+    def at(self, distance: Array) -> Array:
+        """Return the means at distances that are among the radii."""
+        return self.mean[np.searchsorted(self.radii, distance)]
+
+    def most(self) -> tuple[float, float]:
+        """Return the largest value anywhere on the spot, and its distance from the centre."""
+        inner = _evenly(self.radii[-1], FINE)
+        at = np.searchsorted(self.radii, inner)
+        return largest(inner, self.mean[at] + np.abs(self.lateral[at]))
+
+
+def _evenly(end: float, n: int) -> Array:
+    return np.linspace(0.0, end, n)
+
+
 def _on_spot(
-    pair: Pair, many: Many, losses: LossLaw | None, n: int, progress: Progress
-) -> tuple[Array, Array]:
-    """Return distances from the centre of one spot, and what all impacts on it rub there."""
-    radii = np.linspace(0.0, float(many.radii[many.solved].max(initial=0.0)), n)
-    summed, (normal, motion) = np.zeros(n), motion_of(many.columns)
+    pair: Pair, many: Many, losses: LossLaw | None, distance: Array, progress: Progress
+) -> Spot:
+    """Return what all impacts on one spot rub, at these distances and at more of them."""
+    radii = np.union1d(distance, _evenly(distance[-1], FINE))
+    mean, lateral, (normal, motion) = *np.zeros((2, radii.size)), motion_of(many.columns)
     which = np.flatnonzero(many.solved & (many.counts > 0.0))
     with advancing("wear around the centre", which.size, progress, unit="impacts") as advance:
         for i in which.tolist():
             before = Tangential(*(float(values[i]) for values in motion))
-            hit = solve_exactly(pair, float(normal[i]), before, losses)
-            summed += many.counts[i] * rubbed_at(hit, radii)[0]
+            rubbed = rubbed_at(solve_exactly(pair, float(normal[i]), before, losses), radii)
+            mean += many.counts[i] * rubbed[0]
+            lateral += many.counts[i] * rubbed[1]
             advance(1)
-    return radii, summed
+    return Spot(radii, mean, lateral)
 
 
 def _of_spot(
-    radii: Array, summed: Array, friction: float, per_load: float | None
+    distance: Array, spot: Spot, friction: float, per_load: float | None
 ) -> dict[str, Any]:
-    most = int(summed.argmax())
-    found: dict[str, Any] = {"max_wear_radius": radii[most]}
+    most, place = spot.most()
+    found: dict[str, Any] = {"max_wear_radius": place}
     factors = {"friction_work": friction, "wear_depth": per_load}
     for name, factor in factors.items():
         if factor is not None:
-            found[f"mean_{name}"] = ("distance", factor * summed)
-            found[f"max_{name}"] = factor * summed[most]
+            found[f"mean_{name}"] = ("distance", factor * spot.at(distance))
+            found[f"max_{name}"] = factor * most
     return found
+
+
+def _checked(losses: LossLaw | None, pair: Pair, on_spot: bool) -> None:
+    """Raise InputError for losses that many impacts cannot have, before any is solved."""
+    if losses is None:
+        return
+    if any(map(np.ndim, checked_law(losses, "loss")(pair, 1.0))):
+        raise refusal("losses", losses, "wear takes one number; carom.sweep takes many")
+    if on_spot and not isinstance(losses, KelvinVoigt):
+        allowed = "the contact of this solid is not known over its area"
+        raise refusal("losses", losses, f"{allowed}; take KelvinVoigt, or give the area")
 
 
 def _inputs(pair: Pair, losses: LossLaw | None) -> dict[str, Any]:
