@@ -84,8 +84,9 @@ def test_a_material_without_the_strength_has_a_status_of_its_own():
     case = {"friction": 0.2, "speed": 1.0, "first": {"radius": "5 mm", "material": "steel"}}
     grid = carom.Grid({"second.material": ["steel", "glass"]})
     found = carom.sweep(case, grid, outputs=["yield_speed_second", "rebound_angle"])
-    assert found.status.values.tolist() == [PointStatus.SOLVED, PointStatus.NOT_A_NUMBER]
+    assert found.status.values.tolist() == [PointStatus.SOLVED, PointStatus.STRENGTH_NOT_KNOWN]
     assert np.isfinite(found.yield_speed_second.values).tolist() == [True, False]
+    assert np.isfinite(found.rebound_angle.values).all()  # which no strength matters to
 
 
 def test_points_that_cannot_be_solved_have_their_status():
@@ -182,6 +183,58 @@ def test_losses_are_searched_from_a_depth_on():
         hit.peaks(depth=0)
     with pytest.raises(carom.InputError, match="depth: '-1 mm' cannot be used"):
         hit.peaks(depth="-1 mm")
+
+
+def test_losses_leave_the_surface_unjudged():
+    """Below a depth all may be well: that is no verdict on the body; beyond its strength it is."""
+    pair = pair_of("bearing steel", "float glass", flaw_size="20 um", tensile_strength="50 MPa")
+    hits = [
+        carom.impact(pair, speed=v, angle="40 deg", losses=carom.KelvinVoigt(restitution=0.98))
+        for v in (0.001, 5.0)
+    ]
+    slow, fast = ({each.name: each for each in hit.validity.findings} for hit in hits)
+    for name in ("von Mises stress/Y", "tension/strength", "K/K_c"):
+        assert slow[name].holds is None
+    assert "below a depth of" in slow["von Mises stress/Y"].verdict
+    assert "not judged with losses" in slow["K/K_c"].verdict
+    assert fast["von Mises stress/Y"].holds is False
+    peaks = hits[0].peaks()
+    assert "from a depth of" in peaks.notes
+    assert "stress intensity, which losses leave without a bound" in peaks.missing
+
+
+def test_a_toughness_without_flaws_is_not_judged_and_said():
+    hit = carom.impact(pair_of("bearing steel", "float glass"), speed=0.1, angle="30 deg")
+    finding = next(each for each in hit.validity.findings if each.name == "K/K_c")
+    assert finding.holds is None
+    assert "flaw_size of the second body not known" in finding.verdict
+
+
+def test_coupling_leaves_strength_unjudged_by_boundary_elements():
+    """For unlike bodies they have other tractions than those by which stresses are told."""
+    pair = pair_of("bearing steel", "float glass", flaw_size="20 um")
+    coarse = carom.BoundaryElements(elements=8, steps=20)
+    hit = carom.impact(pair, speed=0.3, angle="30 deg", method=coarse)
+    finding = next(each for each in hit.validity.findings if each.name == "K/K_c")
+    assert finding.holds is None
+    assert "leaves the coupling of unlike materials out" in finding.verdict
+
+
+def test_maps_say_what_bounds_their_speeds():
+    like = carom.strength(pair_of(), angle=[0.1, 0.2])
+    assert "lower bounds" in like.notes
+    assert "radial tractions" not in like.notes
+    unlike = carom.strength(pair_of("bearing steel", "glass", flaw_size="9 um"), angle=[0.1, 0.2])
+    assert "radial tractions of unlike materials" in unlike.notes
+    with pytest.raises(carom.InputError, match="one angle makes no curve"):
+        carom.plots.plot_strength(like.isel(angle=[0]))
+
+
+def test_a_rigid_body_is_refused_where_its_stress_is_wanted():
+    case = {"friction": 0.2, "speed": 1.0, "first": {"radius": "5 mm", "material": "steel"}}
+    case["second"] = {"material": "rigid"}
+    with pytest.raises(carom.InputError, match="the second body is rigid and has no stress"):
+        carom.sweep(case, carom.Grid({"angle": [0.1]}), outputs=["peak_shear_second"])
 
 
 def test_spheres_that_yield_have_no_known_stress():

@@ -72,6 +72,31 @@ def test_no_dense_scan_of_many_impacts_finds_more(case):
     assert np.all(found <= np.multiply(1.0 + ERROR, told))
 
 
+@pytest.mark.parametrize("restitution", [None, 0.9, 0.6])
+@pytest.mark.parametrize(("friction", "poisson"), [(0.05, 0.3), (0.2, 0.4), (0.5, 0.3)])
+def test_no_dense_scan_below_a_depth_finds_more(friction, poisson, restitution):
+    """What pulls at a depth may lie far behind the contact: the scan goes to 4 contact radii."""
+    stuff = carom.Material(young="200 GPa", poisson=poisson, density=7800)
+    ball = carom.Sphere(radius="5 mm", material=stuff)
+    pair = carom.Pair(ball, carom.HalfSpace(material=stuff), friction=friction)
+    losses = None if restitution is None else carom.KelvinVoigt(restitution=restitution)
+    hit = carom.impact(pair, speed=0.1, angle="25 deg", losses=losses)
+    depth = 0.2 * hit.max_radius
+    told = hit.peaks(depth=depth).sel(body="second")
+    x = np.concatenate([np.linspace(-4.0, 4.0, 41), [0.0]]) * hit.max_radius
+    best = dict.fromkeys(PROMISED, 0.0)
+    first = np.geomspace(1e-5, 0.02, 16)  # a viscous touch is a blow
+    for share in np.concatenate([first, np.linspace(0.03, 0.97, 25)]):
+        below = hit.stress(
+            share * hit.duration, x=np.unique(x), z=depth * np.linspace(1.0, 6.0, 14)
+        )
+        for name, measure in PROMISED.items():
+            best[name] = max(best[name], float(below[measure].max()))
+    for name, most in best.items():
+        assert most <= (1.0 + ERROR) * float(told[name]), name
+        assert most >= 0.9 * float(told[name]), name
+
+
 @pytest.fixture(scope="module")
 def hit():
     """A hard ball strikes glass and slips, sticks, slips back."""

@@ -20,7 +20,7 @@ from carom.halfspace.refinement import Resolution, refinement_error
 from carom.halfspace.solution import HalfspaceSolution, solve
 from carom.impacts.peaks import judge_strength, struck_bodies
 from carom.impacts.result import ImpactResult
-from carom.impacts.validity import judge_contact, judge_errors
+from carom.impacts.validity import WEAK_COUPLING, judge_contact, judge_errors
 from carom.io.citations import ELEMENTS, bibtex
 from carom.io.labels import Validity, labelled_dataset
 from carom.io.progress import Progress, advancing
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+BY_THEORY = "by the theory, which leaves the coupling of unlike materials out"
 RANGES = {"elements": (8, 1000), "steps": (20, 100_000)}  # memory grows with elements squared
 LARGEST_CHI = 1e3  # steps would be too many
 LARGEST_PSI, LARGEST_SPIN = 1e9, 1e6  # what changes would be lost in rounding
@@ -157,6 +158,11 @@ class HalfspaceImpact(ImpactResult):
         strength = judge_strength(
             struck_bodies(self.pair, self.scales, theory.solve(psi, self.pair.chi))
         )
+        if abs(self.pair.dundurs_beta) > WEAK_COUPLING:
+            strength = tuple(
+                finding._replace(holds=None, verdict=f"{finding.verdict}; {BY_THEORY}")
+                for finding in strength
+            )
         assumed = judge_contact(self.pair, self.normal_speed, self.duration, strength)
         return Validity((*assumed, *judge_errors(self.psi_out_error, self.energy_error)))
 

@@ -182,7 +182,8 @@ class Impact(ImpactResult, InContact):
         flat there, about 0.01 of the contact radius in place and of the duration in time. The
         stress intensity is that of surface cracks up to `flaw_size`, long and straight down across
         the plane of the impact, K = 2 sqrt(c/pi) integral of (1.3 - 0.3 u^(5/4))
-        sigma(c u)/sqrt(1 - u^2) du (Tada, Paris & Irwin 2000), to 0.5 %.
+        sigma(c u)/sqrt(1 - u^2) du (Tada, Paris & Irwin 2000), to 0.5 %; of flaws below 1/2000 of
+        the contact radius up to 2 % too large.
 
         Parameters
         ----------

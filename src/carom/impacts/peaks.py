@@ -25,7 +25,14 @@ RATIOS = {  # what they are a share of, and what tells how much the body bears
     "tension_ratio": ("tension/strength", ("tensile_strength",)),
     "toughness_ratio": ("K/K_c", ("fracture_toughness", "flaw_size")),
 }
-BOTH = "both bodies"
+VERDICTS = {  # of whom, and the ending of the verb
+    "yield_ratio": (
+        "{0} stay{1} elastic",
+        "{0} yield{1}: real restitution is below 1, and stresses are upper bounds",
+    ),
+    "tension_ratio": ("{0} bear{1} the tension", "{0} may crack"),
+    "toughness_ratio": ("flaws of {0} do not crack", "flaws of {0} crack"),
+}
 WHERE = " (carom.Material and carom.material(name, ...) take strengths)"
 UPPER_BOUND = "a body yields, so that the stresses of elastic bodies are upper bounds"
 UNCOUPLED = (
@@ -60,10 +67,12 @@ def peaks_dataset(
     known = {name: ("body", np.array(v)) for name, v in columns.items() if not np.all(np.isnan(v))}
     words = list(bodies)
     yields = any(ratio > 1.0 for ratio in columns["yield_ratio"])
-    notes = [UPPER_BOUND] * yields + [UNCOUPLED] * (abs(pair.dundurs_beta) > WEAK_COUPLING)
+    depth = next(iter(bodies.values())).searched_depth
+    notes = [f"peaks of stress are those from a depth of {1e6 * depth:.4g} um on"] * (depth > 0.0)
+    notes += [UPPER_BOUND] * yields + [UNCOUPLED] * (abs(pair.dundurs_beta) > WEAK_COUPLING)
     missing = "; ".join(f"{name} body: {_missing(body)}" for name, body in bodies.items())
     return labelled_dataset(
-        {**known, "searched_depth": next(iter(bodies.values())).searched_depth},
+        {**known, "searched_depth": depth},
         {"body": ("body", words, {"long_name": "body"})},
         {
             "title": "largest stresses of an impact",
@@ -92,7 +101,8 @@ def _places(name: str, peak: Peak) -> Iterator[tuple[str, float]]:
 def _missing(body: StruckBody) -> str:
     """Return what is not known of a body, in words."""
     names = [name for name in body.strengths._fields if isnan(getattr(body.strengths, name))]
-    return ", ".join(names) or "nothing"
+    lost = [] if body.judges_flaws else ["stress intensity, which losses leave without a bound"]
+    return ", ".join(names + lost) or "nothing"
 
 
 def peaks_record(dataset: "xr.Dataset") -> dict[str, Any]:
@@ -135,32 +145,43 @@ def judge_strength(bodies: dict[str, StruckBody]) -> tuple[Finding, ...]:
     """Return whether the bodies of an impact bear it: yield with friction, tension, toughness."""
     findings = []
     for name, (told, needed) in RATIOS.items():
-        known = {
-            which: getattr(body, name)()
-            for which, body in bodies.items()
-            if not any(isnan(getattr(body.strengths, each)) for each in needed)
-        }
+        lacks = {which: _lacking(body, needed) for which, body in bodies.items()}
+        known = {which: getattr(bodies[which], name)() for which in bodies if not lacks[which]}
         known = {which: ratio for which, ratio in known.items() if isfinite(ratio)}
+        partly = any(0 < len(names) < len(needed) for names in lacks.values())
         if known:
-            findings.append(_finding(name, told, known))
-        elif name == "yield_ratio":
-            unknown = "yield strength not known, so not judged"
-            findings.append(Finding(told, nan, 1.0, None, unknown))
+            findings.append(_finding(name, told, known, bodies))
+        elif name == "yield_ratio" or partly or not all(lacks.values()):
+            findings.append(Finding(told, nan, 1.0, None, _why_not(needed, lacks)))
     return tuple(findings)
 
 
-def _finding(name: str, told: str, known: dict[str, float]) -> Finding:
+def _lacking(body: StruckBody, needed: tuple[str, ...]) -> list[str]:
+    """Return the strengths that are not known of those that are needed."""
+    return [name for name in needed if isnan(getattr(body.strengths, name))]
+
+
+def _why_not(needed: tuple[str, ...], lacks: dict[str, list[str]]) -> str:
+    """Return why none of the bodies is judged."""
+    partly = {which: names for which, names in lacks.items() if 0 < len(names) < len(needed)}
+    for which, names in partly.items():
+        return f"{' and '.join(names)} of the {which} body not known, so not judged"
+    if all(lacks.values()):
+        return f"{needed[0].replace('_', ' ')} not known, so not judged"
+    return "not judged with losses: stresses at the surface have no bound"
+
+
+def _finding(
+    name: str, told: str, known: dict[str, float], bodies: dict[str, StruckBody]
+) -> Finding:
     which, ratio = max(known.items(), key=lambda one: one[1])
-    broken = [f"the {body} body" for body, share in known.items() if share > 1.0]
-    bodies = BOTH if len(known) == 2 and len(broken) != 1 else f"the {which} body"
-    many = bodies == BOTH
-    good, bad = {
-        "yield_ratio": (
-            f"{bodies} stay{'' if many else 's'} elastic",
-            f"{bodies} yield{'' if many else 's'}: real restitution is below 1, and stresses "
-            "are upper bounds",
-        ),
-        "tension_ratio": (f"{bodies} bear{'' if many else 's'} the tension", f"{bodies} may crack"),
-        "toughness_ratio": (f"no flaw of {bodies} cracks", f"flaws of {bodies} crack"),
-    }[name]
-    return Finding(told, ratio, 1.0, not broken, bad if broken else good)
+    broken = [body for body, share in known.items() if share > 1.0]
+    depth = bodies[which].searched_depth
+    several = len(broken or known) == 2
+    whose = "both bodies" if several else f"the {(broken or [which])[0]} body"
+    if depth > 0.0 and not broken:
+        words = f"{whose} below a depth of {1e6 * depth:.3g} um; at the surface not judged"
+        return Finding(told, ratio, 1.0, None, words)
+    good, bad = VERDICTS[name]
+    words = (bad if broken else good).format(whose, "" if several else "s")
+    return Finding(told, ratio, 1.0, not broken, words)

@@ -38,7 +38,7 @@ def plot_strength(dataset: xr.Dataset) -> Figure:
     Raises
     ------
     InputError
-        If the dataset is another one, or no speed in it is finite.
+        If the dataset is another one, has one angle, or no speed in it is finite.
 
     Examples
     --------
@@ -52,6 +52,8 @@ def plot_strength(dataset: xr.Dataset) -> Figure:
     names = [name for name in SPEEDS if name in dataset and _finite(dataset, name).size]
     if not names:
         raise InputError("plot_strength: no speed in this dataset is finite; there is no limit")
+    if dataset.sizes["angle"] < 2:
+        raise InputError("plot_strength: one angle makes no curve; give two or more")
     columns = min(len(names), 2)
     rows = -(-len(names) // columns)
     width = style.SINGLE if columns == 1 else style.DOUBLE

@@ -61,7 +61,18 @@ COMMON = {  # of most texts: for these pint, which takes a quarter of a second, 
 }
 TOUGHNESS = "Pa m^0.5"  # the only unit with half a power: read as it is usually written, no other
 SIZES = {"": 1.0, "k": 1e3, "M": 1e6}
-ROOTS = (" m^0.5", " m^(1/2)", " m^1/2", " sqrt(m)", "√m", " √m", "*sqrt(m)", "*m^0.5", "·m^0.5")
+ROOTS = (
+    " m^0.5",
+    " m^(1/2)",
+    " m^1/2",
+    " m**0.5",
+    " sqrt(m)",
+    "√m",
+    " √m",
+    "*sqrt(m)",
+    "*m^0.5",
+    "·m^0.5",
+)
 COMMON[TOUGHNESS] = {f"{k}Pa{root}": size for k, size in SIZES.items() for root in ROOTS}
 
 

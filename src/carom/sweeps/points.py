@@ -47,6 +47,7 @@ class PointStatus(WordedStatus):
     BEYOND_FLOATING_POINT = 4, "numbers beyond floating point"
     TOO_MANY_PHASES = 5, "not solved as chi is too large"
     UNRESOLVED = 6, "not solved as a phase did not end"
+    STRENGTH_NOT_KNOWN = 7, "solved, but a strength is not known or a body is rigid"
 
 
 OF_SOLVER = {
@@ -108,8 +109,7 @@ def evaluate(
         plain = (name for name in outputs if name not in WANTED)
         found = {name: getattr(outcome.pair if name in PAIR else outcome, name) for name in plain}
         unknown = np.logical_or.reduce([solved & np.isnan(values) for values in told.values()])
-        status[unknown & solved] = PointStatus.NOT_A_NUMBER
-        solved = status == PointStatus.SOLVED
+        status[unknown & solved] = PointStatus.STRENGTH_NOT_KNOWN
         values = {name: np.where(solved, value, np.nan) for name, value in (found | told).items()}
     return values, status
 

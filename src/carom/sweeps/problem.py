@@ -1,7 +1,7 @@
 """What a sweep computes: a case, its design, its outputs; any block of it, alone."""
 
 from collections.abc import Mapping, Sequence
-from math import prod
+from math import inf, prod
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -170,6 +170,8 @@ class SweepProblem:
                 allowed = "with losses a sweep does not search for stresses; leave them out"
                 raise refusal("outputs", output, allowed)
             body = WANTED[output].body
+            if self._common.fixed.get(f"{body}.material.young") == inf:
+                raise refusal("outputs", output, f"the {body} body is rigid and has no stress")
             for name in needed_by(output):
                 if not self._common.tells(f"{body}.material.{name}"):
                     raise InputError(

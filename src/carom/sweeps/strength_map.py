@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.bodies.pairs import Pair
+from carom.impacts.peaks import UNCOUPLED
+from carom.impacts.validity import WEAK_COUPLING
 from carom.io.progress import Progress
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal
@@ -19,6 +21,7 @@ from carom.sweeps.strength import speeds_known, unit_case
 if TYPE_CHECKING:
     import xarray as xr
 
+BOUNDS = "speeds above the lower yield speed are those of elastic bodies: lower bounds"
 ANGLES = np.linspace(0.0, 85.0, 18) * (pi / 180.0)  # where none are given
 
 
@@ -62,12 +65,13 @@ def strength(
         Along `friction` and `angle`: yield_speed_first, tensile_speed_first, crack_speed_first and
         the same of the second body in m/s, those that the strengths give, inf for never; `status`.
         Speeds above the lower of both yield speeds are lower bounds: bodies that yield are pressed
-        less.
+        less. The attribute `notes` says so, and of unlike materials what the theory leaves out.
 
     Raises
     ------
     InputError
-        If no strength is known, or angles and frictions cannot be used.
+        If no strength is known, or angles and frictions are no numbers. One that is out of range
+        raises nothing; its status says so.
 
     Examples
     --------
@@ -87,7 +91,8 @@ def strength(
     }
     grid = Grid({name: _listed(values) for name, values in axes.items()})
     found = sweep(unit_case(pair), grid, outputs=list(outputs), workers=workers, progress=progress)
-    return found.assign_attrs(title="speeds that bodies bear")
+    notes = [BOUNDS] + [UNCOUPLED] * (abs(pair.dundurs_beta) > WEAK_COUPLING)
+    return found.assign_attrs(title="speeds that bodies bear", notes="; ".join(notes))
 
 
 def _listed(values: ArrayLike) -> ArrayLike:

@@ -41,6 +41,10 @@ ON_SURFACE = np.array([0.0, 0.25, 0.5, 0.7, 0.85, 0.95, 1.05, 1.15])
 BELOW = np.stack(
     np.meshgrid([0.0, 0.25, 0.5, 0.75, 1.0], [0.1, 0.25, 0.38, 0.5, 0.65]), -1
 ).reshape(-1, 2)
+BEHIND = np.stack(
+    np.meshgrid([0.0, 0.5, 1.0, 1.4, 1.8, 2.4, 3.2, 4.5, 6.0], [0.0, 0.15, 0.5, 1.2]), -1
+).reshape(-1, 2)
+FAR = 20.0  # from the centre, in radii of the contact or depths of the search: no climb goes beyond
 
 
 @kernel
@@ -136,11 +140,12 @@ def climb(
 
     No place leaves the depths between `shallow` and `deepest`.
     """
+    farthest = FAR * max(1.0, shallow)
     for _ in range(MOST_STEPS):
         moved = False
         for way in range(WAYS.shape[0]):
-            r = abs(best[RADIUS] + step * WAYS[way, 0])
-            z = min(max(best[DEPTH] + step * WAYS[way, 1], shallow), deepest)
+            r = min(abs(best[RADIUS] + step * WAYS[way, 0]), farthest)
+            z = min(max(best[DEPTH] + step * WAYS[way, 1], shallow), min(deepest, farthest))
             parts = stress_parts(max(r, NEGLIGIBLE), z, load)
             value, cos = around(measure, parts, friction)
             if value > best[VALUE]:
@@ -162,10 +167,15 @@ def jumps(profile: Profile, shallow: float) -> Array:
 def regions(profile: Profile, shallow: float = 0.0, deepest: float = np.inf) -> list[Array]:
     """Return the places to scan, one array for each region that may have a peak of its own.
 
-    They are near the surface, those among them where the memory jumps, and deeper down.
+    They are near the surface, those among them where the memory jumps, and deeper down. Where the
+    search begins at a depth, what pulls may lie far behind the contact.
     """
     surface = np.column_stack((ON_SURFACE, np.full(ON_SURFACE.size, shallow)))
     near = np.concatenate((surface, jumps(profile, shallow)))
     if deepest <= shallow:
         return [near]
-    return [near, np.clip(BELOW, [0.0, shallow], [np.inf, deepest])]
+    below = np.clip(BELOW, [0.0, shallow], [np.inf, deepest])
+    if shallow > 0.0:
+        wide = max(1.0, shallow) * BEHIND + [0.0, shallow]
+        return [np.concatenate((near, wide)), below]
+    return [near, below]

@@ -10,6 +10,7 @@ from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.strength.searching import Contacts, Peak, Search
 
 COARSE_STEP = 8e-3  # last one of a climb, in contact radii, before that to the place told
+LEAST = 1e-12  # of a pull: less is rounding
 SETTLED = 1e-4  # relative change of the width from one round to the next
 MOST_ROUNDS = 12
 WIDER, MOST_TRIALS = 1.5, 60  # from one trial width to the next
@@ -76,7 +77,8 @@ def intensity(contacts: Contacts, poisson: float, flaw: float = inf) -> Peak:
     >>> round(intensity(sliding, 0.3, 1e-8).value / 1e-4, 3)  # 1.122 times the stress at the edge
     0.528
     """
-    return _FlawSearch(contacts, poisson, flaw).peak()
+    found = _FlawSearch(contacts, poisson, flaw).peak()
+    return found if found.value > LEAST else found._replace(value=0.0)
 
 
 def cracking_width(contacts: Contacts, poisson: float, flaw: float, wanted: float) -> float:

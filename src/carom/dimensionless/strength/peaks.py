@@ -94,5 +94,6 @@ def peaks(
     known = contacts.peaks
     for each in measures:
         if (poisson, each) not in known:
-            known[poisson, each] = _StressSearch(contacts, poisson, each).peak()
+            found = _StressSearch(contacts, poisson, each).peak()
+            known[poisson, each] = found._replace(value=max(found.value, 0.0))
     return tuple(known[poisson, each] for each in measures)

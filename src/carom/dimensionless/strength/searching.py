@@ -14,7 +14,9 @@ from carom.dimensionless.solution import Solution
 from carom.dimensionless.states import Phase
 
 TIMES = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 9))  # of the scan, within a phase
-FIRST_RADII = np.array([0.25, 0.5, 1.0, 2.0, 4.0])  # of the contact, in depths of the search
+FIRST_RADII = np.array(
+    [0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0]
+)  # of the contact, in depths of the search
 NEAR = 0.95  # of the largest value of the scan: instants that are searched, too
 WITHIN = 1e-2  # of the time between two scans, to which the instant is found
 RESOLVED = 1e-6  # of the memory
@@ -36,7 +38,7 @@ class Contacts:
     """The contacts of an impact, each solved for once; `depth` is where the search begins.
 
     Instants of the scan are nine in each phase; in gross slip of elastic bodies the stress keeps
-    its shape, so that the largest contact is enough.
+    its shape, so that the largest contact is enough, unless the search begins at a depth.
     """
 
     def __init__(
@@ -74,7 +76,7 @@ class Contacts:
     def _instants(self) -> Array:
         widest = float(self.solution.touched([self.solution.max_radius])[0])
         phases = self.solution.phases
-        if not isinstance(self.solution, Solution):  # viscous: their first touch is like a blow
+        if self.depth > 0.0:  # where stresses do not keep their shape; a viscous touch is a blow
             radii = np.minimum(self.depth * FIRST_RADII, self.solution.max_radius)
             spread = [_spread(phase) for phase in phases]
             return np.unique(np.concatenate([self.solution.touched(radii), *spread]))
