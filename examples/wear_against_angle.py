@@ -61,8 +61,11 @@ def main(folder: str | Path = ".") -> str:
         style = {"color": color, "ls": dash, "label": rf"$\mu$ = {mu}"}
         axes[0].plot(ANGLES, 100.0 * share, **style)
         axes[1].plot(ANGLES, result["max_friction_work"] / 1e3, **style)
-        axes[2].plot(ANGLES, inner, **style)
-        axes[0].plot(ANGLES[share.argmax()], 100.0 * share.max(), "o", color=color)
+        jumps = np.append(np.abs(np.diff(inner)) > 0.3, False)
+        axes[2].plot(ANGLES, np.where(jumps, np.nan, inner), **style)
+        work = result["max_friction_work"] / 1e3
+        for axis, values in ((axes[0], 100.0 * share), (axes[1], work)):
+            axis.plot(ANGLES[values.argmax()], values.max(), "o", color=color)
     assert error < 1e-8, f"the work per area is off by {error:.0e} of the work"
     labels = (
         "work of friction, share of the energy (%)",

@@ -266,13 +266,18 @@ def test_the_time_of_a_refusal_is_bounded(text):
     assert time.process_time() - begun < 10.0
 
 
-@pytest.mark.parametrize("unit", [unit for unit in texts.COMMON if unit != texts.TOUGHNESS])
+@pytest.mark.parametrize("unit", texts.COMMON)
 def test_common_units_are_those_of_pint(unit, monkeypatch):
     """The table that spares loading pint, against pint, to the last bit."""
     for expression, ratio in texts.COMMON[unit].items():
         with monkeypatch.context() as without:
             without.setattr(texts, "COMMON", {})
             assert texts._factor.__wrapped__(expression, unit) == texts.as_factor(ratio), expression
+
+
+@pytest.mark.parametrize("unit", ["mm^3/(N m)", "mm³/Nm", "mm^3/N/m", "mm^3 N^-1 m^-1", "1/GPa"])
+def test_coefficients_of_wear_are_read_as_they_are_published(unit):
+    assert texts.read_text(f"1e-4 {unit}", texts.WEAR) == pytest.approx(1e-13, rel=1e-15)
 
 
 def test_toughness_is_in_units_of_pint():

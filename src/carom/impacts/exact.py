@@ -136,7 +136,7 @@ class Impact(ImpactResult, InContact):
             How many distances from the centre, from 2 to 100,000.
         coefficient : float or str, optional
             Archard's coefficient k of the body whose wear is asked for, in m^2/N: volume that is
-            removed over load and sliding distance, "1e-13 m^2/N" or "1e-4 mm^3 N^-1 m^-1". The sum
+            removed over load and sliding distance, "1e-13 m^2/N" or "1e-4 mm^3/(N m)". The sum
             of both bodies' coefficients gives the depth and the volume that both lose together.
         x, y : array_like, shapes (nx,) and (ny,)
             Positions in m of the map, x along V_x; by default 101 by 101 points over the contact.

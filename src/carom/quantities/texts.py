@@ -73,7 +73,16 @@ ROOTS = (
     "*m^0.5",
     "·m^0.5",
 )
-COMMON[TOUGHNESS] = {f"{k}Pa{root}": size for k, size in SIZES.items() for root in ROOTS}
+WEAR = "m^2/N"
+SPELT_OUT = {  # as people write them, which the grammar has no words for
+    TOUGHNESS: {f"{k}Pa{root}": size for k, size in SIZES.items() for root in ROOTS},
+    WEAR: {
+        **dict.fromkeys(("mm^3/(N m)", "mm^3/(N*m)", "mm^3/(Nm)", "mm^3/Nm", "mm³/(N·m)"), 1e-9),
+        **dict.fromkeys(("mm³/(N m)", "mm³/(Nm)", "mm³/Nm", "mm^3/N/m", "mm³/N/m"), 1e-9),
+        **dict.fromkeys(("m^3/(N m)", "m^3/(Nm)", "m^3/Nm", "1/Pa"), 1.0),
+        **{"1/MPa": 1e-6, "1/GPa": 1e-9},
+    },
+}
 
 
 class Unreadable(ValueError):
@@ -166,7 +175,7 @@ def factor(expression: str, unit: str) -> Factor:
 
 @lru_cache(maxsize=4096)
 def _factor(expression: str, unit: str) -> Factor | Unreadable:
-    known = COMMON.get(unit, {}).get(expression)
+    known = COMMON.get(unit, {}).get(expression, SPELT_OUT.get(unit, {}).get(expression))
     if known is not None:
         return as_factor(known)
     if unit == TOUGHNESS:
