@@ -279,3 +279,16 @@ def test_a_map_can_be_stored_block_by_block(tmp_path, resume):
     for name in outputs:
         assert stored[name].values.tolist() == plain[name].values.tolist()
     assert json.loads(stored.attrs["inputs"])["outputs"] == outputs
+
+
+def test_a_sweep_that_asks_for_no_stress_searches_for_none(monkeypatch):
+    """The search takes a thousand times as long as an impact."""
+
+    def searched(*_):
+        raise AssertionError("searched")
+
+    monkeypatch.setattr("carom.sweeps.points.strength_values", searched)
+    case = {"friction": 0.2, "speed": 1.0, "first": {"radius": "5 mm", "material": "steel"}}
+    assert carom.sweep(case, carom.Grid({"angle": [0.1, 0.2]})).status.values.tolist() == [0, 0]
+    with pytest.raises(AssertionError, match="searched"):
+        carom.sweep(case, carom.Grid({"angle": [0.1]}), outputs=["peak_shear_first"])

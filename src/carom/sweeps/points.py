@@ -105,7 +105,8 @@ def evaluate(
             law = law_of(loss, columns.get(loss), columns.get(RATIO))
             solve_with_losses(outcome, law, solution, status, threads)
         solved = status == PointStatus.SOLVED
-        told = strength_values(outcome, size, solved, [n for n in outputs if n in WANTED])
+        searched = [name for name in outputs if name in WANTED]
+        told = strength_values(outcome, size, solved, searched) if searched else {}
         plain = (name for name in outputs if name not in WANTED)
         found = {name: getattr(outcome.pair if name in PAIR else outcome, name) for name in plain}
         unknown = np.logical_or.reduce([solved & np.isnan(values) for values in told.values()])
