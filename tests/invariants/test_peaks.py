@@ -61,11 +61,11 @@ def test_no_dense_scan_finds_more(case):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", range(60))
+@pytest.mark.parametrize("case", range(24))
 def test_no_dense_scan_of_many_impacts_finds_more(case):
     rng = np.random.default_rng([28, case])
     solution, friction, poisson = draw(rng, solid=case % 2 == 0)
-    instants = np.linspace(0.01, 0.99, 80) * solution.duration
+    instants = np.linspace(0.01, 0.99, 60) * solution.duration
     starts = [phase.start for phase in solution.phases if phase.start > 0.0]
     found = scanned(solution, friction, poisson, [*instants, *starts, 0.5 * solution.duration])
     told = [peak.value for peak in peaks(Contacts(solution, friction), poisson)]
