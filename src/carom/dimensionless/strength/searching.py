@@ -14,9 +14,8 @@ from carom.dimensionless.solution import Solution
 from carom.dimensionless.states import Phase
 
 TIMES = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 9))  # of the scan, within a phase
-FIRST_RADII = np.array(
-    [0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0]
-)  # of the contact, in depths of the search
+# Of the contact, in depths of the search.
+FIRST_RADII = np.array([0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0])
 NEAR = 0.95  # of the largest value of the scan: instants that are searched, too
 WITHIN = 1e-2  # of the time between two scans, to which the instant is found
 RESOLVED = 1e-6  # of the memory
