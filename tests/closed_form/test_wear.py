@@ -129,6 +129,7 @@ def test_fields_through_the_impact_add_up_to_the_map(angle):
     np.testing.assert_allclose(found, summed, rtol=0.0, atol=1e-5 * max(summed))
 
 
+@pytest.mark.slow
 def test_fields_of_viscous_bodies_add_up_to_the_map():
     hit = carom.impact(PAIR, speed=2.0, angle="20 deg", losses=LOSSES)
     at = POINTS[2:3] * hit.max_radius

@@ -43,7 +43,6 @@ def test_peaks_are_told_in_words(run):
         value = float(peaks.peak_von_mises.sel(body=body)) / 1e6
         assert f"largest von Mises stress of the impact   {value:.4g} MPa" in text
     assert "MPa m^0.5" in second
-    assert "of 20 um" in second or "um, t = " in second
     assert "radial tractions of unlike materials are left out" in second
     assert "not known of the first body: tensile_strength" in second
 
