@@ -5,6 +5,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator
 
 from carom.plots import style
 from carom.quantities.arrays import Array
@@ -12,7 +13,7 @@ from carom.quantities.refusals import InputError
 
 MOST_LINES = len(style.LINES)  # more coefficients of friction than this make a map
 LEVELS = 24  # of a map
-SHOWN = (1.0, 2.0, 5.0)  # of each decade, as labelled curves
+SHOWN = (1.0, 2.0, 5.0)  # of each decade, labelled on axes and curves
 TITLES = {
     "yield_speed": "{} body yields",
     "tensile_speed": "{} body, tensile strength",
@@ -86,6 +87,7 @@ def _lines(axis: Axes, dataset: xr.Dataset, name: str) -> None:
         text = f"{style.symbol('friction')} = {mu:g}"
         axis.plot(angle, row, color=style.LINES[i], ls=style.DASHES[i], label=text)
     axis.set_yscale("log")
+    axis.yaxis.set_major_locator(LogLocator(subs=SHOWN))
     axis.yaxis.set_major_formatter("{x:g}")
     axis.yaxis.set_minor_formatter("")
     axis.set_ylabel(style.symbol(name))
