@@ -47,29 +47,31 @@ def scanned(solution, friction, poisson, instants):
     return best
 
 
+def found_and_told(seed, case, shares):
+    """What a dense scan at shares of the duration, and where phases change, finds of one impact;
+    and what is told of it.
+    """
+    rng = np.random.default_rng([seed, case])
+    solution, friction, poisson = draw(rng, solid=case % 2 == 0)
+    instants = [share * solution.duration for share in (*shares(rng), 0.5)]
+    instants += [phase.start for phase in solution.phases if phase.start > 0.0]
+    told = [peak.value for peak in peaks(Contacts(solution, friction), poisson)]
+    return scanned(solution, friction, poisson, instants), np.array(told)
+
+
 @pytest.mark.parametrize("case", range(8))
 def test_no_dense_scan_finds_more(case):
     """The promise of the docstring: dense scans find nothing that is larger by 1e-4."""
-    rng = np.random.default_rng([27, case])
-    solution, friction, poisson = draw(rng, solid=case % 2 == 0)
-    instants = rng.uniform(0.02, 0.98, 40) * solution.duration
-    starts = [phase.start for phase in solution.phases if phase.start > 0.0]
-    found = scanned(solution, friction, poisson, [*instants, *starts, 0.5 * solution.duration])
-    told = [peak.value for peak in peaks(Contacts(solution, friction), poisson)]
-    assert np.all(found <= np.multiply(1.0 + ERROR, told))
-    assert np.all(found >= 0.95 * np.array(told))  # the scan is no empty one
+    found, told = found_and_told(27, case, lambda rng: rng.uniform(0.02, 0.98, 40))
+    assert np.all(found <= (1.0 + ERROR) * told)
+    assert np.all(found >= 0.95 * told)  # the scan is no empty one
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("case", range(24))
 def test_no_dense_scan_of_many_impacts_finds_more(case):
-    rng = np.random.default_rng([28, case])
-    solution, friction, poisson = draw(rng, solid=case % 2 == 0)
-    instants = np.linspace(0.01, 0.99, 60) * solution.duration
-    starts = [phase.start for phase in solution.phases if phase.start > 0.0]
-    found = scanned(solution, friction, poisson, [*instants, *starts, 0.5 * solution.duration])
-    told = [peak.value for peak in peaks(Contacts(solution, friction), poisson)]
-    assert np.all(found <= np.multiply(1.0 + ERROR, told))
+    found, told = found_and_told(28, case, lambda _: np.linspace(0.01, 0.99, 60))
+    assert np.all(found <= (1.0 + ERROR) * told)
 
 
 @pytest.mark.parametrize("restitution", [None, 0.9, 0.6])

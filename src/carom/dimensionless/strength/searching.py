@@ -134,13 +134,9 @@ class Search(ABC):
 
     def _between(self, times: Array, i: int, start: Array) -> tuple[float, Array]:
         """Return the instant and the place of a peak, between the neighbours of an instant."""
-        low, high = times[max(i - 1, 0)], times[min(i + 1, times.size - 1)]
-        return self.nearby(float(times[i]), start, float(low), float(high))
-
-    def nearby(self, time: float, start: Array, low: float, high: float) -> tuple[float, Array]:
-        """Return the instant and the place of a peak near these, between two instants."""
         from scipy.optimize import minimize_scalar
 
+        low, time, high = times[[max(i - 1, 0), i, min(i + 1, times.size - 1)]].tolist()
         row = self.climbed(time, start, FIRST_STEP)
         best = [(time, row)]
 
