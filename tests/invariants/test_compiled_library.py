@@ -131,6 +131,16 @@ def laws(rng):
     permutation.fractions(places, 1000, permutation.secrets(1, 1)[0])
 
 
+def damage(rng):
+    body = carom.material("steel", fracture_toughness=1e6, flaw_size=1e-5)
+    ball = carom.Sphere(radius=0.005, material=body)
+    pair = carom.Pair(ball, carom.HalfSpace(material=body), friction=0.2)
+    hit = carom.impact(pair, speed=2.0, angle=rng.uniform(0.3, 0.8))
+    hit.peaks()
+    hit.wear()
+    assert "K/K_c" in str(hit.validity)
+
+
 def numbers(rng):
     for t in rng.uniform(0.0, 1.0, 20):
         hertz.time(t * t, t)
@@ -143,7 +153,7 @@ def numbers(rng):
 @pytest.mark.slow
 def test_the_library_gives_the_bits_of_numba(calls):
     rng = np.random.default_rng(20)
-    for work in (rebounds, impacts, marched, contacts, laws, numbers):
+    for work in (rebounds, impacts, marched, contacts, damage, laws, numbers):
         work(rng)
     never = [name for name, count in calls.items() if count == 0]
     assert not never

