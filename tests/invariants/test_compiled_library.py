@@ -138,6 +138,7 @@ def damage(rng):
     hit = carom.impact(pair, speed=2.0, angle=rng.uniform(0.3, 0.8))
     hit.peaks()
     hit.wear()
+    hit.solution.pressed(rng.uniform(0.0, 1.0, 5))
     assert "K/K_c" in str(hit.validity)
 
 
