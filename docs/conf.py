@@ -24,6 +24,7 @@ extensions = [
     "commands",
     "contents",
     "diagrams",
+    "formulas",
     "names",
     "schema",
 ]
@@ -58,6 +59,7 @@ sphinx_gallery_conf = {
     "gallery_dirs": "gallery",
     "filename_pattern": r"\.py$",
     "image_scrapers": ("pictures.take_picture",),
+    "thumbnail_size": (1110, 740),
     "reset_modules": ("pictures.give_file",),
     "show_memory": False,
     "download_all_examples": False,

@@ -1,11 +1,12 @@
 """The patch through an impact, a film
 ===================================
 
-The patch through an impact as a film: contact, stick zone, slip and traction beside the force.
+The contact patch through one impact as a film: stick and slip, traction, and the force beside it.
 
-The contact slides, grips, lets go from the edge inwards and slides back, while the traction in the
-middle still pushes the other way.
-Barber (1979), ZAMP 30:468; with ffmpeg, a name that ends in .mp4 gives a finer film.
+The contact slides, sticks, slips from the edge inwards and slides back. Meanwhile the traction in
+the middle still pushes the other way. With ffmpeg, a name that ends in .mp4 gives a finer film.
+
+Barber (1979), ZAMP 30:468.
 """
 
 from pathlib import Path

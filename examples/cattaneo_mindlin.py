@@ -1,11 +1,13 @@
-"""A growing tangential force: Cattaneo and Mindlin
+r"""A growing tangential force: Cattaneo and Mindlin
 ================================================
 
-A sphere pressed on a plane and pushed sideways: the edge slips, the middle sticks.
+A sphere is pressed on a plane and then pushed sideways: the edge slips, the middle sticks.
 
-At constant normal force a growing tangential force lets a ring slip from the edge inwards, to
-(1 - T/(mu P))^(1/3) of the radius; the displacement softens until the whole contact slides.
-Points: Kalker's CONTACT on the same problem, in 15 elements across the patch.
+At constant normal force :math:`F_z`, a growing tangential force :math:`F_x` makes a ring slip from
+the edge inwards, down to the stick radius :math:`a = b\,(1 - F_x/(\mu F_z))^{1/3}`. The contact
+becomes softer until all of it slides. Points: Kalker's program CONTACT on the same problem, with 15
+elements across the patch.
+
 Cattaneo (1938), Mindlin (1949); Johnson, Contact Mechanics (1985), section 7.2 (d).
 """
 
@@ -35,7 +37,7 @@ CONTACT = Path(__file__).parent / "data" / "contact_cattaneo_tractions.csv"
 
 
 def traction_closed(r, a, c, peak):
-    """That of sliding less that of sliding of the stick zone, |x| <= a."""
+    """Return the traction in closed form: sliding of the contact less that of the stick region."""
     outer, inner = (np.sqrt(np.maximum(1 - (r / size) ** 2, 0)) for size in (a, c))
     return peak * (outer - c / a * inner)
 
@@ -67,7 +69,7 @@ def main(folder: str | Path = ".") -> str:
 
     figure, (axes,) = new_figure(1, 2, width=DOUBLE, height=66)
     milli = 1e3
-    axes[0].plot(r * milli, found / 1e6, color=BLUE, label="$f$")
+    axes[0].plot(r * milli, found / 1e6, color=BLUE, label="$f_x$")
     limit = peak * np.sqrt(1 - (r / a) ** 2) / 1e6
     axes[0].plot(r * milli, limit, color=BLACK, ls=DASHES[1], lw=0.8, label=r"$\mu p$")
     axes[0].plot(np.hypot(x, y), size, ".", color=VERMILION, ms=3, label="CONTACT", clip_on=False)
@@ -76,7 +78,7 @@ def main(folder: str | Path = ".") -> str:
     axes[0].text(c * milli, s="stick, $r < a$ ", ha="right", **place)
     axes[0].text(c * milli, s=" slip", ha="left", **place)
     axes[0].set(xlim=(0, 1.05 * a * milli), ylim=(0, None))
-    axes[0].set(xlabel="distance from the centre, $r$ (mm)", ylabel="traction (MPa)")
+    axes[0].set(xlabel="$r$ (mm)", ylabel="$f_x$ (MPa)")
     axes[1].plot(
         share, path.displacement / moved[-1], color=BLUE, label="displacement, $U/U_{slide}$"
     )
@@ -86,7 +88,7 @@ def main(folder: str | Path = ".") -> str:
     axes[1].plot(share[5::10], moved[5::10] / moved[-1], mec=BLUE, **circles)
     axes[1].plot(share[5::10], (1 - share[5::10]) ** (1 / 3), mec=VERMILION, **circles)
     axes[1].plot([], [], "o", mfc="white", mec=BLACK, label="closed form")
-    axes[1].set(xlabel=r"tangential force, $T/\mu P$", ylabel="share", xlim=(0, 1), ylim=(0, 1.05))
+    axes[1].set(xlabel=r"$F_x/\mu F_z$", ylabel="share", xlim=(0, 1), ylim=(0, 1.05))
     for axis in axes:
         legend_above(axis, 2)
     save_figure(figure, Path(folder) / "cattaneo_mindlin.png")

@@ -1,12 +1,16 @@
-"""What chi is for balls, shells and cups
-======================================
+r"""Inertia over stiffness: balls, shells, cups
+===========================================
 
-The one number that tells bodies apart, chi, against Poisson's ratio and the shape of the ball.
+The one number that distinguishes bodies, against Poisson's ratio and the shape of the ball.
 
-It compares inertia and stiffness along the surface with those across it. Solid spheres lie between
-1.17 and 1.75; a thin shell has less; chi = 1/2, which would never slip, takes a flywheel of K >=
-2^(1/2) R, and a sphere that cannot turn has chi = kappa/2. Points: bodies of the catalogue.
-Barber (1979), ZAMP 30:468, equation (16) and section 6 (K >= 2^(1/2) R, misprinted there).
+The ratio :math:`\chi` compares inertia and stiffness along the surface with those across it. Solid
+spheres have :math:`\chi` from 1.17 to 1.75, thin shells have less. A contact with
+:math:`\chi = 1/2` would never slip, but this takes a flywheel with a radius of gyration
+:math:`K \ge \sqrt{2}\,R`. A sphere that cannot turn has :math:`\chi = \kappa/2`. Points: solid
+spheres of the materials of the catalogue.
+
+Barber (1979), ZAMP 30:468, equation (16) and section 6 (:math:`K \ge \sqrt{2}\,R` is misprinted
+there).
 """
 
 from math import inf, sqrt
@@ -21,7 +25,7 @@ SHAPES = {"solid": 0.4, "thin shell": 2 / 3, "ring, $K = R$": 1.0, r"$K = \sqrt{
 
 
 def chi_16(nu, ratio):
-    """(16), for K^2/R^2."""
+    """Return chi by equation (16) for a ratio K^2/R^2."""
     return (1 - nu) / (2 - nu) * (1 + 1 / ratio)
 
 
@@ -57,7 +61,7 @@ def main(folder: str | Path = ".") -> str:
     )
     axis.axhline(0.5, color="0.5", lw=0.5)
     axis.text(0.2, 0.52, r"$\chi = 1/2$")
-    axis.set(xlim=(0, 0.5), ylim=(0.2, 2.6), xlabel=label("poisson"), ylabel=label("chi", room=44))
+    axis.set(xlim=(0, 0.5), ylim=(0.2, 2.6), xlabel=label("poisson"), ylabel=label("chi"))
     axis.legend(ncols=2, loc="upper right", columnspacing=0.8)
     save_figure(figure, Path(folder) / "chi_of_bodies.png")
     return (

@@ -1,13 +1,14 @@
-"""Choosing a contact law for DEM
+r"""Choosing a contact law for DEM
 ==============================
 
-Which contact law, which k_t/k_n and which time step: choosing a law for a DEM simulation.
+The rebound by the contact laws of DEM codes beside the exact one, and how wrong each law is.
 
-All laws are Coulomb's when the ball slides throughout; what they differ in is how a contact that
-grips gives back what its tangential spring has stored. Linear springs with k_t/k_n = kappa, that of
-elastic bodies (Mindlin 1949), beat Hertz-Mindlin as most codes have it; with k_t/k_n = 2/7 the
-contact point bounces. For the bodies at hand, `tune` finds the best parameter, `advised_steps`
-the step. More in docs/laws.md.
+All laws obey Coulomb's law when the ball slides throughout. They differ in how a contact that
+sticks gives back what its tangential spring has stored. Linear springs with the stiffness ratio of
+elastic bodies, :math:`k_t/k_n = \kappa` (Mindlin 1949), are better than Hertz-Mindlin as most codes
+have it. With :math:`k_t/k_n = 2/7` the contact point bounces back. For your bodies, `tune` finds
+the best parameter and `advised_steps` the time step. More in docs/laws.md.
+
 Exact: Maw, Barber & Fawcett (1976), Wear 38:101; Barber (1979), ZAMP 30:468.
 """
 

@@ -1,11 +1,14 @@
-"""How long the contact sticks
+r"""How long the contact sticks
 ===========================
 
-How long the contact sticks: V_z/V_1 where stick begins and where abs(g) = 1 ends it.
+The normal velocity at which a contact begins to stick and at which it stops, for three bodies.
 
-Below psi_1 = 1 stick lasts from the first touch; the thin lines are where gross slip gives way to
-stick, (34). It always ends before maximum penetration, V_z = 0, in slip against the first motion,
-down to a point at psi_1 = 2 chi, where gross slip outlasts the approach. Circles: whole impacts.
+Below :math:`\psi_1 = 1` the contact sticks from the first touch. Above, the thin lines show where
+gross slip gives way to stick, (34). Stick ends where the memory reaches :math:`|g| = 1`. This is
+always before maximum penetration, :math:`V_z = 0`, in slip against the first motion; at
+:math:`\psi_1 = 2\chi` both meet, and beyond it gross slip outlasts the approach. Circles: whole
+impacts.
+
 Barber (1979), ZAMP 30:468, section 6 and equations (26), (34).
 """
 
@@ -21,7 +24,7 @@ CHIS = (0.8, 1.44, 2.5)
 
 
 def stick_phase(psi, chi):
-    """The closed form of the stick phase."""
+    """Return the closed form of the stick phase."""
     return Stick.from_touch(psi, chi) if psi < 1 else Stick.after_gross_slip(psi, chi)
 
 
@@ -53,7 +56,7 @@ def main(folder: str | Path = ".") -> str:
     axis.plot([], [], "o", mfc="white", mec=BLACK, mew=0.8, label="end in whole impacts")
     axis.text(0.1, 1.02, "stick from the first touch", va="bottom", fontsize=6.5)
     axis.set(xlim=(0, 5), ylim=(0, 1.1), xlabel=r"$\psi_1$")
-    axis.set_ylabel("$V_z/V_1$ at begin and end of stick")
+    axis.set_ylabel("$V_z/V_1$")
     legend_above(axis, 2)
     save_figure(figure, Path(folder) / "end_of_stick.png")
     return f"begin and end of stick are those of the closed form within {worst:.0e}"

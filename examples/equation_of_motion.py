@@ -1,11 +1,13 @@
-"""The force that brakes the contact point
+r"""The force that brakes the contact point
 =======================================
 
-The force that brakes the contact point, from the tractions and from its deceleration.
+The tangential force, once from the tractions and once from the deceleration of the ball.
 
-While the contact sticks, F_x is the moment of g, (11) to (13), and the mass times the deceleration,
-(14). As printed, (14) ends on (1 - c b^5)^(1/2) g'(b), and the two sides part; without the root
-they agree to rounding, and (15) follows. psi_1 = 0.8, chi = 1.44.
+While the contact sticks, :math:`F_x` is the moment of :math:`g`, (11) to (13), and also mass times
+deceleration, (14). As printed, (14) ends on :math:`(1 - c b^5)^{1/2}\,g'(b)`, and the two curves
+part. Without the root they agree to rounding, and (15) follows. Here :math:`\psi_1 = 0.8` and
+:math:`\chi = 1.44`.
+
 Barber (1979), ZAMP 30:468, equations (10) to (15).
 """
 
@@ -40,7 +42,7 @@ C = 16 * G / (15 * M * R**2 * SPEED**2 * (1 - NU))  # (5)
 
 
 def decelerated(b, g, slope, root):
-    """(14) for F_x, with V_1^2 for the V_x^2 that is printed; the root is the other misprint."""
+    """Return F_x by (14), with V_1^2 for the printed V_x^2; the root is the other misprint."""
     x = C * b**5
     bracket = 2.5 * C * b**4 * g - (1 - x) ** root * slope
     unit = (2 - NU) * R * SPEED**2 * MU / (4 * (1 - NU) * b)
@@ -90,8 +92,8 @@ def main(folder: str | Path = ".") -> str:
     axis.plot(b * micro, by_14, color=VERMILION, ls=DASHES[1], label="(14), corrected")
     axis.plot(b * micro, printed, color="0.4", ls=DASHES[2], label="(14), as printed")
     axis.axhline(0, color="0.5", lw=0.5)
-    axis.set(xlim=(0, None), xlabel="radius of the contact, $b$ (µm)")
-    axis.set(ylabel="tangential force, $F_x$ (N)")
+    axis.set(xlim=(0, None), xlabel="$b$ (µm)")
+    axis.set(ylabel="$F_x$ (N)")
     legend_above(axis, 2)
     save_figure(figure, Path(folder) / "equation_of_motion.png")
     return f"(12) within {error_12:.0e}, (14) within {error:.0e}, as printed off by {misprint:.0%}"

@@ -4,10 +4,10 @@
 The energy that friction takes from a sphere, calculated and measured, against its incidence.
 
 Points: 5 mm alumina spheres on glass at 3.9 m/s (Kharaz, Gorham & Salman 2001, Powder Technol.
-120:281), of whose tangential restitution the energy follows without a model of the contact. Nothing
-is fitted. The formula of rigid bodies, the ball sliding or rolling at last, is 22 % too high at 20
-degrees, where the contact sticks and springs back. Right: the angle at which friction spends most,
-from the surface. Metals erode most at 20 to 30 degrees (Hutchings 1981, Wear 70:269).
+120:281). Their tangential restitution gives the energy without a model of the contact, and nothing
+is fitted. The formula for rigid bodies, which slide or roll at last, is 22 % too high at 20
+degrees, where the contact sticks and springs back. Right: the angle from the surface at which
+friction takes most. Metals erode most at 20 to 30 degrees (Hutchings 1981, Wear 70:269).
 """
 
 from pathlib import Path
@@ -46,7 +46,7 @@ def spent(pair, angle):
 
 
 def rigid(angle, friction=MU):
-    """Return the same of rigid bodies that lose nothing along the normal."""
+    """Return the same for rigid bodies that lose nothing along the normal."""
     half = friction / SPHERE
     sliding = 4.0 * friction * np.cos(angle) * (np.sin(angle) - half * np.cos(angle))
     return np.where(np.tan(angle) >= 2.0 * half, sliding, SPHERE * np.sin(angle) ** 2)
@@ -84,12 +84,12 @@ def draw(line, curves, points, worst):
     middle.axhline(1.0, color=VERMILION, ls=DASHES[1])
     middle.set(xlim=(0.0, 65.0), ylim=(0.75, 1.1), ylabel="work over that of rigid bodies")
     for axis in (left, middle):
-        axis.set_xlabel("angle from the normal (deg)")
+        axis.set_xlabel(r"$\theta$ (deg)")
     right.axhspan(*ERODES, color="0.88")
     right.text(0.015, 20.7, "metals\nerode most", color=BLACK)
     right.plot(FRICTIONS, worst, color=BLUE)
     right.plot(MU, 36.1, "o", color=BLACK, mfc="white")
-    right.set(xlim=(0.0, 0.5), ylim=(0.0, 45.0), xlabel="coefficient of friction, $\\mu$")
+    right.set(xlim=(0.0, 0.5), ylim=(0.0, 45.0), xlabel="$\\mu$")
     right.set_ylabel("angle of most work, from surface (deg)")
     figure.legend(*left.get_legend_handles_labels(), loc="outside upper left", ncols=3)
     return figure

@@ -1,12 +1,12 @@
-"""The force of an impact in time and in frequency
+r"""The force of an impact in time and in frequency
 ===============================================
 
 Hertz's pulse, and the powers of a sine that stand for it in codes and sensors.
 
-Left: the normal force over time, and below it how far the powers of a sine are from it, of the same
-peak and duration. Right: the amplitude spectra over the impulse of Hertz's pulse, with the corners
-at -3 dB and -6 dB. The first zero lies at 1.804/t_c, that of sin^1.5 at 1.75/t_c and that of the
-half sine at 1.5/t_c.
+Left: the normal force in time, and below it how far the powers of a sine of the same peak and
+duration are from it. Right: the amplitude spectra over the impulse of Hertz's pulse, with the
+corners at -3 dB and -6 dB. The first zero lies at :math:`1.804/t_c`. For :math:`\sin^{3/2}` it lies
+at :math:`1.75/t_c`, and for the half sine at :math:`1.5/t_c`.
 """
 
 from pathlib import Path

@@ -1,10 +1,12 @@
-"""An impact in the cone of friction
+r"""An impact in the cone of friction
 =================================
 
-The path of the forces in the cone of friction: F_x against F_z through one impact.
+The path of the forces in the cone of friction through one impact.
 
-Gross slip runs along the border of the cone, stick leaves it with the slope mu g(b), and slip on a
-ring leads across to the other border: friction brakes the ball first and then drives it.
+The tangential force :math:`F_x` is drawn against the normal force :math:`F_z`. Gross slip runs
+along the border of the cone, and stick leaves it with the slope :math:`\mu\,g(b)`. The slip ring
+then leads across to the other border: friction first brakes the ball and then drives it.
+
 Barber (1979), ZAMP 30:468, equations (2), (10), (13) and section 7.
 """
 

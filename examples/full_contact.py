@@ -1,12 +1,14 @@
-"""The full contact in three dimensions
+r"""The full contact in three dimensions
 ====================================
 
-The full contact in three dimensions beside the theory: which way does the patch slip?
+The direction in which the patch slips: by the theory, and by the full contact in three dimensions.
 
-The theory lets all points pull and slip along x; its slip then turns off x, most at the front of
-the ring that slips, by arcsin(nu/(2 - nu)). In the full solution, boundary elements with Coulomb's
-law as a vector, traction turns with slip: at the front slip starts along the traction that stuck
-there, along x, and it turns off further out. The rebound is hardly touched.
+The theory assumes that traction is along :math:`x` everywhere. Its slip then turns off :math:`x`,
+most at the front of the slip ring, by :math:`\arcsin(\nu/(2 - \nu))`. The full solution, by
+boundary elements, has Coulomb's law as a vector, so that traction turns with slip. At the front
+slip then starts along the traction that stuck there, along :math:`x`, and turns off further out.
+The rebound hardly changes.
+
 Barber (1979), ZAMP 30:468, section 7; Kalker (1990), Three-Dimensional Elastic Bodies in Rolling
 Contact, chapter 4.
 """

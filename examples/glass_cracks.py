@@ -1,13 +1,14 @@
 """Which impact cracks glass
 =========================
 
-From which speed on a steel ball cracks a glass plate, against its size, its angle and friction.
+The speed from which on a steel ball cracks a glass plate, against its size, its angle and friction.
 
-Left: head on, against the diameter of the ball, for flaws up to three depths. Where a flaw of the
-worst depth is there, the force that cracks is proportional to the radius: Auerbach's law (1891).
-Carom's straight edge cracks give P E*/(K_c^2 R) = 2492, a lower bound; measured on ceramics is
-8600 (Rhee et al. 2001, J. Am. Ceram. Soc. 84:561). Right: a ball of 5 mm against the angle of
-incidence. With friction the worst impact is the oblique one that slides until the force is largest.
+Left: impacts head on against the diameter of the ball, for flaws up to three depths. If there is a
+flaw of the worst depth, the force that cracks is proportional to the radius: Auerbach's law (1891).
+Carom's straight edge cracks give :math:`P E^*/(K_c^2 R) = 2492`, a lower bound; the constant
+measured on ceramics is 8600 (Rhee et al. 2001, J. Am. Ceram. Soc. 84:561). Right: a ball of 5 mm
+against the angle of incidence. With friction the worst impact is oblique: it slides until the force
+is largest.
 """
 
 from pathlib import Path
@@ -65,7 +66,7 @@ def draw(head_on, measured, oblique):
             worst = speeds.argmin()
             right.plot(ANGLES[worst], speeds[worst], "o", color=LINES[i], mfc="white")
     right.set(yscale="log", xlim=(0.0, 85.0), ylim=(0.03, 10.0))
-    right.set(xlabel="angle of incidence from the normal (deg)")
+    right.set(xlabel=r"$\theta$ (deg)")
     for axis in axes:
         axis.yaxis.set_major_formatter("{x:g}")
         axis.xaxis.set_major_formatter("{x:g}")

@@ -1,19 +1,20 @@
-"""A granular gas that cools by friction alone
+r"""A granular gas that cools by friction alone
 ===========================================
 
 A million spheres that cool by friction alone: `python granular_gas.py --spheres 1000000`.
 
-Nothing is lost along the normal, e = 1, but slip takes its share of every collision. At first it
-sets the spheres spinning; then both temperatures fall as t^-2 in a constant ratio, for the way a
-sphere leaves depends on the direction of approach, not on speed. Walton's law, fitted to the exact
-one, does as well while spheres slide; where they grip, at large mu, it leaves too much spin.
-Perfectly rough spheres lose nothing. 20 000 spheres unless told; a million take a minute a law.
-With `--restitution 0.9` viscoelastic spheres: they cool faster, and spin keeps a larger share.
+Nothing is lost along the normal, :math:`e = 1`, but slip takes its share of every collision. At
+first slip makes the spheres spin. Then both temperatures fall as :math:`t^{-2}` in a constant
+ratio, because the way a sphere leaves depends on the direction of approach and not on the speed.
+Walton's law, fitted to the exact one, does as well while spheres slide. Where they stick, at large
+:math:`\mu`, it leaves too much spin. Perfectly rough spheres lose nothing.
 
-Simulated directly by Bird's scheme without time counter (1994, 11.1), in batches: pairs that share
-a sphere take their turn, so no error of a time step remains. Grey: Maxwellian at all times, which
-is exact at the start (for constant beta Huthmann & Zippelius 1997). Haff (1983), with the a_2 of
-van Noije & Ernst (1998), is checked on smooth spheres.
+There are 20 000 spheres by default; a million take a minute for each law. With `--restitution 0.9`
+the spheres are viscoelastic: they cool faster, and spin keeps a larger share. The gas is simulated
+directly, by Bird's scheme without time counter (1994, 11.1), in batches. Pairs that share a sphere
+take turns, so no error of a time step remains. Grey: the gas is Maxwellian at all times, which is
+exact at the start (for constant :math:`\beta` Huthmann & Zippelius 1997). Haff's law (1983), with
+the :math:`a_2` of van Noije & Ernst (1998), is checked on smooth spheres.
 """
 
 import argparse
@@ -54,7 +55,7 @@ LOOKS = {
 
 
 class History(NamedTuple):
-    """What became of a gas: arrays in time, temperatures over that at the start."""
+    """The history of a gas: arrays in time, with temperatures divided by that at the start."""
 
     time: np.ndarray  # in mean free times at the start
     collisions: np.ndarray  # of one sphere so far
@@ -78,7 +79,7 @@ class History(NamedTuple):
 
 
 class Gas:
-    """Velocities in m/s, which is (T_0/m)^(1/2) here, and spins in rad/s; a gas has no places."""
+    """A gas: velocities in (T_0/m)^(1/2), here 1 m/s, spins in rad/s; positions do not matter."""
 
     def __init__(self, spheres, seed):
         self.random = np.random.default_rng(seed)
@@ -192,7 +193,7 @@ def maxwellian(law, until):
 
 
 def lasting(law, pair, restitution=1.0):
-    """T_rot/T_tr that lasts, of Maxwellian spheres."""
+    """Return the ratio T_rot/T_tr that Maxwellian spheres reach in the end."""
     return brentq(lambda ratio: rates(law, ratio, pair, restitution)[1], 1e-9, 2)
 
 
@@ -253,7 +254,7 @@ def draw(gases, ends):
     axes[0].text(0.25, 1.15, "translational")
     axes[0].text(1.5, 0.05, "rotational")
     axes[0].text(0.25, 6e-4, rf"$\mu = {PAIR.friction:g}$")
-    axes[0].set(xlim=(0.2, 600), ylim=(4e-4, 2), ylabel="temperature, $T/T_0$")
+    axes[0].set(xlim=(0.2, 600), ylim=(4e-4, 2), ylabel="$T/T_0$")
     axes[0].set_xlabel("time (mean free times at the start)")
     axes[1].set(xlim=(0, UNTIL), ylim=(0, 1.1), xlabel="collisions of a sphere")
     axes[1].set_ylabel(r"$T_\mathrm{rot}/T_\mathrm{tr}$")
@@ -269,7 +270,7 @@ def draw(gases, ends):
     axes[2].plot([], [], "o", color="0.3", mfc="white", label="simulated")
     axes[2].plot([], [], color="0.3", label="Maxwellian")
     axes[2].legend(loc="upper left")
-    axes[2].set(xlim=(0.02, 4), ylim=(0, 0.8), xlabel=r"friction, $\mu$")
+    axes[2].set(xlim=(0.02, 4), ylim=(0, 0.8), xlabel=r"$\mu$")
     axes[2].set_ylabel(r"$T_\mathrm{rot}/T_\mathrm{tr}$ in the end")
     return figure
 
@@ -295,7 +296,7 @@ def draw_losses(elastic, lossy, restitution):
         for values in (gas.translational, gas.rotational):
             axes[0].loglog(gas.time[1:], values[1:], **look)
         axes[1].plot(gas.collisions, gas.ratio, **look, label=f"e = {e:g}")
-    axes[0].set(xlabel="time (mean free times at the start)", ylabel="temperature, $T/T_0$")
+    axes[0].set(xlabel="time (mean free times at the start)", ylabel="$T/T_0$")
     axes[1].set(xlabel="collisions of a sphere", ylabel=r"$T_\mathrm{rot}/T_\mathrm{tr}$")
     axes[1].set(xlim=(0, UNTIL), ylim=(0, None))
     axes[1].legend(loc="lower right")
@@ -331,7 +332,7 @@ def main(folder: str | Path = ".", spheres: int = 20_000) -> str:
 
 
 def count(text):
-    """A number of spheres on the command line, 1e6 too."""
+    """Read a number of spheres from the command line, which may be written as 1e6."""
     number = float(text)
     if not 1e3 <= number <= 1e9:
         raise argparse.ArgumentTypeError(f"{text}: give 1000 or more; fewer scatter too much")

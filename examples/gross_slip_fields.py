@@ -1,11 +1,13 @@
-"""A patch that slides as a whole
+r"""A patch that slides as a whole
 ==============================
 
-A patch that slides as a whole: traction mu p, and the dish it makes of the surface.
+A patch that slides as a whole: its traction, and the displacements of the surface under it.
 
-u_x falls off from the centre, more slowly along the motion than across it; u_y has four lobes and
-does not change while the contact grows, so that all points slip exactly along x. The patch widens
-with du_x/dt the same everywhere: slip can only stop at all points at once.
+The traction is :math:`\mu p`. The displacement :math:`u_x` falls off from the centre, more slowly
+along the motion than across it. The displacement :math:`u_y` has four lobes and does not change
+while the contact grows, so that all points slip exactly along :math:`x`. As the patch grows,
+:math:`\partial u_x/\partial t` is the same everywhere: slip can only stop at all points at once.
+
 Barber (1979), ZAMP 30:468, equations (28) to (30).
 """
 
@@ -24,12 +26,12 @@ G, NU, R, MU = BALL.material.shear_modulus, BALL.material.poisson, BALL.radius, 
 
 
 def traction_28(r, b):
-    """(28), of which gross slip is made."""
+    """Return the traction of gross slip, (28)."""
     return 2 * G * MU * np.sqrt(np.maximum(b**2 - r**2, 0)) / (np.pi * R * (1 - NU))
 
 
 def displacement_29(x, y, b):
-    """(29), the combined displacements along x and y in the contact."""
+    """Return the combined displacements along x and y in the contact, (29)."""
     r2, theta = x**2 + y**2, np.arctan2(y, x)
     unit = MU / (8 * R * (1 - NU))
     along = unit * (2 * (2 - NU) * (2 * b**2 - r2) + NU * r2 * np.cos(2 * theta))
@@ -68,7 +70,7 @@ def main(folder: str | Path = ".") -> str:
     along, across = patch.isel(y=middle), patch.isel(x=middle)
     within = b * np.sin(np.linspace(-np.pi / 2, np.pi / 2, 121))
     rubs = hit.fields(time, points=np.column_stack([within, 0 * within])).traction_x / largest
-    axes[0].plot(within * micro, rubs, color="black", label=r"$f/\mu p_0$")
+    axes[0].plot(within * micro, rubs, color="black", label=r"$f_x/\mu p_0$")
     axes[0].plot(
         line * micro, along.displacement_x / wide, color=BLUE, ls=DASHES[1], label="$u_x$, $y = 0$"
     )

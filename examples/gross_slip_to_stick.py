@@ -1,11 +1,13 @@
-"""From gross slip to stick
+r"""From gross slip to stick
 ========================
 
-From gross slip into stick: slip stops everywhere at once where psi = V_z/V_1.
+How gross slip ends: the contact stops slipping everywhere at once.
 
-In the plane of both velocities gross slip is a straight line of slope 2 chi, (33); it meets psi =
-V_z/V_1, (32), at the speed (34). The stick that follows starts with a slope of g that (35) gives as
-zero; continuity of force asks for b g' = (5/2)(1 - 2 chi) x/(1 - x). Grey: (35) as printed.
+In the plane of both velocities gross slip is a straight line of slope :math:`2\chi`, (33). It ends
+where it meets :math:`\psi = V_z/V_1`, (32), at the speed (34). The stick that follows starts with a
+slope of :math:`g` that is zero by (35). Continuity of the force requires
+:math:`b\,g' = \frac{5}{2}(1 - 2\chi)\,x/(1 - x)` instead. Grey: (35) as printed.
+
 Barber (1979), ZAMP 30:468, equations (31) to (35).
 """
 
@@ -23,7 +25,7 @@ SPEEDS = (0.6, 1.2, 1.6, 2.2)
 
 
 def stepped_from(stick, v_end):
-    """g after the transition, by stepping psi' = -(15/4) chi Q, Q' = psi sqrt(d) in time."""
+    """Return g after the transition, by stepping psi' = -(15/4) chi Q, Q' = psi sqrt(d) in time."""
     v = stick.start
     d = (1 - v**2) ** 0.4
 
@@ -37,7 +39,7 @@ def stepped_from(stick, v_end):
 
 
 def as_printed(stick, x):
-    """g by (15) from g = 1 and g' = 0."""
+    """Return g by (15), from g = 1 and g' = 0."""
     start = 1 - stick.start**2
 
     def slope(x, h):
@@ -84,7 +86,7 @@ def main(folder: str | Path = ".") -> str:
     assert worst < 1e-11, f"(32), (34) differ from whole impacts by {worst:.1e}"
     axes[1].plot([], [], "o", mfc="white", mec=BLACK, mew=0.8, label="whole impacts")
     axes[1].axhline(0, color="0.5", lw=0.5)
-    axes[1].set(ylim=(-1.05, 1.05), xlabel=r"$\psi_1$", ylabel="$V_z/V_1$ where gross slip ends")
+    axes[1].set(ylim=(-1.05, 1.05), xlabel=r"$\psi_1$", ylabel="$V_z/V_1$")
 
     for psi, color, dash in zip(SPEEDS[1:], LINES[1:], DASHES[1:], strict=False):
         stick = Stick.after_gross_slip(psi, CHI)
@@ -102,7 +104,7 @@ def main(folder: str | Path = ".") -> str:
     axes[2].plot([], [], color=BLACK, lw=1.6, label="gross slip, $g = 1$")
     axes[2].plot([], [], color="0.6", lw=0.9, label="(35) as printed")
     axes[1].legend(loc="upper right")
-    axes[2].set(xlim=(0, 1), ylim=(-1, 1.15), xlabel="$x = (b/b_{max})^5$", ylabel="memory, $g$")
+    axes[2].set(xlim=(0, 1), ylim=(-1, 1.15), xlabel="$x = (b/b_{max})^5$", ylabel="$g$")
     axes[2].legend(loc="lower left")
     save_figure(figure, Path(folder) / "gross_slip_to_stick.png")
     return f"(32)-(34) within {worst:.0e} of whole impacts; slope after the transition corrected"

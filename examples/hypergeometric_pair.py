@@ -1,11 +1,13 @@
 """The two solutions of the stick phase
 ====================================
 
-The two solutions h_1 and h_2 of the stick phase, and what gross slip mixes of them.
+The two solutions of the equation of stick, and how stick after gross slip mixes them.
 
-From the first touch only h_1 counts, since h_2 rises like b^2; after gross slip g = 1 and its slope
-fix the shares of both. Each grows like (1 - x)^(-1/2). Thin: the series (21) cut after 5, 20 and
-80 terms; it does for x up to 0.95, as the paper says, and not beyond.
+From the first touch only :math:`h_1` counts, since :math:`h_2` rises like :math:`b^2`. After gross
+slip :math:`g = 1`, and its slope fixes the shares of both. Each grows like :math:`(1 - x)^{-1/2}`.
+Thin: the series (21) cut after 5, 20 and 80 terms. It serves for :math:`x` up to 0.95, as the paper
+says, and not beyond.
+
 Barber (1979), ZAMP 30:468, equations (19) to (22), with (35) corrected.
 """
 
@@ -33,23 +35,23 @@ SECOND = (ALPHA - GAMMA + 1, BETA - GAMMA + 1, 2 - GAMMA)
 
 
 def h_1(x):
-    """The first of (20)."""
+    """Return the first solution of (20)."""
     return hyp2f1(ALPHA, BETA, GAMMA, x)
 
 
 def h_2(x):
-    """The second of (20)."""
+    """Return the second solution of (20)."""
     return x**0.4 * hyp2f1(*SECOND, x)
 
 
 def cut(x, terms, a, b, c):
-    """The series (21) after some terms."""
+    """Return the series (21), cut after some terms."""
     n = np.arange(terms)[:, np.newaxis]
     return (poch(a, n) * poch(b, n) / poch(c, n) / poch(1, n) * x**n).sum(axis=0)
 
 
 def derivative(h, x, step=1e-4):
-    """The derivative, by a difference of the fourth order."""
+    """Return the derivative, by a difference of the fourth order."""
     near = h(x + step) - h(x - step)
     return (8 * near - (h(x + 2 * step) - h(x - 2 * step))) / (12 * step)
 
@@ -105,7 +107,7 @@ def main(folder: str | Path = ".") -> str:
         ls=DASHES[1],
         label=rf"stick after it: ${shares[0]:.2f}\,h_1 {shares[1]:+.2f}\,h_2$",
     )
-    axes[1].set(ylim=(-2, 1.2), ylabel="memory, $g$")
+    axes[1].set(ylim=(-2, 1.2), ylabel="$g$")
     for axis in axes:
         axis.axhline(0, color="0.5", lw=0.5)
         axis.set(xlim=(0, 1), xlabel="$x = cb^5 = 1 - (V_z/V_1)^2$")

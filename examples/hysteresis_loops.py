@@ -1,11 +1,12 @@
 """Loops of a swinging force
 =========================
 
-A tangential force that swings at constant normal force: loops, and the energy each one costs.
+A tangential force that swings at constant normal force: its loops, and the energy of each loop.
 
-The first push runs along Cattaneo and Mindlin's curve; every later swing is that curve doubled in
-both directions, so that the loop closes at once. The energy per cycle goes with the third power of
-small amplitudes: what slips is a thin ring, and it slips little.
+The first push runs along the curve of Cattaneo and Mindlin. Every later swing is that curve, twice
+as large in both directions, so the loop closes at once. For small amplitudes the energy per cycle
+goes with their third power: what slips is a thin ring, and it slips little.
+
 Mindlin & Deresiewicz (1953), J. Appl. Mech. 20:327; Johnson (1985), section 7.4.
 """
 
@@ -32,7 +33,7 @@ def swing(amplitude, n=N):
 
 
 def energy_in_closed_form(share, a):
-    """Johnson's, section 7.4, with (2 - nu)/G of both bodies as 4/G*."""
+    """Return the energy by Johnson, section 7.4, with 4/G* for (2 - nu)/G of both bodies."""
     bracket = 1 - (1 - share) ** (5 / 3) - 5 / 6 * share * (1 + (1 - share) ** (2 / 3))
     return 18 * MOST**2 / (5 * a * PAIR.effective_shear_modulus) * bracket
 
@@ -72,9 +73,9 @@ def main(folder: str | Path = ".") -> str:
     axes[1].loglog(share, lost * 1e9, color="black", label="closed form")
     axes[1].loglog(share, thin * 1e9, color="0.5", ls=DASHES[1], lw=0.8, label="third power")
     axes[0].axhline(0, color="0.5", lw=0.5)
-    axes[0].set(xlabel="displacement, $U$ (nm)", ylabel="tangential force, $T$ (N)")
-    axes[1].set(xlabel=r"amplitude, $T/\mu P$", ylabel="energy per cycle (nJ)")
-    axes[0].legend(title=r"$T/\mu P$", loc="upper left")
+    axes[0].set(xlabel="$U$ (nm)", ylabel="$F_x$ (N)")
+    axes[1].set(xlabel=r"$F_x/\mu F_z$", ylabel="energy per cycle (nJ)")
+    axes[0].legend(title=r"$F_x/\mu F_z$", loc="upper left")
     axes[1].legend(loc="upper left")
     save_figure(figure, Path(folder) / "hysteresis_loops.png")
     return f"loops close, swings are doubled pushes; energy per cycle within {worst:.0e}"

@@ -3,9 +3,10 @@
 
 A steel ball strikes a steel plate at 30 degrees: force, velocities, radii, energy in time.
 
-It slides, sticks for a moment, slips from the edge inwards and slides back; friction first brakes
-it and then drives it. The energy of the tangential springs comes back in part; what is lost goes
-where the patch slips.
+The contact slides, sticks for a moment, slips from the edge inwards and slides back. Friction first
+brakes the ball and then drives it. A part of the energy of the tangential springs comes back; the
+rest is lost where the patch slips.
+
 Barber (1979), ZAMP 30:468; checked by momentum and energy, which the solver does not use.
 """
 

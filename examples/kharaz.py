@@ -4,11 +4,11 @@
 Friction and restitution from published rebounds, and contact laws against the same points.
 
 5 mm alumina spheres strike soda-lime glass at 3.9 m/s, from grazing to nearly normal (Kharaz,
-Gorham & Salman 2001, Powder Technol. 120:281). `fit` takes friction, stiffness ratio and
-restitution from tangential restitution, spin and rebound angle at once; the stiffness ratio that
-it finds is that of the elastic constants, which it did not know. The laws of DEM codes, each with
-the friction that suits it best, are up to several times further off: they go wrong where the
-contact grips, below 35 degrees.
+Gorham & Salman 2001, Powder Technol. 120:281). `fit` finds friction, stiffness ratio and
+restitution from tangential restitution, spin and rebound angle at once. The stiffness ratio that it
+finds is that of the elastic constants, which it did not know. The laws of DEM codes, each with the
+friction that suits it best, are up to several times further off: they go wrong where the contact
+sticks, below 35 degrees.
 """
 
 from pathlib import Path
@@ -53,7 +53,7 @@ def spin(angle, tangential):
 
 
 def misfit(data, friction, kappa, rebound):
-    """Return the rms distance from all points, spins as what they say of e_t."""
+    """Return the rms distance in e_t from all points, with spins converted to e_t."""
     angle = data.angle.values
     found = restitution(angle, friction, kappa, rebound)
     own = 1.0 + data.spin_out.values * RADIUS / (2.5 * SPEED * np.sin(angle))
@@ -73,10 +73,10 @@ def draw(data, curves, misfits):
         how = {"color": color, "ls": DASHES[number % len(DASHES)], "lw": 1.6 - 0.7 * (number > 0)}
         left.plot(np.degrees(angle), tangential, label=name, **how)
         middle.plot(np.degrees(angle), -spin(angle, tangential), **how)
-    left.set(xlim=(0.0, 65.0), ylim=(0.4, 1.0), xlabel="incidence (deg)")
-    left.set_ylabel("tangential restitution of the centre, $e_t$")
-    middle.set(xlim=(0.0, 65.0), ylim=(0.0, 800.0), xlabel="incidence (deg)")
-    middle.set_ylabel(r"spin after, $|\omega'|$ (rad/s)")
+    left.set(xlim=(0.0, 65.0), ylim=(0.4, 1.0), xlabel=r"$\theta$ (deg)")
+    left.set_ylabel("$e_t$")
+    middle.set(xlim=(0.0, 65.0), ylim=(0.0, 800.0), xlabel=r"$\theta$ (deg)")
+    middle.set_ylabel(r"$|\omega'|$ (rad/s)")
     places = np.arange(len(misfits))[::-1]
     right.barh(places, misfits.values(), color=[color for *_, color in curves.values()], height=0.6)
     right.set_yticks(places, misfits)

@@ -1,14 +1,15 @@
-"""Impacts that lose energy
+r"""Impacts that lose energy
 ========================
 
-Impacts that lose energy: what restitution does to the rebound, and speed to restitution.
+Impacts that lose energy: how the rebound depends on restitution, and restitution on speed.
 
-Viscoelastic spheres (Kelvin & Voigt) lose little in slow impacts, 1 - e ~ V^(1/5); a standard
-linear solid loses most where the contact lasts as long as it relaxes; metals that yield lose more
-the faster they strike, e ~ V^(-1/4) (Thornton 1997). Left: psi_2 against psi_1 for
-equal e at all speeds; crosses: springs with dashpots in small steps. What is lost in shear lets the
-ball spring back less; impacts slide throughout from psi_1 = 2 chi (1 + e) - e on, where the curves
-meet psi_1 - 2 chi (1 + e), the thin lines.
+Left: the rebound for a restitution :math:`e` that is the same at all speeds; crosses are springs
+with dashpots in small steps. What is lost in shear makes the ball spring back less. Impacts slide
+throughout from :math:`\psi_1 = 2\chi(1 + e) - e` on, where the curves meet the thin lines
+:math:`\psi_2 = \psi_1 - 2\chi(1 + e)`. Right: viscoelastic spheres (Kelvin & Voigt) lose little in
+slow impacts, :math:`1 - e \sim V^{1/5}`. A standard linear solid loses most if the contact lasts as
+long as it relaxes. Metals that yield lose more the faster they strike, :math:`e \sim V^{-1/4}`
+(Thornton 1997).
 """
 
 from pathlib import Path
@@ -73,7 +74,7 @@ def draw(curves, marched, speeds, plastic, viscous, relaxing):
     late = speeds[speeds > 1.0]
     right.plot(late, plastic[-1] * (late / late[-1]) ** -0.25, color=VERMILION, lw=0.6)
     right.text(3.0, 0.62, r"$V^{-1/4}$", color=VERMILION)
-    right.set(xscale="log", yscale="log", xlabel="normal speed (m/s)", ylabel="restitution $e$")
+    right.set(xscale="log", yscale="log", xlabel="$V_1$ (m/s)", ylabel="$e$")
     ticks = [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
     right.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
     right.minorticks_off()

@@ -1,10 +1,12 @@
-"""The normal impact
+r"""The normal impact
 =================
 
 A steel ball strikes a steel plate at a right angle: force, radius, speed and pressure.
 
-The force rises and falls in 2.943 d_max/V_1, whatever the speed; the radius of the contact grows
-like a root at first, which makes V_z against b so flat at the touch: V_z = V_1 sqrt(1 - c b^5).
+The force rises and falls within :math:`2.943\,d_{max}/V_1`, at any speed. At first the radius
+:math:`b` of the contact grows like a root, so that :math:`V_z = V_1 \sqrt{1 - c b^5}` is flat at
+the touch.
+
 Barber (1979), ZAMP 30:468, equations (1) to (5) and (9); Hertz (1882). The course in time is
 checked by stepping the equation of motion with (2) and (3).
 """
@@ -59,9 +61,9 @@ def main(folder: str | Path = ".") -> str:
         (*in_time, (speed, "$V_z/V_1$")), LINES, DASHES, strict=False
     ):
         axes[0].plot(t * 1e6, values, color=color, ls=dash, label=name)
-    axes[0].set(xlabel="time since the first touch, $t$ (µs)", ylabel="share of its scale")
+    axes[0].set(xlabel="$t$ (µs)", ylabel="share of its scale")
     axes[1].plot(b * 1e6, speed, color=LINES[0])
-    axes[1].set(xlabel="radius of contact, $b$ (µm)", ylabel="normal velocity, $V_z$ (m/s)")
+    axes[1].set(xlabel="$b$ (µm)", ylabel="$V_z$ (m/s)")
     for axis in axes[:2]:
         axis.axhline(0, color="0.5", lw=0.5)
     for share, color, dash in zip((0.05, 0.15, 0.3, 0.5), LINES, DASHES, strict=False):
@@ -76,7 +78,7 @@ def main(folder: str | Path = ".") -> str:
         axes[2].plot(
             r[inside] * 1e6, found[inside] / 1e9, color=color, ls=dash, label=f"{share:g} $t_c$"
         )
-    axes[2].set(xlabel="distance from the centre, $r$ (µm)", ylabel="pressure, $p$ (GPa)")
+    axes[2].set(xlabel="$r$ (µm)", ylabel="$p$ (GPa)")
     axes[2].set(xlim=(0, 255), xticks=[0, 100, 200], ylim=(0, 5))
     axes[1].set(xlim=(0, 255), xticks=[0, 100, 200])
     legend_above(axes[0], 3, handlelength=1.8, columnspacing=0.7)

@@ -1,11 +1,13 @@
-"""Loading in a constant direction
+r"""Loading in a constant direction
 ===============================
 
-A sphere pressed and pushed at once in a constant direction: below a critical angle it sticks.
+A sphere is pressed and pushed at once in a constant direction: below a critical angle it sticks.
 
-Up to F_x = mu F_z, or U/d = mu/kappa, the whole contact sticks with g constant, and unloading goes
-back along the same line; beyond it the whole contact slides, and the way back differs. An impact
-with chi = 1/2 moves along such a line, U = psi_1 d, which is why it sticks to the last.
+Up to :math:`F_x = \mu F_z`, or :math:`U/d = \mu/\kappa`, the whole contact sticks with a constant
+:math:`g`, and unloading goes back along the same line. Beyond, the whole contact slides, and the
+way back differs. An impact with :math:`\chi = 1/2` moves along such a line, :math:`U = \psi_1 d` in
+dimensionless form, and therefore sticks to the last.
+
 Mindlin & Deresiewicz (1953), J. Appl. Mech. 20:327; Barber (1979), ZAMP 30:468, (36), (37).
 """
 
@@ -67,9 +69,9 @@ def main(folder: str | Path = ".") -> str:
     axes[0].text(normal[1] / 2, -1.25 * PAIR.friction * normal[1] / 2, r"$-\mu F_z$", ha="right")
     axes[0].set_xlim(0, None)
     axes[0].axhline(0, color="0.5", lw=0.5)
-    axes[0].set(xlabel="normal force, $F_z$ (N)", ylabel="tangential force, $F_x$ (N)")
-    axes[1].set(xlim=(0, None), ylim=(0, 1.4), xlabel="distance from the centre, $r$ (µm)")
-    axes[1].set_ylabel(r"traction, $f/\mu p_0$")
+    axes[0].set(xlabel="$F_z$ (N)", ylabel="$F_x$ (N)")
+    axes[1].set(xlim=(0, None), ylim=(0, 1.4), xlabel="$r$ (µm)")
+    axes[1].set_ylabel(r"$f_x/\mu p_0$")
     axes[1].legend(title="obliquity", alignment="left")
     save_figure(figure, Path(folder) / "oblique_loading.png")
     return f"sticks below, slides beyond the critical angle; F_x within {worst:.0e} of mu P"

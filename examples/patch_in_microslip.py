@@ -1,11 +1,13 @@
-"""The patch from above in microslip
+r"""The patch from above in microslip
 =================================
 
-The patch from above while a ring slips: traction, stick zone and the direction of slip.
+The patch from above while a ring slips: traction, stick region and the direction of slip.
 
-The theory lets all points slip along x. They nearly do: the lateral displacements, of the order of
-nu, turn the slip off x, most at the front of the ring, where the sine of the angle is
-nu/(2 - nu): 10 degrees for nu = 0.3. Weighted with the work of friction it is far less.
+The theory assumes that all points slip along :math:`x`, and they nearly do. The lateral
+displacements, of the order of :math:`\nu`, turn the slip off :math:`x`, most at the front of the
+ring. The sine of the angle is :math:`\nu/(2 - \nu)` there: 10 degrees for :math:`\nu = 0.3`.
+Weighted with the work of friction it is far less.
+
 Barber (1979), ZAMP 30:468, equations (6) and (29), section 7.
 """
 

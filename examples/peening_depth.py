@@ -1,13 +1,13 @@
-"""How deep shot peening shears
+r"""How deep shot peening shears
 ============================
 
 Depth and size of the largest shear stress below a steel shot, against its angle of incidence.
 
-The stress is the largest of the whole impact. Below mu = 0.28 it lies below the surface and rises
-with cos^(2/5) of the angle, as the contact shrinks: at a right angle at 0.48 of the radius of the
-contact, 0.31 of its pressure (Johnson 1985, section 4.2). With more friction it is at the surface
-where the shot slides, but not at steep incidence, where the shot sticks: there friction counts for
-little. Thin lines are of contacts that slide throughout.
+The stress is the largest of the whole impact. Below :math:`\mu = 0.28` it lies below the surface,
+and its depth shrinks with the contact, as :math:`\cos^{2/5}` of the angle. At a right angle it is
+at 0.48 of the radius of the contact and has 0.31 of its pressure (Johnson 1985, section 4.2). With
+more friction it is at the surface where the shot slides, but not at steep incidence, where the shot
+sticks: there friction counts for little. Thin lines: contacts that slide throughout.
 """
 
 from pathlib import Path
@@ -69,10 +69,10 @@ def draw(tables):
     left.axhline(0.0, color=BLACK, lw=0.6)
     left.text(84.0, -0.012, "surface", ha="right")
     left.set(xlim=(0.0, 85.0), ylim=(0.5, -0.04))
-    left.set_ylabel("depth of the largest shear stress, $z/a_0$")
-    right.set(xlim=(0.0, 85.0), ylim=(0.3, 0.55), ylabel=r"largest shear stress, $\tau/p_0$")
+    left.set_ylabel("$z/a_0$")
+    right.set(xlim=(0.0, 85.0), ylim=(0.3, 0.55), ylabel=r"$\tau/p_0$")
     for axis in axes:
-        axis.set_xlabel("angle of incidence from the normal (deg)")
+        axis.set_xlabel(r"$\theta$ (deg)")
     legend_above(left, 4)
     return figure
 

@@ -1,12 +1,14 @@
-"""The rebound against chi
-=======================
+r"""The rebound against inertia over stiffness
+==========================================
 
-How the rebound depends on the bodies: psi_2 against chi at psi_1 = 1.2, and at 0.3.
+How the rebound depends on the bodies, for two incidences.
 
-At 1.2 the ball slides throughout while 4 chi - 1 <= 1.2, on a straight line; from there on it grips
-and is thrown back, more or less by turns: a heavier tangential spring makes more of an oscillation
-out of the contact. At 0.3 the whole velocity comes back, psi_2 = -psi_1, where F is a polynomial
-and nothing ever slips: chi = 1/2 and 4.
+At :math:`\psi_1 = 1.2` the ball slides throughout while :math:`4\chi - 1 \le 1.2`, on a straight
+line. For larger :math:`\chi` it sticks, and more of a tangential oscillation fits into the contact,
+so that the ball is thrown back more and less in turn. At :math:`\psi_1 = 0.3` and
+:math:`\chi = 1/2` or 4 the whole velocity comes back, :math:`\psi_2 = -\psi_1`: there :math:`F` is
+a polynomial, and nothing ever slips.
+
 Maw, Barber & Fawcett (1976), Wear 38:101; Barber (1979), ZAMP 30:468, (33), (36), (37).
 """
 
@@ -68,7 +70,7 @@ def main(folder: str | Path = ".") -> str:
     axis.plot([0.5, 4], returned, "s", mfc="white", mec=LINES[1], label=r"$\psi_2 = -\psi_1$")
     axis.plot([], [], "x", color=BLACK, ms=4, mew=0.8, label="annuli, small steps")
     axis.set(xlim=(0, 6), ylim=(-1.4, 1.2), xlabel=label("chi"))
-    axis.set_ylabel(label("psi_out", room=36))
+    axis.set_ylabel(label("psi_out"))
     legend_above(axis, 2)
     save_figure(figure, Path(folder) / "rebound_against_chi.png")
     return f"sliding and sticking throughout are exact; annuli differ by {worst:.0e}"

@@ -1,11 +1,13 @@
-"""A real ball: measured and calculated
+r"""A real ball: measured and calculated
 ====================================
 
-A real ball: 5 mm of alumina on glass at 3.9 m/s, calculated and measured.
+Angle, spin and restitution of 5 mm alumina balls on glass at 3.9 m/s, calculated and measured.
 
-Where the ball slides throughout, from 4 chi - 1 on, friction takes the same from all: tan theta' =
-tan theta - 2 mu, omega = 5 mu V_1/R. Below it grips, and how much it is turned and thrown back is
-decided in the slip ring. Nothing is fitted: mu is the one measured in sliding.
+Where the ball slides throughout, from :math:`\psi_1 = 4\chi - 1` on, friction acts on all impacts
+alike: :math:`\tan\theta' = \tan\theta - 2\mu` and :math:`\omega = 5\mu V_1/R`. At smaller angles
+the ball sticks for a while, and the slip ring decides how much it is turned and thrown back.
+Nothing is fitted: :math:`\mu` is the friction measured in sliding.
+
 Kharaz, Gorham & Salman (2001), Powder Technol. 120:281, as digitised, see data/.
 """
 
@@ -60,7 +62,7 @@ def main(folder: str | Path = ".") -> str:
         scatter.append(difference)
         axis.plot(theta, (angle, spin, restitution)[row], color=BLUE, label="calculated")
         axis.plot(at, value, "o", mfc="white", mec=BLACK, mew=0.8, label="measured")
-        axis.set(xlabel=r"angle of incidence, $\theta$ (deg)", ylabel=labels[row], xlim=(0, 65))
+        axis.set(xlabel=r"$\theta$ (deg)", ylabel=labels[row], xlim=(0, 65))
     closed = (sliding, turned, 1 - 2 * mu / tangent)
     for axis, line in zip(axes, closed, strict=True):
         grips = ~slides & (theta > 8)

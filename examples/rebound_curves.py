@@ -1,12 +1,13 @@
-"""The rebound curve
+r"""The rebound curve
 =================
 
-How a sphere rebounds: psi_2 against psi_1 for several chi.
+How a sphere rebounds: the velocity of its contact point after the impact against that before.
 
-A ball that comes in at a low angle sticks and may go back where it came from; the curves dip to a
-corner and then rise along the straight lines psi_2 = psi_1 - 4 chi of sliding throughout. Marks
-are the borders 1, 2 chi and 4 chi - 1; crosses the method of the first solution, annuli and small
-steps, refined until it converges.
+At small :math:`\psi_1` the contact sticks, and the ball may go back where it came from. The curves
+dip and then rise along the straight lines :math:`\psi_2 = \psi_1 - 4\chi` of sliding throughout.
+Marks are the borders 1, :math:`2\chi` and :math:`4\chi - 1` of the regimes. Crosses are the method
+of the first solution, annuli and small steps, refined until it converges.
+
 Maw, Barber & Fawcett (1976), Wear 38:101; borders after (34) of Barber (1979), ZAMP 30:468.
 """
 

@@ -1,11 +1,12 @@
-"""A map of all impacts
+r"""A map of all impacts
 ====================
 
-Which phases follow which over psi_1 and chi: a map of all impacts.
+Which phases follow each other, against the incidence and the bodies: a map of all impacts.
 
-Below psi_1 = 1 the contact sticks from the first touch, beyond 4 chi - 1 it slides throughout.
-Between them lies what the ball does after it has gripped, and it is richer than the usual solid
-sphere at chi = 1.44 lets one think: slip that turns back, rings that close, stick that returns.
+Below :math:`\psi_1 = 1` the contact sticks from the first touch, beyond :math:`4\chi - 1` it slides
+throughout. What follows the first phase is richer than the usual solid sphere, :math:`\chi = 1.44`,
+suggests: slip that turns back, rings that close, stick that returns.
+
 Maw, Barber & Fawcett (1976), Wear 38:101; borders after (34) of Barber (1979), ZAMP 30:468.
 """
 

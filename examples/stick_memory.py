@@ -1,11 +1,14 @@
-"""What a contact that sticks lays down
+r"""What a contact that sticks lays down
 ====================================
 
-What a contact that sticks from the first touch lays down: g = psi_1 F(alpha, beta; 3/5; c b^5).
+The memory of a contact that sticks from the first touch, for five ratios of inertia to stiffness.
 
-chi = 1/2 gives the constant g = psi_1; at chi = 4 F is a straight line in x; elsewhere F grows
-without bound towards maximum penetration, to either side in turns. Thick where the contact still
-sticks for psi_1 = 0.3, that is while abs(g) < 1. Circles: the memory of whole impacts.
+All tractions follow from the memory, :math:`g = \psi_1 F(\alpha, \beta; 3/5; c b^5)`. With
+:math:`\chi = 1/2` it is the constant :math:`\psi_1`, and with :math:`\chi = 4` it is a straight
+line in :math:`x = c b^5`. Otherwise :math:`F` grows without bound towards maximum penetration,
+upwards or downwards in turn as :math:`\chi` grows. Thick: where the contact still sticks for
+:math:`\psi_1 = 0.3`, that is while :math:`|g| < 1`. Circles: whole impacts.
+
 Barber (1979), ZAMP 30:468, equations (15), (17)-(19), (21)-(27), (36), (37).
 """
 

@@ -1,11 +1,12 @@
-"""One more ring of contact in stick
+r"""One more ring of contact in stick
 =================================
 
-What one more ring of contact adds while the patch sticks: a punch, everywhere.
+What one more ring of contact adds while the patch sticks: the traction under a rigid punch.
 
-Contact grows by db and with it the traction at every radius, in the shape of the traction under a
-rigid punch: g(b)/(b^2 - r^2)^(1/2). It moves the surface by the same amount everywhere within the
+When the contact grows by :math:`db`, the traction grows at every radius, as under a rigid punch:
+:math:`g(b)/\sqrt{b^2 - r^2}`. This moves the surface by the same amount everywhere within the
 contact, and not at all sideways, so that nothing slips. Circles: differences of whole fields.
+
 Barber (1979), ZAMP 30:468, equations (7) to (10).
 """
 
@@ -80,9 +81,9 @@ def main(folder: str | Path = ".") -> str:
     axes[0].legend(loc="upper left", bbox_to_anchor=(0, 0.9))
     for axis in axes:
         axis.axhline(0, color="0.5", lw=0.5)
-        axis.set(xlim=(0, None), xlabel="distance from the centre, $r$ (µm)")
-    axes[0].set(ylabel=r"rate of traction, $\partial f_x/\partial t$ (MPa/µs)")
-    axes[1].set(ylabel=r"rate of displacement, $\partial u_x/\partial t$ (m/s)")
+        axis.set(xlim=(0, None), xlabel="$r$ (µm)")
+    axes[0].set(ylabel=r"$\partial f_x/\partial t$ (MPa/µs)")
+    axes[1].set(ylabel=r"$\partial u_x/\partial t$ (m/s)")
     axes[1].legend(title="time since the first touch", loc="upper right", bbox_to_anchor=(1, 0.9))
     save_figure(figure, Path(folder) / "stick_rates.png")
     return f"(7) holds; du_x/dt = V_x all over the patch, (8) and (10), within {worst:.0e}"

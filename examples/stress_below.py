@@ -1,11 +1,13 @@
-"""The stress below the surface
+r"""The stress below the surface
 ============================
 
-The stress below a patch: Hertz's contact, a sliding one, and one in the middle of an impact.
+The stress below a patch: in Hertz's contact, in a sliding one, and in the middle of an impact.
 
-Without friction the largest shear lies 0.48 a deep; friction pulls the largest stress up and, from
-mu = 0.3 or so, to the surface, and stretches the surface behind the contact. In an impact the
-middle still pulls forward while the edge already slips back; the stress has a cusp between them.
+Without friction the largest shear stress lies at a depth of :math:`0.48\,b`. Friction moves the
+largest stress up, from :math:`\mu = 0.3` or so to the surface, and stretches the surface behind the
+contact. In an impact the middle still pulls forward while the edge already slips back; the stress
+has a cusp between them.
+
 Huber (1904) on the axis, Hamilton (1983) in sliding; Johnson (1985), sections 3.4 and 7.1.
 """
 
@@ -93,7 +95,7 @@ def main(folder: str | Path = ".") -> str:
     axes[0, 0].plot(-down, z, color=VERMILION, ls=DASHES[1], label=r"$-\sigma_{zz}$")
     axes[0, 0].plot(shear, z, color=BLACK, ls=DASHES[2], label=r"$\tau_{max}$")
     axes[0, 0].plot(0.31, 0.48, "+", color=BLACK, ms=7)
-    axes[0, 0].set(xlim=(0, 1.02), ylim=(2, 0), ylabel="depth on the axis, $z/b$")
+    axes[0, 0].set(xlim=(0, 1.02), ylim=(2, 0), ylabel="$z/b$")
     axes[0, 0].set_xlabel("stress at rest, over $p_0$")
     axes[0, 0].legend(loc="lower right")
     maps = {

@@ -1,11 +1,12 @@
-"""The traction at six instants
+r"""The traction at six instants
 ============================
 
 The traction at six instants of one impact: gross slip, stick, slip from the edge, gross slip.
 
-The ball first slides and drags the surface forward; while it sticks, new contact is laid down with
-ever less traction; then the edge slips backwards, the ring eats its way in and the traction in the
-middle, laid long before, holds out to the last. Dashed: the limits +-mu p.
+The ball first slides and drags the surface forward. While it sticks, new contact is laid down with
+ever less traction. Then the edge slips backwards and the slip ring grows inwards. The traction in
+the middle, laid down long before, lasts to the end. Dashed: the limits :math:`\pm\mu p`.
+
 Barber (1979), ZAMP 30:468, equation (6) and section 7; here with the slip ring solved.
 """
 
@@ -26,7 +27,7 @@ SHARES = (0.25, 0.38, 0.45, 0.6, 0.72, 0.92)
 
 
 def traction_6(contact, r):
-    """(6) by Gauss's rule, with s^2 = r^2 + w^2, so that the root cancels, part by part."""
+    """Return (6) by Gauss's rule, part by part; with s^2 = r^2 + w^2 the root cancels."""
     edges = contact.profile.edges
     total = 0.0
     for low, high, row in zip(edges, edges[1:], contact.profile.g, strict=False):
@@ -99,9 +100,9 @@ def main(folder: str | Path = ".") -> str:
         axis.set_title(f"{phase}, {share:g} $t_c$")
     axes[0, 0].set(xlim=(0, 1.02 * reach), ylim=(-1.05, 1.05))
     for axis in axes[-1]:
-        axis.set_xlabel("distance from the centre, $r$ (µm)")
+        axis.set_xlabel("$r$ (µm)")
     for axis in axes[:, 0]:
-        axis.set_ylabel(r"traction, $f/\mu p_{max}$")
+        axis.set_ylabel(r"$f_x/\mu p_{max}$")
     assert worst < 1e-10, f"(6) by quadrature differs by {worst:.1e}"
     explain(figure, axes[0, 0])
     save_figure(figure, Path(folder) / "tractions_through_impact.png")

@@ -1,13 +1,14 @@
-"""Where wear is largest against the angle
+r"""Where wear is largest against the angle
 =======================================
 
 A steel ball on steel: what friction takes, where in the contact, and at which angle the most.
 
-Where the ball slides throughout, friction takes W = 2 mu m_n V_1 (V_x - mu m_n V_1/m_t). That is
-largest where tan 2 theta = -m_t/(mu m_n), at 55 degrees from the normal for mu = 0.1 and at 77 for
-0.6. The work per area is largest in the centre there. Near the normal the middle of the contact
-sticks for a long time, and the largest work per area lies on a ring. The depth of wear is k/mu
-times the work per area by Archard's law.
+Where the ball slides throughout, friction takes :math:`W = 2\mu m_n V_1 (V_x - \mu m_n V_1/m_t)`.
+This is largest where :math:`\tan 2\theta = -m_t/(\mu m_n)`, at 55 degrees from the normal for
+:math:`\mu = 0.1` and at 77 for 0.6. The work per area is then largest in the centre. Near the
+normal the middle of the contact sticks for a long time, and the largest work per area lies on a
+ring. By Archard's law the depth of wear is :math:`k/\mu` times the work per area.
+
 Archard (1953), J. Appl. Phys. 24:981; Maw, Barber & Fawcett (1976), Wear 38:101.
 """
 
@@ -28,7 +29,7 @@ COLUMNS = ("dissipated_energy", "max_friction_work", "max_wear_radius", "max_rad
 
 
 def worn(pair):
-    """What the wear of an impact is told by, for each angle."""
+    """Return what describes the wear of an impact, for each angle."""
     found = [carom.impact(pair, speed=SPEED, angle=a).wear(101, x=[0], y=[0]) for a in radians()]
     return {name: np.array([float(each[name]) for each in found]) for name in COLUMNS}
 
@@ -73,7 +74,7 @@ def main(folder: str | Path = ".") -> str:
         "where it lies, $r_w/a_{max}$",
     )
     for axis, label in zip(axes, labels, strict=True):
-        axis.set(xlabel=r"angle of incidence, $\theta$ (deg)", ylabel=label, xlim=(0, 90))
+        axis.set(xlabel=r"$\theta$ (deg)", ylabel=label, xlim=(0, 90))
         axis.set_ylim(bottom=0.0)
     axes[2].set_ylim(-0.02, 1.0)
     axes[0].legend(loc="upper left")

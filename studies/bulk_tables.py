@@ -14,7 +14,7 @@ from bulk.cells import both_ways, cooled, flowing, left, over_blocks, sheared, t
 from bulk.contact_laws import EXACT, FINER, LAWS
 from bulk.results import CELLS, Cell, Mean, excess, mean, ratio
 from bulk_figures import draw
-from page_blocks import blocks, page_with, table
+from page_blocks import as_maths, blocks, page_with, table
 
 PAGE = Path(__file__).parents[1] / "docs" / "bulk.md"
 FRICTIONS = (0.1, 0.3, 0.5)
@@ -135,17 +135,18 @@ def tables() -> dict[str, str]:
     times = " | ".join(f"{kind}, {time}" for time in (10, 20, 40) for kind in kinds)
     other = "law | translational, 10 | 40 | rotational, 10 | 40"
     more = "half the step | larger"
-    return {
+    found = {
         "decay": by_laws("restitution, friction", boosted, decays()),
         "modulus": by_laws("strain", strains, moduli()),
         "damping": by_laws("friction, strain", damped, dampings()),
-        "ratio": by_laws("friction, I", shears, flows("ratio", 3)),
-        "fraction": by_laws("friction, I", shears, flows("fraction", 4)),
+        "ratio": by_laws("friction, $I$", shears, flows("ratio", 3)),
+        "fraction": by_laws("friction, $I$", shears, flows("fraction", 4)),
         "drum": by_laws("drum, friction", slopes, drums()),
         "circle": table(f"friction, energy | {times}", circle()),
         "gas": table(other, gases()),
         "converged": table(f"point | exact | {more} | 64 springs | mindlin | {more}", converged()),
     }
+    return {name: as_maths(text) for name, text in found.items()}
 
 
 def main() -> None:

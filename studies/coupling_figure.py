@@ -72,7 +72,7 @@ def draw_slips(axis: Axes, rows: Rows, full: Coulomb) -> None:
             ha="right",
             fontsize=7,
         )
-    axis.set(xscale="log", ylim=(0.0, 0.082), xlabel="slip over which friction falls, $s_0$ (µm)")
+    axis.set(xscale="log", ylim=(0.0, 0.082), xlabel="$s_0$ (µm)")
     axis.set_ylabel("rms misfit of $e_t$, 1.8° to 30°")
     axis.set_xticks([0.2, 0.3, 0.5, 1.0], ["0.2", "0.3", "0.5", "1"])
     axis.minorticks_off()
@@ -90,8 +90,8 @@ def draw_shares(axis: Axes, full: Coulomb) -> None:
     axis.axhline(fisher.ppf(0.95, 1, 12), color="0.5", lw=0.6)
     axis.annotate("dashed: $\\kappa$ free", (0.03, 20.0), fontsize=7)
     axis.annotate("95 %", (1.1, 4.9), va="bottom", ha="right", fontsize=7)
-    axis.set(ylim=(0.0, 30.0), xlabel=r"share of the coupling, $\beta$ over that of the pair")
-    axis.set_ylabel("excess misfit, $F$")
+    axis.set(ylim=(0.0, 30.0), xlabel=r"$\beta$ over that of the pair")
+    axis.set_ylabel("$F$")
     style.legend_above(axis, 3)
 
 

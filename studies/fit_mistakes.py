@@ -95,7 +95,7 @@ MISTAKES: dict[str, tuple[Callable[[Data], Data], dict[str, float], float, str]]
     "spin in rpm": (partial(spins, 1.0 / RPM), SIGMA, 2.5e-3, "spins in rpm"),
     "diameter as radius": (same, SIGMA, 5e-3, "half the radius"),
     "radius halved": (same, SIGMA, 1.25e-3, "twice the radius"),
-    "after as before": (exchanged, SPEEDS, 2.5e-3, "motion after given as before"),
+    "after as before": (exchanged, SPEEDS, 2.5e-3, "before and the motion after exchanged"),
     "centre as contact point": (of_centre, CENTRE, 2.5e-3, "in the column contact_restitution"),
 }
 

@@ -101,7 +101,7 @@ def difference(case: Case) -> Known:
     return extrapolated(differences(case))
 
 
-REGIMES = ("up to 1", "up to 2 chi", "to 4 chi - 1", "from 4 chi - 1")
+REGIMES = ("up to 1", r"1 to $2 \chi$", r"$2 \chi$ to $4 \chi - 1$", r"from $4 \chi - 1$")
 
 
 def regime(impact: Impact) -> str:

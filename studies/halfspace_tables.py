@@ -53,16 +53,22 @@ def shown(known: Known, unit: float = 1e-3) -> str:
 
 def table(label: str, names: list[str]) -> Iterator[str]:
     """Yield the differences of some series in 1e-3; incidences differ with chi."""
-    yield "| " + " | ".join(f"{name}: psi_1 | 1000 x difference" for name in names) + " |"
+    heads = (rf"{formula(name)}: $\psi_1$ | $10^3 \, \Delta\psi_2$" for name in names)
+    yield f"| {' | '.join(heads)} |"
     yield "|" + "---|" * 2 * len(names)
     for row in zip(*(cases(label, name) for name in names), strict=True):
         parts = [part for case in row for part in (f"{case[2]:.2f}", shown(difference(case)))]
         yield "| " + " | ".join(parts) + " |"
 
 
+def formula(name: str) -> str:
+    """Return the name of a series of impacts, with nu as a formula."""
+    return f"$\\nu = {name[3:]}$" if name.startswith("nu ") else name
+
+
 def normal_table() -> Iterator[str]:
     """Yield what coupling does to the normal motion."""
-    yield "| pair | kappa | beta | friction | restitution | duration/Hertz | mean angle of slip |"
+    yield r"| pair | $\kappa$ | $\beta$ | $\mu$ | $e$ | duration/Hertz | mean angle of slip |"
     yield "|---|---|---|---|---|---|---|"
     for name in PAIRS:
         rows = [finest(case) for case in cases("pair", name)]
@@ -77,7 +83,7 @@ def normal_table() -> Iterator[str]:
 
 def slip_table() -> Iterator[str]:
     """Yield the angles of microslip by both solutions, and how much of the slip is across."""
-    yield "| nu | psi_1 | mean (theory) | largest (theory) | across/along | work across |"
+    yield r"| $\nu$ | $\psi_1$ | mean (theory) | largest (theory) | across/along | work across |"
     yield "|---|---|---|---|---|---|"
     for nu in RATIOS[1:]:
         for case in cases("solid", f"nu {nu:g}")[1:10:2]:
@@ -94,16 +100,18 @@ def slip_table() -> Iterator[str]:
 def told(impact: Impact) -> str:
     """Return an impact in a few numbers."""
     nu = 2.0 * (1.0 - impact.kappa) / (2.0 - impact.kappa)
-    what = (
-        f"beta {impact.beta:.2g}, friction {impact.friction:.2g}" if impact.beta else f"nu {nu:.2f}"
-    )
-    spin = f", spin {impact.spin:.2g}" if impact.spin else ""
-    return f"{what}, chi {impact.chi:.2f}, psi_1 {impact.psi_1:.2f}{spin}"
+    numbers = {r"\nu": f"{nu:.2f}"}
+    if impact.beta:
+        numbers = {r"\beta": f"{impact.beta:.2g}", r"\mu": f"{impact.friction:.2g}"}
+    numbers |= {r"\chi": f"{impact.chi:.2f}", r"\psi_1": f"{impact.psi_1:.2f}"}
+    if impact.spin:
+        numbers[r"\tau_1"] = f"{impact.spin:.2g}"
+    return ", ".join(f"${symbol} = {number}$" for symbol, number in numbers.items())
 
 
 def bound_table(series: dict[str, str]) -> Iterator[str]:
     """Yield the shares of the bound by series and regime."""
-    yield "| series | psi_1 | impacts | half of them below | largest share of the bound | in |"
+    yield r"| series | $\psi_1$ | impacts | median share | largest share | largest for |"
     yield "|---|---|---|---|---|---|"
     for label, words in series.items():
         for where in ("all",) if "spin" in label else REGIMES:
@@ -117,8 +125,8 @@ def bound_table(series: dict[str, str]) -> Iterator[str]:
 
 def error_table() -> Iterator[str]:
     """Yield how often the estimate of the error of a grid holds, and how large both are."""
-    heads = "materials", "elements", "impacts", "half of the errors below", "95 % below"
-    heads += "estimate holds in", "estimate over error, median"
+    heads = "materials", "elements", "impacts", "median error", "95 % of errors below"
+    heads += "estimate holds in", "median of estimate/error"
     yield f"| {' | '.join(heads)} |"
     yield "|---|---|---|---|---|---|---|"
     for kind in JUDGED:
@@ -133,7 +141,7 @@ def error_line(kind: str, elements: int, found: list[Estimated]) -> str:
     half, most = np.quantile(error, [0.5, 0.95])
     holds, ratio = 100.0 * np.mean(error <= estimate), np.median(estimate / error)
     counts = f"{elements} | {len(found)}"
-    return f"| {kind} | {counts} | {half:.1e} | {most:.1e} | {holds:.0f} % | {ratio:.0f} |"
+    return f"| {formula(kind)} | {counts} | {half:.1e} | {most:.1e} | {holds:.0f} % | {ratio:.0f} |"
 
 
 def draw_series(axis: Axes, label: str, names: list[str]) -> None:

@@ -79,7 +79,7 @@ def plot_histories() -> Figure:
             axis.plot(time, history["tangential_force"], color=color, ls=dash, lw=1.0, label=name)
         axis.set(xlim=(0.0, 1.0), xlabel="part of the contact's duration")
         axis.set_title(rf"$\psi_1$ = {psi:g}")
-    axes[0, 0].set_ylabel(r"tangential force, $F_x/(\mu P_{max})$")
+    axes[0, 0].set_ylabel(r"$F_x/(\mu P_{max})$")
     handles, _ = axes[0, 0].get_legend_handles_labels()
     figure.legend(handles=handles, loc="outside upper center", ncols=5)
     return figure

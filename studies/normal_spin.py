@@ -83,7 +83,7 @@ def draw_taken(axis: Axes, taken: Array) -> None:
     axis.semilogx(TURNS, taken / LIGHTNESS, "o-", color=COLORS[1], ms=4, mfc="white")
     axis.set_ylim(0.0, 1.2)
     axis.set_xlabel(r"spin $\tau_1 = \omega_n a_{max}/(\mu V_1)$")
-    axis.set_ylabel(r"spin taken, $(\tau_1 - \tau_2)\, I/(m_n a_{max}^2)$")
+    axis.set_ylabel(r"$(\tau_1 - \tau_2)\, I/(m_n a_{max}^2)$")
     axis.legend(frameon=False, fontsize=9, loc="lower right")
 
 

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from accuracy import impacts
-from page_blocks import page_with, table
+from page_blocks import as_maths, page_with, table
 
 import carom
 from carom.dimensionless.twins.marching import march
@@ -241,7 +241,7 @@ def lines(rows: list[Row]) -> str:
     """Return the table of the page."""
     return table(
         "method | kind | time | largest error of $\\psi_2$",
-        (f"{r.method} | {r.kind} | {r.ratio:.2g} | {r.error:.1e}" for r in rows),
+        (f"{as_maths(r.method)} | {r.kind} | {r.ratio:.2g} | {r.error:.1e}" for r in rows),
     )
 
 

@@ -177,8 +177,8 @@ def draw(rows: list[dict[str, str]]) -> None:
     axis.set(xscale="log", yscale="log", ylim=(1e-4, 1.0))
     axis.set_xticks([0.1, 0.2, 0.5, 1.0, 2.0, 3.0], ["0.1", "0.2", "0.5", "1", "2", "3"])
     axis.minorticks_off()
-    axis.set_xlabel(r"radius of the circle, $U \kappa/(\mu d)$")
-    axis.set_ylabel(r"largest error of the force, $/\mu P$")
+    axis.set_xlabel(r"$U \kappa/(\mu d)$")
+    axis.set_ylabel(r"largest error of $F/\mu P$")
     style.legend_above(axis, 1)
     store_small(style.save_figure(figure, PICTURE), PICTURE)
 

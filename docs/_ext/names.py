@@ -150,5 +150,5 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("doctree-read", refer)
     app.connect("missing-reference", check)
     app.connect("autodoc-process-docstring", describe, priority=900)  # after napoleon
-    app.connect("autodoc-process-docstring", escape_bars, priority=901)
+    app.connect("autodoc-process-docstring", escape_bars, priority=902)
     return {"parallel_read_safe": True}

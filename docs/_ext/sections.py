@@ -18,6 +18,7 @@ SECTIONS = {
         "Architecture <architecture>",
     ],
     "how-to/index": [
+        "install",
         "how-to/*",
         "choosing",
         "input",
@@ -39,6 +40,7 @@ SECTIONS = {
         "reference/verify",
         "reference/figures",
         "reference/commands",
+        "glossary",
         "schema",
     ],
     "accuracy": ["twin", "halfspace_study", "coupling"],

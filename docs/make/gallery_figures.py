@@ -9,7 +9,7 @@ from pathlib import Path
 
 from run_pages import DOCS, store_small
 
-MAPS = {"patch_in_microslip"}  # of tractions, which keeps all of its colours
+MAPS = {"contact_through_impact", "patch_in_microslip"}  # of tractions: they keep all colours
 
 
 def main() -> None:

@@ -12,9 +12,17 @@ SIGNS = {SAME: ", same sign", OPPOSITE: ", opposite sign"}
 HEAD = """\
 # Diagram of the phases
 
-Drawn by `python docs/make/phase_diagram.py` from `TRANSITIONS` in
-`src/carom/dimensionless/elastic/phases.py`, the one place that decides it. Any phase may also end
-by separation; gross slip and slip end so, stick only where the load retraces its path.
+*Through which phases does an impact go, and what ends each of them?*
+
+The diagram and the table show every transition of the solver: the phase that ends, what ends it,
+whether this happens while loading or unloading, and the phase that follows. An impact with
+$\\lvert\\psi_1\\rvert \\le 1$ begins with stick, any other with gross slip. The contact may also
+separate in any phase: slip and gross slip end so, and stick only where the load retraces its path.
+The transitions are derived in [the theory](theory/sequences.md).
+"""
+TAIL = """
+This page is drawn by `python docs/make/phase_diagram.py` from `TRANSITIONS` in
+`src/carom/dimensionless/elastic/phases.py`, the one place that decides which phase follows.
 """
 
 
@@ -25,7 +33,7 @@ def name(kind: Kind) -> str:
 
 def page() -> str:
     """Return the whole page."""
-    arrows = ["    [*] --> stick: |psi_1| <= 1", "    [*] --> gross_slip: |psi_1| > 1"]
+    arrows = ["    [*] --> stick: |ψ₁| ≤ 1", "    [*] --> gross_slip: |ψ₁| > 1"]
     rows = ["| phase | ends while | because | then |", "|---|---|---|---|"]
     for (kind, cause, unloading), (after, sign) in TRANSITIONS.items():
         half = HALVES[unloading]
@@ -34,7 +42,7 @@ def page() -> str:
         rows.append(f"| {KIND_NAMES[kind]} | {half} | {CAUSE_NAMES[cause]} | {then} |")
     arrows += [f"    {name(kind)} --> [*]: {CAUSE_NAMES[Cause.SEPARATION]}" for kind in KIND_NAMES]
     diagram = ["```mermaid", "stateDiagram-v2", *arrows, "```"]
-    return "\n".join([HEAD, *diagram, "", *rows]) + "\n"
+    return "\n".join([HEAD, *diagram, "", *rows, TAIL])
 
 
 if __name__ == "__main__":

@@ -4,9 +4,9 @@ python docs/make/run_pages.py [PAGE ...]    where none is named, all pages for u
 
 The blocks of a page run in order, in one namespace and an empty folder:
 
-- `python` is executed; in `sh`, lines that begin with `carom ` are, and must exit with 0, or what
-  a comment "exit code 1" says; `console` is shown only;
-- `toml` or `text` whose first line is "# NAME.EXT" is a file, written under that name;
+- `python` is executed; in `sh`, lines that begin with `carom ` or `python ` are, and must exit with
+  0, or what a comment "exit code 1" says; `console` is shown only;
+- `toml`, `text` or `python` whose first line is "# NAME.EXT" is a file, written under that name;
 - any other `text` is what the block before it must have printed, "..." standing for anything.
 
 A picture in figures/STEM/ of page STEM is one that the page's code must have stored.
@@ -14,6 +14,7 @@ A picture in figures/STEM/ of page STEM is one that the page's code must have st
 
 import re
 import shlex
+import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -30,7 +31,7 @@ sys.path.append(str(DOCS.parent / "studies"))
 
 from small_pictures import store_small  # noqa: E402
 
-OTHERS = (DOCS / "choosing.md", DOCS / "input.md")
+OTHERS = (DOCS / "choosing.md", DOCS / "glossary.md", DOCS / "input.md")
 PAGES = (DOCS / "tutorial.md", *sorted(DOCS.glob("how-to/*.md")), *OTHERS)
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 NAMED = re.compile(r"# ([\w-]+\.\w+)\n")
@@ -46,7 +47,7 @@ class Block(NamedTuple):
     @property
     def file(self) -> str:
         """The name of the file that it is, if it is one."""
-        named = NAMED.match(self.text) if self.language in ("toml", "text") else None
+        named = NAMED.match(self.text) if self.language in ("toml", "text", "python") else None
         return named[1] if named else ""
 
 
@@ -62,7 +63,12 @@ def blocks(page: Path) -> list[Block]:
 def as_promised(line: str) -> bool:
     """Run a command; return whether its exit code is that of a comment "exit code N", else 0."""
     told = re.search(r"# .*exit code (\d)", line)
-    return command(shlex.split(line, comments=True)[1:]) == int(told[1] if told else 0)
+    program, *words = shlex.split(line, comments=True)
+    if program == "carom":
+        code = command(words)
+    else:
+        code = subprocess.run([sys.executable, *words], check=False).returncode
+    return code == int(told[1] if told else 0)
 
 
 def printed(block: Block, page: Path, names: dict[str, Any]) -> str:
@@ -73,7 +79,7 @@ def printed(block: Block, page: Path, names: dict[str, Any]) -> str:
             source = "\n" * (block.line - 1) + block.text
             exec(compile(source, str(page), "exec"), names)
         for line in block.text.splitlines() if block.language == "sh" else ():
-            if line.startswith("carom ") and not as_promised(line):
+            if line.startswith(("carom ", "python ")) and not as_promised(line):
                 raise RuntimeError(f"{page}, line {block.line}: failed, {line}")
     return caught.getvalue()
 

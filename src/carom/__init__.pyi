@@ -41,6 +41,8 @@ from .io.files import save as save
 from .io.version import __version__ as __version__
 from .laws.dem import (
     EdemHertzMindlin as EdemHertzMindlin,
+    FunctionLaw as FunctionLaw,
+    FunctionRebound as FunctionRebound,
     HardSphere as HardSphere,
     HertzLinearHistory as HertzLinearHistory,
     LammpsMindlin as LammpsMindlin,

@@ -72,7 +72,7 @@ def test_losses_are_shown_wherever_the_impact_is(visit):
     assert drawn["y"] == pytest.approx(list(expected), abs=2e-5)
     told = seen.page.locator("#results").inner_text()
     assert "Thornton, incremental: has no damping" in told
-    assert f"{hit.shear_lost_energy * 1e6:.5g}\N{NO-BREAK SPACE}µJ" in told
+    assert f"{hit.shear_lost_energy * 1e6:.6g}\N{NO-BREAK SPACE}µJ" in told
     seen.page.fill("#restitution", "1")
     seen.until(lambda: shows(seen, steel()))
     seen.laid_over(law, "Thornton, incremental")

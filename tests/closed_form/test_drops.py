@@ -54,7 +54,7 @@ def test_heights_give_the_restitution():
     weight = np.sum((SPEEDS * 0.8 * SPEEDS / (GRAVITY * 1e-4)) ** 2)
     half = 1.96 / np.sqrt(weight)
     assert found.restitution.high - found.restitution.value == pytest.approx(half, rel=0.25)
-    assert str(found.friction) == "0.2, held"
+    assert str(found.friction) == "0.2, not varied"
     uncertain = dropped(0.8) | {"drop_height_error": 0.05 * HEIGHTS}
     wide = carom.fit(uncertain | {"rebound_height_error": 1e-3 * HEIGHTS}, pair=PAIR).restitution
     expected = 1.96 * 0.8 * 0.025 / np.sqrt(12.0)
@@ -180,7 +180,7 @@ REFUSED = {
     "rebound_height: 0.3 in row 1": {"drop_height": [0.1, 0.2], "rebound_height": [0.3, 0.1]},
     "drop_height: -0.2 in row 2": {"drop_height": [0.1, -0.2], "rebound_height": [0.05, 0.1]},
     "drop_height: column missing": {"rebound_height": [0.3, 0.1]},
-    "drop_height: says the same as normal_restitution": {
+    "drop_height: it gives the same as normal_restitution": {
         "drop_height": [0.1, 0.2],
         "normal_restitution": [0.3, 0.1],
     },

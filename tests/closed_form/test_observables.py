@@ -239,10 +239,10 @@ START = {"speed": 2.0, "angle": 0.5}
 @pytest.mark.parametrize(
     ("known", "wanted", "message"),
     [
-        (START, "spin_out", "not determined for the rebound; give one of tangential_speed_out"),
-        ({"speed": 2.0, "spin_out": 1.0}, "psi_out", "not determined for the tangential motion"),
-        (START | {"spin_out": 1, "psi_out": 1}, "contact_beta", "spin_out and psi_out are too m"),
-        (START | {"tangential_speed": 1.0}, "psi_in", "tangential_speed and angle are too much"),
+        (START, "spin_out", "the rebound is not determined; give one of tangential_speed_out"),
+        ({"speed": 2.0, "spin_out": 1.0}, "psi_out", "tangential motion before is not determined"),
+        (START | {"spin_out": 1, "psi_out": 1}, "contact_beta", "by spin_out and psi_out"),
+        (START | {"tangential_speed": 1.0}, "psi_in", "determined by tangential_speed and angle"),
         (START | {"normal_speed": 1.0}, "psi_in", "speed: give it with angle alone"),
         (START | {"rebound_angle": 0.1}, "spin_out", "normal_restitution: missing; rebound_angle"),
         (START | {"spin_out": 0.1}, "impulse_ratio", "normal_restitution: missing; impulse_ratio"),
@@ -260,17 +260,17 @@ START = {"speed": 2.0, "angle": 0.5}
         (
             START | {"rebound_speed": 1.0, "normal_restitution": 1.0},
             "spin_out",
-            "rebound_speed: 1.0 cannot be used; is below the normal speed after",
+            "rebound_speed: 1.0 cannot be used; it is below the normal speed after",
         ),
         (
             START | {"rebound_speed": 1.8, "normal_restitution": 1.0, "spin": 1500.0},
             "spin_out",
-            "the centre may go on or back with it; give rebound_angle, too",
+            "the centre may go on or turn back; give rebound_angle, too",
         ),
         (
             START | {"rebound_speed": 1.8, "rebound_angle": 0.3, "spin_out": 1.0},
             "psi_out",
-            "rebound_speed and rebound_angle tell the rebound; leave spin_out out",
+            "rebound_speed and rebound_angle determine the rebound; leave spin_out out",
         ),
         (
             {"angle": 0.5, "rebound_speed": 1.8, "rebound_angle": 0.3},
@@ -278,16 +278,16 @@ START = {"speed": 2.0, "angle": 0.5}
             "speed: missing; rebound_speed needs",
         ),
         (START | {"spin_out": [1.0, 2.0], "spin": [1, 2, 3]}, "psi_out", "do not fit each other"),
-        ({"speed": 2.0, "angle": 0.0, "contact_beta": 0.3}, "spin_out", "contact_beta: says noth"),
+        ({"speed": 2.0, "angle": 0.0, "contact_beta": 0.3}, "spin_out", "contact_beta: it is und"),
         (
             {"speed": 2.0, "angle": [0.1, 0.0], "tangential_restitution": 0.3},
             "spin_out",
-            "tangential_restitution: says nothing where tangential_speed is zero",
+            "tangential_restitution: it is undefined where tangential_speed is zero",
         ),
         (
             START | {"normal_restitution": 0.9, "normal_speed_out": 1.0},
             "normal_speed_out",
-            "are too much; give one of them",
+            "mean the same; give one of them",
         ),
     ],
 )
@@ -300,6 +300,6 @@ def test_what_is_open_or_said_twice_is_refused(known, wanted, message):
 
 def test_psi_needs_friction():
     pair = Pair(Sphere(radius=0.004, material=STEEL), HalfSpace(material=STEEL), friction=0.0)
-    with pytest.raises(carom.InputError, match="psi_in: infinite without friction"):
+    with pytest.raises(carom.InputError, match="psi_in: it is infinite without friction"):
         convert(pair, known=START, wanted="psi_in")
     assert convert(pair, known=START, wanted="contact_angle") == pytest.approx(0.5)

@@ -119,7 +119,7 @@ def test_refuses_what_is_not_a_number(psi, chi, name):
 
 
 def test_refuses_shapes_that_do_not_fit():
-    message = r"^psi, chi: arrays of shapes \(3,\) and \(2,\) cannot be used together; give one"
+    message = r"^psi, chi: the shapes \(3,\) and \(2,\) do not fit each other; give numbers"
     with pytest.raises(ValueError, match=message):
         carom.rebound([1.0, 2.0, 3.0], [1.0, 2.0])
 

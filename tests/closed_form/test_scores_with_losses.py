@@ -131,12 +131,12 @@ def test_another_restitution_is_named():
     (audit,) = (f for f in result.audit if f.name == "restitution error")
     assert audit.value == pytest.approx(0.1, abs=1e-12)
     assert "e = 0.7, not 0.8" in audit.verdict
-    assert "adapt the damping" in audit.verdict
+    assert "change the damping" in audit.verdict
     elastic = score(given, case=PAIR)
     assert "restitution error" in elastic.failures
     del given["normal_speed_out"]
     assert score(given, case=PAIR, restitution=0.7).notes == (
-        "normal_speed_out is not given: taken as 0.7 normal_speed, e = 0.7",
+        "normal_speed_out is not given; it was taken as 0.7 normal_speed, e = 0.7",
     )
 
 
@@ -158,7 +158,9 @@ def test_the_results_tell_the_restitution_as_well(tmp_path):
     for given in ({}, {"chi": PAIR.chi}, {"case": BODIES}, {"case": own}, {"case": PAIR}):
         assert score(file, **given).restitution == 0.8
     for case in (BODIES | {"restitution": 0.9}, carom.impact(PAIR, **MOTION)):
-        with pytest.raises(carom.InputError, match=r"^restitution: case and results tell 0\.8 and"):
+        with pytest.raises(
+            carom.InputError, match=r"^restitution: the case and the results have 0\.8 and"
+        ):
             score(file, case=case)
 
 
@@ -170,7 +172,7 @@ def test_the_results_tell_the_restitution_as_well(tmp_path):
         ({"case": PAIR, "restitution": "high"}, "restitution: 'high'"),
         ({"case": BODIES | {"restitution": 0.9}, "restitution": 0.9}, "leave one of them out"),
         ({"case": carom.impact(PAIR, **MOTION), "restitution": 0.9}, "leave one of them out"),
-        ({"case": BODIES | {"loss_time": "1 us"}}, "solids of one restitution at all speeds"),
+        ({"case": BODIES | {"loss_time": "1 us"}}, "a restitution that is the same at all speeds"),
         ({"case": BODIES | {"yield_velocity": "1 m/s"}}, "give that instead"),
     ],
 )

@@ -83,7 +83,7 @@ def test_is_the_law_and_the_exact_rebound(run, chi):
     """To 1e-14 of ReboundLaw and 1e-9 of `carom.rebound`; odd to the bit; IEEE values pass."""
     code, out, err = run("--chi", str(chi), "--export", "c", "--output", "rebound.h")
     assert (code, out) == (0, "")
-    assert err.endswith("stored rebound.h\n")
+    assert err.endswith("Carom has stored rebound.h.\n")
     function, law = compiled(), carom.ReboundLaw(chi)
     psi = slopes(law)
     assert psi.size > 20000
@@ -127,11 +127,11 @@ def test_says_what_it_is(run):
 
 REFUSED = [
     (["--export", "rust"], "export: 'rust' cannot be used; must be c"),
-    (["--export", "c", "--json"], "--json: is of no use with --export"),
-    (["--export", "c", "--plot", "x.png"], "--plot: is of no use with --export"),
-    (["--export", "c", "--from", "1"], "--from: is of no use with --export"),
-    (["--export", "c", "--to", "2"], "--to: is of no use with --export"),
-    (["--export", "c", "--points", "9"], "--points: is of no use with --export"),
+    (["--export", "c", "--json"], "--json: has no effect with --export"),
+    (["--export", "c", "--plot", "x.png"], "--plot: has no effect with --export"),
+    (["--export", "c", "--from", "1"], "--from: has no effect with --export"),
+    (["--export", "c", "--to", "2"], "--to: has no effect with --export"),
+    (["--export", "c", "--points", "9"], "--points: has no effect with --export"),
     (["--export", "c", "--output", "x.csv"], "output file: 'x.csv' cannot be used; must end in .h"),
     (["--export", "c", "--output", "no/x.h"], "output file: 'no/x.h' .*folder must exist"),
     (["--export", "c", "--chi", "1.440"], "chi: 1.44 comes twice"),

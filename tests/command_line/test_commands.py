@@ -99,7 +99,7 @@ def test_animation(run, monkeypatch):
     monkeypatch.setattr("carom.cli.impact.FRAMES", 3)
     code, _, err = run(*BALL, *SPEED, "--animate", "hit.gif")
     assert code == 0
-    assert "stored hit.gif" in err
+    assert "Carom has stored hit.gif." in err
     with Image.open("hit.gif") as film:
         assert film.n_frames == 3
     monkeypatch.setenv("PATH", "")
@@ -163,7 +163,7 @@ BAD = [
     (["curve", "--chi", "1", "--to", "abc"], "to: 'abc' cannot be used"),
     (["curve", "--chi", "1", "--points", "0"], "points: '0' cannot be used; must be a whole"),
     (["materials", "stone"], "material: 'stone'"),
-    (["materials", "steel", "--pairs"], "--pairs: 'steel' cannot be used; lists all pairs"),
+    (["materials", "steel", "--pairs"], "--pairs: 'steel' cannot be used; it lists all pairs"),
     (["frobnicate"], "No such command"),
 ]
 

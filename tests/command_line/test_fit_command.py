@@ -47,8 +47,8 @@ def test_table_of_a_file_with_a_case(capsys):
     assert code == 0
     value = float(out.split("friction")[1].split()[0])
     assert value == pytest.approx(MU, rel=0.1)
-    assert "restitution    1, held" in out
-    assert "rows by regime: stick from the first touch: 1" in out
+    assert "restitution    1, not varied" in out
+    assert "rows by regime: 1 stick from the first touch; " in out
 
 
 def test_json_and_advice(capsys):
@@ -74,7 +74,7 @@ def test_files_are_stored(capsys, tmp_path):
     code, _, err = run(capsys, *given, *files)
     assert code == 0
     assert {"fit.png", "fit.nc", "samples.csv"} <= {path.name for path in tmp_path.iterdir()}
-    assert "the chain is short" in err
+    assert "The chain is short" in err
     samples = carom.read("samples.csv")
     assert samples.sizes["sample"] == 75 * 16  # steps kept, walkers
     code, _, _ = run(capsys, *given, "--posterior", "corner.png")
@@ -95,7 +95,10 @@ def test_files_are_stored(capsys, tmp_path):
         (("data.csv", "--case", "ball.toml", "--fix", "e=1"), "'e' is no parameter"),
         (("data.csv", "--case", "ball.toml", "--vary", "friction,x"), "'x' is no parameter"),
         (("data.csv", "--case", "ball.toml", "--plot", "fit.txt"), "must end in"),
-        (("data.csv", "--case", "ball.toml", "--output", "data.csv"), "it is the file of data"),
+        (
+            ("data.csv", "--case", "ball.toml", "--output", "data.csv"),
+            "this file is also that of data",
+        ),
         (("data.csv", "--case", "ball.toml", "--confidence", "95"), "between 0.5 and 1"),
         (("data.csv", "--case", "ball.toml", "--for", "friction"), "--advice"),
         (("data.csv", "--case", "ball.toml", "--advice", "0"), "advice: '0' cannot be used"),

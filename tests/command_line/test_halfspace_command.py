@@ -46,7 +46,7 @@ def test_the_table_tells_the_error_and_files_are_stored(run, tmp_path):
     assert "energy lost in the normal motion" not in out, "like materials lose none"
     assert (tmp_path / "hit.png").stat().st_size > 20_000
     assert carom.read(tmp_path / "hit.nc").slip_angle.dims == ("time",)
-    assert err.splitlines() == ["stored hit.nc", "stored hit.png"]
+    assert err.splitlines() == ["Carom has stored hit.nc.", "Carom has stored hit.png."]
 
 
 def test_unlike_materials_show_what_the_normal_motion_loses(run):
@@ -71,7 +71,10 @@ def test_spin_about_the_normal(run):
     ("flags", "said"),
     [
         (["--method", "fem"], "carom: method: 'fem' cannot be used; must be exact or halfspace"),
-        (["--elements", "32"], "carom: elements: 32 cannot be used; only boundary elements have"),
+        (
+            ["--elements", "32"],
+            "carom: elements: 32 cannot be used; it is an option of boundary elements",
+        ),
         (["--method", "halfspace", "--steps", "5"], "carom: steps: '5' cannot be used; must be a"),
         ([*COARSE, "--restitution", "0.9"], "carom: losses: KelvinVoigt(restitution=0.9"),
     ],

@@ -88,7 +88,7 @@ def test_table_tells_points_phases_and_audit(capsys):
     assert float(line.split()[3]) == 1.5
     assert float(line.split()[5]) == pytest.approx(1.5 - carom.rebound(1.0, CHI), rel=1e-3)
     assert re.search(r"gross slip \+, stick, slip -, gross slip - +1 ", out)
-    assert "gained in line 4: 1.25 in psi^2" in out
+    assert "energy is gained in line 4: 1.25 in psi^2" in out
 
 
 def test_json_holds_the_same(capsys):
@@ -125,7 +125,7 @@ def test_figure_and_data_are_stored(capsys, tmp_path):
     options = ("--chi", str(CHI), "--plot", "score.png", "--output", "score.csv")
     code, _, err = run(capsys, table(psi_columns(0.02)), *options)
     assert code == 1
-    assert sorted(err.split()) == ["score.csv", "score.png", "stored", "stored"]
+    assert sorted(err.splitlines()) == [f"Carom has stored score.{end}." for end in ("csv", "png")]
     assert (tmp_path / "score.png").read_bytes().startswith(b"\x89PNG")
     np.testing.assert_allclose(carom.read("score.csv").error, 0.02, rtol=1e-10)
 
@@ -143,7 +143,7 @@ BAD = {
     "psi_1,psi_1,psi_2\n1,1,1\n": "'psi_1': two columns",
     "psi_1,psi2\n0.1,0.2\n": "psi2: unknown column; did you mean 'psi_2'?",
     "omega,angel\n1,2\n": "no column of omega, angel is known; did you mean 'angle'?",
-    "psi_1,psi_2\n1,1\n2,2\n3,3\n": "chi: missing; give a column chi, --chi",
+    "psi_1,psi_2\n1,1\n2,2\n3,3\n": "chi: missing; give a column chi, or --chi",
     "psi_1,psi_2,chi\n1,1,1\n2,2,-1\n3,3,1\n": "chi: -1 in line 3",
     "psi_1,psi_2,chi\n1,1,1\n2,2,1\n": "too few points: 2",
     "psi_1,psi_2,chi\n1,1,1\n\n# a\n2,nan,1\n3,,1\n": "psi_2: not a number in lines 5 and 6",
@@ -190,11 +190,11 @@ def refused(capsys, message, *arguments):
     [
         (lambda f: {n: v[12:] for n, v in f.items()}, "start at the first touch; in line 2"),
         (lambda f: {n: v[:40] for n, v in f.items()}, "go on to the last touch; in line 41"),
-        (lambda f: {n: v[::4] for n, v in f.items()}, "rows with a normal force; a history needs"),
+        (lambda f: {n: v[::4] for n, v in f.items()}, "rows have a normal force; a history needs"),
         (lambda f: f | {"time": 1e6 * f["time"]}, r"if it is in us, head the column 'time \[us\]'"),
         (lambda f: f | {"time": np.arange(60)}, "is time counted in steps?"),
         (lambda f: f | {"normal_force": 1e-3 * f["normal_force"]}, r"'normal_force \[kN\]'"),
-        (lambda f: f | {"normal_force": -f["normal_force"]}, "turn its sign"),
+        (lambda f: f | {"normal_force": -f["normal_force"]}, "change its sign"),
         (
             lambda f: f | {"normal_force": f["normal_force"] * (np.arange(60) != 30)},
             "normal_force: 0 in line 32 .* the history of one impact",
@@ -226,7 +226,7 @@ def test_records_that_are_no_whole_contact_are_refused(capsys, hit, change, mess
         (("good.csv", "--case", "none.toml"), "case file: 'none.toml' cannot be read"),
         (("good.csv", "--ki", "1.4"), "--ki"),
         (("good.csv", "--chi", "1.4", "--restitution", "0"), "restitution: '0' cannot be used"),
-        (("good.csv", "--chi", "1.4", "--output", "good.csv"), "it is the file of results"),
+        (("good.csv", "--chi", "1.4", "--output", "good.csv"), "this file is also that of results"),
     ],
 )
 def test_bad_options_are_refused(capsys, options, message):
@@ -248,7 +248,7 @@ def test_bodies_in_a_comment(capsys, hit):
     Path("results.csv").write_text(f"# case: {json.dumps(case_of(pair))}\n{text}")
     assert run(capsys, "results.csv")[0] == 0
     other = case_of(pair) | {"friction": 0.9 * pair.friction}
-    with pytest.raises(carom.InputError, match="bodies are not those of the results"):
+    with pytest.raises(carom.InputError, match="bodies differ from those in the results"):
         carom.verify.score("results.csv", case=other)
     Path("results.csv").write_text(f"# case: nothing\n{text}")
     code, _, err = run(capsys, "results.csv")

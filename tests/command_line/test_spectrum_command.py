@@ -45,7 +45,7 @@ def expected():
 
 def test_the_file_is_the_spectrum_of_the_library(run):
     code, out, err = run(*BALL, *SPEED, "--spectrum", "forces.csv", "--json")
-    assert (code, err) == (0, "stored forces.csv\n")
+    assert (code, err) == (0, "Carom has stored forces.csv.\n")
     assert "result" in json.loads(out)
     assert carom.read("forces.csv").identical(expected())
     table = pd.read_csv("forces.csv", comment="#")
@@ -55,7 +55,7 @@ def test_the_file_is_the_spectrum_of_the_library(run):
 
 def test_beside_the_history(run):
     code, _, err = run(*BALL, *SPEED, "--output", "hit.csv", "--spectrum", "forces.nc")
-    assert (code, err) == (0, "stored hit.csv\nstored forces.nc\n")
+    assert (code, err) == (0, "Carom has stored hit.csv.\nCarom has stored forces.nc.\n")
     assert "time" in carom.read("hit.csv").dims
     assert "frequency" in carom.read("forces.nc").dims
 
@@ -63,10 +63,10 @@ def test_beside_the_history(run):
 def test_a_case_file_asks_for_it(run):
     Path("case.toml").write_text(CASE, encoding="utf-8")
     code, _, err = run("impact", "case.toml")
-    assert (code, err) == (0, "stored forces.nc\n")
+    assert (code, err) == (0, "Carom has stored forces.nc.\n")
     assert carom.read("forces.nc").identical(expected())
     code, _, err = run("impact", "case.toml", "--spectrum", "other.csv")
-    assert (code, err) == (0, "stored other.csv\n")
+    assert (code, err) == (0, "Carom has stored other.csv.\n")
 
 
 @pytest.mark.parametrize(
@@ -75,7 +75,7 @@ def test_a_case_file_asks_for_it(run):
 def test_of_impacts_of_other_kinds(run, more):
     without = BALL[:-2] if "--friction" in more else BALL
     code, _, err = run(*without, *SPEED, *more, "--spectrum", "forces.csv")
-    assert (code, err) == (0, "stored forces.csv\n")
+    assert (code, err) == (0, "Carom has stored forces.csv.\n")
     found = carom.read("forces.csv")
     assert float(found.normal_spectrum[0]) == pytest.approx(float(found.normal_impulse), rel=1e-5)
 
@@ -86,7 +86,10 @@ def test_of_impacts_of_other_kinds(run, more):
         (["--spectrum", "forces.txt"], "output file: 'forces.txt' cannot be used; must end in .nc"),
         (["--spectrum", "no/forces.csv"], "output file: 'no/forces.csv' cannot be used"),
         (["--spectrum", ""], "output file: '' cannot be used"),
-        (["--spectrum", "a.csv", "--output", "a.csv"], "spectrum: 'a.csv' cannot be used; it is"),
+        (
+            ["--spectrum", "a.csv", "--output", "a.csv"],
+            "spectrum: 'a.csv' cannot be used; this file is also that of output",
+        ),
     ],
 )
 def test_bad_names_take_one_line(run, flags, said):
@@ -102,4 +105,5 @@ def test_a_sweep_computes_none(run):
     Path("case.toml").write_text(sweep, encoding="utf-8")
     code, _, err = run("sweep", "case.toml")
     assert code == 2
-    assert "spectrum: 'forces.nc' cannot be used; a sweep computes none; leave it out" in err
+    allowed = "carom sweep computes none, carom impact does; leave it out"
+    assert f"spectrum: 'forces.nc' cannot be used; {allowed}" in err

@@ -50,7 +50,7 @@ def changed(old: str, new: str) -> None:
 
 def test_every_point_is_the_impact_of_the_library(run):
     code, out, err = run("case.toml", "--output", "sweep.nc")
-    assert (code, err) == (0, "stored sweep.nc\n")
+    assert (code, err) == (0, "Carom has stored sweep.nc.\n")
     result = carom.read("sweep.nc")
     assert result.sizes == {"angle": 9, "friction": 2}
     ball = carom.Sphere(radius="5 mm", material="steel")
@@ -68,7 +68,10 @@ def test_without_a_place_it_says_how_to_keep_the_results(run):
     code, out, err = run("case.toml")
     assert code == 0
     assert "18 points" in out
-    assert err == "not stored; --store sweep.zarr or --output sweep.nc keeps it\n"
+    assert err == (
+        "Carom has not stored the results; add --output sweep.nc or --store sweep.zarr to keep "
+        "them.\n"
+    )
     assert not [path for path in Path().iterdir() if path.name != "case.toml"]
 
 
@@ -136,7 +139,7 @@ def test_file_that_the_case_names_is_written(run):
         ('"spin_out"', '"spin_off"', ("spin_off", "'spin_out'")),
         ("[0.1, 0.3]", "[]", ("friction", "at least one")),
         ('["rebound_angle", "spin_out"]', '"spin_out"', ("outputs", "list of names")),
-        ("[sweep]", '[output]\nplot = "hit.png"\n[sweep]', ("plot", "a sweep draws none")),
+        ("[sweep]", '[output]\nplot = "hit.png"\n[sweep]', ("plot", "carom sweep draws none")),
         ("[sweep.axes]", "[sweep.axes.first]", ("first.angle",)),
         (
             "friction = [0.1, 0.3]",
@@ -185,7 +188,7 @@ def test_a_single_impact_tells_that_it_leaves_the_sweep_out(capsys, monkeypatch,
     refused = ["verify", "tune", "case.toml", "--restitution", "2"]  # soon over
     for arguments, code in ((["impact", "case.toml"], 0), (refused, 2)):
         assert main(arguments) == code
-        assert "[sweep] is left out; carom sweep computes" in capsys.readouterr().err
+        assert "[sweep] is ignored here; carom sweep computes" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -231,7 +234,7 @@ def test_full_disk_says_what_is_safe_and_resume_goes_on(run, monkeypatch):
         full.setattr(Path, "write_bytes", onto_a_full_disk)
         code, out, err = run("case.toml", "--store", "sweep.zarr")
     assert (code, out, err.count("\n")) == (1, "", 1)
-    assert "No space left on device; free space; 1 of 5 blocks are safe" in err
+    assert "No space left on device; free some space; 1 of 5 blocks are safe" in err
     assert "--resume" in err
     assert not list(Path("sweep.zarr").rglob("*.partial"))
     code, out, _ = run("case.toml", "--store", "sweep.zarr", "--resume", "--json")
@@ -248,7 +251,7 @@ def test_interrupted_it_says_what_is_safe_and_how_to_go_on(run, monkeypatch):
         code, out, err = run("case.toml", "--store", "sweep.zarr")
     assert (code, out) == (1, "")
     assert err == (
-        "carom: stopped; 0 of 1 blocks are safe in sweep.zarr; "
+        "carom: the sweep was stopped; 0 of 1 blocks are safe in sweep.zarr; "
         "--resume (resume=True) continues there\n"
     )
     assert run("case.toml", "--store", "sweep.zarr", "--resume")[0] == 0

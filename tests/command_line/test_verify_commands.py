@@ -91,7 +91,8 @@ def test_one_law_with_all_that_can_be_stored(run):
     assert code == 0
     assert [law["law"] for law in json.loads(out)["laws"]] == ["mindlin"]
     assert folder() == {"laws.nc", "laws.svg", "map.png"}
-    assert sorted(err.split()) == ["laws.nc", "laws.svg", "map.png", *3 * ["stored"]]
+    names = ("laws.nc", "laws.svg", "map.png")
+    assert sorted(err.splitlines()) == [f"Carom has stored {name}." for name in names]
     assert Path("map.png").read_bytes().startswith(b"\x89PNG")
     assert "</svg>" in Path("laws.svg").read_text()
     assert carom.read("laws.nc").max_error.item() == pytest.approx(0.5763, abs=1e-3)
@@ -150,7 +151,8 @@ def test_tune_a_case_between_angles(run):
     best = carom.LinearSpring(spring["value"])
     assert record["inputs"] == recipes(pair, speed, 0.8, spring=best)
     table = run("tune", "ball.toml", *options)[1]
-    assert f"{record['duration']:.4g} s at {speed:.4g} m/s" in table
+    micro = 1e6 * record["duration"]
+    assert f"normal speed of {speed:.4g} m/s the contact lasts {micro:.4g} µs; " in table
     assert all(text in table for text in record["inputs"].values())
 
 
@@ -160,7 +162,7 @@ def test_tune_a_case_without_motion(run):
     Path("ball.toml").write_text(CASE.replace("speed", "#").replace("angle", "#"))
     code, out, _ = run("tune", "ball.toml")
     assert code == 0
-    assert " at 1 m/s" in out
+    assert "At a normal speed of 1 m/s the contact lasts " in out
 
 
 @engine
@@ -187,7 +189,7 @@ def test_from_nothing_to_a_verdict(run):
     """Two commands: LAMMPS computes the impacts, the scorer finds bodies and error by itself; what
     carom finds for mindlin, 0.576, is what it says."""
     code, out, err = run("lammps", *ONE, "--output", "results.csv")
-    assert (code, err, folder()) == (0, "stored results.csv\n", {"results.csv"})
+    assert (code, err, folder()) == (0, "Carom has stored results.csv.\n", {"results.csv"})
     assert out.count("mindlin") == 1
     code, out, _ = run("score", "results.csv")
     assert code == 1
@@ -231,12 +233,19 @@ BAD = {
     ("laws", "--law", "qqq"): "law: 'qqq' .*must be one of: linear spring, k_t/k_n = kappa; ",
     ("laws", "--chi", "1e4", *ONE): "chi: 10000.0 .*is not solved: more than 200 phases",
     ("laws", "--psi", "0"): "psi: .*must not all be zero",
-    ("laws", *ONE, "--map", "x.nc", "--output", "x.nc"): "map: 'x.nc' .*the file of output",
-    ("laws", *ONE, "--map", "x.nc", "--kappa", "1"): "map: is of solid spheres",
+    (
+        "laws",
+        *ONE,
+        "--map",
+        "x.nc",
+        "--output",
+        "x.nc",
+    ): "map: 'x.nc' .*this file is also that of output",
+    ("laws", *ONE, "--map", "x.nc", "--kappa", "1"): "map: it shows solid spheres",
     ("laws", "--output", "x.xls"): r"output file: 'x.xls' .*\.nc or \.csv",
     ("laws", "--plot", "x.txt"): r"output file: 'x.txt' .*\.png",
     ("laws", "--plot", "no/x.png"): "output file: .*folder must exist",
-    ("laws", "--map", "x.png"): "map: is of one law; give --law",
+    ("laws", "--map", "x.png"): "map: it shows one law; give --law",
     ("laws", *ONE, "--map", "x.gif"): r"output file: 'x.gif' .*\.png",
     ("tune",): "case: missing; give a case file, or --chi",
     ("tune", "--kappa", "1"): "case: missing",
@@ -249,7 +258,7 @@ BAD = {
     ("tune", "--chi", "1.4", "--measure", "mean"): "measure: 'mean' .*must be max or rms",
     ("tune", "--chi", "1.4", "--from", "3", "--to", "2"): "to: '2' .*must be above --from, 3",
     ("tune", "--chi", "1.4", "--from", "-3"): "from: '-3' .*must not be negative",
-    ("tune", "--chi", "1.4", "--from", "7"): "from: '7' .*psi_1 = 7 slides throughout",
+    ("tune", "--chi", "1.4", "--from", "7"): "from: '7' .*psi_1 = 7 the contact slides throughout",
     ("tune", "--chi", "1.4", "--to", "60 deg"): "psi_in: '60 deg' .*it has a unit",
     ("tune", "ball.toml", "--to", "90 deg"): "angle: '90 deg' .*must be below 90 deg",
     ("tune", "ball.toml", "--to", "60"): "angle: '60' .*write '60 deg'",
@@ -258,7 +267,7 @@ BAD = {
     ("tune", "ball.toml", "--restitution", "0"): "restitution: '0' .*must be from 1e-06 to 1",
     ("tune", "ball.toml", "--restitution", "1.1"): "restitution: '1.1' .*from 1e-06 to 1",
     ("lammps", "--law", "mindln"): "law: 'mindln' .*did you mean 'mindlin'",
-    ("lammps", "--output", "r.csv"): "output: needs one --law",
+    ("lammps", "--output", "r.csv"): "output: it stores the results of one law; give --law",
     ("lammps", *ONE, "--output", "r.txt"): r"output file: 'r.txt' .*must end in \.csv",
     ("lammps", *ONE, "--output", "no/r.csv"): "output file: .*folder must exist",
     ("lammps", "--case", "none.toml"): "case file: 'none.toml' cannot be read",
@@ -268,14 +277,20 @@ BAD = {
     ("yade", "--program", "/nowhere"): "YADE: '/nowhere' is not an executable",
     ("lammps", "--program", "/bin/false", "--steps", "9"): "steps: '9' .*at least 10",
     ("lammps", "--program", "/bin/false", "--case", "smooth.toml"): "friction: 0.0 .*positive",
-    ("lammps", "--program", "/bin/false", "--case", "cup.toml"): "second body: .*engines lack cups",
+    (
+        "lammps",
+        "--program",
+        "/bin/false",
+        "--case",
+        "cup.toml",
+    ): "second body: .*DEM codes have no cups",
     (
         "lammps",
         "--program",
         "/bin/false",
         "--law",
         "rigid Coulomb",
-    ): "LAMMPS does not have it, but linear spring, .*; mindlin",
+    ): "LAMMPS does not have it; it has linear spring, .*; mindlin",
     ("lamps",): "No such command 'lamps'. Did you mean 'lammps'",
     ("laws", "--colour", "red"): "No such option: --colour",
 }

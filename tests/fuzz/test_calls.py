@@ -72,6 +72,8 @@ def tables():
     SOLVED, LOST = carom.solve(0.5, 1.44), carom.solve(1.5, 1.44, losses=LOSSY)
     LAW, MIXED = carom.ReboundLaw(1.44), carom.MixtureLaw(1.2, 1.3)
     SLIDING = {"tangential_damping": 0.5, "restitution": 0.9}
+    OWN = carom.FunctionLaw(lambda contact, state: (-1e-3 * contact.normal_force, state))
+    RULE = carom.FunctionRebound(lambda psi, chi: -0.4 * psi)
     LAWS = {
         carom.LinearSpring: {"stiffness_ratio": 0.3, **SLIDING},
         carom.MemoryLaw: {"springs": 16, "restitution": 0.9, "viscous_shear": True},
@@ -153,6 +155,16 @@ def tables():
         **{f"{kind.__name__}.history": (kind(**given).history, {"psi": 0.5, "chi": 1.44,
                                         "kappa": 0.8, "steps": 50})
            for kind, given in LAWS.items() if kind is not carom.HardSphere},
+        "FunctionLaw": (carom.FunctionLaw, {"function": OWN.function, "name": "own", "pair": PAIR,
+                                            "normal": "linear", "restitution": 0.9,
+                                            "normal_speed": 0.1}),  # a state may be anything
+        "FunctionLaw.rebound": (OWN.rebound, {"psi": [0.5, 2.0], "chi": 1.44, "kappa": 0.8,
+                                              "steps": 50, "threads": 1}),
+        "FunctionLaw.history": (OWN.history, {"psi": 0.5, "chi": 1.44, "kappa": 0.8, "steps": 50}),
+        "FunctionRebound": (carom.FunctionRebound, {"function": RULE.function, "name": "own"}),
+        "FunctionRebound.rebound": (RULE.rebound, {"psi": [0.5, 2.0], "chi": 1.44, "kappa": 0.8,
+                                                   "return_status": False}),
+        "force_error, own": (verify.force_error, {"law": OWN, "psi": 0.5, "chi": 1.44}),
         "collide": (carom.collide, {"pair": PAIR, **VECTORS, "normal": [0.0, 0.0, 1.0], "law": None,
                                     "inplace": False, "threads": 1}),
         "collide, balls": (carom.collide, {"pair": BALLS, **VECTORS, "spin2": [0.0, 0.0, 1.0],
@@ -235,7 +247,12 @@ def tables():
         "tune": (verify.tune, {"laws": [carom.HardSphere()], "chi": 1.44, "kappa": 0.8,
                                "psi": [0.5], "measure": "max", "progress": False}),
         "score": (verify.score, {"results": {"psi_1": [0.5, 1.0, 2.0], "psi_2": [0.1, 0.0, -1.0]},
-                                 "case": None, "chi": 1.44, "tolerance": 0.01}),
+                                 "case": None, "chi": 1.44, "tolerance": 0.01, "code": "own",
+                                 "law": "new", "restitution": 0.9}),
+        "score, own": (verify.score, {"results": OWN, "case": PAIR, "chi": None, "code": "own",
+                                      "restitution": None, "tolerance": 0.01}),
+        "rank, own": (verify.rank, {"entries": [OWN, RULE], "chi": 1.44, "kappa": 0.8,
+                                    "psi": [0.5], "progress": False}),
     }  # fmt: skip
     return cheap, costly
 
@@ -251,7 +268,7 @@ OPEN = {  # NaN or infinity that the docstring tells
         "step_error",
         "Grid, range",
     ),
-    *("RoughLaw", "sweep", "force_error", "memory", "Entry"),
+    *("RoughLaw", "sweep", "force_error", "force_error, own", "memory", "Entry", "rank, own"),
     *("hit.spectrum", "hit.spectrum, n", "strength", "wear", "wear, components"),
 }
 

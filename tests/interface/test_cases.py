@@ -81,7 +81,7 @@ def test_values_of_materials_with_and_without_gaps():
         (lambda: material_values({"poisson": 0.6}), "poisson: 0.6"),
         (
             lambda: material_values({"xyz": 1}),
-            "^xyz: unknown in a material; known are young, poisson, density, yield_strength, "
+            "^xyz: unknown in a material; known names are young, poisson, density, yield_strength, "
             "tensile_strength, fracture_toughness, flaw_size, name$",
         ),
         (lambda: material_values({"modulus": 1}), "modulus: unknown in a material"),
@@ -111,7 +111,7 @@ def test_all_unknown_keys_are_counted_and_the_first_are_told(tmp_path):
     [
         (" " * 150_000 + "\nfriktion = 0.2\n", "friktion: unknown key in .*, line 2; did you mean"),
         ("\t" * 150_000 + "[first]\nradios = 1\n", "radios: unknown key in .*, line 2; did you"),
-        ("k" * 150_000 + " = 1\n", "kkk[.]{3}: unknown key in .*, line 1; known are"),
+        ("k" * 150_000 + " = 1\n", "kkk[.]{3}: unknown key in .*, line 1; known names are"),
     ],
     ids=["blanks", "tabs", "key"],
 )

@@ -135,13 +135,13 @@ def test_it_passes_through_jax():
 def test_it_warns_once_of_numbers_that_cannot_be_used(library):
     """How many there are, what to do, and at the line of the caller; the others are as ever."""
     make = LIBRARIES[library].asarray
-    with pytest.warns(UserWarning, match="some were left alone") as caught:
+    with pytest.warns(UserWarning, match="these were left alone") as caught:
         carom.collide(WALL, **{name: make(np.asarray(values)) for name, values in BAD.items()})
     (told,) = caught
     assert str(told.message) == (
-        "of 4 pairs some were left alone: "
+        "of 4 pairs these were left alone: "
         "1 whose normal is not of length one (divide it by its length); "
-        "1 with a number that is not finite or too large (look for NaN); `status` tells which"
+        "1 with a number that is not finite or too large (look for NaN); `status` says which"
     )
     assert told.filename == __file__
 

@@ -120,7 +120,10 @@ def test_a_labelled_dataset_is_a_table():
     ("changes", "words"),
     [
         ({"spin_out": (("point", "ball"), np.ones((2, 2)))}, "spin_out: it runs along point and b"),
-        ({"spin_out": ("ball", [1.0, 2.0])}, "spin_out: it runs along ball, the rows along point"),
+        (
+            {"spin_out": ("ball", [1.0, 2.0])},
+            "spin_out: it runs along ball, but the rows along point",
+        ),
     ],
 )
 def test_variables_of_a_dataset_along_other_dimensions_are_no_columns(changes, words):
@@ -298,8 +301,8 @@ def test_a_decimal_comma_is_refused_and_not_dropped(name, text):
 
 ROWS = "\n1,1\n1,1\n1,1\n"
 BAD = {
-    "angle,spin_out\n0.1,1\n30,1\n45,1\n": "angle: 30 in lines 3 and 4 .* is 'angle [deg]'",
-    "angle [rad],spin_out\n30,1\n": "angle: 30 in line 2 .* headed rad: if .* 'angle [deg]'",
+    "angle,spin_out\n0.1,1\n30,1\n45,1\n": "angle: 30 in lines 3 and 4 .* write 'angle [deg]'",
+    "angle [rad],spin_out\n30,1\n": "angle: 30 in line 2 .* says rad; for .* 'angle [deg]'",
     "angle [deg],spin_out\n90,1\n": "angle: 1.5708 in line 2 .* below pi/2, 90 deg",
     "angle [deg],rebound_angle\n9,-7\n": "rebound_angle: -7 in line 2 .* 'rebound_angle [deg]'",
     "angle [m],spin_out" + ROWS: "angle: 'm' cannot be used; that is not a value in rad",
@@ -315,7 +318,7 @@ BAD = {
     "angle;spin_out\n0,5;1\n": "angle: '0,5' cannot be used; numbers need a decimal point",
     "angle;spin_out\n0.5,1\n": "line 2 has 1 values, the header has 2 names",
     "angle|spin_out\n0.5|1\n": "separated by commas, semicolons or tabs",
-    "angle,angle [deg]" + ROWS: "'angle': two columns of this name",
+    "angle,angle [deg]" + ROWS: "'angle': two columns have this name",
     "angle [deg],spin_out\n": "no rows",
     "# case: {\nangle,spin_out" + ROWS: "there is no JSON",
 }
@@ -363,7 +366,7 @@ def test_a_misspelt_column_is_refused_and_not_ignored(name, meant):
 def test_columns_that_mean_nothing_here_are_named():
     table = read_table({"angle": [0.1], "run": [1], "temperature": [20.0], "spin_out": [1.0]})
     assert others(table, KNOWN) == ("run", "temperature")
-    with pytest.raises(InputError, match="spin_out_error: the column 'spin_out' it goes with"):
+    with pytest.raises(InputError, match="spin_out_error: its column 'spin_out' is missing"):
         others(read_table({"angle": [0.1], "spin_out_error": [1.0]}), KNOWN)
 
 

@@ -58,7 +58,9 @@ def test_five_equal_rows_at_one_angle(name, angle):
     value = -hit.contact_restitution if name == "contact_beta" else getattr(hit, name)
     data = {"angle [deg]": [angle] * 5, "speed": [2.0] * 5, name: [value] * 5}
     found = whole(fit(data, pair=START, fixed={"restitution": 1.0}))
-    assert any(note.startswith("one incidence tells friction or kappa") for note in found.notes)
+    assert any(
+        note.startswith("one incidence determines friction or kappa") for note in found.notes
+    )
     held = fit(data, pair=START, fixed={"restitution": 1.0, "kappa": PAIR.kappa})
     near = held.friction.value == pytest.approx(MU, rel=0.01)
     assert near or held.friction.open or any("nearly as well" in note for note in held.notes)
@@ -96,7 +98,7 @@ def test_what_is_held_is_held_where_the_fit_found_it(friction):
     assert found.regimes["stick from the first touch"] == 6
     ratio = carom.rebound(1e-3, found.chi.value) / 1e-3
     assert ratio == pytest.approx(carom.rebound(1e-3, PAIR.chi) / 1e-3, abs=0.01)
-    other = [note for note in found.notes if "fits nearly as well" in note]
+    other = [note for note in found.notes if "fit nearly as well" in note]
     told = [found.kappa.value, *(float(note.split("kappa ")[1]) for note in other)]
     assert min(abs(value / PAIR.kappa - 1.0) for value in told) < 0.02
 
@@ -108,7 +110,7 @@ def test_errors_below_those_of_the_curves_count_as_these():
     for error in (1e-12, 1e-6):
         errors = {"contact_restitution_error": [error] * 5}
         found = whole(fit({**data, **errors}, pair=START, fixed={"restitution": 1.0}))
-        assert any("the curves are no better" in note for note in found.notes)
+        assert any("the accuracy of the curves" in note for note in found.notes)
         widths.append(found.friction.high - found.friction.low)
     assert widths[0] == pytest.approx(widths[1], rel=1e-6)
     assert widths[0] > 1e-5 * MU
@@ -119,7 +121,7 @@ def test_a_column_without_a_value_is_told_and_left_out():
     found = whole(fit(data, pair=START, fixed={"restitution": 1.0}))
     assert "columns that were not used: spin_out (no value in it)" in found.notes
     assert found.friction.value == pytest.approx(MU, rel=1e-3)
-    with pytest.raises(carom.InputError, match="data: no value in spin_out"):
+    with pytest.raises(carom.InputError, match="data: there is no value in spin_out"):
         fit({**impacts((5, 15)), "spin_out": ["-"] * 2}, pair=START)
 
 
@@ -127,7 +129,7 @@ def test_a_parameter_at_the_end_of_its_range_is_named():
     """Normal restitution 0.1 of oblique impacts: curves begin at 0.3."""
     data = {"angle": np.linspace(0.2, 1.0, 5), "normal_restitution": [0.1, 0.11, 0.1, 0.09, 0.1]}
     found = whole(fit(data, pair=START, vary="restitution"))
-    assert "restitution: best at an end of its range, from 0.3 to 1" in found.notes
+    assert "restitution: the best value is at an end of the range from 0.3 to 1" in found.notes
 
 
 def test_an_outlier_of_a_factor_is_no_reason_for_wider_errors():
@@ -165,7 +167,9 @@ def test_bodies_beyond_the_curves_are_refused():
     """chi = (kappa/2)(1 + R^2/K^2) of a ball with its mass in the middle, above 4.1."""
     ball = carom.Sphere(radius="20 mm", material="steel", gyration_radius="5 mm")
     pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    with pytest.raises(carom.InputError, match=r"pair: chi of 7 cannot be fitted.* 0\.25 to 4\.1"):
+    with pytest.raises(
+        carom.InputError, match=r"pair: a chi of 7 cannot be fitted.* 0\.25 to 4\.1"
+    ):
         fit(impacts((20, 40, 60), "spin_out"), pair=pair)
 
 

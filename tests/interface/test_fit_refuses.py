@@ -33,7 +33,7 @@ NAN = float("nan")
         ({"speed [kg]": [2.0] * 5}, "not a value in m/s"),
         ({"spin_out": [-10.0] * 5}, "speed: column missing; spin_out needs"),
         ({**SPEEDS, "spin_out": [10.0] * 5}, "change the signs"),
-        ({"tangential_speed": [1.0] * 5}, "tangential_speed and angle say the same twice"),
+        ({"tangential_speed": [1.0] * 5}, "tangential_speed and angle give the same twice"),
         ({"normal_restitution": [98.0] * 5}, "0.98 for 98 percent"),
         ({**SPEEDS, "normal_speed_out": [30.0] * 5}, "normal_speed_out: 30 in every row"),
         (
@@ -43,8 +43,14 @@ NAN = float("nan")
         ({"normal_restitution": [0.9, -0.9, 0.9, 0.9, 0.9]}, "normal_restitution: -0.9 in row 2"),
         ({"contact_beta_error": [0.1, 0.0, 0.1, 0.1, 0.1]}, "0 in row 2.*positive"),
         ({"angle_error": [0.1] * 5}, r"angle_error \[deg\]"),
-        ({"angle [deg]": [0.0, *ANGLES[1:]]}, "contact_beta: 0.1 in row 1.*nothing moved"),
-        ({"angle [deg]": [0.0] * 5, "contact_beta": None, "impulse_ratio": [0.0] * 5}, "sideways"),
+        (
+            {"angle [deg]": [0.0, *ANGLES[1:]]},
+            "contact_beta: 0.1 in row 1.*velocity before is zero",
+        ),
+        (
+            {"angle [deg]": [0.0] * 5, "contact_beta": None, "impulse_ratio": [0.0] * 5},
+            "every impact is a normal one",
+        ),
         ({**SPEEDS, "speed": [2.0, -1.0, 2.0, 2.0, 2.0]}, "speed: -1 in row 2"),
     ],
 )
@@ -62,7 +68,7 @@ def test_bad_columns(changes, words):
         ({"pair": 5}, "pair: 5 cannot be used"),
         ({"vary": ["frction"]}, "did you mean 'friction'"),
         ({"vary": []}, "nothing is left to fit"),
-        ({"vary": ["friction", "spin_offset"]}, "spin_offset: needs speeds"),
+        ({"vary": ["friction", "spin_offset"]}, "spin_offset: it needs speeds"),
         ({"fixed": {"mu": 0.1}}, "'mu' is no parameter"),
         ({"fixed": {"restitution": 1.2}}, "between 0.3 and 1"),
         ({"fixed": {"friction": -1.0}}, "between 0.001 and 10"),
@@ -101,7 +107,7 @@ def test_a_confidence_in_percent_is_the_ratio():
 
 def test_too_few_values_are_counted():
     few = {name: values[:3] for name, values in GOOD.items()}
-    with pytest.raises(carom.InputError, match="3 measured values cannot tell 3 parameters"):
+    with pytest.raises(carom.InputError, match="3 measured values cannot determine 3 parameters"):
         fit(few, pair=PAIR)
     enough = {**few, "contact_beta_error": [0.05] * 3}
     assert fit(enough, pair=PAIR, fixed={"restitution": 1.0}).friction.determined

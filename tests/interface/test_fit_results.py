@@ -118,8 +118,8 @@ def test_text_names_value_and_ends(found):
     shown = re.search(r"friction +(\S+) \((\S+) to (\S+)\)", text)
     numbers = (found.friction.value, found.friction.low, found.friction.high)
     assert [float(each) for each in shown.groups()] == pytest.approx(numbers, abs=1e-4)
-    assert "spin_out: standard deviation" in text
-    assert "Walton is out of the question" in text
+    assert "spin_out: the scatter gives a standard deviation" in text
+    assert "the data rule out Walton" in text
 
 
 def test_pair_of_the_fit_can_be_used_on(found):

@@ -94,7 +94,7 @@ def test_written_in_place_it_is_judged_as_it_was():
 @pytest.mark.parametrize(
     ("more", "said"),
     [
-        ({"law": carom.SmoothLaw()}, r"^law: .*judge=True is about the exact one"),
+        ({"law": carom.SmoothLaw()}, r"^law: .*judge=True judges the exact law"),
         ({"judge": "yes"}, r"^judge: "),
     ],
 )

@@ -46,7 +46,7 @@ def test_a_copy_is_as_good(folder):
 @needs_library
 def test_for_another_processor(folder):
     changed(folder, level=9)
-    assert shared_library.reason() == "no compiled library is for this processor"
+    assert shared_library.reason() == "there is no compiled library for this processor"
 
 
 @needs_library
@@ -98,7 +98,7 @@ def test_its_contents_damaged(folder, text):
 def test_made_from_other_sources(folder):
     contents = json.loads((folder / CONTENTS).read_text())
     (folder / CONTENTS).write_text(json.dumps(contents | {"sources": "0" * 64}))
-    assert shared_library.reason() == "the compiled library was made from other sources"
+    assert shared_library.reason() == "the compiled library was built from other sources"
 
 
 def test_none_at_all(tmp_path, monkeypatch):

@@ -181,7 +181,7 @@ def test_too_large_a_loss_time_is_refused_not_answered() -> None:
 
 @pytest.mark.parametrize("law", [carom.ElasticPlastic(0.1), carom.StandardLinearSolid(2.0, 1e-5)])
 def test_fields_of_marched_solids_are_refused(law: LossLaw) -> None:
-    with pytest.raises(InputError, match=r"losses: fields are not known of this solid"):
+    with pytest.raises(InputError, match=r"losses: fields of this solid are not known"):
         hit(law).contact(time=1e-6)
 
 
@@ -223,7 +223,7 @@ def test_the_old_name_of_losses_still_works(call: Callable[..., float]) -> None:
         old = call(normal=law)
     assert len(told) == 1
     assert old == call(losses=law)
-    with pytest.raises(InputError, match="normal: the old name of losses"):
+    with pytest.raises(InputError, match="normal: this is the old name of losses"):
         call(normal=law, losses=law)
 
 

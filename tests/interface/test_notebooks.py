@@ -87,8 +87,8 @@ def told(result):
 def test_load_paths_are_a_table_and_a_picture():
     path = carom.load_path(PAIR, normal_force=[1.0, 10.0], tangential_force=[0.0, 1.5])
     rows, html = told(path)
-    assert rows["normal force"] == "1 N to 10 N"
-    assert rows["tangential force, positive against V_x"] == "0 N to 1.5 N"
+    assert rows["normal force"] == "1 to 10 N"
+    assert rows["tangential force, positive against V_x"] == "0 to 1.5 N"
     assert picture(html).std() > 10.0
     one = carom.load_path(PAIR, normal_force=1.0, tangential_force=0.0)
     assert "<img" not in one._repr_html_(), "a single step is no line"

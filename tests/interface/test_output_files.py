@@ -158,7 +158,7 @@ def test_what_goes_to_stdout_is_there_once_and_whole(name, into, tmp_path):
     (tmp_path / "link.csv").symlink_to("/dev/stdout")
     (tmp_path / "all.txt").write_text("before\n" if ">>" in into else "")
     code, out, err = shell(f"carom {' '.join(COMMAND)} --output {name} {into}", tmp_path)
-    assert (code, err) == (0, f"stored {name}\n")
+    assert (code, err) == (0, f"Carom has stored {name}.\n")
     text = out.decode().removeprefix("before\n")
     wanted = carom.save(carom.curve(1.44, np.linspace(0.0, 6.76, 3)), tmp_path / "wanted.csv")
     assert text.startswith(wanted.read_text(encoding="utf-8"))

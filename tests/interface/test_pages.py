@@ -61,6 +61,14 @@ def test_blocks_share_names_and_files(tmp_path):
     assert [line for line, *_ in run(written(tmp_path, text), tmp_path)] == [12]
 
 
+def test_a_script_of_the_page_is_written_and_run(tmp_path):
+    text = "```python\n# own.py\nimport sys\nsys.exit(int(sys.argv[1]))\n```\n"
+    good = f"{text}```sh\npython own.py 0\npython own.py 3  # exit code 3\n```\n"
+    assert list(run(written(tmp_path, good), tmp_path)) == []
+    with pytest.raises(RuntimeError, match="line 7"):
+        list(run(written(tmp_path, f"{text}```sh\npython own.py 1\n```\n"), tmp_path))
+
+
 def test_a_command_must_exit_as_the_page_says(tmp_path):
     good = "```sh\ncarom curve --chi -1  # exit code 2\n```\n"
     assert list(run(written(tmp_path, good), tmp_path)) == []

@@ -118,7 +118,7 @@ def test_commands_say_nothing_of_folders_that_matplotlib_lacks(tmp_path):
     path = str(tmp_path / "x.png")
     arguments = ["curve", "--chi", "1", "--points", "5", "--plot", path]
     nowhere = "/proc/none"
-    assert run(*arguments, MPLCONFIGDIR=nowhere, HOME=nowhere) == (0, f"stored {path}\n")
+    assert run(*arguments, MPLCONFIGDIR=nowhere, HOME=nowhere) == (0, f"Carom has stored {path}.\n")
 
 
 def test_commands_tell_warnings_of_this_package_in_one_line():

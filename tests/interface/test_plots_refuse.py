@@ -18,7 +18,11 @@ DRAWN = {
     "map": ("plot_regime_map",),
     "spectrum": ("plot_spectrum",),
     "wear": ("plot_wear",),
-    "impact": (),
+    "impact": (
+        *("plot_impact", "plot_forces", "plot_radii", "plot_cone", "plot_patch", "plot_profiles"),
+        *("plot_stress", "plot_spectrum", "plot_wear", "plot_contact"),
+    ),
+    "pair": (),
 }
 
 
@@ -66,6 +70,7 @@ def test_datasets_of_another_kind_are_refused_in_one_line(hit, kind):
         "spectrum": lambda: hit.spectrum(n=51),
         "wear": lambda: hit.wear(),
         "impact": lambda: hit,
+        "pair": lambda: hit.pair,
     }
     given = makes[kind]()
     for name in (name for name in plots.__all__ if name.startswith("plot_")):

@@ -60,12 +60,12 @@ def drawn(folder, progress):
 
 
 LONG = [
-    (by_elements, "boundary elements", 35),
-    (swept, "sweep", 6),
-    (posterior, "posterior", 120),
-    (ranked, "ranking", 2),
-    (tuned, "tuning", 2),
-    (mapped, "map of regimes", 3),
+    (by_elements, "solving by boundary elements", 35),
+    (swept, "solving the sweep", 6),
+    (posterior, "sampling the posterior", 120),
+    (ranked, "ranking the laws", 2),
+    (tuned, "tuning the laws", 2),
+    (mapped, "computing the map of regimes", 3),
     (animated, "animation", 3),
     (drawn, "animation", 2),
 ]

@@ -123,7 +123,7 @@ def test_an_array_that_overflows_is_refused():
 def test_units_of_two_kinds_at_once_are_refused():
     both = xr.DataArray(UNITS.Quantity([5.0], "mm"), attrs={"units": "m"})
     refused(lambda: carom.Grid({"first.radius": both}), "radius: it has two units")
-    refused(lambda: carom.rebound(UNITS.Quantity(-7.0, "dB"), 1.44), "psi: ", "no pure number")
+    refused(lambda: carom.rebound(UNITS.Quantity(-7.0, "dB"), 1.44), "psi: ", "not a pure number")
 
 
 PURE = {
@@ -235,7 +235,7 @@ TINY = {"material": "steel", "radius": 1e-120}
         (lambda: carom.Sphere(material="steel", radius=1e120), ("radius: 1e+120",)),
         (lambda: carom.Sphere(material="steel", radius=10**400), ("radius: ", "cannot hold")),
         (lambda: carom.Sphere(material=10**5000, radius=1.0), ("material: this int",)),
-        (lambda: carom.ReboundLaw(1e15), ("chi: ", "up to 100")),
+        (lambda: carom.ReboundLaw(1e15), ("chi: ", "at most 100")),
         (lambda: carom.MixtureLaw(0.5, 1e15), ("chi: ", "within 0.5 to 5")),
         (lambda: carom.verify.tune(chi=1e15), ("chi: ", "at most 10000")),
         (lambda: carom.verify.rank(chi=1e15), ("chi: ", "at most 10000")),

@@ -64,8 +64,8 @@ def test_places_on_the_surface(hit, given, message):
     ("given", "message"),
     [
         ({"points": np.zeros((4, 2))}, r"shape \(n, 3\)"),
-        ({"points": [[0.0, 0.0, -1e-6]]}, "depth in the body and cannot be negative"),
-        ({"z": [-1e-6]}, "depth in the body and cannot be negative"),
+        ({"points": [[0.0, 0.0, -1e-6]]}, "depth in the body and must not be negative"),
+        ({"z": [-1e-6]}, "depth in the body and must not be negative"),
         ({"points": [[0.0, 0.0, 0.0]], "z": [0.0]}, "a grid by x and z, or points"),
         ({"body": "second"}, "body: 'second' .* rigid .* ask for the first"),
         ({"body": "frist"}, "body: 'frist' .* did you mean 'first'"),

@@ -218,7 +218,9 @@ def test_other_files_are_refused_in_one_line(tmp_path):
 
 def test_what_cannot_be_stored_is_refused(tmp_path):
     dates = xr.Dataset({"when": ("time", np.array(["2020-01-01"], dtype="datetime64[ns]"))})
-    with pytest.raises(InputError, match=r"when: 'datetime64\[ns\]' cannot be used; CSV holds"):
+    with pytest.raises(
+        InputError, match=r"when: 'datetime64\[ns\]' cannot be used; Carom stores only"
+    ):
         save(dates, tmp_path / "dates.csv")
     assert list(tmp_path.iterdir()) == []
 

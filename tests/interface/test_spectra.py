@@ -47,7 +47,7 @@ def test_variables_tell_unit_and_meaning(hit):
         ({"frequencies": [float("inf")]}, "frequencies: inf cannot be used; must be a list"),
         (
             {"frequencies": [1e9]},
-            "frequencies: 1000000000.0 cannot be used; it is known up to 3.23",
+            "frequencies: 1000000000.0 cannot be used; spectra are known up to 32.3 MHz",
         ),
         ({"frequencies": []}, "frequencies: [] cannot be used"),
         ({"frequencies": [[1.0, 2.0]]}, "frequencies: [[1.0, 2.0]] cannot be used"),
@@ -57,7 +57,10 @@ def test_variables_tell_unit_and_meaning(hit):
         ({"frequencies": [1.0], "max_frequency": 5.0}, "frequencies: give them, or max_frequency"),
         ({"max_frequency": 0.0}, "max_frequency: 0.0 cannot be used; must be positive"),
         ({"max_frequency": float("nan")}, "max_frequency: nan cannot be used; give a number in Hz"),
-        ({"max_frequency": "1 GHz"}, "max_frequency: '1 GHz' cannot be used; it is known up to"),
+        (
+            {"max_frequency": "1 GHz"},
+            "max_frequency: '1 GHz' cannot be used; spectra are known up to",
+        ),
         ({"n": 1}, "n: 1 cannot be used; must be a whole number of at least 2"),
         ({"n": 20_001}, "n: 20001 cannot be used; must be a whole number from 2 to 20000"),
     ],

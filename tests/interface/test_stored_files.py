@@ -65,7 +65,7 @@ def test_one_digit_that_differs_is_told(ending, stored):
     if ending == ".csv":
         place = content.rindex(b"\n", 0, -2) - 3
         content[place] = ord("7") if content[place] != ord("7") else ord("3")
-        words = "changed after it was stored; without its line 'sha256' it is read as it is"
+        words = "changed after it was stored; delete its line 'sha256' to read it anyway"
     else:
         content[content.index(CURVE.psi_out.values.tobytes()) + 100] ^= 1
         words = "it is damaged; it has changed since it was stored"

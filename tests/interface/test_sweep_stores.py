@@ -161,7 +161,9 @@ def test_a_write_that_fails_leaves_no_status_without_its_values(tmp_path, monkey
 
     with monkeypatch.context() as doomed:
         doomed.setattr("carom.sweeps.stores.os.replace", full)
-        with pytest.raises(SweepStopped, match=f"free space; {fails // 3} of 4 blocks are safe"):
+        with pytest.raises(
+            SweepStopped, match=f"free some space; {fails // 3} of 4 blocks are safe"
+        ):
             sweep(CASE, GRID, outputs=outputs, store=path)
     there = carom.read(path)
     told = there.status.values != PointStatus.NOT_RUN
@@ -189,7 +191,9 @@ class Logged:
 
 def test_store_is_refused_without_resume(path):
     sweep(CASE, GRID, store=path)
-    with pytest.raises(InputError, match=r"it is there; --resume \(resume=True\) continues it"):
+    with pytest.raises(
+        InputError, match=r"it exists already; --resume \(resume=True\) continues it"
+    ):
         sweep(CASE, GRID, store=path)
 
 
@@ -206,7 +210,7 @@ def test_store_is_refused_without_resume(path):
 def test_store_of_another_sweep_is_refused_with_the_difference(path, case, design, outputs, words):
     sweep(CASE, GRID, store=path)
     before = files(path)
-    with pytest.raises(InputError, match="it is of another sweep: ") as told:
+    with pytest.raises(InputError, match="it holds another sweep: ") as told:
         sweep(case, design, outputs=outputs, store=path, resume=True)
     assert words in str(told.value)
     assert "\n" not in str(told.value)
@@ -228,7 +232,7 @@ def test_store_of_another_version_is_refused(path):
     record = json.loads((path / "zarr.json").read_text())
     record["attributes"]["source"] = "carom 0.0.1"
     (path / "zarr.json").write_text(json.dumps(record))
-    with pytest.raises(InputError, match=r"it is of carom 0\.0\.1, and this is carom "):
+    with pytest.raises(InputError, match=r"carom 0\.0\.1 has written it, and this is carom "):
         sweep(CASE, GRID, store=path, resume=True)
 
 

@@ -98,7 +98,7 @@ def test_bad_impacts_have_a_status_and_are_left_out():
         ({}, "speed: give speed and angle, or normal_speed and tangential_speed"),
         ({"speed": 1.0, "normal_speed": 1.0}, "speed: give speed and angle, or normal_speed"),
         ({"normal_speed": 1.0, "angle": 0.1}, "angle: give speed and angle, or normal_speed"),
-        ({"speed": [1.0, 2.0], "angle": [0.1, 0.2, 0.3]}, "these do not fit each other"),
+        ({"speed": [1.0, 2.0], "angle": [0.1, 0.2, 0.3]}, "do not fit each other"),
         ({"speed": 1.0, "area": 0.0}, "area: 0.0 cannot be used; must be positive and finite"),
         ({"speed": 1.0, "area": "2 m"}, "area: '2 m' cannot be used; that is not a value in m^2"),
         ({"speed": 1.0, "spin2": 1.0}, "spin2: 1.0 cannot be used; only a second sphere can spin"),

@@ -127,7 +127,7 @@ def test_a_kappa_that_bodies_cannot_have_is_questioned(truth):
     assert not any("elastic" in note for note in fit(table, pair=bodies()).notes)
     found = fit({**table, "spin_out": 0.5 * table["spin_out"]}, pair=bodies())
     assert found.kappa.elastic == pytest.approx(KAPPA)
-    assert any("elastic bodies have 2/3 to 1" in note for note in found.notes)
+    assert any("kappa is 2/3 to 1 for elastic bodies" in note for note in found.notes)
 
 
 def turned(table):
@@ -170,7 +170,7 @@ MISTAKES = {
     "spins in rad/s, not in rpm": (spins(np.pi / 30.0), 2.5e-3),
     "those of half the radius": (dict, 5e-3),
     "those of twice the radius": (dict, 1.25e-3),
-    "motion after given as before": (exchanged, 2.5e-3),
+    "the motion before and the motion after exchanged": (exchanged, 2.5e-3),
     "tangential_restitution in the column contact_restitution": (of_the_centre, 2.5e-3),
 }
 

@@ -177,8 +177,14 @@ def test_a_bar_is_shown_when_asked_for(capsys, monkeypatch):
     ("change", "said"),
     [
         ({"method": "fem"}, r"^method: 'fem' cannot be used; must be 'exact', 'halfspace' or"),
-        ({"losses": carom.KelvinVoigt(restitution=0.9)}, r"^losses: .*elastic; leave it"),
-        ({"pair": against_wall(friction=0.0)}, r"^friction: without it nothing is tangential"),
+        (
+            {"losses": carom.KelvinVoigt(restitution=0.9)},
+            r"^losses: .*elastic bodies only; leave losses",
+        ),
+        (
+            {"pair": against_wall(friction=0.0)},
+            r"^friction: without it there is no tangential force",
+        ),
         ({"pair": against_wall(friction=1e-100)}, r"^psi_1: .* leave method out"),
     ],
 )

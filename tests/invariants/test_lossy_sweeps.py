@@ -236,7 +236,7 @@ def test_stopped_and_resumed_a_store_ends_in_the_same_bits(tmp_path, monkeypatch
         interrupted.setattr(stores, "write_chunk", until_the_third)
         with pytest.raises(KeyboardInterrupt, match="2 of 3 blocks are safe"):
             sweep(BALL, grid, store=path)
-    with pytest.raises(InputError, match=r"it is of another sweep: .*restitution"):
+    with pytest.raises(InputError, match=r"it holds another sweep: .*restitution"):
         sweep(BALL, Grid({"angle": grid.inputs(whole(grid))["angle"]}), store=path, resume=True)
     result = sweep(BALL, grid, store=path, resume=True)
     assert truth.title == result.title == "sweep of oblique impacts of spheres with losses"
@@ -282,13 +282,13 @@ ANGLE = Grid({"angle": [0.1, 0.2]})
 @pytest.mark.parametrize(
     ("case", "design", "message"),
     [
-        ({"restitution": 0.9, "loss_time": 1e-6}, ANGLE, "not both; both tell what the impact"),
+        ({"restitution": 0.9, "loss_time": 1e-6}, ANGLE, "not both; each of them sets the loss"),
         ({"restitution": 0.9}, Grid({"yield_velocity": [1.0]}), "not both"),
         ({"yield_velocity": "material"}, Grid({"loss_time": [1e-6]}), "not both"),
         ({"restitution": 1.1}, ANGLE, r"restitution: 1\.1 .* from 0\.001 to 1"),
         ({"loss_time": "2 mm"}, ANGLE, "loss_time: '2 mm' .* a value in s"),
         ({"yield_velocity": "materials"}, ANGLE, "yield_velocity: 'materials' .*'material'"),
-        ({"yield_velocity": "material"}, ANGLE, "yield_velocity: missing, as no yield strength"),
+        ({"yield_velocity": "material"}, ANGLE, "yield_velocity: missing; give it, or a yield"),
         ({"restitution": [0.9]}, ANGLE, r"restitution: \[0\.9\]"),
     ],
 )
@@ -316,5 +316,5 @@ def test_standard_linear_solids_are_those_of_impact():
     assert found["status"][3].tolist() == [PointStatus.OUT_OF_RANGE] * 2
     assert found["normal_restitution"][0] == pytest.approx([1.0, 1.0])
     for half in ({"relaxation_time": 1e-5}, {"modulus_ratio": 2.0}):
-        with pytest.raises(InputError, match="missing; it goes with"):
+        with pytest.raises(InputError, match="missing; give it together with"):
             SweepProblem({**BALL, **half}, Grid({"angle": [0.1]}))

@@ -116,5 +116,5 @@ def test_fields_of_marched_impacts_are_refused():
     pair = carom.Pair(ball, carom.HalfSpace(material="nylon"), friction=0.2)
     law = carom.StandardLinearSolid(1.5, "20 us")
     hit = carom.impact(pair, normal_speed=1.0, tangential_speed=0.5, losses=law)
-    with pytest.raises(carom.InputError, match="fields are not known of this solid"):
+    with pytest.raises(carom.InputError, match="fields of this solid are not known"):
         hit.fields(0.5 * hit.duration)

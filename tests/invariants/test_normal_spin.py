@@ -108,7 +108,7 @@ def test_energy_error_does_not_hide_behind_the_spin():
 
 def test_a_spin_beyond_numbers_is_refused():
     with pytest.raises(
-        carom.InputError, match=r"^normal_spin: 1000000000000000.0 .*take up to .* rad/s here"
+        carom.InputError, match=r"^normal_spin: 1000000000000000.0 .*solve up to .* rad/s here"
     ):
         hit(pair(), 1e15)
 
@@ -119,7 +119,7 @@ def test_validity_names_the_spin():
     *_, spinning, rebound = carom.impact(bodies, **motion).validity.findings
     assert spinning.name == "error of psi_2 by normal spin"
     assert spinning.value > rebound.value > 0.0
-    assert "but for spin" in rebound.verdict
+    assert "apart from the spin about the normal" in rebound.verdict
     lossy = carom.impact(bodies, **motion, losses=carom.KelvinVoigt(restitution=0.9))
     *_, spinning, rebound = lossy.validity.findings
     assert spinning.holds is rebound.holds is None

@@ -259,7 +259,7 @@ def test_no_pairs_at_all():
 def test_two_libraries_at_once_are_refused(double_jax):
     """Neither is taken silently for the other; NumPy arrays beside one are."""
     velocity, normal = torch().make([1.0, 0.0, 2.0]), jax().make([0.0, 0.0, 1.0])
-    with pytest.raises(carom.InputError, match="arrays: of jaxlib and torch together cannot"):
+    with pytest.raises(carom.InputError, match="arrays: those of jaxlib and torch cannot be mixed"):
         carom.collide(against_half_space(), velocity1=velocity, normal=normal)
 
 

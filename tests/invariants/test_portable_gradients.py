@@ -110,7 +110,7 @@ def test_of_collisions(gradient, law):
         )
 
 
-@pytest.mark.filterwarnings("ignore:of 9 pairs some were left alone")  # torch has values to tell
+@pytest.mark.filterwarnings("ignore:of 9 pairs these were left alone")  # torch has values to tell
 def test_of_pairs_that_are_left_alone(gradient):
     """Identity for them, and never NaN, whatever is wrong with them; the others do not notice."""
     given, normal = motions()

@@ -47,7 +47,7 @@ def test_gain_of_a_point_is_named_with_its_size():
     assert gain.value == pytest.approx(0.5, rel=1e-12), "of |psi_2|"
     sizes = [(psi[2] + 0.5) ** 2 - psi[2] ** 2, (psi[7] + 0.01) ** 2 - psi[7] ** 2]
     np.testing.assert_allclose(result.points.energy_change[[2, 7]], sizes, rtol=1e-12)
-    expected = f"gained in row 3: {sizes[0]:.6g} in psi^2; row 8: {sizes[1]:.6g} in psi^2"
+    expected = f"energy is gained in row 3: {sizes[0]:.6g} in psi^2; row 8: {sizes[1]:.6g} in psi^2"
     assert gain.verdict == expected
 
 
@@ -74,7 +74,7 @@ def test_gain_of_velocities_is_that_of_the_kinetic_energy(columns):
         ).points.energy_change
     )
     np.testing.assert_allclose(lost, np.where(np.arange(8) == 4, added, 0.0), atol=1e-12)
-    assert finding(result, "energy gain").verdict.startswith("gained in row 5: ")
+    assert finding(result, "energy gain").verdict.startswith("energy is gained in row 5: ")
     assert {"energy gain", "restitution error"} <= set(result.failures)
 
 
@@ -92,7 +92,7 @@ def test_loss_does_not_hide_a_gain(columns):
     psi = jump * PAIR.kappa / (PAIR.friction * columns["normal_speed"][1])
     gain = finding(result, "energy gain")
     assert gain.value == pytest.approx(psi, rel=1e-9)
-    assert gain.verdict.startswith("gained in row 2: ")
+    assert gain.verdict.startswith("energy is gained in row 2: ")
 
 
 def test_too_much_friction_is_named():
@@ -137,7 +137,7 @@ def test_turned_spins_are_suspected(columns):
     for name in ("spin", "spin_out"):
         columns[name] = -columns[name]
     verdict = finding(score(columns, case=PAIR), "angular momentum").verdict
-    assert "by the same factor -1; spin has the opposite sign?" in verdict
+    assert "by the same factor -1; does spin have the opposite sign?" in verdict
 
 
 def test_factors_that_differ_are_no_matter_of_units(columns):
@@ -197,7 +197,7 @@ def test_force_that_pushes_is_named(forces):
     gained = 2.0 * HIT.psi_in - HIT.psi_out - HIT.psi_in  # psi_1 + (psi_1 - psi_2) - psi_1
     assert finding(result, "energy gain").value == pytest.approx(gained, rel=1e-3)
     assert result.notes == (
-        "tangential_force has the opposite sign? It is positive against V_x > 0",
+        "does tangential_force have the opposite sign? It is positive against V_x > 0",
     )
 
 
@@ -214,7 +214,7 @@ def test_turned_psi_and_wrong_chi_are_suspected():
     psi = np.linspace(0.2, 8.0, 20)
     exact = carom.rebound(psi, CHI)
     turned = score({"psi_1": psi, "psi_2": -exact}, chi=CHI)
-    assert turned.notes[0].startswith("psi_2 has the opposite sign?")
+    assert turned.notes[0].startswith("does psi_2 have the opposite sign?")
     other = score({"psi_1": psi, "psi_2": carom.rebound(psi, 0.9 * CHI)}, chi=CHI)
     assert "is chi 0.9 times as large?" in other.notes[0]
     assert score({"psi_1": psi, "psi_2": exact}, chi=CHI).notes == ()

@@ -112,6 +112,6 @@ def test_scheduler_without_workers_is_refused(monkeypatch):
     options = {"n_workers": 0, "processes": True, "host": "127.0.0.1", "dashboard_address": ":0"}
     with (
         distributed.LocalCluster(**options) as empty,
-        pytest.raises(InputError, match="no workers; start: dask worker"),
+        pytest.raises(InputError, match="it has no workers; start one with: dask worker"),
     ):
         sweep(CASE, GRID, scheduler=empty.scheduler_address)

@@ -149,7 +149,7 @@ def test_refusals(sources, tmp_path, monkeypatch, capsys):
         liggghts.build(sources, tmp_path / "out")
     assert not (tmp_path / "out").exists()
     for folder in (cut, cut / "new"):
-        with pytest.raises(InputError, match=r"cannot be written: .*; name another by --folder"):
+        with pytest.raises(InputError, match=r"cannot be written: .*; give another with --folder"):
             liggghts.build(tmp_path / "none", folder)
     monkeypatch.setattr(liggghts.shutil, "which", lambda name: "c++" if name != "make" else None)
     with pytest.raises(InputError, match="there is no make"):

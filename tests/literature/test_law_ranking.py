@@ -205,7 +205,7 @@ def test_catalogue_names_each_law_once():
         ({"chi": -1.0}, "chi: -1.0 .*positive"),
         ({"kappa": 0.0}, "kappa: 0.0 .*positive"),
         ({"psi": [np.nan]}, "psi: .*finite"),
-        ({"entries": []}, "entries: .*one law at least"),
+        ({"entries": []}, "entries: .*at least one law"),
     ],
 )
 def test_refused(options, message):

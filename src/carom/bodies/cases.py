@@ -33,7 +33,7 @@ MOTION: dict[str, Callable[[str, Any], float]] = {
 }
 LOSSES = ("restitution", "loss_time", "yield_velocity", "relaxation_time")  # one at most
 RATIO = "modulus_ratio"  # goes with a relaxation time
-ONE_LOSS = "both tell what the impact loses energy to"
+ONE_LOSS = "each of them sets the loss of energy"
 TWICE = "it is given twice in the material; leave one of them out"
 FROM_STRENGTH = "material"  # the yield velocity that the yield strengths give
 SIZES: dict[str, Callable[[str, Any], float]] = {
@@ -52,7 +52,7 @@ SWEEP = "sweep"  # the table of a sweep, which `carom.sweeps` reads
 
 
 def read_case(path: Path, *, losses: bool = False) -> Case:
-    """Return the content of a case file, its keys checked; `losses` as in `check_case`."""
+    """Return the content of a case file after checking its keys; `losses` as in `check_case`."""
     try:
         text = read_text("case file", path)
         if DEEP.search(text):  # which takes memory with the square of the depth
@@ -65,7 +65,7 @@ def read_case(path: Path, *, losses: bool = False) -> Case:
     except ValueError as error:  # of tomllib; for integers of many digits Python's own
         raise InputError(f"case file: {str(path)!r} is not TOML; {error}") from None
     except RecursionError:
-        raise refusal("case file", str(path), "its tables lie too deep in one another") from None
+        raise refusal("case file", str(path), "its tables are nested too deeply") from None
     where = partial(_place, path, text)
     check_case(case, where, losses=losses)
     return case
@@ -77,9 +77,9 @@ def check_case(
     *,
     losses: bool = False,
 ) -> None:
-    """Raise InputError for all keys that are not known; `place` tells where a key of a table is.
+    """Raise InputError for all keys that are not known; `place` says where a key of a table is.
 
-    Losses are refused, too, unless the caller can do with them.
+    Losses are refused, too, unless the caller supports them.
     """
 
     def check(table: Mapping[str, Any], allowed: Iterable[str], name: str) -> None:
@@ -95,7 +95,7 @@ def check_case(
         for key in () if losses else (*LOSSES, RATIO):
             if key in case:
                 where = place(key, "")
-                faults.add(f"{key}: of no use{where}; this is for elastic impacts, leave it out")
+                faults.add(f"{key}: not used{where}; this is for elastic impacts, leave it out")
         check(case, ("friction", *MOTION, *LOSSES, RATIO, *TABLES, SWEEP), "")
         for name, allowed in TABLES.items():
             table = case.get(name, {})
@@ -153,7 +153,7 @@ def motion_of(case: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def losses_of(case: Mapping[str, Any]) -> "LossLaw | None":
-    """Return what the normal motion of a case loses energy to, None where it does not.
+    """Return the law by which the normal motion of a case loses energy, or None.
 
     Raises InputError if it is given in two ways, or out of range.
 
@@ -186,7 +186,7 @@ def refuse_half(given: Container[str]) -> None:
     """Raise InputError if a relaxation time comes without the ratio of moduli, or this alone."""
     if ("relaxation_time" in given) != (RATIO in given):
         missing, there = ("relaxation_time", RATIO)[:: 1 if RATIO in given else -1]
-        raise InputError(f"{missing}: missing; it goes with {there}")
+        raise InputError(f"{missing}: missing; give it together with {there}")
 
 
 def read_loss(name: str, value: Any) -> float | None:
@@ -194,7 +194,7 @@ def read_loss(name: str, value: Any) -> float | None:
     if name == "yield_velocity" and isinstance(value, str) and value.strip().isalpha():
         if value.strip() == FROM_STRENGTH:
             return None
-        allowed = f"give a speed, e.g. '0.1 m/s', or '{FROM_STRENGTH}' for that of yield strengths"
+        allowed = f"give a speed, e.g. '0.1 m/s', or '{FROM_STRENGTH}' to use the yield strengths"
         raise refusal(name, value, allowed)
     read = number(name, value)
     law_of(name, read)

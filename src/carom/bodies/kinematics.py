@@ -1,4 +1,4 @@
-"""How bodies approach, what two impulses make of their motion, and what is published of it."""
+"""The approach of two bodies, their motion after two impulses, and the observables of it."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
@@ -33,7 +33,7 @@ def approach(
     if normal_speed is None:
         raise InputError("speed: missing; give speed and angle, or normal_speed")
     if angle is not None:
-        raise InputError("angle: goes with speed; with normal_speed give tangential_speed")
+        raise InputError("angle: give it with speed; with normal_speed give tangential_speed")
     normal = number("normal_speed", normal_speed)
     if not 0.0 < normal < inf:
         raise refusal(
@@ -76,7 +76,7 @@ class Tangential(NamedTuple):
         return Tangential(self.tangential_speed - impulse / pair.normal_mass, *spins)
 
     def contact_velocity(self, pair: Pair) -> float:
-        """Return the velocity of the contact point, V_x = v_t + R spin + R_2 spin2, in m/s."""
+        """Return the velocity of the contact point, V_x = v_t + R omega + R_2 omega_2, in m/s."""
         carried = (body.radius * spin for body, spin in zip(pair.moving, self[1:], strict=False))
         return self.tangential_speed + sum(carried)
 
@@ -92,16 +92,16 @@ def inertia(body: Sphere) -> float:
 
 
 def normal_inertia(pair: Pair) -> float:
-    """Return what opposes a change of relative spin about the normal, 1/sum(1/I_i), in kg m^2."""
+    """Return the effective inertia of spin about the normal, 1/sum(1/I_i), in kg m^2."""
     return 1.0 / sum(1.0 / inertia(body) for body in pair.moving)
 
 
 @dataclass(frozen=True, eq=False)
 class Kinematics(ABC):
-    """What two impulses make of two rigid bodies; SI units, numbers or arrays of one shape.
+    """Two rigid bodies before and after two impulses, in SI units, numbers or arrays of one shape.
 
-    Tangential speeds are those of the first body relative to the second, positive spin adds to the
-    tangential speed of the contact point: V_x = v_t + R spin + R_2 spin2.
+    Tangential speeds are those of the first body relative to the second. Positive spin adds to the
+    tangential speed of the contact point: V_x = v_t + R omega + R_2 omega_2.
     """
 
     pair: Pair
@@ -120,21 +120,21 @@ class Kinematics(ABC):
     @property
     @abstractmethod
     def normal_restitution(self) -> float:
-        """Normal velocity after to before: 1 for elastic bodies."""
+        """Normal velocity after over before, which is 1 for elastic bodies."""
 
     @property
     @abstractmethod
     def contact_velocity_out(self) -> float:
-        """Tangential velocity of the contact point after, in m/s."""
+        """Tangential velocity of the contact point after the impact, in m/s."""
 
     @cached_property
     def contact_velocity(self) -> float:
-        """Tangential velocity of the contact point before, V_x in m/s."""
+        """Tangential velocity of the contact point before the impact, V_x in m/s."""
         return self._before.contact_velocity(self.pair)
 
     @cached_property
     def psi_in(self) -> float:
-        """Dimensionless velocity kappa V_x/(mu V_1) before; infinite without friction."""
+        """Dimensionless velocity psi_1 = kappa V_x/(mu V_1); infinite without friction."""
         return self.pair.psi(self.contact_velocity, self.normal_speed)
 
     @cached_property
@@ -144,50 +144,50 @@ class Kinematics(ABC):
 
     @property
     def normal_speed_out(self) -> float:
-        """Normal speed of the centres after, in m/s."""
+        """Normal speed of the centres after the impact, in m/s."""
         return self.normal_restitution * self.normal_speed
 
     @property
     def tangential_speed_out(self) -> float:
-        """Tangential speed of the first centre relative to the second after, in m/s."""
+        """Tangential speed of the first centre relative to the second after the impact, in m/s."""
         return self._after.tangential_speed
 
     @property
     def spin_out(self) -> float:
-        """Spin of the first body after, in rad/s."""
+        """Spin of the first body after the impact, in rad/s."""
         return self._after.spin
 
     @property
     def spin2_out(self) -> float:
-        """Spin of the second body after, in rad/s; zero for a half-space or cup."""
+        """Spin of the second body after the impact, in rad/s; zero for a half-space or cup."""
         return self._after.spin2
 
     @property
     def rebound_speed(self) -> float:
-        """Relative speed of the centres after, in m/s."""
+        """Relative speed of the centres after the impact, in m/s."""
         return hypot(self.normal_speed_out, self.tangential_speed_out)
 
     @property
     def rebound_angle(self) -> float:
-        """Angle of rebound of the centre from the normal, in rad; negative if it goes back."""
+        """Angle of rebound of the centre from the normal, in rad; negative if it turns back."""
         return arctan2(self.tangential_speed_out, self.normal_speed_out)
 
     @property
     def tangential_restitution(self) -> float:
-        """Tangential velocity of the centres after to before, v_t'/v_t; NaN if there was none."""
+        """Tangential velocity of the centres after over before, v_t'/v_t; NaN if v_t is zero."""
         return _ratio(self.tangential_speed_out, self._before.tangential_speed)
 
     @property
     def contact_restitution(self) -> float:
-        """Tangential velocity of the contact point after to before; NaN if there was none."""
+        """Velocity of the contact point after over before, V_x'/V_x; NaN if V_x is zero."""
         return _ratio(self.contact_velocity_out, self.contact_velocity)
 
 
 @dataclass(frozen=True)
 class Rebound(Kinematics):
-    """An impact known from outside: the motion before, and the two impulses as what they do.
+    """An impact of which the motion before and the two impulses are known.
 
-    The tangential impulse J_t acts on the first body against +x; the normal one is
+    The tangential impulse J_t acts on the first body against +x. The normal impulse is
     J_n = m_n (1 + e) V_1.
 
     Examples
@@ -217,7 +217,7 @@ class Rebound(Kinematics):
 
     @property
     def normal_restitution(self) -> Any:
-        """Normal velocity after to before, e."""
+        """Coefficient of restitution e, the normal velocity after over before."""
         return self.restitution
 
     @property

@@ -1,4 +1,4 @@
-"""Laws by which impacts lose energy but to friction: what an impact takes as `losses`."""
+"""Laws by which the normal motion of an impact loses energy, for its argument `losses`."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -44,20 +44,23 @@ class LossLaw(Protocol):
 
 @dataclass(frozen=True)
 class KelvinVoigt:
-    """A viscoelastic solid: stress = (1 + tau d/dt) elastic stress, in shear as in compression.
+    """A Kelvin-Voigt solid, which loses energy to viscosity in compression and in shear.
 
-    P/P_max = (3/2) integral of (d + tau v - s) over the contact while that is positive, and springs
-    in shear bear u + tau u', at most mu times what those in compression bear; Poisson's ratio does
-    not depend on time. Either e is given, the same at all speeds, or the retardation time tau,
-    whence 1 - e grows as V_1^(1/5). e alone does not tell psi_2: other solids of the same e lose
-    more or less in shear.
+        sigma = (1 + tau d/dt) sigma_el
+        P/P_max = (3/2) integral of (d + tau v - x^2) dx
+
+    Here sigma_el is the elastic stress, and the integral is taken where the pressure is positive. A
+    spring in shear bears u + tau u', at most mu times the load of the spring in compression, and
+    Poisson's ratio does not depend on time. Either e is given, which is then the same at all
+    speeds, or the retardation time tau, so that 1 - e grows as V_1^(1/5). The value of e alone does
+    not determine psi_2, because other solids of the same e lose more or less in shear.
 
     Parameters
     ----------
     restitution : float or array, optional
-        e wanted, from 0.001 to 1; alpha = tau V_1/d_max follows from it, to 1e-12.
+        Coefficient of restitution e, from 0.001 to 1; alpha = tau V_1/d_max follows to 1e-12.
     loss_time : float or str, optional
-        tau in s, zero or positive: viscosity over modulus of the material, of both bodies.
+        Retardation time tau in s of both bodies, viscosity over modulus, zero or positive.
 
     Raises
     ------
@@ -67,8 +70,8 @@ class KelvinVoigt:
     Notes
     -----
     Kuwabara & Kono (1987), Jpn. J. Appl. Phys. 26:1230-1233; Brilliantov et al. (1996), Phys. Rev.
-    E 53:5382-5392; without tension as in Schwager & Poeschel (2008), Phys. Rev. E 78:051304. With
-    the same retardation in shear Coulomb's law holds at every point; see the theory of losses.
+    E 53:5382-5392; without tension as in Schwager & Poeschel (2008), Phys. Rev. E 78:051304.
+    Because shear has the same retardation time, Coulomb's law holds at every point of the contact.
 
     Examples
     --------
@@ -87,7 +90,7 @@ class KelvinVoigt:
     @known_keywords
     def __init__(self, restitution: Any = None, loss_time: Value | None = None) -> None:
         if (restitution is None) == (loss_time is None):
-            raise InputError("restitution: give it or loss_time, one of the two")
+            raise InputError("restitution: give either restitution or loss_time")
         if restitution is not None:
             e = _one_or_many("restitution", restitution, _restitution)
             object.__setattr__(self, "restitution", e)
@@ -96,17 +99,17 @@ class KelvinVoigt:
             object.__setattr__(self, "loss_time", time)
 
     def loss(self, pair: Pair, normal_speed: Any) -> LossNumbers:
-        """Return the loss and alpha = tau V_1/d_max."""
+        """Return the kind of loss and alpha = tau V_1/d_max."""
         if self.restitution is not None:
             return LossNumbers(Loss.VISCOUS, _alphas(self.restitution))
         return LossNumbers(Loss.VISCOUS, self.loss_time / pair.scales(normal_speed).time)
 
     def scale_free(self) -> LossNumbers:
-        """Return the loss and alpha; InputError for a loss time, or many restitutions."""
+        """Return the kind of loss and alpha; one restitution must have been given."""
         if self.restitution is None:
-            raise refusal("losses", self, "give a restitution, which needs no bodies and speed")
+            raise refusal("losses", self, "give a restitution instead of a loss time")
         if np.ndim(self.restitution):
-            raise refusal("losses", self, "give one restitution; call once for each, or use sweep")
+            raise refusal("losses", self, "give one restitution, or use carom.sweep")
         return LossNumbers(Loss.VISCOUS, float(_alphas(self.restitution)))
 
     @property
@@ -122,19 +125,22 @@ class KelvinVoigt:
 
 @dataclass(frozen=True)
 class ElasticPlastic:
-    """A sphere of elastic, perfectly plastic material: metals above their yield velocity.
+    """An elastic, perfectly plastic sphere, such as a metal above its yield velocity.
 
-    P = P_y + 2 E* a_y (d - d_y) from yield on, and (4/3) E* sqrt(R_p) (d - d_p)^(3/2) while
-    unloading, R_p/R* = (4/3) E* sqrt(R*) d^(3/2)/P at the turning point; e falls as V_1^(-1/4).
-    The contact is cut into springs that yield each for itself, on the true radius, sqrt(R* d) and
-    sqrt(R_p (d - d_p)); those in shear are elastic, and bear at most mu times what those in
-    compression do. psi_2 is within 0.05 of rings of traction up to V_1 = 10 V_y.
+        P = P_y + 2 E* a_y (d - d_y) while loading beyond yield
+        P = (4/3) E* sqrt(R_p) (d - d_p)^(3/2) while unloading
+        R_p/R* = (4/3) E* sqrt(R*) d^(3/2)/P at the largest penetration
+
+    At high speeds e falls as V_1^(-1/4). The contact is divided into springs that yield one by one;
+    its radius is sqrt(R* d) while loading and sqrt(R_p (d - d_p)) while unloading. The springs in
+    shear are elastic, and each bears at most mu times the load of the spring in compression. psi_2
+    is within 0.05 of a solution by rings of traction up to V_1 = 10 V_y.
 
     Parameters
     ----------
     yield_velocity : float or str, optional
-        Normal velocity V_y in m/s at which the contact first yields; by default that at which the
-        largest pressure is 1.6 times the lowest yield strength of the materials.
+        Normal velocity V_y in m/s at which the contact first yields; by default the velocity at
+        which the largest pressure is 1.6 times the lower yield strength of the materials.
 
     Raises
     ------
@@ -165,14 +171,14 @@ class ElasticPlastic:
             object.__setattr__(self, "yield_velocity", velocity)
 
     def loss(self, pair: Pair, normal_speed: Any) -> LossNumbers:
-        """Return the loss and the radius of the contact at yield, (V_y/V_1)^(2/5)."""
+        """Return the kind of loss and the radius of the contact at yield, (V_y/V_1)^(2/5)."""
         own = self.yield_velocity
         velocity = yield_velocity(pair) if own is None else own
         return LossNumbers(Loss.PLASTIC, (velocity / normal_speed) ** 0.4)
 
     def scale_free(self) -> LossNumbers:
-        """Raise InputError: the loss depends on the speed."""
-        raise refusal("losses", self, "it depends on the speed; use impact, or KelvinVoigt")
+        """Raise InputError, because the loss depends on the speed."""
+        raise refusal("losses", self, "it depends on the speed; use carom.impact, or KelvinVoigt")
 
     @property
     def source(self) -> str:
@@ -186,18 +192,20 @@ class ElasticPlastic:
 
 @dataclass(frozen=True)
 class StandardLinearSolid:
-    """A solid of three parameters, which relaxes: slow impacts lose little, and so do fast ones.
+    """A standard linear solid, which loses little in slow impacts and little in fast ones.
 
-    stress = E (strain + g m), m' = strain' - m/tau, in shear as in compression; g = E_0/E - 1, with
-    E the modulus of the material, to which it relaxes, and E_0 that at once. e depends on speed.
+        sigma = E (epsilon + g m), m' = epsilon' - m/tau, g = E_0/E - 1
+
+    E is the relaxed modulus, the one of the material, and E_0 the instantaneous modulus. Shear
+    follows the same law as compression. The coefficient of restitution e depends on the speed.
 
     Parameters
     ----------
     modulus_ratio : float
-        E_0/E, from 1 to 1000: the modulus at once over the one it relaxes to, of both bodies.
+        E_0/E of both bodies, instantaneous over relaxed modulus, from 1 to 1000.
     relaxation_time : float or str
-        tau in s at constant strain, zero or positive. tau (E_0/E - 1) is the loss time of the
-        Kelvin-Voigt solid that this one is to slow impacts.
+        Relaxation time tau in s at constant strain, zero or positive. In slow impacts the solid
+        behaves as a Kelvin-Voigt solid with the retardation time tau (E_0/E - 1).
 
     Raises
     ------
@@ -207,8 +215,8 @@ class StandardLinearSolid:
     Notes
     -----
     Hunter (1960), J. Mech. Phys. Solids 8:219-234, and Ting (1966), J. Appl. Mech. 33:845-854, for
-    the normal contact. psi_2 to 1e-6 for chi up to 3 if tau is longer than 0.01 d_max/V_1, else to
-    1e-4.
+    the normal contact. The error of psi_2 for chi up to 3 is below 1e-6 if tau is longer than
+    0.01 d_max/V_1, and below 1e-4 otherwise.
 
     Examples
     --------
@@ -235,7 +243,7 @@ class StandardLinearSolid:
         object.__setattr__(self, "relaxation_time", time)
 
     def loss(self, pair: Pair, normal_speed: Any) -> LossNumbers:
-        """Return the loss, tau V_1/d_max and E_0/E - 1."""
+        """Return the kind of loss, tau V_1/d_max and E_0/E - 1."""
         ratio = self.modulus_ratio
         if np.ndim(ratio):
             ratio = np.where((ratio >= 1.0) & (ratio <= STIFFEST), ratio, np.nan)
@@ -243,8 +251,8 @@ class StandardLinearSolid:
         return LossNumbers(Loss.RELAXING, time, ratio - 1.0)
 
     def scale_free(self) -> LossNumbers:
-        """Raise InputError: the loss depends on the speed."""
-        raise refusal("losses", self, "it depends on the speed; use impact, or KelvinVoigt")
+        """Raise InputError, because the loss depends on the speed."""
+        raise refusal("losses", self, "it depends on the speed; use carom.impact, or KelvinVoigt")
 
     @property
     def source(self) -> str:
@@ -273,7 +281,7 @@ def yield_velocity(pair: Pair) -> float:
     bodies = (pair.first.material, pair.second.material)
     strengths = [body.yield_strength for body in bodies if body.yield_strength is not None]
     if not strengths:
-        raise InputError("yield_velocity: missing, as no yield strength is known; give it")
+        raise InputError("yield_velocity: missing; give it, or a yield_strength of a material")
     strength = reduce(np.fmin, strengths)
     ratio = pi * LIMIT_PRESSURE * strength / (2.0 * pair.effective_modulus)
     length = pair.effective_radius * ratio**2

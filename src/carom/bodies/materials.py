@@ -31,28 +31,28 @@ def unchecked(kind: type[T], **values: object) -> T:
 
 @dataclass(frozen=True, init=False)
 class Material:
-    """An isotropic elastic material; numbers are SI, text may carry a unit.
+    """An isotropic elastic material; numbers are in SI units, texts may carry a unit.
 
-    G = E/(2 (1 + nu)).
+        G = E/(2 (1 + nu))
 
     Parameters
     ----------
     young : float or str
-        Young's modulus, positive; math.inf for a material that does not deform.
+        Young's modulus E, positive; math.inf for a material that does not deform.
     poisson : float
-        Poisson's ratio, -1 < nu <= 0.5.
+        Poisson's ratio nu, -1 < nu <= 0.5.
     density : float or str, optional
-        Needed only for a body that moves.
+        Density; only a body that moves needs it.
     yield_strength : float or str, optional
-        Von Mises stress at which it yields.
+        Von Mises stress at which the material yields.
     tensile_strength : float or str, optional
-        Tensile stress at which it breaks.
+        Tensile stress at which the material breaks.
     fracture_toughness : float or str, optional
-        Stress intensity at which cracks run, in Pa m^0.5, e.g. "0.75 MPa m^0.5".
+        Stress intensity at which cracks grow, in Pa m^0.5, e.g. `"0.75 MPa m^0.5"`.
     flaw_size : float or str, optional
-        Depth of the flaws of its surface, from which they do.
+        Depth of the flaws in the surface from which cracks grow.
     name : str, optional
-        How results call it.
+        Name of the material in results.
 
     Raises
     ------
@@ -141,12 +141,12 @@ def _catalogue() -> dict[str, dict[str, Any]]:
 def materials() -> dict[str, Material]:
     """Return the catalogue of materials by name, without "rigid".
 
-    Typical values at room temperature; `material_sources` tells where each comes from.
+    The values are typical of room temperature; `material_sources` names the source of each.
 
     Returns
     -------
     dict
-        Each `Material` by name, E in Pa, density in kg/m^3.
+        Each `Material` by its name, with E in Pa and density in kg/m^3.
 
     Examples
     --------
@@ -158,26 +158,26 @@ def materials() -> dict[str, Material]:
 
 
 def material(name: str, **values: Value) -> Material:
-    """Return a material of the catalogue by its name or an alias; "rigid" does not deform.
+    """Return the material of the catalogue that has this name; "rigid" does not deform.
 
     Parameters
     ----------
     name : str
-        As `materials` has it, or an alias of it such as "glass".
+        A name that `materials` lists, or an alias of it such as "glass".
     **values : float or str
-        What is known better, or besides, by the names of `Material`.
+        Values that replace those of the catalogue, or add to them, named as in `Material`.
 
     Returns
     -------
     Material
-        E in Pa, nu, density in kg/m^3, strengths in Pa, fracture toughness in Pa m^0.5; what is not
-        known is None.
+        E in Pa, nu, density in kg/m^3, strengths in Pa, fracture toughness in Pa m^0.5. Values that
+        are not known are None.
 
     Raises
     ------
     InputError
-        If there is none of that name, the message offers the nearest; or a value is not known, out
-        of range or of another unit.
+        If there is no material of that name (the message suggests the nearest), or a value has an
+        unknown name, is out of range or has a unit that does not fit.
 
     Examples
     --------
@@ -188,7 +188,7 @@ def material(name: str, **values: Value) -> Material:
     2e-05
     """
     if not isinstance(name, str):
-        raise refusal("material", name, "give the name of one, or carom.Material(young=, poisson=)")
+        raise refusal("material", name, "give a name, or carom.Material(young=..., poisson=...)")
     for key in values:
         if key not in VALUES:
             raise InputError(f"{key}: unknown in a material; {hint(key, VALUES)}")
@@ -201,8 +201,8 @@ def material(name: str, **values: Value) -> Material:
             return Material(**stored | values, name=key)
     entries = _catalogue().items()
     known = [alias for key, entry in entries for alias in (key, *entry.get("aliases", ()))]
-    near = nearest(wanted, [*known, "rigid"]) or "carom materials lists what there is"
-    raise refusal("material", name, f"no material of that name; {near}")
+    near = nearest(wanted, [*known, "rigid"]) or "'carom materials' lists them all"
+    raise refusal("material", name, f"there is no material of that name; {near}")
 
 
 def material_sources(name: str) -> dict[str, str]:
@@ -211,17 +211,17 @@ def material_sources(name: str) -> dict[str, str]:
     Parameters
     ----------
     name : str
-        As `material` takes it.
+        A name that `material` accepts.
 
     Returns
     -------
     dict
-        The source by the name of the value; empty for "rigid".
+        The source of each value by its name; empty for "rigid".
 
     Raises
     ------
     InputError
-        If there is none of that name.
+        If there is no material of that name.
 
     Examples
     --------

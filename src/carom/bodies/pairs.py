@@ -1,4 +1,4 @@
-"""A pair of bodies: what of them enters an impact, and the scales that make it dimensionless."""
+"""A pair of bodies: its effective constants, and the scales that make an impact dimensionless."""
 
 from dataclasses import dataclass
 from functools import cached_property, reduce
@@ -9,6 +9,7 @@ from carom.bodies.materials import Material
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.quantities.elementwise import isfinite, quotient, sqrt, where
 from carom.quantities.keywords import known_keywords
+from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import Value, not_negative
 
@@ -18,7 +19,7 @@ SAME = 1e-6  # part by which numbers of the same bodies may differ: they are wri
 
 @dataclass(frozen=True)
 class ContactScales:
-    """What a dimensionless contact is multiplied by, in SI units."""
+    """The scales of a contact in SI units."""
 
     length: float
     radius: float
@@ -30,7 +31,7 @@ class ContactScales:
 
 @dataclass(frozen=True)
 class Scales(ContactScales):
-    """What a dimensionless impact is multiplied by, in SI units."""
+    """The scales of an impact in SI units."""
 
     time: float
     energy: float
@@ -53,8 +54,8 @@ def checked_scales(pair: "Pair", normal_speed: float, contact_velocity: float = 
         fits = False
     if not fits:
         raise InputError(
-            f"speed: {normal_speed:g} m/s at a radius of {pair.first.radius:g} m gives numbers "
-            "that floating point cannot hold; check the units"
+            f"speed: {text(normal_speed, 'm/s')} at a radius of {text(pair.first.radius, 'm')} "
+            "gives numbers that floating point cannot hold; check the units"
         )
     return scales
 
@@ -80,26 +81,30 @@ def _representable(pair: "Pair") -> bool:
 
 @dataclass(frozen=True, init=False)
 class Pair:
-    """Two bodies that meet: a sphere, and a sphere, half-space or cup; with their friction.
+    """A sphere, the sphere, half-space or cup that it strikes, and the friction between them.
 
-    1/E* = sum (1 - nu^2)/E, 1/G* = sum (2 - nu)/(4 G), 1/R* = sum of curvatures, 1/m_n = sum 1/M,
-    1/m_t = sum (1/M)(1 + R^2/K^2), kappa = G*/E*, chi = (kappa/2)(m_n/m_t) (Johnson 1985, sections
-    4.2 and 7.2). For equal materials chi is that of Barber (1979), (16).
+        1/E* = sum (1 - nu^2)/E, 1/G* = sum (2 - nu)/(4 G), 1/R* = sum 1/R
+        1/m_n = sum 1/M, 1/m_t = sum (1/M)(1 + R^2/K^2)
+        kappa = G*/E*, chi = (kappa/2)(m_n/m_t)
+
+    The sums are over both bodies (Johnson 1985, sections 4.2 and 7.2). 1/R is the curvature, which
+    is zero for a half-space and negative for a cup; the mass of both is infinite. For equal
+    materials chi is that of Barber (1979), (16).
 
     Parameters
     ----------
     first : Sphere
         The body that moves.
     second : Sphere, HalfSpace or Cup
-        The other one; a half-space and a cup stay where they are.
+        The other body; a half-space or a cup does not move.
     friction : float or str
-        Coefficient mu, not negative.
+        Coefficient of friction mu, not negative.
 
     Raises
     ------
     InputError
-        If the friction is negative, a sphere does not fit its cup, both materials are rigid, or
-        numbers are beyond floating point.
+        If the friction is negative, the sphere does not fit into the cup, both materials are rigid,
+        or the masses or stiffnesses are too large or too small for floating point.
 
     Examples
     --------
@@ -123,8 +128,8 @@ class Pair:
             raise refusal("second body", second, "must be a Sphere, HalfSpace or Cup")
         if isinstance(second, Cup) and not second.radius > first.radius:
             raise InputError(
-                f"radius: a cup of {second.radius:g} m cannot take a sphere of {first.radius:g} m; "
-                "the cup must be the larger"
+                f"radius: a cup of {text(second.radius, 'm')} cannot take a sphere of "
+                f"{text(first.radius, 'm')}; the cup must be the larger"
             )
         if first.material.is_rigid and second.material.is_rigid:
             raise InputError("material: both bodies are rigid; one of them must deform")
@@ -139,27 +144,27 @@ class Pair:
 
     @cached_property
     def effective_modulus(self) -> float:
-        """E* in Pa."""
+        """Effective modulus E*, in Pa."""
         return 1.0 / sum((1.0 - m.poisson**2) / m.young for m in self._materials)
 
     @cached_property
     def effective_shear_modulus(self) -> float:
-        """G* in Pa."""
+        """Effective shear modulus G*, in Pa."""
         return 1.0 / sum((2.0 - m.poisson) / (4.0 * m.shear_modulus) for m in self._materials)
 
     @cached_property
     def effective_radius(self) -> float:
-        """R* in m."""
+        """Effective radius R*, in m."""
         return 1.0 / (self.first.curvature + self.second.curvature)
 
     @cached_property
     def normal_mass(self) -> float:
-        """m_n in kg."""
+        """Effective mass in the normal direction m_n, in kg."""
         return 1.0 / sum(1.0 / body.mass for body in self.moving)
 
     @cached_property
     def tangential_mass(self) -> float:
-        """m_t in kg."""
+        """Effective mass of the contact point in the tangential direction m_t, in kg."""
         return 1.0 / sum((1.0 + 1.0 / body.gyration_ratio) / body.mass for body in self.moving)
 
     @property
@@ -169,32 +174,33 @@ class Pair:
 
     @property
     def chi(self) -> float:
-        """(kappa/2)(m_n/m_t), the one parameter of the dimensionless impact."""
+        """Ratio (kappa/2)(m_n/m_t), the only parameter of the dimensionless elastic impact."""
         return 0.5 * self.kappa * self.normal_mass / self.tangential_mass
 
     @property
     def dundurs_beta(self) -> float:
-        """Dundurs' second parameter; zero where normal and tangential contact do not couple."""
+        """Dundurs' second parameter; zero if normal and tangential contact do not couple."""
         one, two = ((1.0 - 2.0 * m.poisson) / m.shear_modulus for m in self._materials)
         whole = sum((1.0 - m.poisson) / m.shear_modulus for m in self._materials)
         return 0.5 * (one - two) / whole
 
     @property
     def moving(self) -> tuple[Sphere, ...]:
-        """The bodies that move: the spheres."""
+        """The bodies that can move, which are the spheres."""
         return tuple(body for body in (self.first, self.second) if isinstance(body, Sphere))
 
     @property
     def lateral_ratio(self) -> float:
-        """How far tangential traction moves surfaces sideways: nu/(2 - nu) of equal materials.
+        """Lateral displacement of the surface under a tangential traction, as a ratio.
 
-        The ratio of sum nu/(4 G) to sum (2 - nu)/(4 G), from Barber (1979), (29).
+        It is the ratio of sum nu/(4 G) to sum (2 - nu)/(4 G), from Barber (1979), (29), which is
+        nu/(2 - nu) for equal materials.
         """
         lateral = sum(m.poisson / (4.0 * m.shear_modulus) for m in self._materials)
         return lateral * self.effective_shear_modulus
 
     def contact_scales(self, length: float) -> ContactScales:
-        """Return the scales of a contact of one penetration (Hertz 1882; Johnson 1985, 4.2).
+        """Return the scales of a contact at a given penetration (Hertz 1882; Johnson 1985, 4.2).
 
         Parameters
         ----------
@@ -204,8 +210,8 @@ class Pair:
         Returns
         -------
         ContactScales
-            SI units: length d, radius sqrt(R* d), force, the largest pressure, tangential_length mu
-            d/kappa, and tangential_force, (3/2) mu times the force.
+            `length` d, `radius` sqrt(R* d), `force` P, `pressure` p_0, `tangential_length`
+            mu d/kappa, and `tangential_force` (3/2) mu P.
 
         Examples
         --------
@@ -226,18 +232,18 @@ class Pair:
         )
 
     def scales(self, normal_speed: float) -> Scales:
-        """Return the scales of an impact at one normal speed (Hertz 1882; Johnson 1985, 11.4).
+        """Return the scales of an impact at a given normal speed (Hertz 1882; Johnson 1985, 11.4).
 
         Parameters
         ----------
         normal_speed : float
-            V_1 in m/s, positive.
+            Normal speed V_1 in m/s, positive.
 
         Returns
         -------
         Scales
-            What `contact_scales` has at the largest penetration d_max; time d_max/V_1 in s, energy
-            m_n V_1^2/2 in J, and tangential_speed mu V_1/kappa in m/s.
+            Those of `contact_scales` at the largest penetration d_max, and `time` d_max/V_1 in s,
+            `energy` m_n V_1^2/2 in J, `tangential_speed` mu V_1/kappa in m/s.
 
         Examples
         --------
@@ -257,14 +263,14 @@ class Pair:
         )
 
     def psi(self, contact_velocity: float, normal_speed: float) -> float:
-        """Return kappa V_x/(mu V_1), infinite without friction.
+        """Return the dimensionless velocity kappa V_x/(mu V_1), infinite without friction.
 
         Parameters
         ----------
         contact_velocity : float
-            V_x in m/s.
+            Tangential velocity of the contact point V_x, in m/s.
         normal_speed : float
-            V_1 in m/s, positive.
+            Normal speed V_1 in m/s, positive.
 
         Returns
         -------

@@ -1,4 +1,4 @@
-"""Values that no body has, but that a forgotten unit gives: a radius of 5 m for 5 mm."""
+"""Values that hint at a forgotten unit, such as a radius of 5 m instead of 5 mm."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
@@ -40,7 +40,7 @@ LIKELY = {
 
 
 def doubts(pair: Pair) -> tuple[Finding, ...]:
-    """Return findings on what is hardly meant in a pair of bodies; mostly none.
+    """Return findings on implausible values of a pair of bodies; usually there are none.
 
     Examples
     --------
@@ -59,7 +59,7 @@ def doubts(pair: Pair) -> tuple[Finding, ...]:
 
 
 def doubts_of_case(case: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return what is hardly meant in a case, in words; values that cannot be read are left out.
+    """Return sentences on implausible values of a case; values that cannot be read are left out.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def doubts_of_case(case: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def doubts_of_values(given: Iterable[tuple[str, ArrayLike]]) -> tuple[str, ...]:
-    """Return what is hardly meant among numbers in SI units by name, in words: of each the ends.
+    """Return sentences on implausible numbers in SI units; of each array the ends are checked.
 
     Examples
     --------

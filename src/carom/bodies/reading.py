@@ -1,4 +1,4 @@
-"""What Carom has stored, and case files, read again."""
+"""Reading stored datasets and case files."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,24 +12,24 @@ if TYPE_CHECKING:
 
 
 def read(path: str | Path) -> "xr.Dataset | dict[str, Any]":
-    """Return the dataset that Carom stored as .nc, .csv or .zarr, or the case of a .toml file.
+    """Return a dataset that Carom stored as .nc, .csv or .zarr, or the case of a .toml file.
 
     Parameters
     ----------
     path : str or Path
-        A file that `save` or the option --output of a command has written; the store of a sweep,
-        .zarr, whose values are read when they are used; or a case file, .toml.
+        A file that `save` or the option `--output` of a command has written, the store of a sweep
+        (.zarr), whose values are read only when they are used, or a case file (.toml).
 
     Returns
     -------
     xarray.Dataset or dict
-        Variables and coordinates as they were stored, to the last bit, with their units and
-        meanings as attributes; of a case file what it says, which `sweep` takes.
+        Variables and coordinates exactly as they were stored, with units and meanings as
+        attributes. For a case file, its content as `sweep` accepts it.
 
     Raises
     ------
     InputError
-        If the file is missing, damaged, or not one of Carom's, or a key of a case is not known.
+        If the file is missing, damaged or not stored by Carom, or a case has an unknown key.
 
     Examples
     --------

@@ -13,24 +13,24 @@ from carom.quantities.units import Value, not_negative, positive
 
 @dataclass(frozen=True, init=False)
 class Sphere:
-    """A sphere: solid, hollow with an `inner_radius`, or of any `gyration_radius` K.
+    """A sphere, solid or hollow, or with a given radius of gyration.
 
-    M = (4/3) pi (R^3 - R_i^3) rho, K^2 = (2/5) (R^5 - R_i^5)/(R^3 - R_i^3).
+        M = (4/3) pi rho (R^3 - R_i^3), K^2 = (2/5) (R^5 - R_i^5)/(R^3 - R_i^3)
 
     Parameters
     ----------
     radius : float or str
-        R in m.
+        Radius R in m.
     material : Material or str
-        With a density; or the name of one of the catalogue.
+        Material with a density, or the name of a material of the catalogue.
     gyration_radius, inner_radius : float or str, optional
-        K or R_i in m, not both.
+        Radius of gyration K or inner radius R_i of a hollow sphere in m; only one can be given.
 
     Raises
     ------
     InputError
-        If a size is not positive, the hole as large as the sphere, the inertia given in both ways,
-        the material without density, or the mass beyond floating point.
+        If a size is not positive, the inner radius is not below the radius, K and R_i are both
+        given, the material has no density, or the mass is too large or small for floating point.
 
     Examples
     --------
@@ -77,13 +77,13 @@ class Sphere:
 
     @cached_property
     def mass(self) -> float:
-        """Mass in kg."""
+        """Mass M, in kg."""
         volume = 4.0 / 3.0 * math.pi * (self.radius**3 - self.inner_radius**3)
         return volume * cast(float, self.material.density)
 
     @cached_property
     def gyration_ratio(self) -> float:
-        """K^2/R^2: 2/5 for a solid sphere, 2/3 for a thin shell."""
+        """Ratio K^2/R^2, which is 2/5 for a solid sphere and 2/3 for a thin shell."""
         if self.gyration_radius is not None:
             return (self.gyration_radius / self.radius) ** 2
         hole = self.inner_radius / self.radius
@@ -91,7 +91,7 @@ class Sphere:
 
     @property
     def curvature(self) -> float:
-        """Curvature in 1/m, positive where the body is convex."""
+        """Curvature 1/R, in 1/m."""
         return 1.0 / self.radius
 
 
@@ -102,7 +102,7 @@ class HalfSpace:
     Parameters
     ----------
     material : Material or str
-        What it is made of; or the name of a material of the catalogue.
+        Material of the body, or the name of a material of the catalogue.
 
     Raises
     ------
@@ -124,20 +124,20 @@ class HalfSpace:
 
     @property
     def curvature(self) -> float:
-        """Curvature in 1/m: none."""
+        """Curvature in 1/m, which is zero."""
         return 0.0
 
 
 @dataclass(frozen=True, init=False)
 class Cup:
-    """A spherical cup, fixed, in which a smaller sphere strikes.
+    """A fixed spherical cup that a smaller sphere strikes from inside.
 
     Parameters
     ----------
     radius : float or str
-        In m, larger than that of the sphere.
+        Radius of the cup in m, larger than that of the sphere.
     material : Material or str
-        What it is made of; or the name of a material of the catalogue.
+        Material of the body, or the name of a material of the catalogue.
 
     Raises
     ------
@@ -162,7 +162,7 @@ class Cup:
 
     @property
     def curvature(self) -> float:
-        """Curvature in 1/m, negative."""
+        """Curvature -1/R in 1/m, negative because the surface is concave."""
         return -1.0 / self.radius
 
 

@@ -27,7 +27,14 @@ from carom.quantities.symbols import meant, remark
 
 app = Commands(
     name="carom",
-    help="How an elastic sphere leaves an oblique impact, and what happens inside the contact.",
+    help="Carom computes how an elastic sphere leaves an oblique impact, and what happens inside "
+    "the contact.\n\n"
+    "Begin with carom impact for one impact, carom sweep for many, carom fit for measured "
+    "rebounds, carom verify for contact laws of DEM codes, or carom explore for a page in the "
+    "browser. carom COMMAND --help describes a command. The exit code is 0, 2 for input that "
+    "cannot be used, or 1 for a failure.\n\n\b\n"
+    'Example: carom impact --radius "5 mm" --material steel --friction 0.2 --speed 2 '
+    '--angle "30 deg"',
     no_args_is_help=True,
     add_completion=False,
     rich_markup_mode=None,
@@ -45,7 +52,9 @@ app.add_typer(liggghts_app)
 
 
 @app.callback(invoke_without_command=True)
-def _common(version: bool = typer.Option(False, "--version", help="Print the version.")) -> None:
+def _common(
+    version: bool = typer.Option(False, "--version", help="Print the version and exit."),
+) -> None:
     if version:
         typer.echo(carom.__version__)
         raise typer.Exit
@@ -64,10 +73,10 @@ def main(arguments: list[str] | None = None) -> int:
         asked = _option_meant(error) or "see carom --help or carom COMMAND --help"
         return _refuse(f"{error.format_message().rstrip('.')}; {asked}")
     except typer.Abort:
-        typer.echo("carom: stopped", err=True)
+        typer.echo("carom: the command was interrupted", err=True)
         return 1
     except Exception as error:  # the last resort: a line instead of a traceback
-        typer.echo(f"carom: failed, {type(error).__name__}: {error}", err=True)
+        typer.echo(f"carom: the command failed, {type(error).__name__}: {error}", err=True)
         return 1
 
 

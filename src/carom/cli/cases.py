@@ -18,9 +18,12 @@ if TYPE_CHECKING:
 Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
 Column = Annotated[
     list[str] | None,
-    typer.Option(help="What a head of the table stands for, e.g. omega=spin_out; repeat."),
+    typer.Option(
+        help="The quantity in a column of your table that has another name, e.g. omega=spin, or "
+        "'w=spin [rpm]' with its unit. You can repeat this option."
+    ),
 ]
-Plot = Annotated[str | None, typer.Option(help="Store a figure: .png, .pdf or .svg.")]
+Plot = Annotated[str | None, typer.Option(help="Store a figure of the result: .png, .pdf or .svg.")]
 
 
 def file_name(text: str) -> Path:
@@ -95,7 +98,7 @@ def tell(doubts: Iterable[str]) -> None:
 def tell_sweep(case: "Case") -> None:
     """Tell that the table [sweep] of a case is left out, if there is one."""
     if "sweep" in case:
-        tell(["[sweep] is left out; carom sweep computes the impacts that it describes"])
+        tell(["the table [sweep] is ignored here; carom sweep computes what it describes"])
 
 
 def told_case(path: Path, *, losses: bool = False, swept: bool = False) -> "Case":
@@ -133,7 +136,9 @@ def refuse_same(files: Mapping[str, str | Path | None]) -> None:
     }
     for (one, path), (other, same) in combinations(given.items(), 2):
         if path == same:
-            raise refusal(other, str(files[other]), f"it is the file of {one}; give another name")
+            raise refusal(
+                other, str(files[other]), f"this file is also that of {one}; give another name"
+            )
 
 
 def check_outputs(*files: tuple[str | None, tuple[str, ...]]) -> None:
@@ -156,4 +161,4 @@ def store(result: "Result", output: str | None, plot: str | None) -> None:
 
 def stored(path: str | Path) -> None:
     """Tell that a file was written."""
-    typer.echo(f"stored {path}", err=True)
+    typer.echo(f"Carom has stored {path}.", err=True)

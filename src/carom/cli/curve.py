@@ -22,33 +22,54 @@ COLUMNS = ("psi_in", "psi_out", "contact_restitution", "tangential_restitution")
 
 
 def curve_command(
-    chi: Annotated[list[str], typer.Option(help="chi, positive; repeat for several.")],
+    chi: Annotated[
+        list[str],
+        typer.Option(
+            help="Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive, e.g. 1.44 for "
+            "a steel ball on a steel plate. You can repeat this option."
+        ),
+    ],
     restitution: Annotated[
         str | None,
-        typer.Option(help="Normal restitution of a viscous (Kelvin-Voigt) contact, e.g. 0.9."),
+        typer.Option(
+            help="Normal coefficient of restitution of a viscous (Kelvin-Voigt) contact, e.g. 0.9 "
+            "(default: elastic bodies)."
+        ),
     ] = None,
-    start: Annotated[str, typer.Option("--from", help="First psi_1.")] = "0",
+    start: Annotated[
+        str, typer.Option("--from", help="First incidence psi_1 = kappa V_x/(mu V_1).")
+    ] = "0",
     stop: Annotated[
-        str | None, typer.Option("--to", help="Last psi_1, by default 4 chi + 1.")
+        str | None,
+        typer.Option(
+            "--to", help="Last psi_1 (default: 4 chi + 1, where the contact slides throughout)."
+        ),
     ] = None,
-    points: Annotated[str, whole_option("Number of psi_1, 2 to 100,000.")] = "401",
+    points: Annotated[str, whole_option("Number of values of psi_1, from 2 to 100,000.")] = "401",
     as_json: Json = False,
     plot: Plot = None,
     output: Annotated[
-        str | None, typer.Option(help="Store the curve: .csv or .nc; with --export c: .h.")
+        str | None, typer.Option(help="Store the curve: .csv or .nc, or .h with --export c.")
     ] = None,
     export: Annotated[
         str | None,
-        typer.Option(help="Print psi_2(psi_1) as source code: c. One function for each --chi."),
+        typer.Option(
+            help="Print psi_2(psi_1) as source code instead of a table: 'c' gives a header for C "
+            "and C++ with one function for each --chi."
+        ),
     ] = None,
 ) -> None:
-    """Tabulate psi_2, restitution and the borders of the regimes against psi_1.
+    """Tabulate the rebound psi_2 against the incidence psi_1.
 
+    psi_1 and psi_2 are the dimensionless tangential velocities of the contact point before and
+    after the impact, psi = kappa V_x/(mu V_1). The table also has both restitutions and the psi_1
+    at which the regime changes. Use this command if you need the rebound at all incidences, as a
+    figure, a table or source code.
+
+    \b
     Example: carom curve --chi 1.44 --chi 2 --plot curve.png
-
-    With losses: carom curve --chi 1.44 --restitution 0.9
-
-    As C: carom curve --chi 1.44 --export c --output rebound.h
+    A viscous contact: carom curve --chi 1.44 --restitution 0.9
+    A C header: carom curve --chi 1.44 --export c --output rebound.h
     """
     if export is not None:
         table = {"--json": as_json, "--plot": plot, "--from": start != "0", "--to": stop}
@@ -93,7 +114,7 @@ def _export(
         raise refusal("export", language, "must be c, a header for C and C++")
     unused = next((name for name, given in others.items() if given), None)
     if unused is not None:
-        raise InputError(f"{unused}: is of no use with --export; leave one of them out")
+        raise InputError(f"{unused}: has no effect with --export; leave one of them out")
     target = None if output is None else checked_output(output, HEADERS)
     losses = _losses(restitution)
     text = c_header([carom.ReboundLaw(positive("chi", value), losses=losses) for value in chi])
@@ -131,4 +152,8 @@ def _table(dataset: "xr.Dataset") -> str:
         rows = part.isel(psi_in=slice(None, None, step))
         for row in zip(*(rows[name].values for name in COLUMNS), strict=True):
             lines.append("  {:12.6g} {:14.9f} {:12.6f} {:12.6f}".format(*row))
-    return "\n".join([*lines, "* of a solid sphere without spin"])
+    notes = (
+        "e contact: tangential velocity of the contact point after the impact, over that before",
+        "e centre*: the same of the centre of a solid sphere that strikes without spin",
+    )
+    return "\n".join([*lines, *notes])

@@ -15,26 +15,38 @@ from carom.quantities.units import whole
 
 def explore_command(
     host: Annotated[
-        str, typer.Option(help="Address to listen at; the default answers this machine only.")
+        str, typer.Option(help="Address of the page; the default is open to this machine only.")
     ] = "127.0.0.1",
-    port: Annotated[str, whole_option("Port to listen at, 0 for any that is free.")] = "8050",
+    port: Annotated[str, whole_option("Port of the page; 0 takes any free port.")] = "8050",
     open_browser: Annotated[
-        bool, typer.Option("--open/--no-open", help="Whether to open a browser.")
+        bool,
+        typer.Option(
+            "--open/--no-open", help="Open the page in a browser, or only print its address."
+        ),
     ] = True,
-    as_json: Annotated[bool, typer.Option("--json", help="Print the address as JSON.")] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the address of the page as JSON.")
+    ] = False,
 ) -> None:
-    """Explore impacts on a page in the browser: sliders, films, contact laws, fits; Ctrl-C ends it.
+    """Explore impacts on a page in the browser.
 
+    Sliders change the impact while you watch the ball, the contact and the forces. The page also
+    compares contact laws of DEM codes and fits your measurements. It runs until you press Ctrl-C.
+
+    \b
     Example: carom explore
-
-    On a machine without a screen: carom explore --no-open --port 0
+    A machine without a screen: carom explore --no-open --port 0
     """
     from carom.explorer import explorer
 
     page = explorer(host=host, port=whole("port", port, 0, 65535))
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends like Ctrl-C
     with suppress(KeyboardInterrupt):
-        typer.echo(json.dumps({"url": page.url}) if as_json else f"{page.url}  (Ctrl-C ends it)")
+        typer.echo(
+            json.dumps({"url": page.url})
+            if as_json
+            else f"{page.url}  (press Ctrl-C to stop the page)"
+        )
         if open_browser:
             webbrowser.open(page.url)
         page.serve()

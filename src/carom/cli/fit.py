@@ -32,59 +32,84 @@ if TYPE_CHECKING:
 
 def fit_command(
     data: Annotated[
-        Path | None, file_argument("CSV file: a row an impact; units in the head, 'angle [deg]'.")
+        Path | None,
+        file_argument(
+            "CSV file with one impact per row and units in its head, e.g. 'angle [deg]'."
+        ),
     ] = None,
     dataset: Annotated[
-        str | None, typer.Option(help="Instead of a file, measured data that come with Carom.")
+        str | None,
+        typer.Option(help="Published measurements that come with Carom, e.g. kharaz2001, instead."),
     ] = None,
     case: Annotated[
         Path | None,
-        file_option("Case file as for `carom impact`: the bodies, unless the data tell them."),
+        file_option(
+            "Case file, as for carom impact, with the bodies; needed if the data hold none."
+        ),
     ] = None,
     vary: Annotated[
-        str | None, typer.Option(help="Of friction, kappa (or chi), restitution, spin_offset.")
+        str | None,
+        typer.Option(
+            help="Parameters to fit, separated by commas, of friction, kappa (or chi), restitution "
+            "and spin_offset (default: the first three, or restitution for vertical drops)."
+        ),
     ] = None,
     fix: Annotated[
-        list[str] | None, typer.Option(help="A parameter that is known, e.g. restitution=0.98.")
+        list[str] | None,
+        typer.Option(
+            help="A parameter that you know, with its value, e.g. restitution=0.98. You can repeat "
+            "this option."
+        ),
     ] = None,
-    confidence: Annotated[str, typer.Option(help="Confidence of the intervals.")] = "0.95",
+    confidence: Annotated[str, typer.Option(help="Confidence level of the intervals.")] = "0.95",
     column: Column = None,
     squares: Annotated[
-        bool, typer.Option("--squares", help="Least squares: outliers count like all others.")
+        bool, typer.Option("--squares", help="Use least squares, in which outliers count fully.")
     ] = False,
     template: Annotated[
-        bool, typer.Option("--template", help="Print an empty table to fill in, and stop.")
+        bool, typer.Option("--template", help="Print an empty table to fill in, and exit.")
     ] = False,
     advice: Annotated[
-        str | None, whole_option("Tell that many incidences to measure next.")
+        str | None, whole_option("Number of further measurements to plan: print their best angles.")
     ] = None,
     about: Annotated[
-        str | None, typer.Option("--for", help="Parameter of the advice; else the least certain.")
+        str | None,
+        typer.Option(
+            "--for",
+            help="Parameter that --advice shall make more certain (default: the least certain).",
+        ),
     ] = None,
     posterior: Annotated[
         str | None,
         typer.Option(
-            help="Sample by emcee; store samples (.nc, .csv) or a corner plot (.png ...)."
+            help="Sample the posterior with emcee, and store the samples (.nc or .csv) or a corner "
+            "plot (.png, .pdf or .svg)."
         ),
     ] = None,
-    steps: Annotated[str, whole_option("Steps of the sampling.")] = "1000",
-    seed: Annotated[str, whole_option("Seed of the sampling.")] = "0",
+    steps: Annotated[str, whole_option("Number of steps for --posterior.")] = "1000",
+    seed: Annotated[str, whole_option("Seed of the random numbers for --posterior.")] = "0",
     plot: Plot = None,
-    output: Annotated[str | None, typer.Option(help="Store the fit: .csv or .nc.")] = None,
+    output: Annotated[
+        str | None, typer.Option(help="Store data, fit and curves: .csv or .nc.")
+    ] = None,
     as_json: Json = False,
 ) -> None:
-    """Find friction, stiffness ratio and normal restitution from measured rebounds.
+    """Fit friction, stiffness and restitution to measured rebounds.
 
-    Columns before: angle and speed; normal_speed and tangential_speed; or angle, contact_angle,
-    psi_in alone where no speed is needed; spin, spin2. After, any of: normal_restitution,
+    Use this command after a drop test. It prints each parameter with its confidence interval, says
+    which parameters the data do not determine, and compares the exact theory with rigid spheres.
+
+    The motion before an impact is in the columns angle and speed; or normal_speed and
+    tangential_speed; or angle, contact_angle or psi_in alone if no speed is needed. The columns
+    spin and spin2 may be added. Of the motion after the impact give any of normal_restitution,
     normal_speed_out, tangential_restitution, tangential_speed_out, rebound_speed, rebound_angle,
-    spin_out, contact_restitution, contact_beta, contact_rebound_angle, impulse_ratio, psi_out; '-'
-    where nothing was measured. Standard deviations: spin_out_error, angle_error and so on.
+    spin_out, contact_restitution, contact_beta, contact_rebound_angle, impulse_ratio and psi_out.
+    Write '-' where nothing was measured. Standard deviations are in columns such as spin_out_error
+    and angle_error.
 
+    \b
     Example: carom fit --dataset kharaz2001 --plot kharaz.png
-
-    Own data: carom fit rebounds.csv --case ball.toml --fix restitution=0.98 --advice 5
-
+    Your own data: carom fit rebounds.csv --case ball.toml --fix restitution=0.98 --advice 5
     An empty table: carom fit --template > rebounds.csv
     """
     if template:
@@ -96,7 +121,7 @@ def fit_command(
 
     source = _source(data, dataset)
     if about is not None and advice is None:
-        raise refusal("for", about, "it is the parameter of --advice; give that, too")
+        raise refusal("for", about, "it has no effect without --advice; give that, too")
     count = None if advice is None else whole("advice", advice, 1, PLAN)
     sampling = whole("steps", steps, FEWEST_STEPS, MOST_STEPS), whole("seed", seed, 0, MOST_SEED)
     files = {"data": source, "case": case, "plot": plot, "output": output, "posterior": posterior}
@@ -155,8 +180,8 @@ def _sampled(found: "Fit", target: str, steps: int, seed: int) -> Path:
     if not samples.attrs["converged"]:
         time = samples.attrs["autocorrelation_time"]
         typer.echo(
-            f"the chain is short, {steps} steps for an autocorrelation time of {time:.0f}:"
-            f" --steps {50 * ceil(time):d} is better",
+            f"The chain is short: it has {steps} steps, and its autocorrelation time is {time:.0f} "
+            f"steps. Use --steps {50 * ceil(time):d}.",
             err=True,
         )
     if Path(target).suffix.lower() not in FIGURES:

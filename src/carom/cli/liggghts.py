@@ -12,7 +12,7 @@ from carom.cli.once import Commands
 app = Commands(
     name="liggghts",
     help=(
-        "The exact contact law in LIGGGHTS: tangential carom.\n\n"
+        "Use the exact contact law in LIGGGHTS, as tangential carom.\n\n\b\n"
         "Example: carom liggghts build --source liggghts_3.8.0.orig.tar.xz"
     ),
     no_args_is_help=True,
@@ -29,18 +29,22 @@ def _group() -> None:
 @app.command("build")
 def build_command(
     source: Annotated[
-        Path, typer.Option(metavar="PATH", help="LIGGGHTS-PUBLIC 3.8.0: its folder or tarball.")
+        Path, typer.Option(metavar="PATH", help="Folder or tarball of LIGGGHTS-PUBLIC 3.8.0.")
     ],
     folder: Annotated[
         Path | None,
-        typer.Option(help="Where the program goes (where carom verify liggghts finds it)."),
+        typer.Option(
+            help="Folder for the program (default: that in which carom verify liggghts looks)."
+        ),
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """Compile LIGGGHTS with tangential model carom, without MPI and VTK; this takes minutes.
+    """Compile LIGGGHTS with the tangential model carom.
 
-    Debian's package of sources is a tarball that fits: apt-get source --download-only liggghts.
+    This takes some minutes and makes a LIGGGHTS without MPI and VTK. The source package of Debian
+    is a suitable tarball: apt-get source --download-only liggghts fetches it.
 
+    \b
     Example: carom liggghts build --source liggghts_3.8.0.orig.tar.xz
     """
     from carom.adapters import liggghts
@@ -51,5 +55,7 @@ def build_command(
         told = {"file": str(built.path), "version": built.version, "command": list(built.command)}
         typer.echo(json.dumps(told, indent=2))
         return
-    typer.echo(f"built LIGGGHTS {built.version} with tangential model carom: {built.path}")
-    typer.echo("in an input: pair_style gran model hertz tangential carom")
+    typer.echo(
+        f"Carom has built LIGGGHTS {built.version} with tangential model carom: {built.path}"
+    )
+    typer.echo("Write this into the input: pair_style gran model hertz tangential carom")

@@ -14,18 +14,29 @@ from carom.quantities.units import or_none
 
 
 def materials_command(
-    name: Annotated[str | None, typer.Argument(help="Show one material with its sources.")] = None,
+    name: Annotated[
+        str | None, typer.Argument(help="Material to show, with the source of every value.")
+    ] = None,
     pairs: Annotated[
-        bool, typer.Option("--pairs", help="Restitution and friction published for pairs of them.")
+        bool,
+        typer.Option(
+            "--pairs", help="List measured restitution and friction of pairs of materials instead."
+        ),
     ] = False,
     as_json: Json = False,
 ) -> None:
-    """List the materials that have a name, one of them with its sources, or published pairs.
+    """List the materials that Carom knows by name.
 
+    Use this command to find the name of a material, the values that Carom takes for it and where
+    they come from, or measured restitution and friction of pairs of materials.
+
+    \b
     Example: carom materials soda-lime-glass
+    All materials: carom materials
+    Measured pairs: carom materials --pairs
     """
     if pairs and name is not None:
-        raise refusal("--pairs", name, "lists all pairs; leave the name out")
+        raise refusal("--pairs", name, "it lists all pairs; leave the name out")
     if pairs:
         found = _pairs()
         typer.echo(json.dumps(found, indent=2, ensure_ascii=False) if as_json else _told(found))
@@ -64,7 +75,15 @@ def _told(pairs: list[dict[str, Any]]) -> str:
         size = 1e3 * each["diameter"]
         lines.append(f"{each['body']:19s}{other:19s}{size:8.3g} {numbers} [{mark}]")
     sources = [f"[{place}] {text}" for place, text in enumerate(references, start=1)]
-    return "\n".join([head, *lines, "errors in brackets, as published", *sources])
+    return "\n".join(
+        [
+            head,
+            *lines,
+            "e: normal restitution, mu: friction, beta_0: tangential restitution of a contact that"
+            " sticks; in brackets their errors, as published",
+            *sources,
+        ]
+    )
 
 
 def _with_error(pair: dict[str, Any], key: str) -> str:
@@ -91,7 +110,9 @@ def _list(records: dict[str, dict[str, Any]]) -> str:
         [
             head,
             *lines,
-            "and: rigid. Sources: carom materials NAME; of pairs: carom materials --pairs",
+            "There is also the material rigid, which does not deform.",
+            "carom materials NAME shows the sources of the values, carom materials --pairs measured"
+            " restitution and friction.",
         ]
     )
 
@@ -106,7 +127,6 @@ def _details(records: dict[str, dict[str, Any]]) -> str:
         lines.append(name if record["young"] else f"{name}: does not deform")
         for key in VALUES:
             if key in record["sources"]:
-                unit = "" if GLOSSARY[key].unit == "1" else f" {GLOSSARY[key].unit}"
-                lines.append(f"  {GLOSSARY[key].meaning:18s} {record[key]:.6g}{unit}")
+                lines.append(f"  {GLOSSARY[key].meaning:18s} {GLOSSARY[key].text(record[key])}")
                 lines.append(f"      {record['sources'][key]}")
     return "\n".join(lines)

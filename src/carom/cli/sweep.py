@@ -3,7 +3,7 @@
 import json
 from collections.abc import Iterator
 from contextlib import contextmanager
-from math import degrees, isnan
+from math import degrees
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -23,6 +23,7 @@ from carom.cli.cases import (
     whole_option,
 )
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.prefixes import shared
 from carom.quantities.refusals import refusal
 from carom.quantities.units import or_none, whole
 
@@ -32,35 +33,55 @@ if TYPE_CHECKING:
 
 
 def sweep_command(
-    case: Annotated[Path, file_argument("Case file with a table [sweep].")],
+    case: Annotated[
+        Path, file_argument("Case file with a table [sweep], which says what to vary.")
+    ],
     column: Column = None,
     store: Annotated[
-        str | None, typer.Option(help="Store block by block in a Zarr folder, e.g. sweep.zarr.")
+        str | None,
+        typer.Option(
+            help="Store the results in a Zarr folder while they are computed, e.g. sweep.zarr."
+        ),
     ] = None,
     resume: Annotated[
-        bool, typer.Option("--resume", help="Continue what the store has of this sweep.")
+        bool, typer.Option("--resume", help="Continue the sweep in --store, or begin it.")
     ] = False,
     quantities: Annotated[
-        str | None, typer.Option(help="What to compute, e.g. 'rebound_angle, yield_speed_second'.")
+        str | None,
+        typer.Option(
+            help="Quantities to compute, separated by commas, e.g. 'rebound_angle, "
+            "yield_speed_second' (default: those that the case file names, or all)."
+        ),
     ] = None,
-    output: Annotated[str | None, typer.Option(help="Store at the end: .nc or .csv.")] = None,
+    output: Annotated[
+        str | None, typer.Option(help="Store the results at the end: .nc or .csv.")
+    ] = None,
     scheduler: Annotated[
-        str | None, typer.Option(help="Use a dask cluster, e.g. tcp://host:8786.")
+        str | None, typer.Option(help="Address of a dask cluster to use, e.g. tcp://host:8786.")
     ] = None,
-    workers: Annotated[str | None, whole_option("Threads (default: all cores).")] = None,
+    workers: Annotated[
+        str | None, whole_option("Number of threads (default: one for each core).")
+    ] = None,
     as_json: Json = False,
     progress: Annotated[
         bool | None,
-        typer.Option("--progress/--no-progress", help="Show a bar (default: on a terminal)."),
+        typer.Option(
+            "--progress/--no-progress", help="Show a progress bar (default: only on a terminal)."
+        ),
     ] = None,
 ) -> None:
-    """Solve the impacts of a grid, a Latin hypercube or a table of cases.
+    """Solve many impacts: a grid, a Latin hypercube or a table.
 
+    Use this command to see how the rebound depends on angle, friction, material or any other input.
+    The table [sweep] of the case file says what is varied. Every point has a status that says
+    whether it was solved, and if not, why.
+
+    \b
     Example: carom sweep examples/sweep.toml --output sweep.nc
-
-    One that may be killed: carom sweep examples/sweep.toml --store sweep.zarr --resume
-
-    From which speed on the bodies yield: the same with --quantities yield_speed_second
+    A long sweep that you can stop and continue:
+      carom sweep examples/sweep.toml --store sweep.zarr --resume
+    The speeds above which the second body yields:
+      carom sweep examples/sweep.toml --quantities yield_speed_second
     """
     from carom.io.files import TABLES
     from carom.sweeps.plans import plan
@@ -84,7 +105,8 @@ def sweep_command(
     for path in filter(None, (store, file)):
         stored(path)
     if store is None and file is None:
-        typer.echo("not stored; --store sweep.zarr or --output sweep.nc keeps it", err=True)
+        advice = "add --output sweep.nc or --store sweep.zarr to keep them"
+        typer.echo(f"Carom has not stored the results; {advice}.", err=True)
 
 
 def _file(content: "Case") -> str | None:
@@ -92,7 +114,7 @@ def _file(content: "Case") -> str | None:
     files = outputs(content)
     for name, verb in (("plot", "draws"), ("animation", "draws"), ("spectrum", "computes")):
         if (path := getattr(files, name)) is not None:
-            raise refusal(name, path, f"a sweep {verb} none; leave it out")
+            raise refusal(name, path, f"carom sweep {verb} none, carom impact does; leave it out")
     return files.data
 
 
@@ -104,7 +126,7 @@ def _stopping() -> Iterator[None]:
     try:
         yield
     except (SweepStopped, KeyboardInterrupt) as error:
-        stopped = "stopped; " if isinstance(error, KeyboardInterrupt) else ""
+        stopped = "the sweep was stopped; " if isinstance(error, KeyboardInterrupt) else ""
         typer.echo(f"carom: {stopped}{error}", err=True)
         raise typer.Exit(1) from None
 
@@ -134,8 +156,10 @@ def _table(result: "Summary") -> str:
 
 
 def _range(name: str, low: float, high: float) -> str:
-    unit = GLOSSARY[name].unit
+    ends, unit = shared((low, high), GLOSSARY[name].unit)
+    after = "" if unit == "1" else f" {unit}"
     if unit == "rad":
-        low, high, unit = degrees(low), degrees(high), "deg"
-    values = " ".join("-".rjust(13) if isnan(x) else f"{x:13.6g}" for x in (low, high))
-    return f"  {GLOSSARY[name].meaning:58s} {values}{'' if unit == '1' else f' {unit}'}"
+        after = f" deg ({' to '.join(ends)} rad)"
+        ends, _ = shared((degrees(low), degrees(high)), "deg")
+    values = " ".join(f"{end:>13s}" for end in ends)
+    return f"  {GLOSSARY[name].meaning:58s} {values}{after}"

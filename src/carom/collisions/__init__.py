@@ -154,7 +154,9 @@ def collide(
         return judged(pair, met, found)
     if any(is_foreign(each) for each in given):
         if inplace:
-            raise refusal("inplace", inplace, "only NumPy arrays can be written into")
+            raise refusal(
+                "inplace", inplace, "only NumPy arrays can be written in place; leave it out"
+            )
         found = collide_arrays(given, inertia_of(pair), rule)
     else:
         found = _collide_numpy(given, inertia_of(pair), rule, inplace, threads)
@@ -165,9 +167,9 @@ def collide(
 def _incidence(pair: Pair, given: tuple[Any, ...], law: CollisionLaw | None) -> Incidence:
     """Return how bodies meet, before they may be written over."""
     if law is not None:
-        raise refusal("law", law, "judge=True is about the exact one; leave one of them out")
+        raise refusal("law", law, "judge=True judges the exact law; leave law or judge out")
     if any(is_foreign(each) for each in given):
-        raise refusal("judge", True, "goes with NumPy arrays; convert others, or leave it out")
+        raise refusal("judge", True, "it needs NumPy arrays; convert yours, or leave judge out")
     arrays = [vectors(name, values) for name, values in zip(NAMES, given, strict=True)]
     shape = common_shape(arrays)
     return incidence(pair, tuple(_whole(each, shape, np.dtype(float)) for each in arrays))
@@ -241,7 +243,9 @@ def _check_writable(
         if not isinstance(values, np.ndarray) or (values.shape, values.dtype) != kind:
             raise refusal(name, values, f"to be written in place it must be {wanted}")
         if not values.flags.c_contiguous:
-            raise refusal(name, values, f"it has gaps or another order; it must be {wanted}")
+            raise refusal(
+                name, values, f"its memory has gaps or another order; it must be {wanted}"
+            )
         if not values.flags.writeable:
             raise refusal(name, values, "it is read-only; pass inplace=False")
         for other, array in zip(NAMES, used, strict=True):

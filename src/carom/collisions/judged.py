@@ -26,11 +26,11 @@ class Judgement(WordedStatus):
     --------
     >>> import carom
     >>> carom.Judgement(1).message
-    'not studied: materials, inertia, spin or size of the contact are outside'
+    'not studied: materials, inertia, spin or contact size lie outside the study'
     """
 
     BOUNDED = 0, "bounded: psi_2 is at most as far off as psi_out_error says"
-    NOT_STUDIED = 1, "not studied: materials, inertia, spin or size of the contact are outside"
+    NOT_STUDIED = 1, "not studied: materials, inertia, spin or contact size lie outside the study"
     NOT_COLLIDED = 2, "not judged: the bodies did not collide"
 
 

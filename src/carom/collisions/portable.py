@@ -63,7 +63,7 @@ def _alike(given: tuple[Any, ...]) -> tuple[list[Any], Any]:
     except TypeError:
         names = sorted({type(each).__module__.partition(".")[0] for each in foreign})
         raise InputError(
-            f"arrays: of {' and '.join(names)} together cannot be used; give all of one library"
+            f"arrays: those of {' and '.join(names)} cannot be mixed; give all of one library"
         ) from None
     real = {
         name: _real(name, each)

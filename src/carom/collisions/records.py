@@ -118,8 +118,8 @@ def warn_of_unusable(status: Any) -> None:
     counts = status_counts(status) or {}
     found = [f"{counts[each]:,} {words}" for each, words in ADVICE.items() if each in counts]
     warnings.warn(
-        f"of {_counted(prod(status.shape), 'pair')} some were left alone: {'; '.join(found)}; "
-        "`status` tells which",
+        f"of {_counted(prod(status.shape), 'pair')} these were left alone: {'; '.join(found)}; "
+        "`status` says which",
         UserWarning,
         stacklevel=4,
     )
@@ -203,5 +203,5 @@ def common_shape(arrays: Sequence[Any]) -> tuple[int, ...]:
         words = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
         raise InputError(f"shapes: {words} do not broadcast; give (N, 3) or (3,) each") from None
     if prod(shape) > 3 * MOST:
-        raise InputError(f"shapes: {prod(shape) // 3:,} pairs are too many at once; give parts")
+        raise InputError(f"shapes: {prod(shape) // 3:,} pairs are too many at once; split them")
     return shape

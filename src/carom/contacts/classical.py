@@ -1,4 +1,4 @@
-"""Closed forms of classical tangential contact of spheres; what `load_path` reproduces."""
+"""Closed forms of classical tangential contact of spheres, which `load_path` reproduces."""
 
 from math import atan
 from typing import NamedTuple
@@ -12,7 +12,7 @@ from carom.quantities.refusals import refusal
 
 
 class Obliquity(NamedTuple):
-    """Angles from the normal, in rad: of the force, and of the motion of the bodies.
+    """Angles of the force and of the displacement from the normal, in rad.
 
     Examples
     --------
@@ -26,22 +26,24 @@ class Obliquity(NamedTuple):
 
 
 def cattaneo_mindlin(pair: Pair, normal_force: ArrayLike, tangential_force: ArrayLike) -> Array:
-    """Return the displacement in m under a tangential force that grows at constant normal force.
+    """Return the tangential displacement under a force that grows at constant normal force.
 
-    U = (3 mu P/(4 a G*)) (1 - (1 - T/(mu P))^(2/3)), a the contact radius; odd in T (Cattaneo
-    1938, Mindlin 1949; Johnson, Contact Mechanics, 1985, section 7.2).
+        U = (3 mu P/(4 a G*)) (1 - (1 - T/(mu P))^(2/3))
+
+    a is the contact radius, and U is odd in T (Cattaneo 1938, Mindlin 1949; Johnson, Contact
+    Mechanics, 1985, section 7.2).
 
     Parameters
     ----------
     pair : Pair
         The bodies and their friction.
     normal_force, tangential_force : array_like
-        P > 0 and T in N, |T| <= mu P; shapes that broadcast.
+        P > 0 and T in N, with |T| <= mu P, of shapes that broadcast.
 
     Returns
     -------
     numpy.ndarray
-        U in m, of the broadcast shape.
+        Displacement U in m, of the broadcast shape.
 
     Raises
     ------
@@ -66,23 +68,24 @@ def cattaneo_mindlin(pair: Pair, normal_force: ArrayLike, tangential_force: Arra
 
 
 def loop_energy(pair: Pair, normal_force: ArrayLike, amplitude: ArrayLike) -> Array:
-    """Return the energy in J lost per cycle of a tangential force between -T and T at constant P.
+    """Return the energy lost in a cycle of a tangential force between -T and T at constant P.
 
-    W = (18 mu^2 P^2/(5 a G*)) (1 - (1 - t)^(5/3) - (5/6) t (1 + (1 - t)^(2/3))), t = T/(mu P); with
-    y = (1 - t)^(1/3) the bracket is (1 - y)^3 (1 + 3 y + y^2)/6, which is how it is computed
-    (Mindlin & Deresiewicz 1953, J. Appl. Mech. 20:327; Johnson 1985, section 7.4).
+        W = (18 mu^2 P^2/(5 a G*)) (1 - (1 - t)^(5/3) - (5/6) t (1 + (1 - t)^(2/3))), t = T/(mu P)
+
+    Here a is the contact radius (Mindlin & Deresiewicz 1953, J. Appl. Mech. 20:327; Johnson 1985,
+    section 7.4). With y = (1 - t)^(1/3) the last bracket is (1 - y)^3 (1 + 3 y + y^2)/6.
 
     Parameters
     ----------
     pair : Pair
         The bodies and their friction.
     normal_force, amplitude : array_like
-        P > 0 and 0 <= T <= mu P in N; shapes that broadcast.
+        P > 0 and 0 <= T <= mu P in N, of shapes that broadcast.
 
     Returns
     -------
     numpy.ndarray
-        W in J, of the broadcast shape.
+        Energy W in J, of the broadcast shape.
 
     Raises
     ------
@@ -111,11 +114,13 @@ def loop_energy(pair: Pair, normal_force: ArrayLike, amplitude: ArrayLike) -> Ar
 
 
 def critical_obliquity(pair: Pair) -> Obliquity:
-    """Return the obliquity up to which a load of constant direction, from first touch, slips not.
+    """Return the largest obliquity at which a load of constant direction causes no slip.
 
-    F_x/P = mu of the force, U/d = mu/kappa of the motion: then the whole contact sticks, and
-    unloading along the same line retraces the loading. Beyond it the whole contact slides
-    (Mindlin & Deresiewicz 1953, J. Appl. Mech. 20:327; Johnson 1985, section 7.3).
+        F_x/P = mu, U/d = mu/kappa
+
+    From the first touch up to these ratios the whole contact sticks, and unloading along the same
+    line retraces the loading. Beyond them the whole contact slides (Mindlin & Deresiewicz 1953,
+    J. Appl. Mech. 20:327; Johnson 1985, section 7.3).
 
     Parameters
     ----------
@@ -130,7 +135,7 @@ def critical_obliquity(pair: Pair) -> Obliquity:
     Raises
     ------
     InputError
-        If the pair is none.
+        If this is not a pair of bodies.
 
     Examples
     --------
@@ -160,7 +165,7 @@ def _share(pair: Pair, normal: ArrayLike, tangential: ArrayLike) -> tuple[Array,
         share, moved = np.asarray(across / most), _gross_displacement(pair, most)
         fits = np.isfinite(most) & np.isfinite(share) & np.isfinite(most * moved)
     if not np.all(fits):
-        allowed = "floating point cannot hold what follows from it; check the units"
+        allowed = "its results are too large for floating point; check the units"
         raise refusal("normal_force", normal, allowed)
     if not np.all(np.abs(share) <= 1.0):
         raise refusal("tangential_force", tangential, "Coulomb's law allows at most mu P")
@@ -171,7 +176,7 @@ def _check_pair(pair: Pair) -> None:
     if not isinstance(pair, Pair):
         raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
     if pair.friction == 0.0:
-        raise refusal("friction", pair.friction, "must be positive; without it all slides freely")
+        raise refusal("friction", pair.friction, "must be positive, or the bodies slide freely")
 
 
 def _gross_displacement(pair: Pair, most: Array) -> Array:

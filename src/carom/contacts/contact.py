@@ -116,7 +116,7 @@ def contact_in_impact(
 
 
 def _at_change(instant: float, solution: Solution | LossySolution) -> float:
-    """Return the instant, or that of a change of phase from which only rounding parts it."""
+    """Return the instant, or that of a change of phase that differs only by rounding."""
     for change in (*(phase.start for phase in solution.phases), solution.duration):
         if abs(instant - change) <= ROUNDING * change:
             return change

@@ -1,4 +1,4 @@
-"""What a load path comes to after each of its steps, in SI units."""
+"""The contact after each step of a load path, in SI units."""
 
 from collections.abc import Callable
 from math import isfinite
@@ -9,10 +9,11 @@ from carom.bodies.pairs import ContactScales, Pair
 from carom.contacts.load_steps import Steps
 from carom.dimensionless.load_paths import paths, turning
 from carom.quantities.arrays import Array
+from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError, refusal
 
 ROUNDING = 1e-12
-BEYOND = "floating point cannot hold the forces of it; check the units"
+BEYOND = "its forces are too large or small for floating point; check the units"
 
 
 def followed(
@@ -49,9 +50,10 @@ def followed(
 
 def _refused(steps: Steps, n: int, friction: float, normal: float) -> InputError:
     wanted, most = steps.target[n], friction * normal
-    allowed = f"step {n}: Coulomb's law allows at most {most:g} N at F_z = {normal:g} N"
+    limit, pressed = text(most, "N"), text(normal, "N")
+    allowed = f"step {n}: Coulomb's law allows at most {limit} at F_z = {pressed}"
     if float(np.linalg.norm(wanted)) <= most * (1.0 + ROUNDING):
-        allowed += ", as near to it give displacements"
+        allowed += "; near this limit give displacements instead"
     return refusal("tangential_force", wanted.tolist(), allowed)
 
 

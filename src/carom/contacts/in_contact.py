@@ -1,4 +1,4 @@
-"""What happens inside a contact: of an impact at a time, of a load path after a step."""
+"""The inside of a contact, at a time of an impact or after a step of a load path."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ PARAMETER, MEANING = "instant : float, str or int", "Time since the first touch 
 
 
 class InContact(ABC):
-    """A result whose contact can be looked into, at a time in s or after a step of a load path.
+    """A result with a contact at each time in s, or after each step of a load path.
 
-    What tells the instant is `time` of an `Impact` and `step` of a `LoadPath`. They repeat the
-    methods under that name, and the docstrings are taken from here.
+    The instant is called `time` in an `Impact` and `step` in a `LoadPath`. Both classes repeat the
+    methods with that argument, and take the docstrings from here.
     """
 
     _told_by: ClassVar[tuple[str, str]]  # the parameter with its type, and what it is
@@ -37,7 +37,7 @@ class InContact(ABC):
 
     @abstractmethod
     def contact(self, instant: Any, /) -> Contact:
-        """Return the contact at a time or after a step: what fields and stresses come from.
+        """Return the contact at an instant, from which fields and stresses are computed.
 
         Parameters
         ----------
@@ -47,13 +47,13 @@ class InContact(ABC):
         Returns
         -------
         Contact
-            `numbers()` are its quantities in SI units; penetration, displacement and stick_radius
-            are dimensionless, `scales` gives them units.
+            Its quantities in SI units are in `numbers()`. The attributes `penetration`,
+            `displacement` and `stick_radius` are dimensionless, in units of its `scales`.
 
         Raises
         ------
         InputError
-            If the bodies do not touch then, there is no such step, or they are spheres that yield.
+            If the bodies do not touch then, there is no such step, or the spheres yield.
 
         Examples
         --------
@@ -79,37 +79,38 @@ class InContact(ABC):
     ) -> xr.Dataset:
         """Return tractions, zones, displacements and slip at the surface.
 
-        Pressure and traction are (1) and (6) of Barber (1979). The displacements, of both surfaces
-        together and caused by the tractions, are superposed from those of punches, u_x = u_0 +
-        lambda u_2 cos 2 theta, u_y = lambda u_2 sin 2 theta, lambda = nu/(2 - nu) for equal
-        materials, which is (29) in gross slip: displacement of the second surface against the
-        first. Slip is that of the first body on the second since the points met: U less what the
-        surfaces gave way.
+            u_x = u_0 + lambda u_2 cos 2 theta, u_y = lambda u_2 sin 2 theta
+
+        Pressure and traction are (1) and (6) of Barber (1979). The displacements are those of the
+        second surface against the first under the tractions, superposed from displacements of
+        punches; lambda is nu/(2 - nu) for equal materials, and in gross slip they are (29). Slip is
+        the motion of the first body on the second since the points met, which is U less the
+        displacement of the surfaces.
 
         Parameters
         ----------
         instant : float, str or int
             Time since the first touch in s, or a step.
         x, y : array_like, shapes (nx,) and (ny,)
-            Positions in m of a grid around the centre of the contact, x along V_x; by default 101
-            by 101 points over 1.5 radii of the contact.
+            Positions in m of a grid around the centre of the contact, with x along V_x; by default
+            101 by 101 points over 1.5 contact radii.
         points : array_like, shape (n, 2)
             Points (x, y) in m, instead of a grid.
 
         Returns
         -------
         xarray.Dataset
-            Along (y, x), or along `point`: pressure, traction_x, zone (0 outside, 1 stick, 2 slip),
-            displacement_x, displacement_y, displacement_z, slip_x, slip_y, and of impacts
-            slip_velocity_x, slip_velocity_y; of viscous bodies no displacements, and pressure and
-            traction are infinite at the edge while the load grows; and as numbers contact_radius,
-            stick_radius, normal_force, tangential_force, penetration, displacement, friction, of
-            impacts time.
+            Along `(y, x)` or `point`: pressure, traction_x, zone (0 outside, 1 stick, 2 slip),
+            displacement_x, displacement_y, displacement_z, slip_x, slip_y, and in impacts
+            slip_velocity_x and slip_velocity_y. Numbers are contact_radius, stick_radius,
+            normal_force, tangential_force, penetration, displacement, friction, and in impacts
+            time. For viscous bodies there are no displacements, and pressure and traction are
+            infinite at the edge while the load grows.
 
         Raises
         ------
         InputError
-            If the bodies do not touch then, or positions have another shape or are not finite.
+            If the bodies do not touch then, or positions have a wrong shape or are not finite.
 
         Examples
         --------
@@ -136,37 +137,39 @@ class InContact(ABC):
         points: ArrayLike | None = None,
         body: str = "second",
     ) -> xr.Dataset:
-        """Return the stress below the surface of one body, and where it is largest.
+        """Return the stress below the surface of one body, and the places where it is largest.
 
-        Pressure (1) and traction (6) as slices of the memory, each slice a line of Boussinesq's and
-        Cerruti's point forces at imaginary depth, sigma = integral of s Im[N + mu g(s) T] ds
-        (Johnson 1985, section 3.2; for g = 1 Hamilton 1983); tension positive.
+            sigma = integral of s Im[N + mu g(s) T] ds
+
+        The pressure (1) and traction (6) are divided into slices of the memory, each a line of
+        Boussinesq's and Cerruti's point forces N and T at imaginary depth (Johnson 1985, section
+        3.2; for g = 1 Hamilton 1983). Tension is positive.
 
         Parameters
         ----------
         instant : float, str or int
             Time since the first touch in s, or a step.
         x, z : array_like, shapes (nx,) and (nz,)
-            Positions in m of a grid in the plane y = 0, x along V_x and z the depth; by default 101
-            by 61 points over 2 radii of the contact.
+            Positions in m of a grid in the plane y = 0, with x along V_x and z the depth; by
+            default 101 by 61 points over 2 contact radii.
         points : array_like, shape (n, 3)
             Points (x, y, z) in m, instead of a grid.
         body : str
-            "first" or "second".
+            Which body, "first" or "second".
 
         Returns
         -------
         xarray.Dataset
-            Along (z, x), or along `point`: sigma_xx, sigma_yy, sigma_zz, sigma_xy, sigma_xz,
-            sigma_yz, principal_1 to principal_3, von_mises, max_shear in Pa; of the whole body
-            max_von_mises and, on its surface, max_tension, with their places, max_von_mises_x and
-            so on. While viscous bodies are loaded, the stress is infinite at the edge: then from a
-            fiftieth of the contact radius downwards, and no max_tension.
+            Along `(z, x)` or `point`: sigma_xx, sigma_yy, sigma_zz, sigma_xy, sigma_xz, sigma_yz,
+            principal_1 to principal_3, von_mises, max_shear in Pa. Numbers are max_von_mises of the
+            whole body and max_tension on its surface, with their places max_von_mises_x and so on.
+            While viscous bodies are loaded, the stress is infinite at the edge. It is then given
+            from a fiftieth of the contact radius downwards, without max_tension.
 
         Raises
         ------
         InputError
-            If the bodies do not touch then, positions have another shape, are not finite or lie
+            If the bodies do not touch then, positions have a wrong shape, are not finite or lie
             outside the body, or the body is rigid.
 
         Examples
@@ -182,20 +185,20 @@ class InContact(ABC):
         return stress_dataset(self.contact(instant), x=x, z=z, points=points, body=body)
 
     def radial(self, instant: Any, /, n: int = 401) -> xr.Dataset:
-        """Return pressure, traction and the memory g, q along a radius.
+        """Return the pressure, the traction and the memory, g and q, along a radius.
 
         Parameters
         ----------
         instant : float, str or int
             Time since the first touch in s, or a step.
         n : int
-            How many distances from the centre, from 2 to 100,000.
+            Number of distances from the centre, from 2 to 100,000.
 
         Returns
         -------
         xarray.Dataset
-            Along `distance` in m, n of them: pressure, friction_limit and traction_x in Pa,
-            memory_g, memory_q and memory_limit in m, zone.
+            Along `distance` in m, n values: pressure, friction_limit and traction_x in Pa,
+            memory_g, memory_q and memory_limit in m, and zone.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""Quasi-static load paths of a contact: any history of normal and tangential load, with units."""
+"""Quasi-static load paths of a contact, with any history of normal and tangential load."""
 
 from __future__ import annotations
 
@@ -47,13 +47,13 @@ COLUMNS = (
 
 @dataclass(frozen=True, eq=False)
 class LoadPath(InContact, Result):
-    """A contact after each step of a load path; made by `load_path`. SI units, shapes (n,).
+    """A contact after each step of a load path, in SI units; made by `load_path`.
 
-    A step is a straight line in penetration and displacement. `frictional_work` is the energy lost
-    so far, `tangential_elastic_energy` what is stored; both together are the work of F_x. U is
-    the displacement since the start, F_x positive where it opposes a growing U; with two directions
-    they have the shape (n, 2). The theory is that of Mindlin & Deresiewicz (1953), J. Appl. Mech.
-    20:327.
+    A step is a straight line in penetration and displacement, and arrays have the shape (n,). The
+    energy lost so far, `frictional_work`, and the stored `tangential_elastic_energy` add up to the
+    work of F_x. The displacement U is that since the start, and F_x is positive if it opposes a
+    growing U; in two directions both have the shape (n, 2). The theory is that of Mindlin &
+    Deresiewicz (1953), J. Appl. Mech. 20:327.
 
     Examples
     --------
@@ -65,7 +65,7 @@ class LoadPath(InContact, Result):
     array([0.    , 1.6381])
     """
 
-    _told_by = "step : int", "Number of the step, by default the last; from the end if negative."
+    _told_by = "step : int", "Number of the step, from the end if negative; by default the last."
 
     pair: Pair
     penetration: Array
@@ -91,27 +91,27 @@ class LoadPath(InContact, Result):
         displacement: Given = None,
         progress: Progress = None,
     ) -> LoadPath:
-        """Return the path continued, in the same or another control.
+        """Return the path with further steps, with the same or another control.
 
-        The whole path is followed anew: many steps are better given at once than one by one.
+        The whole path is computed again, so it is faster to give many steps at once.
 
         Parameters
         ----------
         normal_force, penetration, tangential_force, displacement : array_like, float or str
-            As of `load_path`, from where the path ends. Where either part has two directions, one
-            of one direction goes along x.
+            As in `load_path`, from the end of this path. If one part has two directions, values
+            of one direction are taken along x.
         progress : bool or callable, optional
-            As of `load_path`.
+            As in `load_path`.
 
         Returns
         -------
         LoadPath
-            The steps so far and the new ones.
+            The previous steps and the new ones.
 
         Raises
         ------
         InputError
-            As `load_path`.
+            As in `load_path`.
 
         Examples
         --------
@@ -132,7 +132,7 @@ class LoadPath(InContact, Result):
         Returns
         -------
         str
-            Entries of BibTeX, one after the other.
+            The entries in BibTeX format.
 
         Examples
         --------
@@ -148,11 +148,11 @@ class LoadPath(InContact, Result):
     def contact(self, step: int = -1) -> Contact:
         k = self._step(step)
         if self.displacement.ndim == 2:
-            allowed = "what happens inside a contact is told of paths in one direction alone"
+            allowed = "fields and stresses are available only for paths in one direction"
             raise refusal("step", step, allowed)
         d, u = self.penetration[: k + 1], self.displacement[: k + 1]
         if not d[k] > 0.0:
-            raise refusal("step", step, "the bodies do not press on each other then")
+            raise refusal("step", step, "the bodies do not touch after this step")
         scales = self.scales
         path = paths.follow_path(*self._steps.first(k + 1).dimensionless(scales))
         d, u = d / scales.length, u / scales.tangential_length
@@ -198,8 +198,8 @@ class LoadPath(InContact, Result):
         figure = self.plot() if len(self) > 1 else None
         return card(f"Load path of {len(self)} steps", rows, figure)
 
-    def _draw(self, dataset: xr.Dataset) -> Figure:
-        return plots.plot_cone(dataset)
+    def _draw(self, dataset: xr.Dataset, **look: Any) -> Figure:
+        return plots.plot_cone(dataset, **look)
 
     def to_dataset(self) -> xr.Dataset:
         """Return the path as a dataset along `step`, which `carom.save` can store.
@@ -207,9 +207,9 @@ class LoadPath(InContact, Result):
         Returns
         -------
         xarray.Dataset
-            Along `step`, in two directions also along `direction`: penetration, displacement,
+            Along `step`, and `direction` if there are two: penetration, displacement,
             contact_radius and stick_radius in m, normal_force and tangential_force in N,
-            frictional_work and tangential_elastic_energy in J; and friction.
+            frictional_work and tangential_elastic_energy in J; and friction as a number.
         """
         count = {"units": "1", "long_name": "step of the load path"}
         columns = {name: getattr(self, name) for name in COLUMNS}
@@ -225,7 +225,7 @@ class LoadPath(InContact, Result):
         )
 
     def inputs(self) -> dict[str, Any]:
-        """Return what the path was made from, but for its steps, as plain numbers and words."""
+        """Return the inputs of the path except its steps, as plain numbers and words."""
         first, second = describe(self.pair.first), describe(self.pair.second)
         return {"first": first, "second": second, "friction": self.pair.friction}
 
@@ -235,13 +235,12 @@ class LoadPath(InContact, Result):
         try:
             return range(n)[int(step) if whole else n]
         except IndexError:
-            allowed = f"must be a whole number from 0 to {n - 1}, or negative, from the end"
+            allowed = f"must be a whole number from 0 to {n - 1}, or negative to count from the end"
             raise refusal("step", step, allowed) from None
 
 
 def _span(name: str, values: Array) -> str:
-    low, high = (GLOSSARY[name].text(float(end)) for end in (values.min(), values.max()))
-    return low if low == high else f"{low} to {high}"
+    return GLOSSARY[name].span(float(values.min()), float(values.max()))
 
 
 def _state(stack: Array) -> dict[str, Any]:
@@ -262,38 +261,42 @@ def load_path(
     displacement: Given = None,
     progress: Progress = None,
 ) -> LoadPath:
-    """Follow a quasi-static load path of a contact exactly, slip and memory included.
+    """Compute a quasi-static load path of a contact exactly, with slip and memory.
 
-    While a spring sticks, q(s) = U + c(s); Coulomb's law |q| <= d - s cuts c where it slips; then
-    F_x is the integral of q (Mindlin & Deresiewicz 1953, J. Appl. Mech. 20:327, for any history).
-    A path of two directions that is no line is followed by 64 springs which Coulomb's law holds at
-    every radius, |tau| <= mu p (Moreau 1977, J. Differ. Equations 26:347): its forces are within
-    0.002 of the largest mu F_z, stick radii within 0.01 of the largest radius, work within 0.5 %.
+        q(s) = U + c(s), |q| <= d - s
+
+    The deflection q of each spring keeps its c(s) while the spring sticks. Coulomb's law limits |q|
+    and changes c where the spring slips, and F_x is the integral of q (Mindlin & Deresiewicz 1953,
+    J. Appl. Mech. 20:327, for any history). A path that turns in two directions is computed with 64
+    springs and Coulomb's law at every radius, |f| <= mu p (Moreau 1977, J. Differ. Equations
+    26:347). Its forces are within 0.002 of the largest mu F_z, its stick radii within 0.01 of the
+    largest radius, and its work within 0.5 %.
 
     Parameters
     ----------
     pair : Pair
         The bodies and their friction, which must not be zero.
     normal_force, penetration : array_like, shape (n,), or float or str
-        One of both: the normal force in N, not negative, or the penetration in m, negative where
-        the bodies are apart. The first entry is reached by a straight step from the first touch.
+        Either the normal force in N, not negative, or the penetration in m, negative where the
+        bodies are apart. The first entry is reached by a straight step from the first touch.
     tangential_force, displacement : array_like, shape (n,) or (n, 2), or float or str
-        One of both: F_x in N, or the tangential displacement since the start in m, or F_x and F_y
-        or both displacements, in two columns. One value, or one row, serves for all steps.
+        Either the tangential force in N, or the tangential displacement since the start in m, along
+        x or in two columns along x and y. One value, or one row, holds for all steps.
     progress : bool or callable, optional
-        Whether a bar tells how far a path in two directions is, or what is told instead.
+        Whether to show a progress bar of a path in two directions, or a function that is called
+        with the number of finished steps and of all steps.
 
     Returns
     -------
     LoadPath
-        The contact after each step, all quantities of shape (n,), tangential force and displacement
-        as they were given.
+        The contact after each step. Quantities have the shape (n,), tangential forces and
+        displacements in two directions (n, 2).
 
     Raises
     ------
     InputError
-        If a control is missing, given twice, empty, not finite or of another length; or if a step
-        asks for more tangential force than Coulomb's law allows.
+        If a control is missing, given twice, empty, not finite or of a wrong length, or if a step
+        needs a larger tangential force than Coulomb's law allows.
 
     Examples
     --------
@@ -311,7 +314,7 @@ def load_path(
     if not isinstance(pair, Pair):
         raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
     if pair.friction == 0.0:
-        allowed = "a load path needs friction; without it there is no tangential force to follow"
+        allowed = "a load path needs friction; without it there is no tangential force"
         raise refusal("friction", pair.friction, allowed)
     steps = read_steps(pair, normal_force, penetration, tangential_force, displacement)
     return _load_path(pair, steps, progress)

@@ -1,4 +1,4 @@
-"""What drives a load path: its steps, read from forces or displacements and checked."""
+"""The steps of a load path, read from forces or displacements and checked."""
 
 from typing import TYPE_CHECKING, NamedTuple, cast
 
@@ -60,7 +60,7 @@ def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved
     along = _one_of(2, tangential_force=tangential, displacement=moved)
     sizes = {len(values) for _, values in (across, along) if values.ndim} - {1}
     if len(sizes) > 1:
-        allowed = f"must be as many as those of {across[0]}, {across[1].size}, or a single one"
+        allowed = f"must have {across[1].size} values as {across[0]}, or a single one"
         raise refusal(along[0], f"an array of {len(along[1])} values", allowed)
     n = max(sizes, default=1)
     d = np.broadcast_to(across[1], n).copy()
@@ -99,7 +99,7 @@ def _one_of(most: int, **controls: Given) -> tuple[str, Array]:
 
 def _values(name: str, given: ArrayLike | str, most: int) -> Array:
     """Return a control as numbers in SI units, without a dimension if it is a single one."""
-    allowed = "must be numbers in SI units, or texts with a unit, a single one or a list"
+    allowed = "must be one or a list of numbers in SI units, or texts with a unit"
     if most == 2:
         allowed += ", or of shape (n, 2), along x and y"
     values = numbers(name, given, allowed)

@@ -11,6 +11,7 @@ from carom.dimensionless.fields.peaks import TENSION, VON_MISES
 from carom.dimensionless.fields.subsurface import COMPONENTS, stresses
 from carom.io.labels import labelled_dataset
 from carom.quantities.arrays import Array, places
+from carom.quantities.prefixes import text
 from carom.quantities.refusals import one_of, refusal
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ def stress_dataset(
 ) -> "xr.Dataset":
     """Return the stress in one body, on a grid in the plane y = 0 or at points.
 
-    Arguments, result and errors as `InContact.stress`.
+    Arguments, result and errors are those of `InContact.stress`.
     """
     friction, poisson = _of_body(contact, body)
     reach = REACH * (contact.radius or contact.scales.radius)
@@ -89,8 +90,9 @@ def _of_body(contact: Contact, body: str) -> tuple[float, float]:
 
 def _refuse_outside(name: str, depth: Array, top: float) -> None:
     if top and np.any(depth < top):
-        z, what = float(depth.min()), "at the edge stresses are infinite while the load grows"
-        raise refusal(name, f"z = {z:g} m", f"{what}; ask from z = {top:.3g} m on")
+        z, what = float(depth.min()), "stresses are infinite at the edge while the load grows"
+        raise refusal(name, f"z = {text(z, 'm')}", f"{what}; give z from {text(top, 'm', 3)} on")
     if np.any(depth < 0.0):
         z = float(depth.min())
-        raise refusal(name, f"z = {z:g} m", "z is the depth in the body and cannot be negative")
+        allowed = "z is the depth in the body and must not be negative"
+        raise refusal(name, f"z = {text(z, 'm')}", allowed)

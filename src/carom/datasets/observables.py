@@ -1,4 +1,4 @@
-"""What people publish of rebounds, from one another: restitutions, angles, spins, impulses."""
+"""Conversion between published observables of a rebound, such as angles, spins and impulses."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -58,39 +58,41 @@ RELATIVE = {  # these say nothing where there was nothing before
 def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     """Return one quantity of a rebound from others that determine it.
 
-    Any one tangential observable after, and the normal restitution where it enters, give the
-    tangential impulse, from which all others follow: m_n (v_t - v_t') = I_1 (omega - omega')/R_1 =
-    I_2 (omega_2 - omega_2')/R_2 = m_t (V_x - V_x') = J_t. psi = kappa V_x/(mu V_1) is that of Maw,
-    Barber & Fawcett (1976).
+        J_t = m_n (v_t - v_t') = m_t (V_x - V_x')
+        J_t = I_1 (omega - omega')/R_1 = I_2 (omega_2 - omega_2')/R_2
+
+    One tangential observable after the impact, with the normal restitution where it is needed,
+    gives the tangential impulse J_t, from which all others follow. psi = kappa V_x/(mu V_1) is the
+    dimensionless velocity of Maw, Barber & Fawcett (1976).
 
     Parameters
     ----------
     pair : Pair
-        The bodies. Their friction and stiffness matter for psi alone.
+        The bodies. Their friction and stiffness matter only for psi.
     known : mapping
-        By name, numbers or arrays that broadcast, SI or with a unit; NaN stays NaN, as does what is
-        masked. The motion
-        before: speed and angle; or normal_speed and one of tangential_speed, angle, contact_angle,
-        psi_in; spin and spin2, else zero. Between ratios and angles no speed is needed.
-        After: normal_restitution or normal_speed_out; and one of tangential_speed_out, spin_out,
-        spin2_out, rebound_angle (of the centre), contact_rebound_angle (of the contact point),
-        tangential_restitution (v_t'/v_t), contact_restitution (V_x'/V_x), contact_beta (-V_x'/V_x),
-        impulse_ratio (J_t/J_n), psi_out; or rebound_speed (of the centre, V') where only one sign
-        of v_t' is possible, 0 <= J_t <= 2 m_t V_x. Or rebound_speed and rebound_angle.
+        Numbers or arrays that broadcast, by name, in SI units or with a unit; masked values and NaN
+        give NaN. Before the impact: speed and angle, or normal_speed and one of tangential_speed,
+        angle, contact_angle, psi_in; and spin and spin2, by default zero. No speed is needed to
+        convert between ratios and angles.
+        After the impact: normal_restitution or normal_speed_out, and one of tangential_speed_out,
+        spin_out, spin2_out, rebound_angle (of the centre), contact_rebound_angle (of the contact
+        point), tangential_restitution (v_t'/v_t), contact_restitution (V_x'/V_x), contact_beta
+        (-V_x'/V_x), impulse_ratio (J_t/J_n), psi_out. The rebound_speed V' of the centre suffices
+        if only one sign of v_t' is possible, 0 <= J_t <= 2 m_t V_x, or with rebound_angle.
     wanted : str
-        Any of these names.
+        One of these names.
 
     Returns
     -------
     float or numpy.ndarray
-        The wanted quantity in SI units, angles in rad; of the broadcast shape, a number if all are
-        numbers.
+        The wanted quantity in SI units, angles in rad, of the broadcast shape; a number if all
+        known values are numbers.
 
     Raises
     ------
     InputError
-        If a name is not known, a value is out of range, or what is known leaves the wanted open or
-        says it twice.
+        If a name is unknown, a value is out of range, or the known values do not determine the
+        wanted quantity or determine it twice.
 
     Examples
     --------
@@ -113,7 +115,7 @@ def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     with np.errstate(all="ignore"):
         found = np.asarray(getattr(_rebound(pair, given, wanted), wanted))
     if np.isinf(found).any():
-        allowed = "floating point cannot hold what follows from these values; check the units"
+        allowed = "the results are too large for floating point; check the units"
         raise InputError(f"known: {allowed}")
     result = np.broadcast_to(found, shape)
     return result.copy() if shape else result.item()
@@ -150,7 +152,7 @@ def _check_bodies(pair: Pair, names: set[str]) -> None:
         raise InputError(f"{spins[0]}: only a second sphere can spin; leave it out")
     psis = sorted(names & {"psi_in", "psi_out"})
     if psis and pair.friction == 0.0:
-        raise InputError(f"{psis[0]}: infinite without friction; give the pair a friction")
+        raise InputError(f"{psis[0]}: it is infinite without friction; give the pair a friction")
 
 
 def _resolved(given: Given) -> Given:
@@ -160,7 +162,7 @@ def _resolved(given: Given) -> Given:
         return given
     twice = [name for name in OBSERVABLES if name in given and name not in both]
     if twice:
-        raise InputError(f"known: {' and '.join(both)} tell the rebound; leave {twice[0]} out")
+        raise InputError(f"known: {' and '.join(both)} determine the rebound; leave {twice[0]} out")
     normal, tangential = components(*(given[name] for name in both))
     others = {name: value for name, value in given.items() if name not in both}
     return {**others, "normal_speed_out": normal, "tangential_speed_out": tangential}
@@ -183,7 +185,7 @@ def _rebound(pair: Pair, given: Given, wanted: str) -> Rebound:
         nothing = np.asarray(getattr(start, RELATIVE[ways])) == 0.0
         if nothing.any():
             raise InputError(
-                f"{ways}: says nothing where {RELATIVE[ways]} is zero before; give another, "
+                f"{ways}: it is undefined where {RELATIVE[ways]} is zero; give another, "
                 "e.g. spin_out"
             )
     if ways == SPEED:
@@ -198,13 +200,13 @@ def _slowing(start: Rebound, speed: Array) -> Any:
     0 <= J_t <= 2 m_t V_x, to which scatter may come near from outside.
     """
     normal, before = start.normal_speed_out, start.tangential_speed
-    _refuse(SPEED, speed, speed < normal * (1.0 - ROUNDING), "is below the normal speed after")
+    _refuse(SPEED, speed, speed < normal * (1.0 - ROUNDING), "it is below the normal speed after")
     along = np.sqrt(np.maximum((speed - normal) * (speed + normal), 0.0))
     ends = before, before - 2.0 * _carried(start)
     low, high = np.minimum(*ends), np.maximum(*ends)
     on, back = (np.maximum(low - x, x - high) for x in (along, -along))  # how far outside
     unsure = (np.maximum(on, back) <= 0.0) & (along > ROUNDING * speed)
-    _refuse(SPEED, speed, unsure, "the centre may go on or back with it; give rebound_angle, too")
+    _refuse(SPEED, speed, unsure, "the centre may go on or turn back; give rebound_angle, too")
     return start.pair.normal_mass * (before - np.where(on <= back, along, -along))
 
 
@@ -217,8 +219,8 @@ def _one_of(what: str, given: Given, names: tuple[str, ...]) -> str:
     """Return the one of some names that is given, or raise InputError."""
     found = [name for name in names if name in given]
     if len(found) != 1:
-        problem = f"{' and '.join(found)} are too much" if found else "it is not determined"
-        raise InputError(f"known: {problem} for {what}; give one of {', '.join(names)}")
+        problem = f"determined by {' and '.join(found)}" if found else "not determined"
+        raise InputError(f"known: {what} is {problem}; give one of {', '.join(names)}")
     return found[0]
 
 
@@ -251,7 +253,7 @@ def _moved(pair: Pair, normal: Any, name: str, value: Array) -> Any:
 def _restitution(normal: Any, given: Given) -> Any:
     """Return the normal restitution, NaN if nothing is known of it."""
     if given.keys() >= set(NORMAL):
-        raise InputError(f"known: {' and '.join(NORMAL)} are too much; give one of them")
+        raise InputError(f"known: {' and '.join(NORMAL)} mean the same; give one of them")
     if "normal_speed_out" in given:
         return given["normal_speed_out"] / normal
     return given.get("normal_restitution", nan)

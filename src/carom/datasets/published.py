@@ -1,4 +1,4 @@
-"""Published parameters of pairs of bodies: restitution, friction, beta_0, with their sources."""
+"""Published restitution, friction and beta_0 of pairs of bodies, with their sources."""
 
 from functools import lru_cache
 from importlib.resources import files
@@ -23,18 +23,18 @@ WORDS = {  # columns of text
 
 
 def parameters() -> "xr.Dataset":
-    """Return published restitution e, friction mu and beta_0 of pairs of bodies.
+    """Return published values of restitution e, friction mu and beta_0 for pairs of bodies.
 
-    They are the three parameters of Walton's law; mu is that of the exact law, too, while beta_0,
-    -V_x'/V_x of the contact point where it sticks, follows there from the elastic constants. All
-    depend on surfaces, size and speed: they are values to begin with.
+    These are the three parameters of Walton's law. The exact law has the same mu, but there beta_0,
+    which is -V_x'/V_x of a contact point that sticks, follows from the elastic constants. All
+    values depend on surfaces, size and speed, so use them as first estimates.
 
     Returns
     -------
     xarray.Dataset
-        Along `pair`: normal_restitution, friction, beta_0, and each with _error as its authors
-        state it; diameter (m) and density (kg/m^3) of the sphere, NaN where not told; and as text
-        body, other, shape (sphere or plane) and reference.
+        Along `pair`: `normal_restitution`, `friction` and `beta_0`, each also with `_error` as the
+        authors state it; `diameter` in m and `density` in kg/m^3 of the sphere, NaN if not stated;
+        and the texts `body`, `other`, `shape` (sphere or plane) and `reference`.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The tables of measured rebounds: found by name, read, and made datasets."""
+"""The tables of measured rebounds, found by name and read as columns or datasets."""
 
 from functools import lru_cache
 from importlib.resources import files
@@ -16,12 +16,12 @@ if TYPE_CHECKING:
 
 
 def names() -> tuple[str, ...]:
-    """Return the names of the datasets.
+    """Return the names of the measured datasets.
 
     Returns
     -------
     tuple of str
-        Names that `path`, `table` and `load` take.
+        Names that `path`, `table` and `load` accept.
 
     Examples
     --------
@@ -38,7 +38,7 @@ def path(name: str) -> Path:
     Parameters
     ----------
     name : str
-        One of `names()`.
+        A name that `names` lists.
 
     Returns
     -------
@@ -48,7 +48,7 @@ def path(name: str) -> Path:
     Raises
     ------
     InputError
-        If there is none of that name; the message offers the nearest.
+        If there is no dataset of that name; the message suggests the nearest.
 
     Examples
     --------
@@ -58,8 +58,8 @@ def path(name: str) -> Path:
     """
     if not isinstance(name, str) or name not in names():
         near = nearest(name, names()) if isinstance(name, str) else ""
-        hint = near or f"there are {', '.join(names())}"
-        raise refusal("dataset", name, f"none of that name; {hint}")
+        hint = near or f"known names are {', '.join(names())}"
+        raise refusal("dataset", name, f"there is no dataset of that name; {hint}")
     return _folder() / f"{name}.csv"
 
 
@@ -69,18 +69,18 @@ def table(name: str) -> Results:
     Parameters
     ----------
     name : str
-        One of `names()`.
+        A name that `names` lists.
 
     Returns
     -------
     Results
-        `columns`: arrays of shape (n,) by name, which `table[name]` gives, too; `rows`, the lines
-        of the file, shape (n,).
+        Arrays of shape (n,) by name in `columns`, also as `table[name]`, and the line numbers of
+        the file in `rows`.
 
     Raises
     ------
     InputError
-        If there is none of that name; the message offers the nearest.
+        If there is no dataset of that name; the message suggests the nearest.
 
     Examples
     --------
@@ -96,24 +96,25 @@ def table(name: str) -> Results:
 def load(name: str) -> "xr.Dataset":
     """Return a dataset along `point`, in SI units, NaN where nothing was measured.
 
-    Columns that end in _error are standard deviations. The attributes tell the source
-    ("references", "doi"), who digitised it, definitions, signs, what the errors are, and "case",
-    the bodies as JSON: `carom.bodies.cases.pair_of(json.loads(data.case))` is the pair.
+    Columns that end in `_error` are standard deviations. The attributes hold the source
+    (`references`, `doi`), the person who digitised it, definitions, signs and the meaning of the
+    errors. The attribute `case` holds the bodies as JSON, and
+    `carom.bodies.cases.pair_of(json.loads(data.case))` is their pair.
 
     Parameters
     ----------
     name : str
-        One of `names()`.
+        A name that `names` lists.
 
     Returns
     -------
     xarray.Dataset
-        Along `point`: one variable a column, with its unit and meaning as attributes.
+        One variable along `point` for each column, with its unit and meaning as attributes.
 
     Raises
     ------
     InputError
-        If there is none of that name; the message offers the nearest.
+        If there is no dataset of that name; the message suggests the nearest.
 
     Examples
     --------

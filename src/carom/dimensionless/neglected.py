@@ -1,4 +1,4 @@
-"""What the theory leaves out: how far it may turn psi_2, and where that is known.
+"""Bounds on the error of psi_2 by what the theory neglects, and where they are known.
 
 Envelopes of full solutions by boundary elements, studies/halfspace_study.csv; fitted, not proved.
 """
@@ -27,7 +27,7 @@ TURNED = 1.45
 
 
 def not_studied(kappa: float, beta: float, friction: float, chi: float) -> str:
-    """Return which parameter lies outside the study of the bounds, in words; empty if none does."""
+    """Return a sentence on the parameter that lies outside the study of the bounds, or nothing."""
     known = [("chi", chi, CHI), ("kappa", kappa, KAPPA)]
     if abs(beta) > LIKE and friction > 0.0:
         known += [("Dundurs' beta", beta, BETA), ("friction", friction, FRICTION)]
@@ -40,7 +40,7 @@ def not_studied(kappa: float, beta: float, friction: float, chi: float) -> str:
 
 
 def rebound_error(kappa: float, beta: float, friction: float, chi: float, psi: Any) -> Any:
-    """Return how far psi_2 of the theory may be from that of the full contact.
+    """Return a bound on the difference of psi_2 between the theory and the full contact.
 
     w [0.011 chi nu^2 + sqrt(chi) (0.28 B^2/(1 + B) + 0.6 beta^2)] + t B/(1 + B), B = |beta|/mu, nu
     of like materials of the same kappa, w = min(1, 2 psi)/(1 + e)^2, e what psi, its sign left out,
@@ -59,7 +59,7 @@ def rebound_error(kappa: float, beta: float, friction: float, chi: float, psi: A
 
 
 def spin_error(chi: float, psi: Any, spin: Any) -> Any:
-    """Return how far spin about the normal may turn psi_2.
+    """Return a bound on the change of psi_2 by spin about the normal.
 
     1.45 sqrt(max(1, chi)) tau min(1, 2 psi) min(1, (1 + tau)/(1 + e))^2, tau = omega_n a_max/(mu
     V_1), signs left out, e as in `rebound_error`; 2 psi at most. psi and spin may be arrays.

@@ -53,36 +53,39 @@ def rebound(
 ) -> Any:
     """Return the tangential velocity of the contact point after an oblique impact.
 
-    psi_2 = psi_2(psi_1, chi) of Maw, Barber & Fawcett (1976), with the stick phase of Barber's
-    equations (15)-(37) and the slip ring that follows it, to 1e-10 max(1, |psi_1|) for
-    0.05 <= chi <= 10 and ten times that for chi <= 60; with losses to 1e-8 max(1, |psi_1|).
+        psi_2 = psi_2(psi_1, chi)
+
+    The function is the exact solution of Maw, Barber & Fawcett (1976), with the stick phase of
+    Barber (1979), (15)-(37), and the slip ring that follows it. Its error is below
+    1e-10 max(1, |psi_1|) for 0.05 <= chi <= 10 and ten times that for chi <= 60. With losses it is
+    below 1e-8 max(1, |psi_1|).
 
     Parameters
     ----------
     psi : array_like
-        psi_1 = kappa V_x / (mu V_1), tangential velocity of the contact point before the impact;
-        dimensionless, any sign.
+        Dimensionless tangential velocity of the contact point before the impact,
+        psi_1 = kappa V_x/(mu V_1), of any sign.
     chi : array_like
-        chi = (kappa/2) (m_n/m_t), dimensionless, positive; broadcast against `psi`.
+        Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive; broadcast against `psi`.
     threads : int, optional
-        How many threads to use, all cores by default. The result does not depend on it.
+        Number of threads, by default all cores. The result does not depend on it.
     return_status : bool
-        Return also an array of `Status` values, one per impact.
+        Whether to return also an array of `Status` values, one for each impact.
     losses : KelvinVoigt, optional
-        What the impact loses energy to, free of units; by default nothing.
+        Loss of energy in the normal motion, with a restitution; by default none.
 
     Returns
     -------
     float or ndarray
-        psi_2, in the shape of the broadcast arguments. NaN where an argument is out of range or
-        masked, or chi too large to be solved (from some thousand on, with losses above 1000), with
-        one RuntimeWarning that says where and why unless `return_status` is set.
+        psi_2, in the shape of the broadcast arguments. It is NaN where an argument is out of range
+        or masked, and where chi is too large (above some thousands, or above 1000 with losses).
+        One RuntimeWarning then says where and why, unless `return_status` is set.
 
     Raises
     ------
     InputError
-        If an argument is not a pure number at all, the shapes do not fit, `losses` is no law of
-        loss or depends on the speed, or `threads` is below 1.
+        If an argument is not a pure number, the shapes do not fit, `losses` is not a law of losses
+        or depends on the speed, or `threads` is below 1.
 
     Examples
     --------
@@ -114,8 +117,8 @@ def rebound(
 def regime_borders(chi: ArrayLike, restitution: ArrayLike = 1.0) -> Array:
     """Return the |psi_1| at which the regime changes, along a new last axis.
 
-    1, 2 chi, where slip in gross just lasts to the largest compression, and 2 chi (1 + e) - e, from
-    where it lasts to the end; all are 1 for chi <= 1/2.
+    They are 1; 2 chi, up to which gross slip ends before the largest compression; and
+    2 chi (1 + e) - e, from which on gross slip lasts to the end. All are 1 for chi <= 1/2.
     """
     given = np.broadcast_arrays(np.asarray(chi, dtype=np.float64), np.asarray(restitution))
     with np.errstate(over="ignore"):
@@ -124,15 +127,18 @@ def regime_borders(chi: ArrayLike, restitution: ArrayLike = 1.0) -> Array:
     return np.asarray(np.maximum(np.stack(borders, axis=-1), 1.0))
 
 
-def warn_of_unsolved(status: NDArray[np.int8], kind: type[IntEnum] = Status) -> None:
-    """Warn once of impacts that were not solved: how many, where the first is, why.
+def warn_of_unsolved(
+    status: NDArray[np.int8], kind: type[IntEnum] = Status, reason: str = ""
+) -> None:
+    """Warn once of impacts that were not solved, with their number and the reason of the first.
 
-    Zero is solved; members of the kind of status have a `message`.
+    A status of zero means solved; other members of `kind` have a `message`, which is the reason
+    unless one is given.
     """
     unsolved = np.argwhere(status)
     if len(unsolved):
         first = tuple(int(i) for i in unsolved[0]) if status.ndim else ()
-        reason = kind(int(status[first])).message  # type: ignore[attr-defined]
+        reason = reason or kind(int(status[first])).message  # type: ignore[attr-defined]
         where = f"first at index {first}: {reason}" if first else reason
         warnings.warn(
             f"{len(unsolved)} of {status.size} impacts give NaN ({where}); "

@@ -1,4 +1,4 @@
-"""One impact in plain numbers: its phases, and its state at any time."""
+"""One dimensionless impact, its phases, and its state at any time."""
 
 from dataclasses import dataclass, field
 from functools import partial
@@ -52,10 +52,11 @@ SHORTEST = 1e-12  # of a phase, in units of d_max/V_1; what is shorter is roundi
 class Solution(Trajectory):
     """One oblique impact solved exactly; made by `solve`.
 
-    Time in units of d_max/V_1, penetration and squares of radii in units of d_max and R* d_max,
-    tangential displacement U in mu d_max/kappa, tangential force as Q = (2/3) F_x/(mu P_max), psi
-    in mu V_1/kappa; energies such that the kinetic one is psi^2/2. Maw, Barber & Fawcett (1976), in
-    the form of Barber (1979): traction (6), stick (15), gross slip (33).
+    Times are in units of d_max/V_1, penetrations in d_max, radii in sqrt(R* d_max), tangential
+    displacements U in mu d_max/kappa, and velocities psi in mu V_1/kappa. The tangential force is
+    given as Q = (2/3) F_x/(mu P_max), and energies are such that the kinetic energy is psi^2/2. The
+    theory is that of Maw, Barber & Fawcett (1976) in the form of Barber (1979), with traction (6),
+    stick (15) and gross slip (33).
 
     Examples
     --------
@@ -88,28 +89,29 @@ class Solution(Trajectory):
 
     @property
     def scale(self) -> float:
-        """What the recorded impact, |psi_1| or at least 1e-6, is multiplied by: sign, or less.
+        """Factor between the recorded impact and this one, which is 1 or -1 unless psi_1 is tiny.
 
-        Below 1e-6 all tangential quantities are proportional to psi_1.
+        The impact is recorded at |psi_1|, and at 1e-6 if that is smaller, because all tangential
+        quantities are proportional to psi_1 below 1e-6.
         """
         return float(np.copysign(min(1.0, abs(self.psi_in) / LINEAR), self.psi_in))
 
     def at(self, time: ArrayLike) -> History:
         """Return the state at the given times, one row for each.
 
-        The instant of a change belongs to the later phase.
+        The instant at which the phase changes belongs to the later phase.
 
         Parameters
         ----------
         time : array_like
-            In d_max/V_1, 0 to `duration`.
+            Time in units of d_max/V_1, from 0 to `duration`.
 
         Returns
         -------
         History
-            Arrays of shape (n,) in the units of `Solution`: time, penetration, speed, psi,
-            displacement, force, stick_radius, contact_radius, stored, dissipated, shear_lost,
-            normal_force, normal_stored, normal_lost.
+            Arrays of shape (n,) in the units of `Solution`: `time`, `penetration`, `speed`, `psi`,
+            `displacement`, `force`, `stick_radius`, `contact_radius`, `stored`, `dissipated`,
+            `shear_lost`, `normal_force`, `normal_stored` and `normal_lost`.
 
         Raises
         ------
@@ -144,18 +146,18 @@ class Solution(Trajectory):
         )
 
     def memory(self, time: float) -> Memory:
-        """Return the memory of the contact at a time: g(s), q(s) and the annuli it consists of.
+        """Return the memory of the contact at a time, g(s) and q(s), and its annuli.
 
         Parameters
         ----------
         time : float
-            In d_max/V_1, 0 to `duration`.
+            Time in units of d_max/V_1, from 0 to `duration`.
 
         Returns
         -------
         Memory
-            `g(s)` and `q(s)` for s = r^2/(R* d_max), q in units of mu d_max/kappa; `annuli`, each
-            with inner and outer radius in sqrt(R* d_max) and the sign of its slip.
+            The functions `g` and `q` of s = r^2/(R* d_max), with q in units of mu d_max/kappa, and
+            `annuli`, each with its radii in units of sqrt(R* d_max) and the sign of its slip.
 
         Raises
         ------
@@ -200,17 +202,17 @@ class Solution(Trajectory):
         return friction_work.borders(self._record.nodes, self._record.series)
 
     def slip_rate(self, time: float) -> float:
-        """Return psi - sigma v, the rate of slip far outside the stick zone; 0 in stick.
+        """Return psi - sigma v, the rate of slip far outside the stick region; zero in stick.
 
         Parameters
         ----------
         time : float
-            In d_max/V_1, 0 to `duration`.
+            Time in units of d_max/V_1, from 0 to `duration`.
 
         Returns
         -------
         float
-            In units of mu V_1/kappa.
+            Rate of slip in units of mu V_1/kappa.
 
         Raises
         ------
@@ -228,22 +230,21 @@ class Solution(Trajectory):
         return now["psi"] - sign * abs(self.scale) * now["speed"] if sign else 0.0
 
     def slid(self, time: float, radii: ArrayLike) -> Array:
-        """Return how far points at the given radii have slid since they met, shape (n, 2).
+        """Return the distances that points at given radii have slid since they met.
 
-        The columns are the radial functions w_0, w_2 of the slip, w_x = w_0 - lambda w_2
-        cos 2 theta, w_y = -lambda w_2 sin 2 theta, in units of U; zero outside the contact.
+            w_x = w_0 - lambda w_2 cos 2 theta, w_y = -lambda w_2 sin 2 theta
 
         Parameters
         ----------
         time : float
-            In d_max/V_1, 0 to `duration`.
+            Time in units of d_max/V_1, from 0 to `duration`.
         radii : array_like, shape (n,)
-            In units of sqrt(R* d_max).
+            Distances from the centre in units of sqrt(R* d_max).
 
         Returns
         -------
         numpy.ndarray, shape (n, 2)
-            w_0 and w_2 in units of mu d_max/kappa.
+            w_0 and w_2 in units of mu d_max/kappa, zero outside the contact.
 
         Raises
         ------
@@ -266,22 +267,22 @@ class Solution(Trajectory):
         return self.scale * out
 
     def slip_angles(self, lateral_ratio: float) -> tuple[SlipAngle, ...]:
-        """Return the angle between slip and traction in each phase, largest and mean, in rad.
+        """Return the largest and the mean angle between slip and traction in each phase, in rad.
 
-        The theory lets every point slip along x. In a slip ring the lateral displacement turns the
-        slip by up to asin(lambda) at the front; in gross slip it is steady, by Barber (1979), (30),
-        and does not.
+        The theory assumes that every point slips along x. In a slip ring the lateral displacement
+        turns the slip by up to asin(lambda) at the front. In gross slip the lateral displacement is
+        steady and does not turn it (Barber 1979, (30)).
 
         Parameters
         ----------
         lateral_ratio : float
-            lambda, `Pair.lateral_ratio`; nu/(2 - nu) of equal materials.
+            The ratio lambda, see `Pair.lateral_ratio`; nu/(2 - nu) for equal materials.
 
         Returns
         -------
         tuple of SlipAngle
-            `largest` and `mean`, weighted by frictional work, of each phase, in rad; zero but in
-            slip rings.
+            The `largest` angle and the `mean`, weighted by frictional work, of each phase in rad;
+            zero except in slip rings.
 
         Raises
         ------
@@ -332,23 +333,25 @@ def solve(
 ) -> Solution | LossySolution:
     """Solve one oblique impact exactly, phase by phase.
 
-    psi' = -(15/4) chi Q, with Q' that of the phase of the moment: stick (Barber 1979, (15)), a slip
-    ring around a stick zone, or gross slip (33).
+        psi' = -(15/4) chi Q
+
+    Q' is that of the current phase: stick (Barber 1979, (15)), a slip ring around a stick region,
+    or gross slip (33).
 
     Parameters
     ----------
     psi : float
-        psi_1 = kappa V_x / (mu V_1), any finite number.
+        Dimensionless tangential velocity psi_1 = kappa V_x/(mu V_1), any finite number.
     chi : float
-        chi = (kappa/2) (m_n/m_t), positive.
+        Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive.
     losses : KelvinVoigt, optional
-        What the impact loses energy to, free of units; by default nothing.
+        Loss of energy in the normal motion, with a restitution; by default none.
 
     Returns
     -------
     Solution or LossySolution
-        `status`, psi_out where that is SOLVED, and `phases`, times in d_max/V_1; `at`, `history`
-        and what else it has tell the state at any time. LossySolution where energy is lost.
+        Its `status`, `psi_out` if that is SOLVED, and `phases` with times in d_max/V_1. Methods
+        such as `at` and `history` give the state at any time. With losses a LossySolution.
 
     Raises
     ------

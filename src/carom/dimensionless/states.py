@@ -1,4 +1,4 @@
-"""What a solved impact is told in: phases, and states at some times."""
+"""The phases of a solved impact, and its states at given times."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
@@ -76,7 +76,7 @@ class ContactState(NamedTuple):
 
 
 class Trajectory(ABC):
-    """A solved impact: what its state at any time gives."""
+    """A solved impact and its state at any time."""
 
     psi_in: float
     chi: float
@@ -94,18 +94,18 @@ class Trajectory(ABC):
         """Return the contact at a time within the impact."""
 
     def contact_at(self, time: float) -> ContactState:
-        """Return the contact at a time: its radius, tractions and slip.
+        """Return the contact at a given time, with its radius, tractions and slip.
 
         Parameters
         ----------
         time : float
-            In d_max/V_1, 0 to `duration`.
+            Time in units of d_max/V_1, from 0 to `duration`.
 
         Returns
         -------
         ContactState
-            `radius` of the edge in sqrt(R* d_max), `rim` the density of the pressure there, a
-            `profile` of g and q, and functions `slid`, `slipping` of radii.
+            The `radius` of the edge in units of sqrt(R* d_max), the density of the pressure there,
+            `rim`, a `profile` of g and q, and the functions `slid` and `slipping` of radii.
 
         Raises
         ------
@@ -125,22 +125,22 @@ class Trajectory(ABC):
         """Return when the edge of the contact first passed radii that it reaches."""
 
     def touched(self, radii: ArrayLike) -> Array:
-        """Return when the edge of the contact first passed radii that it reaches.
+        """Return the times at which the edge of the growing contact passed given radii.
 
         Parameters
         ----------
         radii : array_like, shape (n,)
-            In sqrt(R* d_max), none larger than `max_radius`.
+            Distances from the centre in units of sqrt(R* d_max), none above `max_radius`.
 
         Returns
         -------
         numpy.ndarray, shape (n,)
-            Times in d_max/V_1.
+            Times in units of d_max/V_1.
 
         Raises
         ------
         InputError
-            If a radius is negative or the contact does not grow so large.
+            If a radius is negative or larger than the contact becomes.
 
         Examples
         --------
@@ -151,7 +151,7 @@ class Trajectory(ABC):
         places = places_of(radii)
         if np.any(places > self.max_radius):
             far, most = float(places.max()), self.max_radius
-            raise refusal("radii", far, f"the contact grows to a radius of {most:.6g}")
+            raise refusal("radii", far, f"the largest radius of the contact is {most:.6g}")
         return self._touched(places)
 
     @abstractmethod
@@ -169,23 +169,24 @@ class Trajectory(ABC):
     def friction_work(self, radii: ArrayLike) -> Array:
         """Return the work of friction per area at given radii, over the whole impact.
 
-        The integral over time of traction times slip rate along x, W_0 - lambda W_2 cos 2 theta.
+        It is the integral over time of the traction times the rate of slip along x,
+        W_0 - lambda W_2 cos 2 theta.
 
         Parameters
         ----------
         radii : array_like, shape (n,)
-            In sqrt(R* d_max).
+            Distances from the centre in units of sqrt(R* d_max).
 
         Returns
         -------
         numpy.ndarray, shape (n, 2)
-            W_0 and W_2 in units of mu^2 p_max d_max/kappa, zero where the bodies never touch.
+            W_0 and W_2 in units of mu^2 p_0 d_max/kappa, zero where the bodies never touch.
 
         Raises
         ------
         InputError
-            If a radius is negative, the impact is not solved, or the bodies are solids whose
-            contact is not known.
+            If a radius is negative, the impact is not solved, or the contact of these solids is not
+            known.
 
         Examples
         --------
@@ -199,23 +200,24 @@ class Trajectory(ABC):
     def pressed(self, radii: ArrayLike) -> Array:
         """Return the integral of the pressure over the time of the impact at given radii.
 
-        Without friction, bodies slide at a constant speed, and this times it is what wears them.
+        Without friction the bodies slide at a constant speed, and wear is proportional to this
+        integral times the speed.
 
         Parameters
         ----------
         radii : array_like, shape (n,)
-            In sqrt(R* d_max).
+            Distances from the centre in units of sqrt(R* d_max).
 
         Returns
         -------
         numpy.ndarray, shape (n,)
-            In units of p_max d_max/V_1.
+            The integral in units of p_0 d_max/V_1.
 
         Raises
         ------
         InputError
-            If a radius is negative, the impact is not solved, or the bodies are solids whose
-            contact is not known.
+            If a radius is negative, the impact is not solved, or the contact of these solids is not
+            known.
 
         Examples
         --------
@@ -227,17 +229,17 @@ class Trajectory(ABC):
         return self._pressed(places_of(radii))
 
     def phase_at(self, time: float) -> Phase:
-        """Return the phase at a time; the instant of a change belongs to the later one.
+        """Return the phase at a given time; an instant of change belongs to the later phase.
 
         Parameters
         ----------
         time : float
-            In d_max/V_1, 0 to `duration`.
+            Time in units of d_max/V_1, from 0 to `duration`.
 
         Returns
         -------
         Phase
-            Its kind, sign of slip, start and end in d_max/V_1, and what ended it.
+            Its kind, its sign of slip, its start and end in d_max/V_1, and the cause of its end.
 
         Raises
         ------
@@ -255,22 +257,20 @@ class Trajectory(ABC):
         return started[-1]
 
     def traction(self, time: float, radii: ArrayLike) -> Array:
-        """Return the traction at given radii at a time, over mu and the largest pressure.
-
-        In the plane of the contact, along x (Barber 1979, (6)).
+        """Return the tangential traction at given radii and a given time (Barber 1979, (6)).
 
         Parameters
         ----------
         time : float
-            In d_max/V_1, 0 to `duration`.
+            Time in units of d_max/V_1, from 0 to `duration`.
         radii : array_like
-            In units of sqrt(R* d_max).
+            Distances from the centre in units of sqrt(R* d_max).
 
         Returns
         -------
         numpy.ndarray, shape (n,)
-            f/(mu p_max), p_max the largest pressure of the elastic impact; zero outside the
-            contact, and infinite at the edge where viscous bodies are loaded.
+            The ratio f/(mu p_0), where p_0 is the largest pressure of the elastic impact. It is
+            zero outside the contact, and infinite at the edge while viscous bodies are loaded.
 
         Raises
         ------
@@ -295,17 +295,17 @@ class Trajectory(ABC):
         Parameters
         ----------
         n : int
-            How many times, from 2 to a million.
+            Number of times, from 2 to a million.
 
         Returns
         -------
         History
-            Arrays of shape (n,), as of `at`.
+            Arrays of shape (n,), as `at` returns them.
 
         Raises
         ------
         InputError
-            If there are fewer or more, or the impact is not solved.
+            If n is out of range, or the impact is not solved.
 
         Examples
         --------
@@ -328,7 +328,7 @@ class Trajectory(ABC):
         within = (wanted >= 0.0) & (wanted <= self.duration)
         if not np.all(within):
             outside = float(wanted[~within][0])
-            raise refusal("time", outside, f"it is outside the contact, 0 to {self.duration:.6g}")
+            raise refusal("time", outside, f"the contact lasts from 0 to {self.duration:.6g}")
         return wanted
 
     def _time_within(self, time: float) -> float:

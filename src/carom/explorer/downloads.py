@@ -22,7 +22,8 @@ from carom.impacts.exact import Impact
 from carom.io.files import save
 from carom.io.labels import labelled_dataset
 from carom.plots import plot_curve, plot_impact, plot_patch, save_figure
-from carom.plots.style import DASHES, LINES, MM, VERMILION, legend_above, styled
+from carom.plots.legends import legend_above
+from carom.plots.style import DASHES, LINES, MM, VERMILION
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.texts import Unreadable, read_text
 from carom.verify.errors import losses_of
@@ -98,7 +99,6 @@ def _curve(view: View, _: float, file: Path) -> None:
     save_figure(curve_figure(scene, laws), file)
 
 
-@styled
 def curve_figure(scene: Scene, laws: list[LawCurve]) -> Figure:
     """Return the rebound curve with the present point and the contact laws over it."""
     figure = plot_curve(

@@ -10,9 +10,9 @@ from carom import datasets
 from carom.explorer.charts import BLUE, GREY, VERMILION, Figure, axes_of, line
 from carom.explorer.stages import short
 from carom.fitting import Fit, fit
-from carom.plots.style import prefixed
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.prefixes import prefixed
 
 LINES = {
     "exact": (BLUE, "solid", 2.2),

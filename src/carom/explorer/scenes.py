@@ -18,9 +18,9 @@ from carom.impacts.report import OF_LOSSES
 from carom.impacts.solve import impact
 from carom.laws.dem.base import SOLID
 from carom.plots.impact import ENERGIES, LOST
-from carom.plots.style import prefixed
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.prefixes import prefixed, text
 
 TIMES = 201  # of the histories
 KEPT = 16  # scenes that are remembered
@@ -182,12 +182,12 @@ def _of_numbers(view: View) -> Scene:
 def _numbers(solution: Solution | LossySolution) -> dict[str, str]:
     psi, out = solution.psi_in, solution.psi_out
     rows = {
-        _named("psi_in"): f"{psi + 0.0:.6g}",
-        _named("psi_out"): f"{out + 0.0:.6g}",
-        _named("chi"): f"{solution.chi:.6g}",
+        _named("psi_in"): text(psi, "1"),
+        _named("psi_out"): text(out, "1"),
+        _named("chi"): text(solution.chi, "1"),
     }
     if psi:
-        rows[_named("contact_restitution")] = f"{out / psi:.6g}"
+        rows[_named("contact_restitution")] = text(out / psi, "1")
     return rows
 
 
@@ -222,13 +222,10 @@ def _named(name: str) -> str:
 
 
 def _text(name: str, value: float) -> str:
-    """Return a value of the glossary with its unit, prefixed so that it is easy to read."""
-    unit = GLOSSARY[name].unit
+    """Return a value of the glossary with its unit, which no line break parts."""
     if isinf(value):
         return "none: it slides freely"
     if isnan(value):
         return "none: it was zero before"
-    if unit in ("1", "rad"):
-        return GLOSSARY[name].text(value)
-    scale, short_unit = prefixed(value, unit)
-    return f"{value * scale:.5g}\N{NO-BREAK SPACE}{short_unit}"
+    unbroken = GLOSSARY[name].text(value).replace(" ", "\N{NO-BREAK SPACE}")
+    return unbroken.replace("\N{NO-BREAK SPACE}(", " (")  # radians may begin a line

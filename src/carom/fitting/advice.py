@@ -61,12 +61,14 @@ class Advice:
         best = f"{np.degrees(self.best.angle):.0f} deg"
         alone = f"{self.best.needed} more" if self.best.needed else f"more than {MOST}"
         lines = [
-            f"to halve the interval of {self.parameter}: {alone} at {best} ({self.best.regime})",
-            f"the best {len(self.places)} to measure next:",
+            f"To halve the interval of {self.parameter}, measure {alone} at {best}"
+            f" ({self.best.regime}).",
+            f"The best {len(self.places)} to measure next:",
         ]
         for place, times in Counter(self.places).items():
-            lines.append(f"  {times} x {np.degrees(place.angle):.0f} deg ({place.regime})")
-        return "\n".join([*lines, f"interval then: {self.shorter:.2f} of what it is now"])
+            lines.append(f"  {times} at {np.degrees(place.angle):.0f} deg ({place.regime})")
+        then = f"The interval will then be {self.shorter:.2f} of what it is now."
+        return "\n".join([*lines, then])
 
 
 def advise(fit: FitRecord, n: int, parameter: str | None) -> Advice:
@@ -123,7 +125,7 @@ def _wanted(fit: FitRecord, best: Best, parameter: str | None) -> str:
         return free[int(np.argmax(np.diag(best.information.covariance)))]
     name = "kappa" if parameter == "chi" else parameter
     if name not in free:
-        hint = nearest(str(parameter), free) or f"there are {', '.join(free)}"
+        hint = nearest(str(parameter), free) or f"the fit has {', '.join(free)}"
         raise InputError(f"parameter: {str(parameter)!r} was not fitted; {hint}")
     return name
 

@@ -59,7 +59,7 @@ def _product(group: tuple[str, ...], found: ProfiledFit, estimates: Mapping[str,
         return ""
     friction, factor = estimates["friction"], 1.0 + estimates["restitution"].value
     numbers = (factor * each for each in (friction.value, friction.low, friction.high))
-    return "; it is {:.4g} ({:.4g} to {:.4g})".format(*numbers)
+    return "; that product is {:.4g} ({:.4g} to {:.4g})".format(*numbers)
 
 
 def _as_chi(kappa: Estimate, half: float) -> Estimate:

@@ -18,6 +18,7 @@ from carom.fitting.model import Model
 from carom.fitting.problem import Mask
 from carom.fitting.starts import scan
 from carom.quantities.arrays import Array
+from carom.quantities.glossary import GLOSSARY
 from carom.quantities.units import or_none
 
 START = {"tangential_restitution": 0.4}  # of a solid sphere that sticks, about
@@ -65,11 +66,11 @@ class Comparison:
         for rival in rivals:
             gap = rival.criterion - exact.criterion
             if not isfinite(gap):
-                parts.append(f"too few values to compare with {rival.law}")
+                parts.append(f"there are too few values to compare with {rival.law}")
             elif gap > CLEAR:
-                parts.append(f"{rival.law} is out of the question")
+                parts.append(f"the data rule out {rival.law}")
             elif gap > APART:
-                parts.append(f"{rival.law} is less likely")
+                parts.append(f"{rival.law} is less likely than the exact law")
             elif gap >= -APART:
                 parts.append(f"the data cannot tell {rival.law} from the exact law")
             else:
@@ -90,9 +91,11 @@ class Comparison:
         }
 
     def __str__(self) -> str:
-        lines = ["law            AICc - least  weight  parameters"]
+        lines = ["law             AICc excess  weight  parameters"]
         for each in sorted(self.standings, key=lambda s: s.excess):
-            shown = ", ".join(f"{name} {value:.4g}" for name, value in each.values.items())
+            shown = ", ".join(
+                f"{name} {GLOSSARY[name].text(value, 4)}" for name, value in each.values.items()
+            )
             excess, weight = f"{each.excess:.1f}", f"{each.weight:.3f}"
             if not isfinite(each.criterion):
                 excess = weight = "-"

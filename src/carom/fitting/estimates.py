@@ -9,6 +9,8 @@ from typing import Any
 from carom.fitting.best import Best
 from carom.fitting.comparison import Comparison, compare
 from carom.fitting.intervals import ProfiledFit
+from carom.quantities.glossary import GLOSSARY
+from carom.quantities.prefixes import shared
 from carom.quantities.units import or_none
 
 LIMITS = {  # what a parameter can be at all
@@ -21,7 +23,6 @@ LIMITS = {  # what a parameter can be at all
     "loss_time": (0.0, inf),
     "yield_velocity": (0.0, inf),
 }
-UNITS = {"spin_offset": "rad/s", "loss_time": "s", "yield_velocity": "m/s"}
 
 
 @dataclass(frozen=True)
@@ -65,19 +66,19 @@ class Estimate:
         return {**numbers, "determined": self.determined, "reason": self.reason}
 
     def __str__(self) -> str:
-        lowest, highest = LIMITS[self.name]
-        unit = f" {UNITS[self.name]}" if self.name in UNITS else ""
+        (lowest, highest), quantity = LIMITS[self.name], GLOSSARY[self.name]
         if self.reason:
             return f"not determined: {self.reason}"
         if not self.determined:
-            return f"{self.value:.4g}{unit}, held"
+            return f"{quantity.text(self.value, 4)}, not varied"
         if self.low == lowest:
-            return f"{self.value:.4g}{unit}, at most {self.high:.4g}{unit}"
+            return f"{quantity.text(self.value, 4)}, at most {quantity.text(self.high, 4)}"
         if self.high == highest:
-            return f"{self.value:.4g}{unit}, at least {self.low:.4g}{unit}"
+            return f"{quantity.text(self.value, 4)}, at least {quantity.text(self.low, 4)}"
         digits = significant(self.value, self.high - self.low)
-        low, value, high = (f"{each:.{digits}g}" for each in (self.low, self.value, self.high))
-        return f"{value}{unit} ({low} to {high})"
+        numbers, unit = shared((self.low, self.value, self.high), quantity.unit, digits)
+        value = numbers[1] if unit == "1" else f"{numbers[1]} {unit}"
+        return f"{value} ({numbers[0]} to {numbers[2]})"
 
 
 def estimate_of(found: ProfiledFit, name: str) -> Estimate:

@@ -28,7 +28,7 @@ def with_speeds(rows: Results) -> Results:
     rows.require("drop_height")
     twice = [name for name in (*TWICE, *HEIGHTS.values()) if name in rows.columns]
     if twice:
-        raise InputError(f"{there[0]}: says the same as {twice[0]}; leave one of them out")
+        raise InputError(f"{there[0]}: it gives the same as {twice[0]}; leave one of them out")
     columns = dict(rows.columns)
     for height, speed in HEIGHTS.items():
         if height in columns:
@@ -37,7 +37,7 @@ def with_speeds(rows: Results) -> Results:
     columns["tangential_speed"] = np.zeros(len(rows))
     if "rebound_height" in columns:
         too_high = columns["normal_speed_out"] > MOST * columns["normal_speed"]
-        allowed = "must be no larger than drop_height, but for scatter"
+        allowed = "must, apart from scatter, be no larger than drop_height"
         rows.refuse("rebound_height", too_high, allowed)
     return replace(rows, columns=columns)
 

@@ -202,13 +202,13 @@ def reason(group: tuple[str, ...], best: Best) -> str:
     if name == "friction" and np.all(found == 0):
         return "every row sticks from the first touch, where friction hardly matters"
     if name == "restitution":
-        return "nothing that was measured depends on it; measure normal_restitution"
+        return "nothing that was measured depends on it; measure normal_restitution, too"
     return "over its whole range it changes the values by less than their scatter"
 
 
 def _together(group: tuple[str, ...]) -> str:
     others = f"fix one of them, e.g. fixed={{'{group[0]}': {EXAMPLES[group[0]]}}}"
     if set(group) == {"friction", "restitution"}:
-        return f"only friction (1 + restitution) enters; {others}, or measure normal_restitution"
+        return f"only friction (1 + restitution) matters; {others}, or measure normal_restitution"
     *most, last = sorted(group)
-    return f"{', '.join(most)} and {last} change the values only together; {others}"
+    return f"the data determine {', '.join(most)} and {last} only together; {others}"

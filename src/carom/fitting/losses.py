@@ -21,6 +21,7 @@ from carom.fitting.laws import ANY_RESTITUTION, OFFSET, FittedLaw, Parameter, Va
 from carom.fitting.model import Model
 from carom.fitting.problem import FitProblem
 from carom.quantities.arrays import Array
+from carom.quantities.prefixes import span
 from carom.quantities.units import or_none
 
 FEWEST, RANGE = 4, 1.2  # values; of the speeds, largest over smallest: below nothing can be told
@@ -71,13 +72,17 @@ class LossComparison:
         """What the data say of the laws, in a sentence."""
         first, *others = self.standings
         if not isfinite(first.excess):
-            return "too few values to tell laws of losses apart"
+            return "there are too few values to tell laws of losses apart"
         close = [each.law for each in others if not each.excess > APART]
         if close:
             return f"the data cannot tell {first.law} from {' and '.join(close)}"
-        how = "is out of the question" if others[0].excess > CLEAR else "is less likely"
-        told = "the same at all speeds" if first.law == CONSTANT else f"that of {first.law}"
-        return f"restitution against speed is {told}; {others[0].law} {how}"
+        next_law = others[0].law
+        how = f"the data rule out {next_law}"
+        if others[0].excess <= CLEAR:
+            how = f"{next_law} is less likely"
+        varies = f"depends on the speed as in {first.law}"
+        told = "is the same at all speeds" if first.law == CONSTANT else varies
+        return f"the restitution {told}; {how}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the comparison as plain numbers, by law; what cannot be computed is None."""
@@ -91,15 +96,16 @@ class LossComparison:
         }
 
     def __str__(self) -> str:
-        low, high = self.speeds.min(), self.speeds.max()
-        head = f"losses, normal speeds of {low:.3g} to {high:.3g} m/s"
-        lines = [f"{head:47s}AICc - least  weight"]
-        for each in self.standings:
+        speeds = span(float(self.speeds.min()), float(self.speeds.max()), "m/s", 3)
+        head = f"losses at normal speeds of {speeds}"
+        fitted = [f"{each.law}: {each.parameter.name} {each.parameter}" for each in self.standings]
+        wide = max(48, *map(len, fitted))
+        lines = [f"{head:{wide}s}AICc excess  weight"]
+        for each, told in zip(self.standings, fitted, strict=True):
             excess, weight = f"{each.excess:.1f}", f"{each.weight:.3f}"
             if not isfinite(each.excess):
                 excess = weight = "-"
-            told = f"{each.law}: {each.parameter.name} {each.parameter}"
-            lines.append(f"  {told:48s} {excess:>8s}  {weight:>6s}")
+            lines.append(f"  {told:{wide}s} {excess:>8s}  {weight:>6s}")
         return "\n".join([*lines, self.verdict])
 
 

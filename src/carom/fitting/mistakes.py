@@ -35,8 +35,8 @@ SCALES = {  # of spins; a radius only matters beside them
     "spins of the other sign": -1.0,
     "spins in rpm": RPM,
     "spins in rad/s, not in rpm": 1.0 / RPM,
-    "those of half the radius (a diameter given for it?)": 0.5,
-    "those of twice the radius (half of it given?)": 2.0,
+    "those of half the radius (is the radius a diameter?)": 0.5,
+    "those of twice the radius (is the radius half of it?)": 2.0,
 }
 ROUGH = 0.1  # of the range of a response, which scatter does not exceed where a law fits
 FAR, PART = 20.0, 0.25  # by how much and to which part chi squared must fall
@@ -159,7 +159,7 @@ def _swapped(problem: FitProblem) -> Iterator[Trial]:
     for name, other in pairs.items():
         measured[:, places[other]] = problem.before[name]
     swapped = replace(problem, before={**problem.before, **after}, measured=measured)
-    words = "motion after given as before, and before as after"
+    words = "the motion before and the motion after exchanged"
     yield Trial(words, swapped, np.ones(len(problem.responses)))
 
 

@@ -7,6 +7,7 @@ from carom.datasets.observables import NORMAL
 from carom.fitting.laws import EXACT, OFFSET, half_ratio, ranged
 from carom.fitting.model import offset_parameter
 from carom.fitting.problem import FitProblem
+from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, clipped, nearest, refusal
 from carom.quantities.units import number
 
@@ -31,13 +32,17 @@ def read_options(
     wanted = [name for name in first if name not in held] if vary is None else _varied(vary)
     for name in wanted:
         if name in held:
-            raise InputError(f"{name}: both varied and fixed; leave it out of one of them")
+            raise InputError(
+                f"{name}: it is both varied and fixed; leave it out of vary or of fixed"
+            )
     if OFFSET in (*wanted, *held) and not problem.has_speeds:
-        raise InputError(f"{OFFSET}: needs speeds in the data, a column speed or normal_speed")
+        raise InputError(
+            f"{OFFSET}: it needs speeds in the data; add a column speed or normal_speed"
+        )
     if set(wanted) & {"friction", "kappa"} and OFFSET not in wanted and problem.is_normal:
         raise InputError(
-            "data: nothing moves sideways in any row, and friction and stiffness do not matter; "
-            "measure at other angles, or normal_restitution for that alone"
+            "data: every impact is a normal one, in which friction and stiffness do not matter; "
+            "measure at other angles, or fit restitution alone, vary='restitution'"
         )
     if not wanted:
         raise InputError("vary: nothing is left to fit; fix fewer parameters")
@@ -62,7 +67,7 @@ def check_count(problem: FitProblem, free: Sequence[str]) -> None:
         told = f"{len(free)} parameters ({', '.join(free)})" if len(free) > 1 else free[0]
         fewer = ", or fix some, e.g. fixed={'restitution': 0.98}" if len(free) > 1 else ""
         raise InputError(
-            f"data: {values} cannot tell {told}, at least {least} are needed; measure more{fewer}"
+            f"data: {values} cannot determine {told}; measure more, at least {least}{fewer}"
         )
 
 
@@ -88,11 +93,12 @@ def _fixed(problem: FitProblem, fixed: Mapping[str, Any]) -> dict[str, float]:
         found = number(name, value, "rad/s" if name == OFFSET else "1")
         if name == "chi":
             if "kappa" in fixed:
-                raise InputError("kappa and chi: each tells the other; fix one of them")
+                raise InputError("kappa and chi: each follows from the other; fix one of them")
             name, found = "kappa", found / half_ratio(problem.pair)
         parameter = ranges.get(name) or offset_parameter(problem)
         if not parameter.low <= found <= parameter.high:
-            allowed = f"{name} must lie between {parameter.low:g} and {parameter.high:g}"
+            low, high = (GLOSSARY[name].text(end) for end in (parameter.low, parameter.high))
+            allowed = f"{name} must lie between {low} and {high}"
             raise refusal(f"fixed {name}", value, allowed)
         held[name] = found
     return held

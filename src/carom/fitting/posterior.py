@@ -61,7 +61,7 @@ def sample(fit: FitRecord, steps: int, seed: int | None, progress: Progress) -> 
     sampler = emcee.EnsembleSampler(len(start), free, log_probability, vectorize=True, moves=moves)
     sampler.random_state = np.random.RandomState(generator.integers(2**31)).get_state()
     state = start
-    with advancing("posterior", count, progress, unit="steps") as advance:
+    with advancing("sampling the posterior", count, progress, unit="steps") as advance:
         for done in range(0, count, CHUNK):
             state = sampler.run_mcmc(state, min(CHUNK, count - done))
             advance(min(CHUNK, count - done))

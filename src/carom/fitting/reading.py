@@ -55,13 +55,16 @@ def _problem(table: Cells, pair: Pair | None, faults: Faults) -> FitProblem:
         )
     if not responses:
         faults.settle()
-        raise InputError(f"data: no value in {', '.join(measured)}; '-' is what was not measured")
+        raise InputError(
+            f"data: there is no value in {', '.join(measured)}; '-' means not measured"
+        )
     empty = (f"{name} (no value in it)" for name in measured if name not in responses)
     bodies = _bodies(pair, table.case)
     if "drop_height" in rows.columns and len(bodies.moving) > 1:
         raise InputError(
-            "drop_height: the second body flies off, too, and heights of the first do not tell how "
-            "fast they part; drop it on a half-space, or give normal_speed and normal_speed_out"
+            "drop_height: the second body flies off, too, so that the heights of the first do not "
+            "give the speed at which they part; drop the ball on a half-space, or give "
+            "normal_speed and normal_speed_out"
         )
     before = {name: rows[name] for name in BEFORE if name in rows.columns}
     _check_sizes(rows, bodies)
@@ -89,20 +92,22 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> Pair:
         if not isinstance(pair, Pair):
             raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
         if own is not None and not alike(pair, own):
-            raise InputError("pair: its bodies are not those of the data; leave it, or --case, out")
+            raise InputError(
+                "pair: its bodies differ from those in the data; leave it, or --case, out"
+            )
         bodies = pair
     elif own is not None:
         bodies = own
     else:
         raise InputError(
-            "pair: missing, and the data hold no case; give pair=carom.Pair(...) in Python or "
-            "--case FILE in a shell, or write the bodies as JSON into a comment '# case: {...}' "
-            "of the file"
+            "pair: missing, and the data do not name the bodies; give pair=carom.Pair(...) in "
+            "Python or --case FILE in a shell, or write the bodies as JSON into a comment "
+            "'# case: {...}' of the file"
         )
     if not LEAST_CHI <= bodies.chi <= MOST_CHI:
         raise InputError(
-            f"pair: chi of {bodies.chi:.3g} cannot be fitted, curves are known from "
-            f"{LEAST_CHI:.2g} to {MOST_CHI:.2g}; check radii and gyration_radius"
+            f"pair: a chi of {bodies.chi:.3g} cannot be fitted, only one from {LEAST_CHI:.2g} to "
+            f"{MOST_CHI:.2g}; check radii and gyration_radius"
         )
     return bodies if bodies.friction > 0.0 else Pair(bodies.first, bodies.second, START)
 
@@ -142,7 +147,7 @@ def _check_before(rows: Results, before: Mapping[str, Array], responses: Collect
         rows.require("angle")
     if len(ways) > 1:
         raise InputError(
-            f"data: {' and '.join(ways)} say the same twice; leave all but one of them out"
+            f"data: {' and '.join(ways)} give the same twice; leave all but one of them out"
         )
     for name in ("speed", "normal_speed"):
         if name in before:
@@ -168,7 +173,9 @@ def _check_responses(rows: Results, motion: IncomingMotion, velocity: Array) -> 
         if name in rows.columns:
             basis = motion.tangential_speed if name == RELATIVE[0] else velocity
             rested = np.abs(basis) <= NOTHING * motion.normal_speed
-            allowed = "nothing moved sideways there before; write '-', or give tangential_speed_out"
+            allowed = (
+                "the tangential velocity before is zero; write '-', or give tangential_speed_out"
+            )
             rows.refuse(name, rested & np.isfinite(rows[name]), allowed)
     if "normal_restitution" in rows.columns:
         values = rows["normal_restitution"]
@@ -179,7 +186,7 @@ def _check_responses(rows: Results, motion: IncomingMotion, velocity: Array) -> 
         )
     if "normal_speed_out" in rows.columns:
         ratio = rows["normal_speed_out"] / motion.normal_speed
-        allowed = "must be positive and no larger than the normal speed before, but for scatter"
+        allowed = "must be positive and, apart from scatter, no larger than the normal speed before"
         rows.refuse("normal_speed_out", (ratio < 0.0) | (ratio > MOST), allowed)
     _check_sense(rows, motion, velocity)
 
@@ -193,7 +200,7 @@ def _check_speed(problem: FitProblem) -> None:
     turning = spins.spin_energy(pair) / (0.5 * pair.normal_mass)
     most = np.sqrt(motion.normal_speed**2 + motion.tangential_speed**2 + turning)
     ratio = rows["rebound_speed"] / most
-    allowed = "must be positive and no larger than the energy before allows, but for scatter"
+    allowed = "must be positive and, apart from scatter, no larger than the energy before allows"
     rows.refuse("rebound_speed", (ratio < 0.0) | (ratio > MOST), allowed)
 
 
@@ -205,6 +212,6 @@ def _check_sense(rows: Results, motion: IncomingMotion, velocity: Array) -> None
     moving = np.isfinite(change) & (np.abs(velocity) > 0.05 * motion.normal_speed)
     if moving.sum() > 1 and np.all(change[moving] > 0.0):
         raise InputError(
-            f"spin_out: friction would have driven the contact point on in {rows.named(moving)}; "
+            f"spin_out: friction would have speeded up the contact point in {rows.named(moving)}; "
             "positive spin adds to its tangential speed, so change the signs of the spins"
         )

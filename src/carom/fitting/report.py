@@ -12,6 +12,7 @@ from carom.fitting.heights import HEIGHTS, taken_by_air
 from carom.fitting.intervals import ProfiledFit
 from carom.fitting.mistakes import likely_mistake
 from carom.fitting.problem import FitProblem
+from carom.quantities.glossary import GLOSSARY
 
 AT_END = 1e-6  # of a coordinate from an end of its range
 APART = 0.1  # of a coordinate between two minima
@@ -26,13 +27,13 @@ def as_text(fit: FitRecord) -> str:
     head = (
         f"{problem.count} value{'s' * (problem.count != 1)} of {', '.join(problem.responses)} in "
         f"{len(problem.rows)} row{'s' * (len(problem.rows) != 1)}; "
-        f"intervals of {100.0 * fit.confidence:g} % by profile likelihood"
+        f"in brackets {100.0 * fit.confidence:g} % intervals by profile likelihood"
     )
     lines = [head, *(f"  {name:{COLUMN}s} {_line(each)}" for name, each in fit.estimates.items())]
     tells = [f"note: {note}" for note in fit.notes]
     if problem.is_normal:
         return "\n".join([*lines, *tells])
-    regimes = ", ".join(f"{name}: {count}" for name, count in fit.regimes.items() if count)
+    regimes = "; ".join(f"{count} {name}" for name, count in fit.regimes.items() if count)
     return "\n".join([*lines, f"rows by regime: {regimes}", *tells, str(fit.comparison)])
 
 
@@ -40,7 +41,7 @@ def _line(estimate: Estimate) -> str:
     """Return an estimate, with what the bodies give beside it."""
     if not estimate.determined or isnan(estimate.elastic):
         return str(estimate)
-    return f"{estimate}; of the elastic constants: {estimate.elastic:.3g}"
+    return f"{estimate}; the elastic constants give {estimate.elastic:.3g}"
 
 
 def notes(found: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) -> tuple[str, ...]:
@@ -69,15 +70,17 @@ def _about_errors(best: Best) -> list[str]:
         if best.estimated[place]:
             unknown = problem.present[:, place] & ~np.isfinite(problem.errors[:, place])
             size = float(np.median(best.sigma[unknown, place]))
-            lines.append(f"{name}: standard deviation {size:.2g} from the scatter")
+            told = GLOSSARY[name].text(size, 2)
+            lines.append(f"{name}: the scatter gives a standard deviation of {told}")
         elif best.scale[place] > 1.0:
             lines.append(
-                f"{name}: the scatter is {best.scale[place]:.1f} times what the errors allow; "
+                f"{name}: the scatter is {best.scale[place]:.1f} times what the errors allow, so "
                 "they were enlarged"
             )
         if np.any(problem.errors[:, place] < least[place]):
             lines.append(
-                f"{name}: errors below {least[place]:.2g} count as that; the curves are no better"
+                f"{name}: errors below {GLOSSARY[name].text(least[place], 2)} were raised to that, "
+                "the accuracy of the curves that are fitted"
             )
     return lines
 
@@ -90,7 +93,7 @@ def _about_air(problem: FitProblem) -> list[str]:
     part = taken_by_air(problem.rows.columns, ball.radius, ball.mass)
     if part < THIN:
         return []
-    return [f"air: drag makes the restitution too small by about {100.0 * part:.2g} % of itself"]
+    return [f"air: drag makes the restitution about {100.0 * part:.2g} % of its value too small"]
 
 
 def _about_ranges(best: Best) -> list[str]:
@@ -102,8 +105,8 @@ def _about_ranges(best: Best) -> list[str]:
         ends = {parameter.low: at - low, parameter.high: high - at}
         for end, distance in ends.items():
             if distance < AT_END and end not in LIMITS[parameter.name]:
-                reach = f"from {parameter.low:.3g} to {parameter.high:.3g}"
-                lines.append(f"{parameter.name}: best at an end of its range, {reach}")
+                reach = f"from {GLOSSARY[parameter.name].span(parameter.low, parameter.high, 3)}"
+                lines.append(f"{parameter.name}: the best value is at an end of the range {reach}")
     return lines
 
 
@@ -117,10 +120,10 @@ def _about_bodies(kappa: Estimate) -> list[str]:
     """Return what the bodies have to say of a kappa that was fitted."""
     if not kappa.determined or kappa.low <= kappa.elastic <= kappa.high:
         return []
-    told = f"kappa: the interval leaves out {kappa.elastic:.3g}, that of the elastic constants"
+    told = f"kappa: the interval excludes {kappa.elastic:.3g}, which the elastic constants give"
     if POSSIBLE[0] <= kappa.value <= POSSIBLE[1]:
         return [f"{told}; check bodies, units and signs"]
-    return [f"{told}, and elastic bodies have 2/3 to 1; check bodies, units and signs"]
+    return [f"{told}, and kappa is 2/3 to 1 for elastic bodies; check bodies, units and signs"]
 
 
 def _about_regimes(found: ProfiledFit) -> list[str]:
@@ -133,14 +136,16 @@ def _about_regimes(found: ProfiledFit) -> list[str]:
     unsure &= model.problem.present.any(axis=1)
     if not unsure.any():
         return []
-    return [f"regime within the intervals not certain: {model.problem.rows.named(unsure)}"]
+    return [f"the regime may differ within the intervals: {model.problem.rows.named(unsure)}"]
 
 
 def _about_incidence(whole: Best) -> list[str]:
     """Return that rows at one incidence, whose psi_1 are one, tell one number of two."""
     if not {"friction", "kappa"} <= set(whole.model.free) or not whole.model.problem.is_one:
         return []
-    return ["one incidence tells friction or kappa, not both; fix one, or measure at other angles"]
+    return [
+        "one incidence determines friction or kappa, not both; fix one, or measure at other angles"
+    ]
 
 
 def _about_others(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]:
@@ -155,6 +160,8 @@ def _about_others(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]:
         ]
         told = [estimates[name] for name in far if estimates[name].determined]
         if any(not each.low <= values[each.name] <= each.high for each in told):
-            shown = ", ".join(f"{name} {values[name]:.3g}" for name in model.free)
-            return [f"fits nearly as well: {shown}"]
+            shown = ", ".join(
+                f"{name} {GLOSSARY[name].text(values[name], 3)}" for name in model.free
+            )
+            return [f"other values fit nearly as well: {shown}"]
     return []

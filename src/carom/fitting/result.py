@@ -144,8 +144,8 @@ class Fit(FitRecord, Result):
         seed : int, optional
             Of the random numbers, not negative; the same seed gives the same samples.
         progress : bool or callable, optional
-            Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
-            what is called with the steps done and their number.
+            Whether a progress bar is shown after two seconds, by default in a notebook and on a
+            terminal; or a function that is called with the number of steps done and their total.
 
         Returns
         -------
@@ -228,12 +228,12 @@ class Fit(FitRecord, Result):
         doi = self.best.model.problem.doi
         return "\n".join([bibtex(*keys), *([with_doi(doi)] if doi else [])])
 
-    def _draw(self, dataset: Any) -> "Figure":
+    def _draw(self, dataset: Any, **look: Any) -> "Figure":
         from carom.plots.drops import plot_drops  # these load matplotlib
         from carom.plots.fits import plot_fit
 
         is_drops = self.losses is not None and self.best.model.problem.is_normal
-        return plot_drops(dataset) if is_drops else plot_fit(dataset)
+        return (plot_drops if is_drops else plot_fit)(dataset, **look)
 
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""

@@ -82,7 +82,7 @@ def minimise(
         if change is None:
             raise RuntimeError("no traction of lower energy was found")
         load, displacement = load + change.load, displacement + change.displacement
-    raise RuntimeError(f"the tractions of least energy were not found in {ITERATIONS} iterations")
+    raise RuntimeError(f"the tractions did not converge in {ITERATIONS} iterations")
 
 
 def _newton(operator: Operator, face: Face, pull: Field, finest: float) -> Field:

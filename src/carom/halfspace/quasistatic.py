@@ -157,8 +157,8 @@ class Patch:
             rough = min(rough, NEXT * change)
         product = surface.materials.friction * abs(surface.materials.beta)
         raise RuntimeError(
-            f"normal and tangential contact do not agree in {EXCHANGES} exchanges; friction times "
-            f"Dundurs' beta is {product:.3g}, boundary elements want about 1 at most"
+            f"normal and tangential contact differ after {EXCHANGES} exchanges; friction times "
+            f"Dundurs' beta is {product:.3g}, and boundary elements need about 1 at most"
         )
 
 

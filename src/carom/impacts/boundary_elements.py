@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-BY_THEORY = "by the theory, which leaves the coupling of unlike materials out"
+BY_THEORY = "stresses are those of the theory, which neglects the coupling of unlike materials"
 RANGES = {"elements": (8, 1000), "steps": (20, 100_000)}  # memory grows with elements squared
 LARGEST_CHI = 1e3  # steps would be too many
 LARGEST_PSI, LARGEST_SPIN = 1e9, 1e6  # what changes would be lost in rounding
@@ -39,19 +39,20 @@ LARGEST_PSI, LARGEST_SPIN = 1e9, 1e6  # what changes would be lost in rounding
 
 @dataclass(frozen=True)
 class BoundaryElements:
-    """How finely an impact is solved by boundary elements; what `impact` takes as its method.
+    """Grid and time steps of boundary elements, for `impact` as its method.
 
-    Contact by influence coefficients (Love 1929), convolution by FFT, Coulomb's law as a vector
-    (Kalker 1990, section 4.2) and Verlet's steps; error of second order in both numbers together,
-    for unlike materials of order 3/2.
+    The contact is solved with influence coefficients (Love 1929), convolution by FFT, Coulomb's law
+    as a vector (Kalker 1990, section 4.2) and Verlet's time steps. If elements and steps grow
+    together, the error falls with their square, for unlike materials with their power 3/2.
 
     Parameters
     ----------
     elements : int
-        Square elements across the largest contact, 8 to 1000; 64 take some 13 MB of memory,
-        25 MB for unlike materials, and so on with the square.
+        Square elements across the largest contact, 8 to 1000. 64 elements take some 13 MB of
+        memory, 25 MB for unlike materials; memory grows with the square of elements.
     steps : int
-        Steps in the duration of Hertz's impact, 20 to 100,000; more where chi is above 2.
+        Time steps in the duration of Hertz's impact, 20 to 100,000; more are taken if chi is above
+        2.
 
     Raises
     ------
@@ -80,11 +81,11 @@ class BoundaryElements:
 
 @dataclass(frozen=True, eq=False)
 class HalfspaceImpact(ImpactResult):
-    """The result of `impact` by boundary elements: what that of the theory is, and how sure it is.
+    """The result of `impact` by boundary elements, with estimates of its error.
 
-    Love (1929), Kalker (1990), section 4.2, as `BoundaryElements` tells. SI units, signs as in
-    `Impact`. Phases are as the grid shows them: short ones are left out, and
-    where little slips they may alternate.
+    The method is that of Love (1929) and Kalker (1990), section 4.2, see `BoundaryElements`. Units
+    are SI, signs are those of `Impact`. Phases are those that the grid resolves: short phases are
+    missing, and phases may alternate where only a small part of the contact slips.
 
     Examples
     --------
@@ -118,14 +119,17 @@ class HalfspaceImpact(ImpactResult):
 
     @property
     def psi_out_error(self) -> float:
-        """Error of psi_out by grid and steps, from two coarser ones: 98 % of 200 were smaller."""
+        """Estimate of the error of psi_out from two coarser solutions.
+
+        In 98 % of 200 impacts the true error was smaller.
+        """
         return refinement_error(*self.coarser, self.solution.psi_out)
 
     @property
     def dissipated_energy(self) -> float:
-        """Energy lost to friction, in J: that of the spin about the normal included.
+        """Energy lost to friction, in J, including that of the spin about the normal.
 
-        Unlike materials lose some of the normal motion to it, too.
+        With unlike materials it includes energy of the normal motion, too.
         """
         normal = super().lost_energy if self.pair.dundurs_beta else 0.0
         across = 0.5 * self.pair.tangential_mass * self.contact_velocity_across**2
@@ -135,7 +139,7 @@ class HalfspaceImpact(ImpactResult):
 
     @property
     def lost_energy(self) -> float:
-        """Energy lost in the normal motion but to friction, in J: none, the bodies are elastic."""
+        """Energy lost in the normal motion other than to friction, in J: zero for elastic bodies."""
         return 0.0
 
     @property
@@ -153,7 +157,7 @@ class HalfspaceImpact(ImpactResult):
 
     @property
     def validity(self) -> Validity:
-        """How far the assumptions hold that are left, and whether the grid is fine enough."""
+        """Whether the remaining assumptions hold, and whether the grid is fine enough."""
         psi = self.psi_in if isfinite(self.psi_in) else 0.0
         strength = judge_strength(
             struck_bodies(self.pair, self.scales, theory.solve(psi, self.pair.chi))
@@ -181,12 +185,12 @@ class HalfspaceImpact(ImpactResult):
         return bibtex(*ELEMENTS)
 
     def fields(self, time: Value) -> xr.Dataset:
-        """Return tractions, zones and slip velocities on the grid, at the kept step next to a time.
+        """Return tractions, zones and slip velocities on the grid, at the stored step nearest to a time.
 
         Parameters
         ----------
         time : float or str
-            Time since the first touch in s, 0 to `duration`. About 60 steps are kept.
+            Time since the first touch in s, 0 to `duration`. About 60 steps are stored.
 
         Returns
         -------
@@ -290,27 +294,28 @@ def solve_by_elements(
     """Return an impact solved by boundary elements, on three grids; see `carom.impact`."""
     if pair.friction == 0.0:
         raise InputError(
-            "friction: without it nothing is tangential; leave method out, the answer is exact"
+            "friction: without it there is no tangential force to solve for; leave method out, the "
+            "theory is exact then"
         )
     if pair.chi > LARGEST_CHI:
-        allowed = f"boundary elements take chi up to {LARGEST_CHI:g}; leave method out"
+        allowed = f"boundary elements solve chi up to {LARGEST_CHI:g}; leave method out"
         raise refusal("chi", pair.chi, allowed)
     psi = pair.psi(motion.contact_velocity(pair), normal_speed)
     if not abs(psi) <= LARGEST_PSI:
-        allowed = f"boundary elements take it up to {LARGEST_PSI:g}; leave method out"
+        allowed = f"boundary elements solve psi_1 up to {LARGEST_PSI:g}; leave method out"
         raise refusal("psi_1", psi, allowed)
     materials = Materials(pair.kappa, pair.dundurs_beta, pair.friction)
     spin = spin_about_normal(pair, normal_speed, normal_spin)
     if not abs(spin.speed) <= LARGEST_SPIN:
         most = LARGEST_SPIN * abs(normal_spin / spin.speed)
         allowed = (
-            f"boundary elements take up to {most:.3g} rad/s here, {LARGEST_SPIN:g} mu V_1/a_max"
+            f"boundary elements solve up to {most:.3g} rad/s here, {LARGEST_SPIN:g} mu V_1/a_max"
         )
         raise refusal("normal_spin", normal_spin, allowed)
     fine = Resolution(method.elements, method.steps)
     grids = (fine.half.half, fine.half, fine)
     total = sum(grid.steps for grid in grids)
-    with advancing("boundary elements", total, progress, unit="steps") as advance:
+    with advancing("solving by boundary elements", total, progress, unit="steps") as advance:
         *coarse, found = (
             solve(psi, pair.chi, materials, grid, spin=spin, progress=advance) for grid in grids
         )

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import ScaleFreeLaw, scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.rebounds import rebound, regime_borders
-from carom.dimensionless.solution import solve
+from carom.impacts.map_borders import border_variables
+from carom.impacts.sequences import Sequences
 from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
 from carom.quantities.arrays import Array, finite_line, positive_line
@@ -34,7 +33,6 @@ REGIMES = (
     "gross slip throughout",
 )
 BORDER = {"units": "1", "long_name": "psi_in at which the regime changes"}
-SIGNS = {0: "", 1: " +", -1: " -"}
 
 
 def borders(chi: float) -> tuple[float, float, float]:
@@ -136,7 +134,7 @@ def _axes(chi: Any, psi: Any) -> tuple[Array, Array]:
     """Return the values along both axes, or raise InputError; also if the points are too many."""
     chis, incoming = positive_line("chi", chi), finite_line("psi", psi)
     if chis.size * incoming.size > MOST:
-        given = f"{chis.size} of chi by {incoming.size} of psi"
+        given = f"{chis.size} values of chi times {incoming.size} of psi"
         raise refusal("psi", given, f"at most {MOST:,} points are solved at once")
     return chis, incoming
 
@@ -153,11 +151,12 @@ def _restitution(losses: ScaleFreeLaw | None) -> float:
 def regime_map(
     psi: ArrayLike, chi: ArrayLike, *, losses: ScaleFreeLaw | None = None, progress: Progress = None
 ) -> xr.Dataset:
-    """Return which phases follow which for every psi_1 and chi, as a labelled dataset.
+    """Return which phases follow which for every psi_1 and chi, and the borders between regimes.
 
-    Phases are those of the exact impact (Maw, Barber & Fawcett 1976). `sequence` (chi, psi_in) is
-    the place of the sequence in `sequence_name`, the commonest first, or -1 where an impact is not
-    resolved. Beyond psi_1 = 2 chi (1 + e) - e, e = 1 without losses, the contact slips throughout.
+    Phases are those of the exact impact (Maw, Barber & Fawcett 1976). Beyond psi_1 =
+    2 chi (1 + e) - e, e = 1 without losses, the contact slips throughout. Borders are curves through
+    points that bisection finds along lines of constant psi_1 or chi, between the given values, too.
+    A regime is missed only where it holds none of the given points and parts no two of them.
 
     Parameters
     ----------
@@ -166,14 +165,17 @@ def regime_map(
     losses : KelvinVoigt, optional
         What the impacts lose energy to: a restitution is given.
     progress : bool or callable, optional
-        Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
-        what is called with the rows of chi done so far and their number.
+        Whether a progress bar is shown after two seconds, by default in a notebook and on a
+        terminal; or a function that is called with the number of rows of chi done and their total.
 
     Returns
     -------
     xarray.Dataset
-        sequence (chi, psi_in), whole numbers, sequence_name (sequence_name), the kinds of phases
-        in order with the sign of slip, and the restitution.
+        sequence (chi, psi_in), the place of the sequence of phases in sequence_name, -1 where an
+        impact is not resolved; sequence_name (sequence_name), the kinds of phases in order with the
+        sign of slip, the commonest first; and the restitution. Border number border_number has the
+        points border_psi, border_chi (border_point) in order, to within border_tolerance, and the
+        sequences border_left, border_right (border_curve) on either side of their direction.
 
     Raises
     ------
@@ -190,15 +192,17 @@ def regime_map(
     """
     chis, incoming = _axes(chi, psi)
     e = _restitution(losses)
-    rows = []
-    with advancing("map of regimes", len(chis), progress, unit="rows") as advance:
+    sequences, rows = Sequences(losses, e), []
+    with advancing("computing the map of regimes", len(chis), progress, unit="rows") as advance:
         for value in chis:
-            slides = float(regime_borders(value, e)[2])
-            rows.append([_sequence(float(x), float(value), slides, losses) for x in incoming])
+            rows.append(sequences.of(incoming, np.full(incoming.size, value)))
             advance(1)
-    names = [name for name, _ in Counter(chain(*rows)).most_common() if name]
+    met = np.array(rows)
+    counts = Counter(met.ravel().tolist())
+    names = [sequences.names[number] for number, _ in counts.most_common()]
+    names = [name for name in names if name]
     places = {name: place for place, name in enumerate(names)} | {"": -1}
-    codes = np.array([[places[name] for name in row] for row in rows], dtype=np.int16)
+    codes = np.array([places.get(name, -1) for name in sequences.names], dtype=np.int16)[met]
     return labelled_dataset(
         {
             "sequence": (
@@ -207,17 +211,8 @@ def regime_map(
                 {"units": "1", "long_name": "sequence of phases, its place in sequence_name"},
             ),
             "restitution": e,
+            **border_variables(incoming, chis, met, sequences, progress),
         },
         {"chi": chis, "psi_in": incoming, "sequence_name": ("sequence_name", names, {})},
         {"title": "map of regimes"},
     )
-
-
-def _sequence(psi: float, chi: float, slides: float, losses: ScaleFreeLaw | None) -> str:
-    """Return the phases of an impact in one line, or nothing if it is not resolved."""
-    if abs(psi) > slides:
-        return "gross slip " + ("+" if psi > 0.0 else "-")
-    solution = solve(psi, chi) if losses is None else solve(psi, chi, losses=losses)
-    if solution.status is not Status.SOLVED:
-        return ""
-    return ", ".join(f"{phase.kind}{SIGNS[phase.sign]}" for phase in solution.phases)

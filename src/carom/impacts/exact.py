@@ -27,6 +27,7 @@ from carom.impacts.validity import judge, judge_losses, judge_pressure
 from carom.impacts.wear import wear_of
 from carom.io.citations import IMPACT, bibtex
 from carom.io.labels import Finding, Validity
+from carom.quantities.prefixes import text
 from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, not_negative
 
@@ -60,7 +61,7 @@ class Impact(ImpactResult, InContact):
 
     @property
     def validity(self) -> Validity:
-        """How far the assumptions of the theory hold, as numbers with a verdict."""
+        """Whether the assumptions of the theory hold: numbers with their limits and verdicts."""
         found: tuple[Finding, ...] = ()
         if isinstance(self.solution, LossySolution):
             found = (judge_losses(self.solution.losses, self.normal_restitution, self.pair.chi),)
@@ -77,7 +78,7 @@ class Impact(ImpactResult, InContact):
     def slip_angles(self) -> tuple[SlipAngle, ...]:
         """Angle between slip and traction in each phase, which the theory neglects, in rad.
 
-        NaN with losses: there it is not known.
+        It is NaN with losses, where it is not known.
         """
         if isinstance(self.solution, LossySolution):
             return (SlipAngle(nan, nan),) * len(self.phases)
@@ -126,38 +127,40 @@ class Impact(ImpactResult, InContact):
     ) -> xr.Dataset:
         """Return the work of friction per area through the impact, and the depth of wear.
 
-        W_A = integral of mu p w dt, with the pressure p and the slip rate w along x, along which
-        the theory lets points slip; depth h = k/mu W_A, and its volume k/mu times the work of
-        friction (Archard 1953, J. Appl. Phys. 24:981). Without friction h = integral of k p w dt.
+        The work per area is W_A = integral of mu p w dt, with the pressure p and the slip rate w
+        along x, the direction in which points slip in the theory. The depth of wear is h = k/mu W_A,
+        and the worn volume is k/mu times the work of friction (Archard 1953, J. Appl. Phys.
+        24:981). Without friction the depth is the integral of k p w dt.
 
         Parameters
         ----------
         n : int
-            How many distances from the centre, from 2 to 100,000.
+            Number of distances from the centre, from 2 to 100,000.
         coefficient : float or str, optional
-            Archard's coefficient k of the body whose wear is asked for, in m^2/N: volume that is
-            removed over load and sliding distance, "1e-13 m^2/N" or "1e-4 mm^3/(N m)". The sum
-            of both bodies' coefficients gives the depth and the volume that both lose together.
+            Archard's coefficient of wear k of one body, in m^2/N: the removed volume over load and
+            sliding distance, e.g. "1e-13 m^2/N" or "1e-4 mm^3/(N m)". The sum of the coefficients
+            of both bodies gives the depth and the volume that they lose together.
         x, y : array_like, shapes (nx,) and (ny,)
             Positions in m of the map, x along V_x; by default 101 by 101 points over the contact.
 
         Returns
         -------
         xarray.Dataset
-            Along `distance` in m mean_friction_work in J/m^2, the mean around the centre; along (y,
-            x) friction_work; as numbers dissipated_energy, the work of friction by the energies,
-            max_friction_work anywhere in the contact and its distance max_wear_radius, and
-            work_error, by which share the work per area summed over the contact differs from it:
-            1e-8 of elastic bodies up to chi = 6 and 2e-7 beyond, of viscous ones 1e-5 or so and
-            more near the normal, as their energies are known to some 1e-7 only. With a coefficient
-            also mean_wear_depth, wear_depth, max_wear_depth in m and worn_volume in m^3, where that
-            error is above 1e-4 by the work per area.
+            Along `distance` in m: mean_friction_work in J/m^2, the mean around the centre. Along (y,
+            x): friction_work. As numbers: dissipated_energy, the work of friction by the balance of
+            energies; max_friction_work, the largest anywhere in the contact, at the distance
+            max_wear_radius; and work_error, the relative difference between dissipated_energy and
+            the work per area summed over the contact. It is 1e-8 for elastic bodies up to chi = 6
+            and 2e-7 beyond; for viscous ones it is about 1e-5, and more near normal incidence, as
+            their energies are known to some 1e-7 only. With a coefficient also mean_wear_depth,
+            wear_depth, max_wear_depth in m and worn_volume in m^3, which is computed from the work
+            per area where work_error is above 1e-4.
 
         Raises
         ------
         InputError
             If n is out of range, the coefficient is negative, positions are not finite, or the
-            bodies are spheres that yield or standard linear solids, whose contact is not known.
+            bodies yield or are standard linear solids, whose pressure is not known.
 
         Examples
         --------
@@ -176,32 +179,33 @@ class Impact(ImpactResult, InContact):
     def peaks(self, *, depth: Value | None = None) -> xr.Dataset:
         """Return the largest stresses of the whole impact in each body: value, place and instant.
 
-        Von Mises stress, shear stress (s_1 - s_3)/2 and tensile stress s_1 of principal stresses
-        s_i, of the stress that `stress` tells, over all places and instants. A scan finds the
-        peaks, which are then refined; the error is below 1e-4 of the value, and as stresses are
-        flat there, about 0.01 of the contact radius in place and of the duration in time. The
-        stress intensity is that of surface cracks up to `flaw_size`, long and straight down across
-        the plane of the impact, K = 2 sqrt(c/pi) integral of (1.3 - 0.3 u^(5/4))
-        sigma(c u)/sqrt(1 - u^2) du (Tada, Paris & Irwin 2000), to 0.5 %; of flaws below 1/2000 of
-        the contact radius up to 2 % too large.
+        These are the von Mises stress, the shear stress (s_1 - s_3)/2 and the tensile stress s_1,
+        with the principal stresses s_i of what `stress` returns, over all places and instants. A
+        scan finds the peaks, which are then refined. The error is below 1e-4 of the value; the
+        place is known to about 0.01 of the contact radius and the instant to about 0.01 of the
+        duration, as stresses are flat there. The stress intensity is that of long surface cracks
+        up to `flaw_size` deep, which go straight down across the plane of the impact, K = 2
+        sqrt(c/pi) integral of (1.3 - 0.3 u^(5/4)) sigma(c u)/sqrt(1 - u^2) du (Tada, Paris & Irwin
+        2000), to 0.5 %; for flaws below 1/2000 of the contact radius it is up to 2 % too large.
 
         Parameters
         ----------
         depth : float or str, optional
-            From which depth on, in m. By default from the surface; for viscous bodies, of which the
-            stress at the surface is infinite while they are loaded, from 0.2 of the largest contact
-            radius.
+            Smallest depth at which stresses are searched, in m. By default the surface; for viscous
+            bodies, whose stress at the surface is infinite while they are loaded, 0.2 of the
+            largest contact radius.
 
         Returns
         -------
         xarray.Dataset
-            Along `body`, those that deform: peak_von_mises, peak_shear, peak_tension in Pa, and
-            where flaws are known stress_intensity in Pa m^0.5, told at the mouth of the flaw, with
-            its depth, critical_flaw; each with _x, _y, _z, its place in m (z the depth), and _time
-            in s; yield_ratio, tension_ratio, toughness_ratio, of the strengths that are known. The
-            attribute `missing` tells what is not, `notes` that a body yields, so that these are
-            upper bounds, or that the materials are unlike, of which the theory leaves radial
-            tractions out.
+            Along `body`, for the bodies that deform: peak_von_mises, peak_shear and peak_tension in
+            Pa, and where flaws are known stress_intensity in Pa m^0.5 with critical_flaw, the depth
+            of the flaw. Each has its place in m, _x, _y and the depth _z, and its _time in s; the
+            place of a stress intensity is the mouth of the flaw. For the strengths that are known
+            also yield_ratio, tension_ratio and toughness_ratio. The attribute `missing` names the
+            strengths that are not known. The attribute `notes` says if a body yields, so that
+            stresses are upper bounds, and if the materials are unlike, whose radial tractions the
+            theory neglects.
 
         Raises
         ------
@@ -225,7 +229,8 @@ class Impact(ImpactResult, InContact):
             raise refusal("depth", depth, allowed)
         deepest = FARTHEST * self.max_radius
         if from_depth is not None and from_depth > deepest:
-            raise refusal("depth", depth, f"below {deepest:.3g} m hardly any stress is left")
+            allowed = f"below {text(deepest, 'm', 3)} hardly any stress is left"
+            raise refusal("depth", depth, allowed)
         bodies = struck_bodies(self.pair, self.scales, self.solution, from_depth)
         return peaks_dataset(self.pair, bodies, {"inputs": self.inputs()})
 

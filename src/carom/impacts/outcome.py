@@ -32,7 +32,7 @@ class Outcome(Kinematics):
 
     @property
     def normal_restitution(self) -> float:
-        """Normal velocity after to before: 1 for elastic bodies."""
+        """Normal coefficient of restitution, normal velocity after over before; 1 if elastic."""
         return self.solution.restitution
 
     @cached_property
@@ -72,7 +72,7 @@ class Outcome(Kinematics):
 
     @cached_property
     def scales(self) -> Scales:
-        """What the dimensionless impact is multiplied by."""
+        """Scales by which dimensionless results become those of this impact."""
         return self.pair.scales(self.normal_speed)
 
     @property
@@ -97,9 +97,9 @@ class Outcome(Kinematics):
 
     @property
     def max_pressure(self) -> float:
-        """Largest contact pressure, in Pa: Hertz's at the largest force, on the true radius.
+        """Largest contact pressure, in Pa: that of Hertz at the largest force and true radius.
 
-        Of viscous bodies that of elastic ones under the same force.
+        For viscous bodies it is that of elastic bodies under the same force.
         """
         return self.solution.max_pressure * self.scales.pressure
 

@@ -14,6 +14,7 @@ from carom.impacts.strength import BODIES, MEASURES, StruckBody, strengths_of, u
 from carom.impacts.validity import WEAK_COUPLING
 from carom.io.labels import Finding, labelled_dataset
 from carom.quantities.glossary import GLOSSARY, PEAKS
+from carom.quantities.prefixes import shared, text
 from carom.quantities.units import or_none
 
 if TYPE_CHECKING:
@@ -28,16 +29,18 @@ RATIOS = {  # what they are a share of, and what tells how much the body bears
 VERDICTS = {  # of whom, and the ending of the verb
     "yield_ratio": (
         "{0} stay{1} elastic",
-        "{0} yield{1}: real restitution is below 1, and stresses are upper bounds",
+        "{0} yield{1}, so the real restitution is below 1 and stresses are upper bounds",
     ),
-    "tension_ratio": ("{0} bear{1} the tension", "{0} may crack"),
-    "toughness_ratio": ("flaws of {0} do not crack", "flaws of {0} crack"),
+    "tension_ratio": ("{0} bear{1} the tensile stress", "{0} may crack"),
+    "toughness_ratio": ("flaws in {0} do not grow into cracks", "flaws in {0} grow into cracks"),
 }
-WHERE = " (carom.Material and carom.material(name, ...) take strengths)"
-UPPER_BOUND = "a body yields, so that the stresses of elastic bodies are upper bounds"
+WHERE = " (give them to carom.Material or carom.material(name, ...))"
+UPPER_BOUND = (
+    "a body yields, so these stresses, which are those of elastic bodies, are upper bounds"
+)
 UNCOUPLED = (
-    "the radial tractions of unlike materials are left out, which change the tension beside the "
-    "contact (Johnson, O'Connor & Woodward 1973)"
+    "the radial tractions of unlike materials, which the theory neglects, change the tension "
+    "beside the contact (Johnson, O'Connor & Woodward 1973)"
 )
 
 
@@ -68,7 +71,7 @@ def peaks_dataset(
     words = list(bodies)
     yields = any(ratio > 1.0 for ratio in columns["yield_ratio"])
     depth = next(iter(bodies.values())).searched_depth
-    notes = [f"peaks of stress are those from a depth of {1e6 * depth:.4g} um on"] * (depth > 0.0)
+    notes = [f"stresses were searched only below a depth of {text(depth, 'm', 4)}"] * (depth > 0.0)
     notes += [UPPER_BOUND] * yields + [UNCOUPLED] * (abs(pair.dundurs_beta) > WEAK_COUPLING)
     missing = "; ".join(f"{name} body: {_missing(body)}" for name, body in bodies.items())
     return labelled_dataset(
@@ -101,7 +104,7 @@ def _places(name: str, peak: Peak) -> Iterator[tuple[str, float]]:
 def _missing(body: StruckBody) -> str:
     """Return what is not known of a body, in words."""
     names = [name for name in body.strengths._fields if isnan(getattr(body.strengths, name))]
-    lost = [] if body.judges_flaws else ["stress intensity, which losses leave without a bound"]
+    lost = [] if body.judges_flaws else ["stress_intensity (not bounded with losses)"]
     return ", ".join(names + lost) or "nothing"
 
 
@@ -123,22 +126,41 @@ def peaks_record(dataset: "xr.Dataset") -> dict[str, Any]:
 def peaks_text(dataset: "xr.Dataset") -> str:
     """Return peaks as text to read."""
     lines = []
-    for body in dataset["body"].values:
-        row = {str(name): float(values) for name, values in dataset.sel(body=body).items()}
-        lines.append(f"largest stresses in the {body} body")
-        lines += [_line(name, row) for name in PEAKS if not isnan(row.get(name, nan))]
+    rows = {
+        str(body): {str(name): float(of) for name, of in dataset.sel(body=body).items()}
+        for body in dataset["body"].values
+    }
+    shown = _values(rows)
+    for body, row in rows.items():
+        lines.append(f"Largest stresses in the {body} body")
+        lines += [_line(name, row, shown[body, name]) for name in PEAKS if (body, name) in shown]
     lines += [f"  {note}" for note in (dataset.attrs["notes"],) if note]
-    lines.append(f"  not known of the {dataset.attrs['missing']}")
+    lines.append(f"  These values are not known of the {dataset.attrs['missing']}")
     return "\n".join(lines)
 
 
-def _line(name: str, row: dict[str, float]) -> str:
-    place = ", ".join(f"{axis} = {1e6 * row[f'{name}_{axis}']:.4g} um" for axis in "xyz")
+def _values(rows: dict[str, dict[str, float]]) -> dict[tuple[str, str], str]:
+    """Return the known peaks by body and name as texts, all stresses in one unit."""
+    texts: dict[tuple[str, str], str] = {}
+    for unit in dict.fromkeys(GLOSSARY[name].unit for name in PEAKS):
+        found = {
+            (body, name): row[name]
+            for body, row in rows.items()
+            for name in PEAKS
+            if GLOSSARY[name].unit == unit and not isnan(row.get(name, nan))
+        }
+        numbers, prefixed = shared(found.values(), unit, 4)
+        texts |= {key: f"{number} {prefixed}" for key, number in zip(found, numbers, strict=True)}
+    return texts
+
+
+def _line(name: str, row: dict[str, float], value: str) -> str:
+    places, unit = shared([row[f"{name}_{axis}"] for axis in "xyz"], "m", 4)
+    at = ", ".join(f"{axis} = {place} {unit}" for axis, place in zip("xyz", places, strict=True))
     if name == "stress_intensity":
-        place += f", of {1e6 * row['critical_flaw']:.4g} um"
-    value = f"{row[name] / 1e6:.4g} M{GLOSSARY[name].unit}"
-    instant = f"t = {1e6 * row[f'{name}_time']:.4g} us"
-    return f"  {GLOSSARY[name].meaning:40s} {value:18s} at {place}, {instant}"
+        at += f", of {text(row['critical_flaw'], 'm', 4)}"
+    instant = text(row[f"{name}_time"], "s", 4)
+    return f"  {GLOSSARY[name].meaning:40s} {value:18s} at {at}, t = {instant}"
 
 
 def judge_strength(bodies: dict[str, StruckBody]) -> tuple[Finding, ...]:
@@ -165,10 +187,10 @@ def _why_not(needed: tuple[str, ...], lacks: dict[str, list[str]]) -> str:
     """Return why none of the bodies is judged."""
     partly = {which: names for which, names in lacks.items() if 0 < len(names) < len(needed)}
     for which, names in partly.items():
-        return f"{' and '.join(names)} of the {which} body not known, so not judged"
+        return f"not judged, as {' and '.join(names)} of the {which} body is not known"
     if all(lacks.values()):
-        return f"{needed[0].replace('_', ' ')} not known, so not judged"
-    return "not judged with losses: stresses at the surface have no bound"
+        return f"not judged, as the {needed[0].replace('_', ' ')} is not known"
+    return "not judged with losses, as stresses at the surface have no bound"
 
 
 def _finding(
@@ -180,7 +202,8 @@ def _finding(
     several = len(broken or known) == 2
     whose = "both bodies" if several else f"the {(broken or [which])[0]} body"
     if depth > 0.0 and not broken:
-        words = f"{whose} below a depth of {1e6 * depth:.3g} um; at the surface not judged"
+        below = f"known only below a depth of {text(depth, 'm', 3)}"
+        words = f"the stresses in {whose} are {below}; the surface is not judged"
         return Finding(told, ratio, 1.0, None, words)
     good, bad = VERDICTS[name]
     words = (bad if broken else good).format(whose, "" if several else "s")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import degrees, isnan
 from typing import Any, Protocol
 
@@ -11,13 +12,14 @@ from carom.dimensionless.states import Phase, SlipAngle
 from carom.impacts.history import RESULTS
 from carom.io.labels import MARKS, Validity
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.prefixes import column
 
 OF_LOSSES = ("normal_restitution", "lost_energy", "shear_lost_energy")  # 1 and 0 without
 OF_ELEMENTS = ("normal_spin_out", "contact_velocity_across", "psi_out_error", "energy_error")
 NOTES = {
-    "exact": "  * angle between slip and x in degrees, which the theory neglects",
-    "lossy": "  * angle between slip and x, which is known without losses only",
-    "halfspace": "  * angle between slip and x in degrees",
+    "exact": "  * angle between the slip and x in degrees, which the theory neglects",
+    "lossy": "  * angle between the slip and x, which is known only without losses",
+    "halfspace": "  * angle between the slip and x in degrees",
 }
 
 
@@ -50,16 +52,23 @@ def impact_text(hit: Reported) -> str:
     lines = [
         f"  {GLOSSARY[name].meaning:58s} {GLOSSARY[name].text(scalars[name])}" for name in shown
     ]
+    times, unit = phase_times(hit.phases)
     phases = [
-        f"  {_slip(p.kind, p.sign):14s}{p.start:12.4e} {p.end:12.4e}"
+        f"  {_slip(p.kind, p.sign):14s}{start:>12s} {end:>12s}"
         f" {_in_degrees(angle.mean)} {_in_degrees(angle.largest)}   {p.cause}"
-        for p, angle in zip(hit.phases, hit.slip_angles, strict=True)
+        for p, (start, end), angle in zip(hit.phases, times, hit.slip_angles, strict=True)
     ]
-    columns = f"{'from (s)':>12s} {'to (s)':>12s} {'mean*':>9s} {'max*':>9s}"
+    columns = f"{f'from ({unit})':>12s} {f'to ({unit})':>12s} {'mean*':>9s} {'max*':>9s}"
     head = f"  {'':14s}{columns}   ended by"
     findings = [f"  {MARKS[f.holds]} {f.told:38s} {f.verdict}" for f in hit.validity.findings]
     parts = ("Rebound", *lines, "Phases", head, *phases, note, "Validity", *findings)
     return "\n".join(parts)
+
+
+def phase_times(phases: Sequence[Phase]) -> tuple[list[tuple[str, str]], str]:
+    """Return start and end of each phase, as cells of two columns, and their unit."""
+    cells, unit = column([time for p in phases for time in (p.start, p.end)], "s")
+    return list(zip(cells[::2], cells[1::2], strict=True)), unit
 
 
 def _in_degrees(angle: float) -> str:

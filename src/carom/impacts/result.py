@@ -17,12 +17,13 @@ from carom import plots
 from carom.dimensionless.states import Phase, SlipAngle
 from carom.impacts.history import InTime, history_columns
 from carom.impacts.outcome import Outcome
-from carom.impacts.report import impact_text
+from carom.impacts.report import impact_text, phase_times
 from carom.impacts.spectrum import Source, read_frequencies, spectrum_dataset
 from carom.io.labels import Validity, labelled
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.prefixes import text
 from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, counted, number, or_none
 
@@ -88,7 +89,7 @@ class ImpactResult(Outcome, Result):
     @property
     @abstractmethod
     def validity(self) -> Validity:
-        """How far the assumptions hold, as numbers with a verdict."""
+        """Whether the assumptions hold: numbers with their limits and verdicts."""
 
     def history(self, n: int = 200) -> xr.Dataset:
         """Return the impact at n times: a dataset with forces, velocities, radii, energies.
@@ -132,31 +133,32 @@ class ImpactResult(Outcome, Result):
     ) -> xr.Dataset:
         """Return the spectra of the forces, int F(t) exp(-2 pi i f t) dt, and their corners.
 
-        As sources of acoustic emission and of the signals of impact sensors (McLaskey & Glaser
-        2010); t from the first touch. At f = 0 they are the impulses. The moment is that of the
-        tangential force about the centre of the first body, R F_x, against its spin. A corner is
-        where the amplitude has first fallen by 3 dB, to 1/sqrt(2), or by 6 dB, to 1/2, of the
-        largest: of the normal force that at f = 0, of the tangential force, which may change its
-        sign, that at `tangential_peak_frequency`.
+        They describe the impact as a source of acoustic emission and of the signals of impact
+        sensors (McLaskey & Glaser 2010). The time t counts from the first touch. At f = 0 the
+        spectra are the impulses. The moment is that of the tangential force about the centre of the
+        first body, R F_x, against its spin. A corner is the frequency at which the amplitude has
+        first fallen by 3 dB, to 1/sqrt(2) of its largest value, or by 6 dB, to 1/2. The largest
+        value of the normal force is that at f = 0; that of the tangential force, which may change
+        its sign, is at `tangential_peak_frequency`.
 
         Parameters
         ----------
         frequencies : array_like, optional
-            In Hz, zero or positive, up to 1000 over `duration` and 20,000 of them.
+            Frequencies in Hz, zero or positive, each at most 1000 over `duration`; up to 20,000.
         max_frequency : float or str, optional
-            Where no frequencies are given, the highest in Hz; by default 6 over `duration`.
+            Highest frequency in Hz if none are given; by default 6 over `duration`.
         n : int, optional
-            How many then, evenly spaced from zero on; by default 601.
+            Number of frequencies if none are given, evenly spaced from zero on; by default 601.
 
         Returns
         -------
         xarray.Dataset
-            Along `frequency` in Hz: normal_spectrum, tangential_spectrum in N s and moment_spectrum
-            in N m s, the amplitudes, each with its parts, as normal_spectrum_real and
-            normal_spectrum_imag. As numbers duration in s, max_force in N, the impulses in N s, and
-            corner frequencies in Hz; NaN without a tangential force. Errors are below 1e-9 of the
-            impulse of |F|, with `ElasticPlastic`, `StandardLinearSolid` and boundary elements those
-            of the history, 1e-5 to 1e-3.
+            Along `frequency` in Hz: the amplitudes normal_spectrum and tangential_spectrum in N s,
+            and moment_spectrum in N m s, each also in parts, such as normal_spectrum_real and
+            normal_spectrum_imag. As numbers: duration in s, max_force in N, the impulses in N s,
+            and the corner frequencies in Hz, which are NaN without a tangential force. Errors are
+            below 1e-9 of the impulse of |F|; for `ElasticPlastic`, `StandardLinearSolid` and
+            boundary elements they are those of the history, 1e-5 to 1e-3.
 
         Raises
         ------
@@ -199,7 +201,7 @@ class ImpactResult(Outcome, Result):
         """Return a time within the contact in s, or raise InputError."""
         instant = number("time", time)
         if not 0.0 <= instant <= self.duration:
-            allowed = f"must lie within the contact, from 0 to {self.duration:.6g} s"
+            allowed = f"must lie within the contact, from 0 to {text(self.duration, 's')}"
             raise refusal("time", time, allowed)
         return instant
 
@@ -210,7 +212,11 @@ class ImpactResult(Outcome, Result):
         """Return a table and a picture for a notebook."""
         numbers = self.scalars()
         rows = {GLOSSARY[name].meaning: GLOSSARY[name].text(numbers[name]) for name in SHOWN}
-        phases = (f"{p.start:10.3e} to {p.end:.3e} s  {p.kind}" for p in self.phases)
+        times, unit = phase_times(self.phases)
+        phases = (
+            f"{start:>10s} to {end:>8s} {unit}  {p.kind}"
+            for p, (start, end) in zip(self.phases, times, strict=True)
+        )
         notes = "\n".join([*phases, "", str(self.validity)])
         return card("Oblique impact", rows, self.plot(), notes)
 
@@ -225,8 +231,8 @@ class ImpactResult(Outcome, Result):
         """
         return self.history(400)
 
-    def _draw(self, dataset: xr.Dataset) -> Figure:
-        return plots.plot_impact(dataset)
+    def _draw(self, dataset: xr.Dataset, **look: Any) -> Figure:
+        return plots.plot_impact(dataset, **look)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers, texts and lists, for JSON; NaN becomes None.
@@ -266,10 +272,10 @@ class ImpactResult(Outcome, Result):
         path : str or Path
             The file, which is replaced whole or not at all.
         frames : int
-            Number of instants, evenly spaced, up to 10,000; 12 are shown a second.
+            Number of instants, evenly spaced, up to 10,000; 12 are shown per second.
         progress : bool or callable, optional
-            Whether a bar is shown after two seconds, by default in a notebook and on a terminal;
-            or what is called after every frame.
+            Whether a progress bar is shown after two seconds, by default in a notebook and on a
+            terminal; or a function that is called after every frame.
 
         Returns
         -------

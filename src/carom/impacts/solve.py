@@ -75,9 +75,11 @@ def impact(
 ) -> Impact | HalfspaceImpact:
     """Solve one oblique impact of two bodies: exactly, within the theory, or by boundary elements.
 
-    V_1 = speed cos(angle), v_t = speed sin(angle), V_x = v_t + R spin + R_2 spin2,
-    psi_1 = kappa V_x/(mu V_1) (Maw, Barber & Fawcett 1976; Barber 1979, stick (15), gross slip
-    (33); boundary elements Love 1929 and Kalker 1990, section 4.2).
+    The normal speed is V_1 = speed cos(angle), the tangential speed of the centres v_t = speed
+    sin(angle), the tangential velocity of the contact point V_x = v_t + R spin + R_2 spin2, and the
+    dimensionless incidence psi_1 = kappa V_x/(mu V_1). The theory is that of Maw, Barber & Fawcett
+    (1976) and of Barber (1979), stick (15) and gross slip (33); the boundary elements are those of
+    Love (1929) and Kalker (1990), section 4.2.
 
     Parameters
     ----------
@@ -86,38 +88,40 @@ def impact(
     speed : float or str
         Speed of approach of the centres, in m/s.
     angle : float or str
-        Its angle from the normal; a bare number is in radians.
+        Angle of incidence from the normal; a bare number is in radians.
     normal_speed, tangential_speed : float or str
-        The same as components, instead of speed and angle; relative, of the first to the second.
+        Components of the velocity of the first body relative to the second, in m/s, instead of
+        speed and angle.
     spin, spin2 : float or str
         Spin of the first body, and of the second if it is a sphere, in rad/s; positive spin adds
         to the tangential speed of the contact point.
     normal_spin : float or str
         Spin about the line of impact of the first body, less that of the second, in rad/s;
-        positive is clockwise seen from the first body. The theory leaves it out, and `validity`
-        says how much that may change psi_2; boundary elements solve for it.
+        positive is clockwise seen from the first body. The theory neglects it, and `validity` says
+        how much it may change psi_2; boundary elements solve for it.
     losses : KelvinVoigt, StandardLinearSolid or ElasticPlastic, optional
-        What the impact loses energy to; by default nothing, the bodies are elastic.
+        How the impact loses energy besides friction; by default the bodies are elastic.
     method : "exact", "halfspace" or BoundaryElements
-        The theory, in which slip is parallel to x and unlike materials do not couple; or the full
-        contact in three dimensions, which assumes neither and takes two seconds, fifteen for unlike
-        materials. BoundaryElements says how finely.
+        "exact" solves the theory, in which slip is parallel to x and unlike materials do not
+        couple. "halfspace" solves the full contact in three dimensions, which assumes neither, in
+        two seconds, or fifteen for unlike materials. `BoundaryElements` does so with a grid and
+        steps of your own.
     progress : bool or callable, optional
-        Whether the boundary elements show a bar, by default in a notebook and on a terminal; or
-        what is called with the steps done and their number.
+        Whether the boundary elements show a progress bar, by default in a notebook and on a
+        terminal; or a function that is called with the number of steps done and their total.
 
     Returns
     -------
     Impact or HalfspaceImpact
-        The rebound (psi_out, rebound_angle, spin_out, restitutions, energies), the phases, and what
-        gives the rest: history, fields, validity, plot, animate, to_dataset, cite.
+        The rebound (psi_out, rebound_angle, spin_out, restitutions, energies), the phases and
+        `validity`, and methods for the rest: history, fields, plot, animate, to_dataset, cite.
 
     Raises
     ------
     InputError
         If a value is missing, given twice, out of range, or the bodies do not approach.
     RuntimeError
-        If the solvers of the boundary elements fail; with friction times Dundurs' beta above 1.
+        If the boundary elements do not converge, as where friction times Dundurs' beta exceeds 1.
 
     Examples
     --------
@@ -156,5 +160,9 @@ def _elements(method: str | BoundaryElements, losses: LossLaw | None) -> Boundar
         allowed = "must be 'exact', 'halfspace' or carom.BoundaryElements(elements=, steps=)"
         raise refusal("method", method, allowed)
     if losses is not None:
-        raise refusal("losses", losses, "boundary elements are elastic; leave it or method out")
+        raise refusal(
+            "losses",
+            losses,
+            "boundary elements solve elastic bodies only; leave losses or method out",
+        )
     return elements

@@ -14,6 +14,7 @@ from carom.dimensionless.numerics.fourier import Pulse, sampled
 from carom.impacts.history import InTime
 from carom.io.labels import labelled_dataset
 from carom.quantities.arrays import Array, numbers
+from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import Value, counted, positive
 
@@ -67,7 +68,7 @@ def read_frequencies(
     if values.ndim != 1 or not values.size:
         raise refusal("frequencies", given, allowed)
     if values.size > MOST:
-        raise InputError(f"frequencies: {values.size:,} are too many, the most are {MOST:,}")
+        raise InputError(f"frequencies: {values.size:,} are too many; give at most {MOST:,}")
     bad = ~((values >= 0.0) & (values < np.inf))
     if bad.any():
         raise refusal("frequencies", float(values[bad][0]), allowed)
@@ -77,7 +78,8 @@ def read_frequencies(
 
 
 def _too_high(most: float) -> str:
-    return f"it is known up to {most:.4g} Hz, {FARTHEST:g} over the duration of the contact"
+    known = f"spectra are known up to {text(most, 'Hz', 4)}"
+    return f"{known}, {FARTHEST:g} over the duration of the contact"
 
 
 def spectrum_dataset(

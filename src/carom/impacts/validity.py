@@ -21,7 +21,7 @@ WEAK_COUPLING = 0.01  # |Dundurs' beta|: what is left uncoupled is below a hundr
 CLOSE_REBOUND = 0.01  # of psi_2, also against the full contact in three dimensions
 STUDIED, LEAST_STUDIED = (0.3, 5.0), 0.5  # chi, and e, for which solids of one e were compared
 FAST, YIELDED = 10.0, 0.05  # V_1/V_y up to which psi_2 is as close as this to rings of traction
-FULL = "psi_2 is as close as this to the full contact in three dimensions"
+FULL = "the full contact in three dimensions"
 
 
 def judge(
@@ -42,31 +42,34 @@ def judge(
         pair.dundurs_beta,
         WEAK_COUPLING,
         "normal and tangential contact do not couple",
-        "unlike materials: the answer is the uncoupled one, an approximation",
+        "the materials are unlike, and this answer neglects their coupling",
     )
     spin = pair, normal_speed, psi, normal_spin
     spinning = (_judge_spin(*spin, bool(losses)),) if normal_spin else ()
-    close = _judge_rebound(pair, psi, bool(losses), "but for spin, " if normal_spin else "")
+    close = _judge_rebound(pair, psi, bool(losses), bool(normal_spin))
     contact = judge_contact(pair, normal_speed, duration, strength)
     return Validity((*contact, *losses, coupling, *spinning, close))
 
 
-def _judge_rebound(pair: Pair, psi: float, loses: bool, but: str) -> Finding:
+def _judge_rebound(pair: Pair, psi: float, loses: bool, spins: bool) -> Finding:
     """Return the finding on what slip off the motion and coupling may do to psi_2."""
     name, numbers = "error of psi_2", (pair.kappa, pair.dundurs_beta, pair.friction, pair.chi)
     if pair.friction == 0.0 or not isfinite(psi):
-        return Finding(name, 0.0, CLOSE_REBOUND, True, "without friction nothing is left out")
+        return Finding(
+            name, 0.0, CLOSE_REBOUND, True, "without friction the theory neglects nothing"
+        )
     outside = not_studied(*numbers)
     if outside:
         words = f"not studied: {outside}; method='halfspace' solves the full contact"
         return Finding(name, nan, CLOSE_REBOUND, None, words)
     error = float(rebound_error(*numbers, psi))
     if loses:
-        words = f"not studied with losses; of elastic bodies it is at most {error:.2g}"
+        words = f"not studied with losses; for elastic bodies it is at most {error:.2g}"
         return Finding(name, nan, CLOSE_REBOUND, None, words)
-    bad = "psi_2 may be off by as much; method='halfspace' solves it in full"
-    verdicts = (f"inside the study: {but}{words}" for words in (FULL, bad))
-    return _judged(name, error, CLOSE_REBOUND, *verdicts)
+    but = "apart from the spin about the normal, " if spins else ""
+    good = f"{but}psi_2 is at most this far from {FULL}, by a study of such impacts"
+    bad = f"{but}psi_2 may be this far from {FULL}, which method='halfspace' solves"
+    return _judged(name, error, CLOSE_REBOUND, good, bad)
 
 
 def _judge_spin(
@@ -75,33 +78,35 @@ def _judge_spin(
     """Return the finding on what spin about the normal, which the theory leaves out, may do."""
     name, cure = "error of psi_2 by normal spin", "method='halfspace' solves for it"
     if pair.friction == 0.0 or not isfinite(psi):
-        return Finding(name, 0.0, CLOSE_REBOUND, True, "without friction nothing turns")
+        return Finding(name, 0.0, CLOSE_REBOUND, True, "without friction this spin does not matter")
     radius = pair.scales(normal_speed).radius
     spin = abs(normal_spin) * radius / (pair.friction * normal_speed)
     outside = not_studied(pair.kappa, pair.dundurs_beta, pair.friction, pair.chi)
     if spin > SPIN.most:
         outside = f"spin of {spin:.3g} mu V_1/a_max is above {SPIN.most:g}"
     if loses:
-        words = "not studied with losses; the theory leaves it out"
+        words = "not studied with losses; the theory neglects this spin"
         return Finding(name, nan, CLOSE_REBOUND, None, words)
     if outside:
         return Finding(name, nan, CLOSE_REBOUND, None, f"not studied: {outside}; {cure}")
-    good, bad = "inside the study: it hardly matters", f"the theory leaves it out; {cure}"
+    good = "the spin about the normal, which the theory neglects, hardly matters"
+    bad = f"the theory neglects the spin about the normal; {cure}"
     error = float(spin_error(pair.chi, psi, spin))
-    return _judged(name, error, CLOSE_REBOUND, good, f"inside the study: {bad}")
+    return _judged(name, error, CLOSE_REBOUND, good, bad)
 
 
 def judge_losses(losses: LossNumbers, restitution: float, chi: float) -> Finding:
     """Return the finding on losses: which solid is assumed, and how much that may be in psi_2."""
     if losses.loss != Loss.PLASTIC:
-        solid = "is as viscous" if losses.loss == Loss.VISCOUS else "relaxes"
+        solid = "as viscous" if losses.loss == Loss.VISCOUS else "to relax"
         others = _others(losses.loss, restitution, chi)
-        words = f"a solid that {solid} in shear as in compression: {others}"
+        words = f"the solid is assumed {solid} in shear as in compression; {others}"
         return Finding("e", restitution, 1.0, None, words)
     ratio = losses.parameter**-2.5
     off = f"off by up to {YIELDED:g}"
-    known = f"psi_2 is {off}" if ratio <= FAST * (1.0 + 1e-9) else "beyond, that is not studied"
-    words = f"Coulomb's law holds for springs, not for the pressure of a yielded sphere: {known}"
+    studied = ratio <= FAST * (1.0 + 1e-9)
+    known = f"psi_2 is {off}" if studied else f"the error was not studied above {FAST:g}"
+    words = f"the yielded contact is modelled by springs that obey Coulomb's law; {known}"
     return Finding("V_1/V_y", ratio, FAST, None, words)
 
 
@@ -112,10 +117,10 @@ def _others(loss: int, restitution: float, chi: float) -> str:
     yielding spheres, psi_1 up to 4 chi + 1; from a standard linear one twice that.
     """
     if not (STUDIED[0] <= chi <= STUDIED[1] and restitution >= LEAST_STUDIED):
-        return "how others of this e differ is not studied here"
+        return "how far other solids of this e differ was not studied here"
     most = (1.0 if loss == Loss.VISCOUS else 2.0) * (1.0 - restitution)
     most *= max(1.2, 2.4 * chi - 1.7)
-    return f"others of this e differ in psi_2 by up to {most:.2g}"
+    return f"psi_2 of other solids of this e differs by up to {most:.2g}"
 
 
 def judge_contact(
@@ -131,13 +136,13 @@ def judge_contact(
         "a_max/R*",
         scales.radius / pair.effective_radius,
         SMALL_CONTACT,
-        "the contact is small against the bodies",
-        f"the contact is too large for Hertz's theory, which wants {SMALL_CONTACT} at most",
+        "the contact is small compared with the bodies",
+        f"the contact is too large for Hertz's theory, which needs {SMALL_CONTACT} at most",
     )
     verdict = (
         "the contact lasts long enough to be quasi-static"
         if slow
-        else f"elastic waves matter: the contact should last {SLOW_CONTACT:g} transits at least"
+        else f"elastic waves matter; the contact should last at least {SLOW_CONTACT:g} transits"
     )
     waves = Finding("contact time/wave transit", transits, SLOW_CONTACT, slow, verdict)
     return *doubts(pair), small, *strength, waves
@@ -158,10 +163,10 @@ def judge_pressure(pair: Pair, pressure: float) -> Finding:
         m.yield_strength for m in (pair.first.material, pair.second.material) if m.yield_strength
     ]
     if not strengths:
-        unknown = "yield strength not known, so not judged"
+        unknown = "not judged, as the yield strength is not known"
         return Finding("p_0/Y", float("nan"), YIELD_PRESSURE, None, unknown)
     body = "the softer body" if len(strengths) == 2 else "the body whose strength is known"
-    yields = f"{body} yields from {YIELD_PRESSURE} on: real restitution is below 1"
+    yields = f"{body} yields above {YIELD_PRESSURE}, so the real restitution is below 1"
     ratio = pressure / min(strengths)
     return _judged("p_0/Y", ratio, YIELD_PRESSURE, f"{body} stays elastic", yields)
 
@@ -177,6 +182,7 @@ def _wave_speed(material: Material) -> float:
 
 def judge_errors(psi_out: float, energy: float) -> tuple[Finding, ...]:
     """Return the findings on what a grid and steps leave of psi_2 and of the energy."""
-    good, bad = "grid and steps are fine enough", "take more elements and steps"
+    good = "the grid and the time steps are fine enough"
+    bad = "the grid and the time steps are too coarse; take more elements and steps"
     named = (("error of psi_2", psi_out), ("error of energy", energy))
     return tuple(_judged(name, value, CLOSE_REBOUND, good, bad) for name, value in named)

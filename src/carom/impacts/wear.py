@@ -166,7 +166,7 @@ def known_contact(hit: ImpactResult) -> Known:
     """Return the solution of an impact, or raise InputError if it does not tell the pressure."""
     if isinstance(hit.solution, Known):
         return hit.solution
-    allowed = "the contact of this solid is known by its springs alone, not over its area"
+    allowed = "wear needs the pressure over the contact, which such a solid does not give"
     raise refusal("losses", hit.losses, f"{allowed}; take KelvinVoigt, or leave losses out")
 
 

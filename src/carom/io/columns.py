@@ -22,7 +22,7 @@ from carom.quantities.units import PURE, factor_of, number
 Mask = NDArray[np.bool_]
 
 ERROR = "_error"  # ends the name of a column of standard deviations
-DELETE = "correct or delete what is there"
+DELETE = "correct or delete it"
 EMPTY = ("", "nan")
 NEAR = 0.8  # similarity of names from which a column is taken for a misspelt one
 UNITS = {"_deg": "deg", "_rad_s": "rad/s", "_rad": "rad", "_rpm": "rpm", "_m_s": "m/s"}  # in names
@@ -139,7 +139,7 @@ def others(table: Cells, known: Iterable[str], faults: Faults | None = None) -> 
             faults.add(f"{name}: unknown column; did you mean {hint!r}?")
     for name in table.names:
         if entry(name) not in table.names and name not in unknown:
-            faults.add(f"{name}: the column {entry(name)!r} it goes with is missing")
+            faults.add(f"{name}: its column {entry(name)!r} is missing")
     return unknown
 
 
@@ -180,9 +180,9 @@ def _check_angle(results: Results, name: str, unit: str) -> None:
     """Raise InputError for angles from the normal that no impact has: degrees taken for radians."""
     allowed = "must be below pi/2, 90 deg, from the normal"
     if not unit:
-        allowed += f"; the head of a column in degrees is '{name} [deg]'"
+        allowed += f"; for degrees write '{name} [deg]' at the head of the column"
     elif unit in ("rad", "radian", "radians"):
-        allowed += f"; the column is headed {unit}: if it is in degrees write '{name} [deg]'"
+        allowed += f"; the head of the column says {unit}; for degrees write '{name} [deg]'"
     results.refuse(name, np.abs(results[name]) >= 0.5 * pi, allowed)
 
 

@@ -132,7 +132,7 @@ def _read(file: _File, fewest: int) -> CsvCells:
             for part, column in zip(parts, columns, strict=True):
                 part.append(column)
             if len(file.lines) > MOST_ROWS:
-                raise file.refusal(f"it has more than {MOST_ROWS} rows, which are read at most")
+                raise file.refusal(f"it has more than {MOST_ROWS} rows")
             advance(len(file.lines) - before)
     columns = [_joined(part) for part in parts]
     return CsvCells(heads, columns, np.array(file.lines, np.int64), file.comments)
@@ -141,11 +141,11 @@ def _read(file: _File, fewest: int) -> CsvCells:
 def _check_heads(file: _File, heads: Sequence[str]) -> None:
     """Raise InputError if a header is none: too many names, or numbers."""
     if len(heads) > MOST_COLUMNS:
-        raise file.refusal(f"it has {len(heads)} columns; {MOST_COLUMNS} are read at most")
+        raise file.refusal(f"it has {len(heads)} columns; at most {MOST_COLUMNS} are allowed")
     if plain_numbers(heads) is not None:
         raise InputError(
-            f"{file.what}: the first line holds numbers; before it a line, without #, must name "
-            "the columns, e.g. psi_1,psi_2,chi"
+            f"{file.what}: the first line holds numbers; put a line without # before it that "
+            "names the columns, e.g. psi_1,psi_2,chi"
         )
 
 
@@ -199,7 +199,7 @@ def _cells(file: _File, lines: list[str], separator: str) -> list[list[str]]:
     except csv.Error as error:
         raise file.refusal(f"it is not CSV; {error}") from None
     if len(rows) != len(lines):
-        raise file.refusal("it is not CSV; a text in quotes goes over several lines")
+        raise file.refusal("it is not CSV; a text in quotes extends over several lines")
     return rows
 
 

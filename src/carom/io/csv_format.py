@@ -82,7 +82,7 @@ def from_csv(text: str) -> "xr.Dataset":
     if lines[0].strip() != FORMAT:
         raise InputError("it was not stored by Carom")
     if not text.endswith("\n"):
-        raise InputError("it is damaged; its last line is not whole")
+        raise InputError("it is damaged; its last line is not complete")
     end = next((i for i, line in enumerate(lines) if not line.startswith("#")), len(lines))
     try:
         head = [json.loads(line[1:]) for line in lines[1:end]]
@@ -104,8 +104,8 @@ def _unsealed(text: str) -> str:
         if _digest(stored) == seal[1]:
             return stored
     raise InputError(
-        "it is damaged, or was changed after it was stored; without its line 'sha256' it is read "
-        "as it is"
+        "it is damaged, or was changed after it was stored; delete its line 'sha256' to read it "
+        "anyway"
     )
 
 
@@ -151,7 +151,7 @@ def _name(line: Mapping[str, Any]) -> str:
 def _columns(names: list[str], rows: list[list[str]]) -> dict[str, list[str]]:
     head, body = (rows[0], rows[1:]) if rows else ([], [])
     if head != names:
-        raise ValueError("the columns of the table are not those of its head")
+        raise ValueError("the columns of the table differ from those of its head")
     if any(len(row) != len(names) for row in body):
         raise ValueError("a row of the table is too short or too long")
     return {name: [row[i] for row in body] for i, name in enumerate(names)}

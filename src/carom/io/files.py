@@ -1,4 +1,4 @@
-"""Storing results as NetCDF or CSV and reading them again; files are replaced whole or not."""
+"""Storing results as NetCDF or CSV and reading them; files are replaced whole or not at all."""
 
 import warnings
 from pathlib import Path
@@ -29,18 +29,18 @@ class Storable(Protocol):
 
 
 def save(result: "xr.Dataset | Storable", path: str | Path) -> Path:
-    """Store a dataset or a result as .nc or .csv and return its path; `carom.read` gives it back.
+    """Store a dataset or a result as .nc or .csv and return its path; `carom.read` reads it.
 
-    A file that is there is replaced whole or not at all; of a link, the file to which it points. A
-    pipe or a device is written into, as CSV if its name has no ending. CSV is one table, with
-    everything else in comments before it: `pandas.read_csv(path, comment="#")` reads it, too.
+    An existing file is replaced whole or not at all, and of a link the file to which it points. The
+    data are written into a pipe or a device, as CSV if its name has no ending. A CSV file is one
+    table with everything else in comments, which `pandas.read_csv(path, comment="#")` reads, too.
 
     Parameters
     ----------
     result : xarray.Dataset or a result
-        A dataset, or what has a `to_dataset()`: an Impact, a Fit, a Ranking.
+        A dataset, or a result with a `to_dataset()`, such as an Impact, a Fit or a Ranking.
     path : str or Path
-        A name that ends in .nc or .csv.
+        Name of the file, which ends in .nc or .csv.
 
     Returns
     -------
@@ -50,9 +50,9 @@ def save(result: "xr.Dataset | Storable", path: str | Path) -> Path:
     Raises
     ------
     InputError
-        If the name ends otherwise, the file cannot be written, there is no dataset to store, or
-        something in it would not come back as it was, whatever the format: dates, names that are
-        no texts, attributes that are neither texts nor numbers.
+        If the name has another ending, the file cannot be written, there is no dataset to store, or
+        it holds something that could not be read exactly, such as dates, names that are not texts,
+        or attributes that are neither texts nor numbers.
 
     Examples
     --------
@@ -82,7 +82,7 @@ def _dataset(result: "xr.Dataset | Storable") -> "xr.Dataset":
     if isinstance(result, type) or not hasattr(result, "to_dataset"):
         raise refusal("result", result, "must be a dataset, an impact or a load path")
     if isinstance(result, xr.DataArray) and result.name in (None, *result.coords):
-        raise refusal("result", result, "it needs a name of its own; write .rename('speed')")
+        raise refusal("result", result, "it needs its own name; write for example .rename('speed')")
     return result.to_dataset()
 
 
@@ -123,5 +123,5 @@ def read_text(what: str, path: Path) -> str:
         reason = error.strerror or error
         raise InputError(f"{what}: {str(path)!r} cannot be read; {reason}") from None
     if len(text) > LONGEST_TEXT:
-        raise refusal(what, str(path), f"{LONGEST_TEXT} characters are read at most")
+        raise refusal(what, str(path), f"it is longer than {LONGEST_TEXT} characters")
     return text

@@ -1,4 +1,4 @@
-"""How far long work is: rich shows it where somebody watches, a callable is told, else nothing."""
+"""The progress of long work, as a bar on a terminal or in a notebook, or for a function."""
 
 import os
 import sys
@@ -48,10 +48,11 @@ class _Work:
 def advancing(
     what: str, total: int | None, progress: Progress = None, *, unit: str = "", done: int = 0
 ) -> AbstractContextManager[Advance]:
-    """Return the context of long work, which gives what is to be called with how many more.
+    """Return a context for long work; its value is a function to call with each progress.
 
-    After two seconds a bar shows what is done and the time left: by default in a notebook and on
-    a terminal, on stderr; True shows it anywhere, False nowhere; a callable is told instead.
+    After two seconds a bar on stderr shows the finished part and the time left. By default it is
+    shown in a notebook and on a terminal, with True anywhere, with False nowhere. A function is
+    called with the finished and the total number instead.
 
     Examples
     --------
@@ -66,14 +67,14 @@ def advancing(
     if callable(progress):
         return nullcontext(partial(_tell, progress, work))
     if progress is not None and not isinstance(progress, bool):
-        allowed = "must be True, False, or what is called with how many are done and their number"
+        allowed = "must be True, False, or a function of the finished and the total number"
         raise refusal("progress", progress, allowed)
     where = place(progress)
     return nullcontext(_unseen) if where is Place.NOWHERE else _showing(where, work)
 
 
 def place(progress: bool | None) -> Place:
-    """Return where a bar is shown; without a wish, only where somebody watches."""
+    """Return where a bar is shown; by default only on a terminal or in a notebook."""
     if progress is False:
         return Place.NOWHERE
     if _in_notebook():

@@ -12,8 +12,8 @@ from carom.quantities.units import REAL
 if TYPE_CHECKING:
     import xarray as xr
 
-HELD = "CSV holds numbers, words and truth values; so does .nc, as Carom stores it"
-ATTRIBUTE = "an attribute is a text, a number, or a list of two or more texts or numbers"
+HELD = "Carom stores only numbers, texts and truth values"
+ATTRIBUTE = "an attribute must be a text, a number, or a list of two or more texts or numbers"
 UNFIT = re.compile("[\0\ud800-\udfff]")  # in texts: NUL, halves of a character
 UNFIT_NAME = re.compile("#|[.]$|.*[\0-\x1f\x7f/\ud800-\udfff]")
 NUMBERS = (int, float, np.integer, np.floating)
@@ -41,7 +41,7 @@ two or more texts or numbers
     for name in {**dataset.sizes, **dataset.variables}:
         _check_name(name)
         if name in dataset.coords and name not in dataset.dims and str(name).split() != [name]:
-            raise refusal("name", name, "the name of such a coordinate has no blanks")
+            raise refusal("name", name, "the name of such a coordinate must not have blanks")
     for name, item in found.variables.items():
         _check_values(str(name), item)
         item.attrs = _attributes(item.attrs)
@@ -50,7 +50,7 @@ two or more texts or numbers
 
 def _check_name(name: Hashable) -> None:
     if not isinstance(name, str) or not name or UNFIT_NAME.match(name):
-        raise refusal("name", name, "a name is a text without / and ends of lines, no # in front")
+        raise refusal("name", name, "a name must be a text without /, line ends and # in front")
 
 
 def _check_values(name: str, item: "xr.Variable") -> None:
@@ -70,14 +70,14 @@ def _check_values(name: str, item: "xr.Variable") -> None:
 
 def _check_text(name: str, text: str) -> None:
     if UNFIT.search(text):
-        raise refusal(name, text, "a text to store has no NUL and no half of a character")
+        raise refusal(name, text, "a text must not have NUL or half of a character")
 
 
 def _attributes(given: Mapping[Any, Any]) -> dict[Any, Any]:
     for name in given:
         _check_name(name)
         if name in RESERVED:
-            allowed = "this name says how values are stored; take another"
+            allowed = "this name is reserved for the storage of values; use another"
             raise refusal("attribute", name, allowed)
     return {name: _attribute(name, value) for name, value in given.items()}
 

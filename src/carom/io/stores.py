@@ -1,4 +1,4 @@
-"""Reading the Zarr store of a sweep: a chunk that is damaged is told, never read as numbers.
+"""Reading the Zarr store of a sweep, in which a damaged chunk is reported and never read.
 
 Chunks have the checksum of zstd inside. All else is written once, when the store is made, and has
 its SHA-256 in a list; stores without that list are older, and are read as they are.
@@ -105,12 +105,12 @@ def _check_frozen(path: Path) -> None:
         raise refusal("store", str(path), f"cannot be read; {error.strerror}") from None
     known = {name: digest for digest, _, name in (x.partition("  ") for x in text.splitlines())}
     if METADATA not in known:
-        raise refusal("store", str(path), f"it is damaged: {FROZEN} has changed; begin anew")
+        raise refusal("store", str(path), f"it is damaged: {FROZEN} has changed; start again")
     for name, digest in known.items():
         found = _digest(path / name)
         if found != digest:
             what = "is missing" if found == MISSING else "has changed"
-            allowed = f"it is damaged: {shorten(name, 60)} {what}; begin anew"
+            allowed = f"it is damaged: {shorten(name, 60)} {what}; start again"
             raise refusal("store", str(path), allowed)
 
 

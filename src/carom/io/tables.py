@@ -22,7 +22,7 @@ from carom.quantities.units import REAL, factor_of, finite_or_text, told_unit, t
 ALIASES = {"psi_1": "psi_in", "psi_2": "psi_out", "angle_deg": "angle [deg]"}
 SPELLINGS = {name: alias for alias, name in ALIASES.items()}
 CASE = "# case:"  # begins a comment that holds the bodies as JSON
-KEPT = ("case", "doi")  # attributes of a dataset that are comments of a file
+KEPT = ("case", "code", "doi", "law")  # attributes of a dataset that are comments of a file
 HEAD = re.compile(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*")
 GAP = "-"  # a cell of what was not measured
 RAW = (str, bytes, bytearray, memoryview)  # sequences that are no lists
@@ -120,7 +120,7 @@ def read_table(
     named = _renamed([head for head, _ in given], _checked_columns(columns), what)
     _check_names(what, [name for name, _ in named])
     if not len(table.rows):
-        raise InputError(f"{what}: no rows; there must be names of columns, and numbers below them")
+        raise InputError(f"{what}: no rows; give names of columns, and numbers below them")
     read = {
         name: column._replace(unit=_one_unit(name, unit, column.unit))
         for (name, unit), (_, column) in zip(named, given, strict=True)
@@ -131,7 +131,7 @@ def read_table(
 def _columns_of(what: str, source: Any) -> tuple[list[tuple[str, Column]], dict[str, str]]:
     """Return the heads and the columns of what is no file, and its comments."""
     if hasattr(source, "data_vars"):
-        comments = {name: source.attrs[name] for name in KEPT if name in source.attrs}
+        comments = {name: str(source.attrs[name]) for name in KEPT if name in source.attrs}
         return list(_of_dataset(source)), comments
     if any(name is not None for name in getattr(getattr(source, "index", None), "names", ())):
         source = _with_index(what, source)
@@ -157,7 +157,7 @@ def _checked_columns(columns: Any) -> Mapping[str, str]:
         isinstance(name, str) and name.strip() for name in names.values()
     ):
         example = "{'omega': 'spin_out'}"
-        raise refusal("columns", columns, f"must tell what names stand for, e.g. {example}")
+        raise refusal("columns", columns, f"must map heads of columns to names, e.g. {example}")
     return {str(head): name for head, name in names.items()}
 
 
@@ -207,7 +207,7 @@ def _check_names(what: str, names: Sequence[str]) -> None:
     twice = [spelled(name) for name, count in Counter(names).items() if count > 1]
     if twice:
         listed = " and ".join(map(repr, twice))
-        raise InputError(f"{listed}: two columns of this name; leave one of them out")
+        raise InputError(f"{listed}: two columns have this name; leave one of them out")
 
 
 def _renamed(heads: Iterable[str], columns: Mapping[str, str], what: str) -> list[tuple[str, str]]:
@@ -222,7 +222,7 @@ def _renamed(heads: Iterable[str], columns: Mapping[str, str], what: str) -> lis
         name, told = name_and_unit(head if wanted is None else wanted)
         new.append((name, told if wanted is None else _one_unit(own, unit, told)))
     for name in left:
-        hint = nearest(name, heads) or f"found are {', '.join(heads)}"
+        hint = nearest(name, heads) or f"its columns are {', '.join(heads)}"
         raise refusal("columns", name, f"{what} has no column of that name; {hint}")
     return new
 
@@ -303,5 +303,5 @@ def _of_dataset(dataset: Any) -> Iterator[tuple[str, Column]]:
             yield name, _column(name, whole, gaps=True)
         else:
             along, rows = (" and ".join(map(str, dims)) for dims in (item.dims, sizes))
-            fault = f"it runs along {along}, the rows along {rows}; choose with .sel or .isel"
+            fault = f"it runs along {along}, but the rows along {rows}; select with .sel or .isel"
             yield name, Column("", (), fault)

@@ -1,4 +1,4 @@
-"""The exact rebound as a table: psi_2(psi_1) at one chi and e, as series between its kinks."""
+"""The exact rebound as a table of psi_2(psi_1) at one chi and e, in series between its kinks."""
 
 from __future__ import annotations
 
@@ -28,27 +28,30 @@ from carom.quantities.units import positive
 
 @dataclass(frozen=True, eq=False)
 class ReboundLaw:
-    """The exact rebound at one chi, tabulated to 1e-9 for chi up to 10; or at one chi and e < 1.
+    """The exact rebound at one chi, tabulated for arrays of impacts.
 
-    psi_2 = psi_1 r(|psi_1|), r as Chebyshev series on panels up to the border of gross slip
-    throughout, psi_2 = psi_1 -+ 2 chi (1 + e) from there on (Maw, Barber & Fawcett 1976; Barber
-    (33)). With losses to 3e-8 max(1, |psi_1|) for e >= 0.01 and chi up to 3, to 1e-6 above.
+        psi_2 = psi_1 r(|psi_1|)
+        psi_2 = psi_1 -+ 2 chi (1 + e) in gross slip throughout
+
+    The ratio r (Maw, Barber & Fawcett 1976; Barber 1979, (33)) is stored as Chebyshev series on
+    panels. The error is below 1e-9 for chi up to 10, where impacts have few phases, and 2e-9 above.
+    With losses it is below 3e-8 max(1, |psi_1|) for e >= 0.01 and chi up to 3, and 1e-6 above.
 
     Parameters
     ----------
     chi : float
-        (kappa/2)(m_n/m_t), positive, up to 100; spheres have 0.5 to 3. Made in 20 to 70 ms up to 3,
-        in seconds beyond 30. Beyond 10 impacts have many phases, and the error reaches 2e-9.
+        Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive, up to 100; spheres have 0.5 to
+        3. The table takes 20 to 70 ms up to 3, and seconds beyond 30.
     losses : KelvinVoigt, optional
-        What the impact loses energy to, the same at all speeds: a restitution is given. Made
-        in 0.1 to 0.3 s for chi up to 3, some seconds above.
+        Loss of energy that is the same at all speeds, which means a restitution. The table takes
+        0.1 to 0.3 s for chi up to 3, and some seconds above.
 
     Attributes
     ----------
     restitution : float
-        e; 1 without losses.
+        Coefficient of restitution e, 1 without losses.
     edges : ndarray, shape (n + 1,)
-        psi_1 at which panels begin and end, from 0 to max(1, 2 chi (1 + e) - e).
+        Ends of the panels in psi_1, from 0 to max(1, 2 chi (1 + e) - e).
     coefficients : ndarray, shape (n, 11)
         Chebyshev coefficients of r on each panel.
 
@@ -79,7 +82,7 @@ class ReboundLaw:
     def __init__(self, chi: float, *, losses: KelvinVoigt | None = None) -> None:
         value, e = positive("chi", chi), _restitution_of(losses)
         if value > LARGEST_CHI:
-            allowed = f"a table takes chi up to {LARGEST_CHI:g}; carom.rebound needs none"
+            allowed = f"must be at most {LARGEST_CHI:g} in a table; carom.rebound takes any chi"
             raise refusal("chi", chi, allowed)
         self._hold(value, e, panels(value, e))
 
@@ -93,29 +96,31 @@ class ReboundLaw:
     def __call__(self, psi: Any) -> Any:
         """Return psi_2 for an array of any library that follows the array API standard.
 
-        What is masked is NaN; NaN stays NaN, and what is infinite stays so.
+        Masked elements give NaN, and NaN and infinity are kept.
         """
         return applied(lambda incoming, xp: incoming - lost(incoming, self._rule, xp), "psi", psi)
 
     def impulse(self, psi: Any) -> Any:
-        """Return tangential impulse over friction times normal impulse, (psi_1 - psi_2)/S.
+        """Return the tangential impulse in units of the largest impulse of friction.
 
-        S = 2 chi (1 + e). It is 1 in gross slip throughout; mu (1 + e) m_n V_1 makes it N s.
+            J_t/(mu J_n) = (psi_1 - psi_2)/(2 chi (1 + e))
+
+        It is 1 in gross slip throughout; multiplied by mu (1 + e) m_n V_1 it is in N s.
 
         Parameters
         ----------
         psi : array of any library that follows the array API standard
-            psi_1.
+            Dimensionless tangential velocity psi_1.
 
         Returns
         -------
         array
-            Of the library and shape of psi.
+            The impulse, of the library and shape of `psi`.
 
         Raises
         ------
         InputError
-            If it is no array of numbers.
+            If `psi` is not an array of numbers.
 
         Examples
         --------
@@ -127,25 +132,23 @@ class ReboundLaw:
         return applied(lambda incoming, xp: lost(incoming, self._rule, xp) / bound, "psi", psi)
 
     def dissipation(self, psi: Any) -> Any:
-        """Return the energy that friction takes, psi_1^2 - psi_2^2.
-
-        (m_t/2)(mu V_1/kappa)^2 makes it J.
+        """Return the energy lost to friction, psi_1^2 - psi_2^2.
 
         Parameters
         ----------
         psi : array of any library that follows the array API standard
-            psi_1.
+            Dimensionless tangential velocity psi_1.
 
         Returns
         -------
         array
-            Of the library and shape of psi, in units of (m_t/2)(mu V_1/kappa)^2; infinite where
-            floating point cannot hold it.
+            The energy in units of (m_t/2)(mu V_1/kappa)^2, of the library and shape of `psi`;
+            infinite where it is too large for floating point.
 
         Raises
         ------
         InputError
-            If it is no array of numbers.
+            If `psi` is not an array of numbers.
 
         Examples
         --------
@@ -162,9 +165,9 @@ class ReboundLaw:
 
     @property
     def duration(self) -> float:
-        """Duration of the contact, the same for every psi_1 (without losses Hertz 1882).
+        """Duration of the contact in units of d_max/V_1, the same for every psi_1 (Hertz 1882).
 
-        In units of d_max/V_1, d_max that of the elastic impact.
+        d_max is the largest penetration of the elastic impact.
         """
         if self.restitution == 1.0:
             return float(hertz.DURATION)
@@ -173,14 +176,14 @@ class ReboundLaw:
 
     @property
     def nbytes(self) -> int:
-        """Size of the table."""
+        """Size of the table in bytes."""
         return self.edges.nbytes + self.coefficients.nbytes
 
     def rule(self, pair: Pair) -> Rule:
-        """Return what a collision of this pair needs; InputError if its chi is another."""
+        """Return the numbers that a collision of this pair needs; its chi must be the same."""
         if abs(pair.chi - self.chi) > 1e-9 * self.chi:
             raise InputError(
-                f"law: it is for chi = {self.chi:.10g}, the pair has chi = {pair.chi:.10g}; "
+                f"law: it is for chi = {self.chi:.10g}, but the pair has chi = {pair.chi:.10g}; "
                 "make the law with pair.chi"
             )
         if pair.friction == 0.0:
@@ -205,12 +208,12 @@ class ReboundLaw:
         return bibtex(*IMPACT, *((VISCOUS,) if self.restitution < 1.0 else ()))
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the table as plain numbers and lists, for JSON; `from_dict` takes it back.
+        """Return the table as plain numbers and lists, for JSON; `from_dict` reads it.
 
         Returns
         -------
         dict
-            chi, restitution, edges and coefficients.
+            The values `chi`, `restitution`, `edges` and `coefficients`.
         """
         return {
             "chi": self.chi,
@@ -221,12 +224,12 @@ class ReboundLaw:
 
     @classmethod
     def from_dict(cls, table: Mapping[str, Any]) -> Self:
-        """Return the law of a stored table, to the last bit, without solving an impact.
+        """Return the law of a stored table, exactly, without solving an impact.
 
         Parameters
         ----------
         table : mapping
-            What `to_dict` returned, e.g. read back from JSON.
+            The table that `to_dict` returned, for example read from JSON.
 
         Returns
         -------
@@ -236,7 +239,7 @@ class ReboundLaw:
         Raises
         ------
         InputError
-            If it is not the whole table of a law.
+            If this is not the complete table of a law.
 
         Examples
         --------
@@ -253,7 +256,7 @@ class ReboundLaw:
         except (KeyError, IndexError, TypeError, ValueError):
             whole = False
         if not whole:
-            raise InputError("table: not one of a ReboundLaw; give what to_dict returned")
+            raise InputError("table: it is not a table of ReboundLaw; give what to_dict returned")
         law = object.__new__(cls)
         law._hold(chi, e, Panels(edges, rows))
         return law
@@ -293,5 +296,5 @@ def _restitution_of(losses: KelvinVoigt | None) -> float:
         return 1.0
     scale_free(losses)
     if not isinstance(losses, KelvinVoigt):
-        raise refusal("losses", losses, "a table takes KelvinVoigt(restitution=), or no losses")
+        raise refusal("losses", losses, "a table needs KelvinVoigt(restitution=...), or no losses")
     return float(losses.restitution)

@@ -45,17 +45,19 @@ def fill(psi: Vector, chi: Vector, patches: Patches, psi_out: Vector) -> None:
 
 
 class MixtureLaw:
-    """The exact rebound over a range of chi, tabulated to 1e-7 on NumPy arrays.
+    """The exact rebound over a range of chi, tabulated for NumPy arrays to within 1e-7.
 
-    psi_2 = psi_1 r(|psi_1|, chi), r as Chebyshev series on rectangles over chi and a measure of
-    psi_1 in which the borders of regimes 1, 2 chi, 4 chi - 1 are straight (Maw, Barber & Fawcett
-    1976; Barber 1979, section 5). Made in 0.1 s for chi from 1.2 to 1.5, a second from 0.9 to 1.8,
-    several where chi goes beyond 2.
+        psi_2 = psi_1 r(|psi_1|, chi)
+
+    The ratio r (Maw, Barber & Fawcett 1976; Barber 1979, section 5) is stored as Chebyshev series
+    on rectangles, over chi and a scaled psi_1 in which the regime borders 1, 2 chi, 4 chi - 1 are
+    straight. The table takes 0.1 s for chi from 1.2 to 1.5, a second for 0.9 to 1.8, and several
+    seconds for chi beyond 2.
 
     Parameters
     ----------
     low, high : float
-        The range of chi, 0.5 <= low < high <= 5.
+        The range of chi, `0.5 <= low < high <= 5`.
 
     Raises
     ------
@@ -85,9 +87,10 @@ class MixtureLaw:
             self.patches = fitted_patches(loss, whole, (1.0, 2.0), TOLERANCE, singular=1.0)
 
     def __call__(self, psi: ArrayLike, chi: ArrayLike, *, return_status: bool = False) -> Any:
-        """Return psi_2, broadcast; what lies outside the range of chi comes from `rebound`.
+        """Return psi_2 of the broadcast arguments; outside the range of chi `rebound` is used.
 
-        With `return_status` also a `Status` for each; without it a warning tells of what is NaN.
+        With `return_status` a `Status` of each impact is returned, too; otherwise a warning reports
+        impacts that are NaN.
         """
         return_status = flag("return_status", return_status)
         along_the_same(psi=psi, chi=chi)
@@ -107,7 +110,7 @@ class MixtureLaw:
 
     @property
     def nbytes(self) -> int:
-        """Size of the table."""
+        """Size of the table in bytes."""
         return sum(part.nbytes for part in self.patches)
 
     def __repr__(self) -> str:

@@ -1,4 +1,4 @@
-"""Laws of rigid spheres that simulations use in place of the exact one: smooth, rough, Walton's."""
+"""Laws of rigid spheres that simulations use instead of the exact law."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ def _check_ratios(law: object, **least: float) -> None:
 
 @dataclass(frozen=True, kw_only=True)
 class SmoothLaw:
-    """Smooth spheres: V_n' = -e V_n, V_t' = V_t; spins never change.
+    """Perfectly smooth spheres, whose spins never change: V_n' = -e V_n, V_t' = V_t.
 
     Parameters
     ----------
     restitution : float
-        e, from 0 to 1.
+        Coefficient of restitution e, from 0 to 1.
 
     Raises
     ------
@@ -48,7 +48,7 @@ class SmoothLaw:
         _check_ratios(self, restitution=0.0)
 
     def rule(self, pair: Pair) -> Rule:
-        """Return what a collision of this pair needs."""
+        """Return the numbers that a collision of this pair needs."""
         return constant_rule(self.restitution, 0.0, 0.0)
 
 
@@ -59,7 +59,7 @@ class RoughLaw:
     Parameters
     ----------
     restitution : float
-        e, from 0 to 1; with 1 no energy is lost.
+        Coefficient of restitution e, from 0 to 1; with 1 no energy is lost.
 
     Raises
     ------
@@ -79,23 +79,25 @@ class RoughLaw:
         _check_ratios(self, restitution=0.0)
 
     def rule(self, pair: Pair) -> Rule:
-        """Return what a collision of this pair needs."""
+        """Return the numbers that a collision of this pair needs."""
         return constant_rule(self.restitution, inf, 2.0)
 
 
 @dataclass(frozen=True, kw_only=True)
 class WaltonLaw:
-    """Walton's three parameters: e, friction mu while it slides, beta_0 where it does not.
+    """Walton's law, with friction mu in sliding and tangential restitution beta_0 otherwise.
 
-    |J_t| = min(m_t (1 + beta_0) |V_t|, mu |J_n|), J_n = (1 + e) m_n V_n (Walton 1993; Foerster,
-    Louge, Chang & Allia 1994, (11)-(13)).
+        |J_t| = min(m_t (1 + beta_0) |V_t|, mu |J_n|), J_n = (1 + e) m_n V_n
+
+    Its three parameters e, mu and beta_0 are those of Walton (1993) and of Foerster, Louge, Chang &
+    Allia (1994), (11)-(13).
 
     Parameters
     ----------
     friction : float
-        mu, zero or positive.
+        Coefficient of friction mu, zero or positive.
     restitution : float
-        e, from 0 to 1.
+        Normal coefficient of restitution e, from 0 to 1.
     tangential_restitution : float
         beta_0 = -V_t'/V_t of the contact point, from -1 (smooth) to 1 (perfectly rough).
 
@@ -121,6 +123,6 @@ class WaltonLaw:
         object.__setattr__(self, "friction", not_negative("friction", self.friction))
 
     def rule(self, pair: Pair) -> Rule:
-        """Return what a collision of this pair needs."""
+        """Return the numbers that a collision of this pair needs."""
         bound = self.friction * (1.0 + self.restitution) * pair.normal_mass / pair.tangential_mass
         return constant_rule(self.restitution, bound, 1.0 + self.tangential_restitution)

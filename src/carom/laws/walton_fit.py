@@ -1,4 +1,4 @@
-"""How near Walton's law can come to the exact one."""
+"""The parameters with which Walton's law comes closest to the exact one."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ SHORTEST, LONGEST = 1e-6, 1e9  # spans
 
 @dataclass(frozen=True)
 class WaltonFit:
-    """Walton's law fitted to the exact one, and the error in psi_2 that remains over the span.
+    """Walton's law fitted to the exact one, and the remaining error of psi_2; made by `fit_walton`.
 
-    `law` is the fitted `WaltonLaw`, `rms_error` and `max_error` those of psi_2, `span` the largest
-    psi_1 that counts; made by `fit_walton`.
+    `law` is the fitted `WaltonLaw`, `rms_error` and `max_error` are the errors of its psi_2, and
+    `span` is the largest psi_1 of the fit.
 
     Examples
     --------
@@ -45,21 +45,23 @@ class WaltonFit:
 def fit_walton(pair: Pair, span: float | None = None) -> WaltonFit:
     """Return Walton's friction and beta_0 that come closest to the exact rebound of a pair.
 
-    Least squares in psi_2, evenly over psi_1 from 0 to the span, of psi_1 - min((1 + beta_0) psi_1,
-    4 chi mu_W/mu) against the exact psi_2 (Walton 1993; Maw, Barber & Fawcett 1976).
+        psi_2 = psi_1 - min((1 + beta_0) psi_1, 4 chi mu_W/mu)
+
+    This psi_2 (Walton 1993) is fitted by least squares to the exact one (Maw, Barber & Fawcett
+    1976), at incidences psi_1 evenly spaced from 0 to the span.
 
     Parameters
     ----------
     pair : Pair
         The bodies; their friction must not be zero.
     span : float, optional
-        Largest psi_1, by default 4 chi: nearly up to gross slip throughout and a little beyond.
+        Largest psi_1, by default 4 chi, slightly beyond the border of gross slip throughout.
 
     Returns
     -------
     WaltonFit
-        `law`, a WaltonLaw with e = 1; rms_error and max_error of its psi_2 over the span; `span`
-        itself.
+        The `law`, a WaltonLaw with e = 1, the `rms_error` and `max_error` of its psi_2 over the
+        span, and the `span`.
 
     Raises
     ------
@@ -78,7 +80,7 @@ def fit_walton(pair: Pair, span: float | None = None) -> WaltonFit:
     if not isinstance(pair, Pair):
         raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
     if pair.friction == 0.0:
-        raise refusal("friction", pair.friction, "must be positive: without it nothing is to fit")
+        raise refusal("friction", pair.friction, "must be positive, or there is nothing to fit")
     reach = 4.0 * pair.chi if span is None else positive("span", span, "1")
     if not SHORTEST <= reach <= LONGEST:
         raise refusal("span", span, f"must lie between {SHORTEST:g} and {LONGEST:g}")

@@ -1,6 +1,7 @@
 from . import style as style
 from .animation import animate as animate, checked_animation as checked_animation
 from .cone import plot_cone as plot_cone
+from .contact import plot_contact as plot_contact
 from .impact import plot_forces as plot_forces, plot_impact as plot_impact, plot_radii as plot_radii
 from .laws import plot_error_map as plot_error_map, plot_laws as plot_laws
 from .patch import plot_patch as plot_patch

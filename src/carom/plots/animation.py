@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sized
 from contextlib import suppress
 from itertools import chain
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 import matplotlib
 import numpy as np
@@ -21,7 +21,9 @@ from carom.io.paths import checked_output, ending_of, replace_whole
 from carom.io.progress import Advance, advancing
 from carom.plots import style
 from carom.plots.bands import BANDS
+from carom.plots.drawing import draws
 from carom.plots.impact import FORCES, HISTORY, RADII, forces_panel, phase_handles
+from carom.plots.look import Look
 from carom.plots.patch import patch_panel, patch_title
 from carom.quantities.refusals import InputError, refusal
 
@@ -32,9 +34,13 @@ RESOLUTION = {".gif": 110, ".mp4": 200}  # in dots per inch
 MARGIN = 1.08  # around the largest contact
 
 
-@style.draws(HISTORY, *FORCES, *RADII, "max_pressure", along="time")
+@draws(HISTORY, *FORCES, *RADII, "max_pressure", along="time")
 def animate(
-    history: xr.Dataset, frames: Iterable[xr.Dataset], path: str | Path, progress: Progress = None
+    history: xr.Dataset,
+    frames: Iterable[xr.Dataset],
+    path: str | Path,
+    progress: Progress = None,
+    **look: Unpack[Look],
 ) -> Path:
     """Store a film of the contact patch beside the history of the tangential force.
 
@@ -51,6 +57,8 @@ def animate(
     progress : bool or callable, optional
         Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
         what is called after every frame.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
     -------
@@ -181,8 +189,7 @@ class _Film:
             "traction_x",
             scale,
             reach=reach,
-            vmin=-largest * scale,
-            vmax=largest * scale,
+            **style.colours("traction_x", largest * scale),
         )
         title = patch_title(fields, reach, like=history["time"].values)
         self.patch.set_title(title if "\n" in title else title + "\n ")
@@ -208,8 +215,8 @@ def _write_gif(where: Path, pictures: Iterator[Image.Image]) -> None:
 
 def _palette() -> Image.Image:
     """Return an image with the colours of a GIF: the same for all frames, so that none flickers."""
-    shades = matplotlib.colormaps[style.MAP](np.linspace(0.0, 1.0, 112))[:, :3]
-    hatched = 0.4 * shades[::4] + 0.6
+    shades = matplotlib.colormaps[style.SIGNED_MAP](np.linspace(0.0, 1.0, 112))[:, :3]
+    hatched = 0.4 * shades[::4] + 0.6 * 0.5  # by lines of grey, see `patch_panel`
     inks = [
         style.BLUE,
         style.BLACK,

@@ -29,10 +29,10 @@ class Band(NamedTuple):
 STICK = Band("#DCEBF7", "#DCEBF7", "")
 BANDS = {
     ("stick", 0): STICK,
-    ("slip", 1): Band("#FBEBCB", "#E3C27A", "////"),
-    ("slip", -1): Band("#FBEBCB", "#E3C27A", "\\\\\\\\"),
-    ("gross slip", 1): Band("#DDDDDD", "#BBBBBB", "//////"),
-    ("gross slip", -1): Band("#DDDDDD", "#BBBBBB", "\\\\\\\\\\\\"),
+    ("slip", 1): Band("#FDF1DA", "#F0D9A8", "///"),
+    ("slip", -1): Band("#FDF1DA", "#F0D9A8", "\\\\\\"),
+    ("gross slip", 1): Band("#E8E8E8", "#D0D0D0", "////"),
+    ("gross slip", -1): Band("#E8E8E8", "#D0D0D0", "\\\\\\\\"),
 }
 MINUS = "\u2212"
 SIGNS = {0: "", 1: " +", -1: f" {MINUS}"}

@@ -1,7 +1,7 @@
 """The path of the forces inside the cone of friction, or inside its circle."""
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 import xarray as xr
@@ -10,6 +10,9 @@ from matplotlib.figure import Figure
 
 from carom.plots import style
 from carom.plots.bands import phases
+from carom.plots.drawing import Drawable, draws
+from carom.plots.legends import legend_above
+from carom.plots.look import Look
 from carom.quantities.arrays import Array
 
 PATHS: dict[str, dict[str, Any]] = {
@@ -24,11 +27,11 @@ SHORTEST = 0.15  # of a phase with an arrow
 ARROWS = 8  # on a path without phases
 
 
-@style.draws(
+@draws(
     "the course of an impact or a load path, what Impact.history or LoadPath.to_dataset returns",
     *("normal_force", "tangential_force", "friction"),
 )
-def plot_cone(dataset: xr.Dataset) -> Figure:
+def plot_cone(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw F_x against F_z inside Coulomb's cone, |F_x| <= mu F_z, for an impact or a load path.
 
     The parts of an impact are marked by phase; arrows point on in time. A load path of two
@@ -38,6 +41,8 @@ def plot_cone(dataset: xr.Dataset) -> Figure:
     ----------
     dataset : xarray.Dataset
         What `Impact.history` or `LoadPath.to_dataset` returns.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
     -------
@@ -77,7 +82,7 @@ def plot_cone(dataset: xr.Dataset) -> Figure:
             _mark_ends(axis, part)
     axis.set_xlabel(style.label("normal_force", unit))
     axis.set_ylabel(style.label("tangential_force", tangential_unit))
-    style.legend_above(axis, 4)
+    legend_above(axis, 4)
     return figure
 
 
@@ -98,9 +103,9 @@ def _draw_circle(dataset: xr.Dataset) -> Figure:
     axis.set_aspect("equal")
     axis.set_xticks([-1.0, -0.5, 0.0, 0.5, 1.0])
     axis.set_yticks([-1.0, -0.5, 0.0, 0.5, 1.0])
-    axis.set_xlabel(r"tangential force, $F_x/\mu F_z$")
-    axis.set_ylabel(r"tangential force, $F_y/\mu F_z$")
-    style.legend_above(axis, 4)
+    axis.set_xlabel(r"$F_x/\mu F_z$")
+    axis.set_ylabel(r"$F_y/\mu F_z$")
+    legend_above(axis, 4)
     return figure
 
 

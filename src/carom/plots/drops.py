@@ -1,11 +1,12 @@
 """Normal drops: restitution against speed, and the laws of losses fitted to it."""
 
-from typing import Any
+from typing import Any, Unpack
 
-import xarray as xr
 from matplotlib.figure import Figure
 
 from carom.plots import style
+from carom.plots.drawing import Drawable, draws
+from carom.plots.look import Look
 
 HEIGHT = 62.0  # in mm
 LAW_STYLES: dict[str, Any] = {
@@ -15,11 +16,11 @@ LAW_STYLES: dict[str, Any] = {
 }
 
 
-@style.draws(
+@draws(
     "a fit of normal impacts, what carom.fit(...).to_dataset() returns",
     *("restitution", "normal_speed", "loss_speed", "loss_restitution"),
 )
-def plot_drops(dataset: xr.Dataset) -> Figure:
+def plot_drops(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw measured restitutions against normal speed, and the laws of losses fitted to them.
 
     Error bars are standard deviations; of the laws the one that is likeliest comes first.
@@ -28,6 +29,8 @@ def plot_drops(dataset: xr.Dataset) -> Figure:
     ----------
     dataset : xarray.Dataset
         What `carom.fit(...).to_dataset()` returns, of impacts of which none is oblique.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Examples
     --------
@@ -49,7 +52,7 @@ def plot_drops(dataset: xr.Dataset) -> Figure:
         **style.POINTS,
         label="measured",
     )
-    axis.set_xlabel("normal speed before (m/s)")
-    axis.set_ylabel("restitution $e$")
+    axis.set_xlabel(style.label("normal_speed"))
+    axis.set_ylabel(style.label("normal_restitution"))
     axis.legend(loc="best")
     return figure

@@ -1,6 +1,6 @@
 """A fit to measured rebounds: data, curves, residuals; and samples of its parameters."""
 
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 import xarray as xr
@@ -11,6 +11,9 @@ from matplotlib.patches import Patch
 from carom.io.extras import extra
 from carom.plots import style
 from carom.plots.bands import STICK, Band, mirrored, shade
+from carom.plots.drawing import Drawable, draws
+from carom.plots.legends import legend_outside
+from carom.plots.look import Drawing, Look
 from carom.quantities.glossary import GLOSSARY
 
 ACROSS = 2  # responses side by side
@@ -23,11 +26,11 @@ LAW_STYLES: dict[str, Any] = {
 }
 
 
-@style.draws(
+@draws(
     "a fit, what carom.fit(...).to_dataset() returns",
     *("measured", "residual", "curve_expected", "incidence"),
 )
-def plot_fit(dataset: xr.Dataset) -> Figure:
+def plot_fit(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw what was measured against incidence, the fitted curve with its band, and residuals.
 
     Error bars are standard deviations, with the part that comes from the motion before; the band is
@@ -35,8 +38,10 @@ def plot_fit(dataset: xr.Dataset) -> Figure:
 
     Parameters
     ----------
-    dataset : xarray.Dataset
-        What `carom.fit(...).to_dataset()` returns.
+    dataset : xarray.Dataset or result
+        What `carom.fit(...)` returns, or its `to_dataset()`.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Examples
     --------
@@ -64,27 +69,29 @@ def plot_fit(dataset: xr.Dataset) -> Figure:
         last = axes[2 * ((len(names) - 1 - column) // across) + 1, column]
         last.set_xlabel(_incidence(dataset))
         last.tick_params(labelbottom=True)
-    figure.legend(handles=_key(dataset), loc="outside upper center", ncols=across + 1)
+    legend_outside(figure, _key(dataset), across + 1)
     return figure
 
 
-@style.styled
-def plot_corner(samples: xr.Dataset) -> Figure:
+@draws("samples of parameters, what carom.fit(...).posterior() returns", "sample", along="sample")
+def plot_corner(samples: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw samples of the posterior, parameter by parameter and pair by pair.
 
     Parameters
     ----------
     samples : xarray.Dataset
         What `carom.fit(...).posterior()` returns.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
     """
     corner = extra("corner", "a corner plot", "fit")
     names = [str(name) for name in samples.data_vars if name != "chi"]  # not beside kappa
     side = max(style.SINGLE, 45.0 * len(names)) * style.MM
-    figure = Figure(figsize=(side, side))
+    figure = Drawing(figsize=(side, side))
     values = np.stack([samples[name].values for name in names], axis=1)
     labels = [GLOSSARY[name].symbol if name in GLOSSARY else name for name in names]
-    look = {"color": style.BLUE, "quantiles": (0.025, 0.5, 0.975), "max_n_ticks": 4}
-    corner.corner(values, labels=labels, fig=figure, quiet=True, **look)
+    marks: Any = {"color": style.BLUE, "quantiles": (0.025, 0.5, 0.975), "max_n_ticks": 4}
+    corner.corner(values, labels=labels, fig=figure, quiet=True, **marks)
     return figure
 
 
@@ -122,7 +129,7 @@ def _scale(name: str, values: Any) -> tuple[float, str]:
 
 def _label(name: str, unit: str) -> str:
     words = name.replace("_", " ")
-    text = f"{words}, {GLOSSARY[name].symbol}" if name in GLOSSARY else words
+    text = GLOSSARY[name].symbol if name in GLOSSARY else words
     return text if unit == "1" else f"{text}\u00a0({unit})"
 
 

@@ -1,6 +1,6 @@
 """An impact in the course of time: forces, velocities, radii, energies; and its path of forces."""
 
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 import xarray as xr
@@ -10,6 +10,10 @@ from matplotlib.patches import Patch
 
 from carom.plots import style
 from carom.plots.bands import BANDS, SIGNS, phases, shade
+from carom.plots.drawing import Drawable, draws
+from carom.plots.legends import legend_above, legend_outside
+from carom.plots.look import Look
+from carom.plots.overlays import COURSES, Course, overlay, stick_line
 from carom.quantities.arrays import Array
 
 ENERGIES = {
@@ -31,20 +35,24 @@ LOST = {  # where there is any
 HISTORY = "the history of an impact, what Impact.history returns"
 FORCES = ("tangential_force", "normal_force", "friction", "time")
 VELOCITIES = ("contact_velocity", "normal_velocity")
+TWO_COLUMNS = 130.0  # mm that two panels beside each other need, with fonts of the usual size
 RADII = ("contact_radius", "stick_radius", "time")
 
 
-@style.draws(HISTORY, *FORCES, *VELOCITIES, *RADII, *ENERGIES, along="time")
-def plot_impact(dataset: xr.Dataset) -> Figure:
-    """Draw forces, velocities, radii and energies of an impact against time, phases shaded.
+@draws(HISTORY, *FORCES, *VELOCITIES, *RADII, *ENERGIES, along="time", several=True)
+def plot_impact(dataset: Drawable, **look: Unpack[Look]) -> Figure:
+    """Draw forces, velocities, radii and energies of an impact against time.
 
-    The histories of `Impact.history` and `Impact.to_dataset`, also read back from a file, in the
-    width of two columns. Bands tell the phases; their hatch leans with the sign of slip.
+    Bands show the phases; their hatch leans with the sign of slip. Of several impacts the lines are
+    laid over each other, without bands, and the energy is the share that friction takes.
 
     Parameters
     ----------
-    dataset : xarray.Dataset
-        What `Impact.history` returns.
+    dataset : xarray.Dataset, result, or list or dictionary of them
+        What `Impact.history` returns, or the impact itself. The keys of a dictionary name the
+        impacts in the legend.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
     -------
@@ -62,27 +70,40 @@ def plot_impact(dataset: xr.Dataset) -> Figure:
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
-    >>> len(carom.plots.plot_impact(hit.history(50)).axes)
+    >>> len(carom.plots.plot_impact(hit).axes)
     4
+    >>> steeper = carom.impact(pair, speed=2.0, angle="10 deg")
+    >>> figure = carom.plots.plot_impact({"10 deg": steeper, "30 deg": hit}, width=140.0)
     """
-    figure, axes = style.new_figure(2, 2, width=style.DOUBLE, height=112.0, sharex=True)
-    panels = (forces_panel, velocities_panel, radii_panel, energies_panel)
-    for axis, panel in zip(axes.flat, panels, strict=True):
-        panel(axis, dataset)
-    for axis in axes[0]:
+    beside = 2 if style.room(style.DOUBLE) > TWO_COLUMNS else 1
+    size: Any = {"width": style.DOUBLE, "height": 112.0}
+    if beside == 1:
+        size = {"width": style.SINGLE, "height": 200.0, "keep_height": True}
+    figure, axes = style.new_figure(4 // beside, beside, sharex=True, **size)
+    if isinstance(dataset, dict):
+        handles = overlay(axes.flat, dataset, COURSES)
+    else:
+        panels = (forces_panel, velocities_panel, radii_panel, energies_panel)
+        for axis, panel in zip(axes.flat, panels, strict=True):
+            panel(axis, dataset)
+        handles = phase_handles(dataset)
+    for axis in axes[:-1].flat:
         axis.set_xlabel("")
-    figure.legend(handles=phase_handles(dataset), loc="outside upper center", ncols=5)
+    legend_outside(figure, handles, 5)
     return figure
 
 
-@style.draws(HISTORY, *FORCES, along="time")
-def plot_forces(dataset: xr.Dataset) -> Figure:
+@draws(HISTORY, *FORCES, along="time", several=True)
+def plot_forces(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw the tangential force between its limits, mu F_z, against time, in one column.
 
     Parameters
     ----------
-    dataset : xarray.Dataset
-        What `Impact.history` returns.
+    dataset : xarray.Dataset, result, or list or dictionary of them
+        What `Impact.history` returns, or the impact itself. The keys of a dictionary name the
+        impacts in the legend.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
     -------
@@ -103,17 +124,20 @@ def plot_forces(dataset: xr.Dataset) -> Figure:
     >>> len(carom.plots.plot_forces(hit.history(50)).axes)
     1
     """
-    return _single(dataset, forces_panel)
+    return _single(dataset, forces_panel, COURSES[0])
 
 
-@style.draws(HISTORY, *RADII, along="time")
-def plot_radii(dataset: xr.Dataset) -> Figure:
+@draws(HISTORY, *RADII, along="time", several=True)
+def plot_radii(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw the radii of the contact and of its stick zone against time, in one column.
 
     Parameters
     ----------
-    dataset : xarray.Dataset
-        What `Impact.history` returns.
+    dataset : xarray.Dataset, result, or list or dictionary of them
+        What `Impact.history` returns, or the impact itself. The keys of a dictionary name the
+        impacts in the legend.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
     -------
@@ -134,14 +158,17 @@ def plot_radii(dataset: xr.Dataset) -> Figure:
     >>> len(carom.plots.plot_radii(hit.history(50)).axes)
     1
     """
-    return _single(dataset, radii_panel)
+    return _single(dataset, radii_panel, COURSES[2])
 
 
-def _single(dataset: xr.Dataset, panel: Any) -> Figure:
+def _single(dataset: Any, panel: Any, course: tuple[Course, ...]) -> Figure:
     figure, axis = style.single_axis()
+    if isinstance(dataset, dict):
+        legend_outside(figure, overlay([axis], dataset, [course]), 4)
+        return figure
     panel(axis, dataset)
     lines, _ = axis.get_legend_handles_labels()
-    style.legend_above(axis, 3, handles=[*lines, *phase_handles(dataset)])
+    legend_above(axis, 3, handles=[*lines, *phase_handles(dataset)])
     return figure
 
 
@@ -170,7 +197,7 @@ def forces_panel(axis: Axes, dataset: xr.Dataset) -> None:
     axis.plot(time, force, color=style.BLUE, label="$F_x$")
     style.limit_lines(axis, time, limit * scale, r"$\pm\mu F_z$")
     axis.set_ylabel(style.label("tangential_force", unit))
-    style.legend_above(axis, 2)
+    legend_above(axis, 2)
 
 
 def velocities_panel(axis: Axes, dataset: xr.Dataset) -> None:
@@ -182,8 +209,8 @@ def velocities_panel(axis: Axes, dataset: xr.Dataset) -> None:
     for name, color, dash in zip(names, (style.BLUE, style.VERMILION), style.DASHES, strict=False):
         values, unit, _ = style.scaled(dataset, name, like=largest)
         axis.plot(time, values, color=color, ls=dash, label=names[name])
-    axis.set_ylabel(f"velocity, $V_x$, $V_z$ ({unit})")
-    style.legend_above(axis, 2)
+    axis.set_ylabel(f"$V_x$, $V_z$\u00a0({unit})")
+    legend_above(axis, 2)
 
 
 def radii_panel(axis: Axes, dataset: xr.Dataset) -> None:
@@ -192,25 +219,16 @@ def radii_panel(axis: Axes, dataset: xr.Dataset) -> None:
     contact, unit, scale = style.scaled(dataset, "contact_radius")
     stick = dataset["stick_radius"].values * scale
     axis.plot(time, contact, color=style.BLACK, label="contact, $b$")
-    line = _stick_line(stick, contact)
+    line = stick_line(stick, contact)
     axis.plot(time, line, color=style.BLUE, ls=style.DASHES[1], label="stick zone, $a$")
     style.span(axis, y=(0.0, 1.06 * contact.max()))
-    axis.set_ylabel(f"radius, $a$, $b$ ({unit})")
-    style.legend_above(axis, 2)
+    axis.set_ylabel(f"$a$, $b$\u00a0({unit})")
+    legend_above(axis, 2)
 
 
 def _taken(energy: Array) -> Array:
     """Return an energy less what is left of it at the end: all of it would hide the others."""
     return np.asarray(energy - energy[-1])
-
-
-def _stick_line(stick: Array, contact: Array) -> Array:
-    """Return the radius of the stick zone while there is one, to where it has shrunk to nothing.
-
-    Stick that begins all over the contact is no line from zero: there is none in gross slip.
-    """
-    before = np.concatenate([[0.0], stick[:-1]])
-    return np.where((stick > 0.0) | (before > 0.0) | (contact == 0.0), stick, np.nan)
 
 
 def energies_panel(axis: Axes, dataset: xr.Dataset) -> None:
@@ -228,6 +246,4 @@ def energies_panel(axis: Axes, dataset: xr.Dataset) -> None:
         area.set(label=name, hatch=hatch, edgecolor="0.35", linewidth=0.4)
     axis.set_ylim(0.0, 1.0)
     axis.set_ylabel("share of energy")
-    style.legend_above(
-        axis, 3, handlelength=1.0, handletextpad=0.3, columnspacing=0.5, fontsize=6.5
-    )
+    legend_above(axis, 3, handlelength=1.0, handletextpad=0.3, columnspacing=0.5, fontsize="small")

@@ -3,7 +3,7 @@
 import json
 import textwrap
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 import xarray as xr
@@ -13,6 +13,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from carom.plots import style
+from carom.plots.bands import MINUS
+from carom.plots.drawing import Drawable, draws
+from carom.plots.legends import legend_outside
+from carom.plots.look import Look
 from carom.plots.regimes import draw_borders
 from carom.quantities.refusals import refusal
 from carom.quantities.units import pure_number
@@ -27,7 +31,7 @@ SAMPLE = (-0.085, -0.015)  # where a bar shows its line, in widths of its axes
 WORDS = 32  # characters in a line of a law's label
 PITCH, EDGE = 5.6, 22.0  # height of a bar and of what is around them, in mm
 NOTED = 0.1  # an error that is outlined
-DIVERGING = "RdBu_r"
+CONTOURS: Any = {"colors": "0.25", "linewidths": 0.6, "linestyles": ["--", "-"]}
 LARGEST = 1e100  # limit of a map
 LEAST = 1e-3  # a colour scale ends no nearer to zero
 PLAIN = {  # parameters of elastic laws, not worth a mention
@@ -35,15 +39,18 @@ PLAIN = {  # parameters of elastic laws, not worth a mention
     "restitution": 1.0,
     "damping": "coeff_restitution",
     "tangential_damping": 0.0,
+    "initial_state": 0.0,
+    "normal": "hertz",
+    "normal_speed": 0.1,
 }
 
 
-@style.draws(
+@draws(
     "a ranking, what carom.verify.rank(...).to_dataset() returns",
     *("max_error", "rms_error", "psi_out", "psi_out_exact", "chi"),
     along="law",
 )
-def plot_laws(dataset: xr.Dataset) -> Figure:
+def plot_laws(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw psi_2 of contact laws beside that of the exact impact, and their errors, best first.
 
     A row holds up to five different rebounds on the left and, in the same colours, their largest
@@ -53,6 +60,8 @@ def plot_laws(dataset: xr.Dataset) -> Figure:
     ----------
     dataset : xarray.Dataset
         What `carom.verify.rank(...).to_dataset()` returns.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
     -------
@@ -78,15 +87,16 @@ def plot_laws(dataset: xr.Dataset) -> Figure:
     most = max(len(rows) for rows in members)
     height = len(groups) * max(PITCH * most, 30.0) + EDGE
     size: Any = {"width": style.DOUBLE, "height": height, "width_ratios": (1.0, 0.85)}
+    size["keep_height"] = True  # a bar has the height of its name
     figure, axes = style.new_figure(len(groups), 2, sharex="col", **size)
     for (left, right), rows in zip(axes, members, strict=True):
         styles = [STYLES[kind] for kind in kinds[rows] - kinds[rows].min()]
         _draw_rebounds(left, dataset, rows, styles)
         _draw_bars(right, dataset, rows, styles, most)
     axes[0, 1].set_xlim(0.0, 1.14 * axes[0, 1].get_xlim()[1])  # room for the numbers
-    axes[-1, 0].set_xlabel(style.label("psi_in", room=44))
+    axes[-1, 0].set_xlabel(style.label("psi_in"))
     axes[-1, 1].set_xlabel(r"|error in $\psi_2$|")
-    figure.legend(handles=list(_key(dataset)), loc="outside upper center", ncols=4)
+    legend_outside(figure, list(_key(dataset)), 4)
     return figure
 
 
@@ -123,13 +133,16 @@ def _draw_bars(axis: Axes, dataset: xr.Dataset, rows: Any, styles: list[Any], mo
         text = f"{value:.3f}" if np.isfinite(value) else "no limit"
         at = value if np.isfinite(value) else 0.0
         beside: Any = {"xytext": (2, 0), "textcoords": "offset points", "va": "center"}
-        axis.annotate(text, (at, place), fontsize=6.5, **beside)
+        axis.annotate(text, (at, place), fontsize="small", **beside)
         sample = Line2D(SAMPLE, (place, place), lw=1.2, clip_on=False, **stroke)
         sample.set_transform(axis.get_yaxis_transform())
         sample.set_in_layout(False)
         axis.add_line(sample)
-    names = map(str, dataset["law"].values[rows])
-    axis.set_yticks(places, [textwrap.fill(n, WORDS, break_long_words=False) for n in names])
+    names = [str(name).replace("$", r"\$") for name in dataset["law"].values[rows]]
+    axis.set_yticks(
+        places,
+        [style.with_formulas(textwrap.fill(n, WORDS, break_long_words=False)) for n in names],
+    )
     axis.tick_params(axis="y", length=0.0, pad=15.0)
     axis.set_ylim(most - 0.5, -0.5)
     for side in ("top", "right"):
@@ -151,8 +164,8 @@ def _read_limit(given: Any) -> float:
     return limit
 
 
-@style.draws("an error map, what carom.verify.error_map returns", "error", "psi_in", "chi")
-def plot_error_map(dataset: xr.Dataset, limit: float | None = None) -> Figure:
+@draws("an error map, what carom.verify.error_map returns", "error", "psi_in", "chi")
+def plot_error_map(dataset: Drawable, limit: float | None = None, **look: Unpack[Look]) -> Figure:
     """Draw the error of a contact law in psi_2 over psi_1 and chi, white where there is none.
 
     Thin lines are errors of 0.1, dashed where negative; thick ones the borders 1, 2 chi, 4 chi - 1
@@ -164,6 +177,8 @@ def plot_error_map(dataset: xr.Dataset, limit: float | None = None) -> Figure:
         What `carom.verify.error_map` returns.
     limit : float, optional
         End of the colour scale; by default the largest |error|.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
     -------
@@ -189,20 +204,23 @@ def plot_error_map(dataset: xr.Dataset, limit: float | None = None) -> Figure:
     most = max(LEAST, float(finite.max(initial=0.0))) if limit is None else _read_limit(limit)
     figure, axis = style.single_axis(height=66.0)
     axis.set_facecolor("0.8")
-    colors: Any = {"cmap": DIVERGING, "vmin": -most, "vmax": most}
+    colors: Any = {"cmap": style.SIGNED_MAP, "vmin": -most, "vmax": most}
     colors["shading"] = "gouraud" if finite.size == error.size else "nearest"
     drawn = axis.pcolormesh(psi, chi, error, rasterized=True, **colors)
+    keys = [Line2D([], [], color="black", lw=1.0, label="borders of the regimes")]
     if finite.size and finite.max() > NOTED:
-        lines: Any = {"colors": "0.25", "linewidths": 0.6, "linestyles": ["--", "-"]}
-        axis.contour(psi, chi, error, levels=[-NOTED, NOTED], **lines)
+        axis.contour(psi, chi, error, levels=[-NOTED, NOTED], **CONTOURS)
+        for dash, level in zip(CONTOURS["linestyles"], (-NOTED, NOTED), strict=True):
+            stroke: Any = {"color": CONTOURS["colors"], "lw": CONTOURS["linewidths"], "ls": dash}
+            keys.append(Line2D([], [], label=f"error {level:+g}".replace("-", MINUS), **stroke))
     style.span(axis, psi, chi)
-    axis.set(xlabel=style.label("psi_in", room=44), ylabel=style.label("chi", room=44))
+    axis.set(xlabel=style.label("psi_in"), ylabel=style.label("chi"))
     draw_borders(axis)
     over = limit is not None and bool(finite.size) and finite.max() > most
     bar = figure.colorbar(drawn, ax=axis, extend="both" if over else "neither", aspect=30)
     bar.set_label(r"error in $\psi_2$")
-    bar.ax.tick_params(labelsize=7.0, length=2.5, width=0.6)
-    figure.suptitle(_title(dataset))
+    title = style.with_formulas(_title(dataset))
+    legend_outside(figure, keys, 3, title=title, alignment="left")
     return figure
 
 
@@ -214,4 +232,5 @@ def _title(dataset: xr.Dataset) -> str:
         for name, value in given.items()
         if value is not None and value != PLAIN.get(name)
     ]
-    return textwrap.fill(", ".join([dataset.attrs.get("law", ""), *values]), 60)
+    words = ", ".join([dataset.attrs.get("law", ""), *values])
+    return textwrap.fill(words.replace("$", r"\$"), 60)  # no formula of matplotlib's

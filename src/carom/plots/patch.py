@@ -1,6 +1,6 @@
 """The contact patch seen from above: shading, zones, slip arrows."""
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Unpack
 
 import numpy as np
 import xarray as xr
@@ -11,6 +11,8 @@ from matplotlib.patheffects import withStroke
 
 from carom.plots import style
 from carom.plots.bands import moment, slip_band
+from carom.plots.drawing import Drawable, at_instant, draws
+from carom.plots.look import Look
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import one_of
 
@@ -26,24 +28,31 @@ LONGEST = 0.8  # arrow, in distances between arrows
 ROUNDING = 1e-9  # relative, of an arrow that ends on the border
 ZONES = ("contact", "stick")
 MAPPED = ("traction_x", "pressure")
-SIGNED = ("traction_x",)
 
 
-@style.draws(
+@draws(
     "the fields of a contact on a grid of x and y, what Impact.fields or LoadPath.fields returns",
     *("pressure", "traction_x", "zone", "x", "y", *(f"{name}_radius" for name in ZONES)),
+    take=at_instant("fields"),
 )
-def plot_patch(dataset: xr.Dataset, variable: str = "traction_x") -> Figure:
+def plot_patch(
+    dataset: Drawable, variable: str = "traction_x", *, at: Any = None, **look: Unpack[Look]
+) -> Figure:
     """Draw the contact from above: traction or pressure, stick and slip zones, slip velocities.
 
     The zone that slips is hatched; its arrows are the velocity of the first surface on the second.
 
     Parameters
     ----------
-    dataset : xarray.Dataset
+    dataset : xarray.Dataset or result
         Fields on a grid of x and y.
     variable : str
         What the shading tells: "traction_x" or "pressure".
+    at : float or str, optional
+        Of a result: the time in s of an impact, by default that of the largest normal force, or the
+        step of a load path, by default the last.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
     -------
@@ -71,18 +80,12 @@ def plot_patch(dataset: xr.Dataset, variable: str = "traction_x") -> Figure:
         height=64.0 + 4.0 * len(title.splitlines())
     )  # the map is square
     scale, unit = style.prefixed(dataset[variable].values, "Pa")
-    limits = _limits(dataset[variable].values * scale) if variable in SIGNED else {}
-    shading = patch_panel(axis, dataset, variable, scale, **limits)
+    colours = style.colours(variable, dataset[variable].values * scale)
+    shading = patch_panel(axis, dataset, variable, scale, **colours)
     bar = figure.colorbar(shading, ax=axis, label=style.label(variable, unit), pad=0.02, aspect=28)
     bar.outline.set_linewidth(0.6)
     axis.set_title(title)
     return figure
-
-
-def _limits(values: Array) -> dict[str, float]:
-    """Return limits of a shading that put zero in the middle of its colours."""
-    largest = float(np.abs(values).max()) or 1.0
-    return {"vmin": -largest, "vmax": largest}
 
 
 def patch_panel(
@@ -92,21 +95,25 @@ def patch_panel(
     scale: float,
     *,
     reach: float | None = None,
-    **limits: Any,
+    word: str = "stick",
+    **colours: Any,
 ) -> Any:
     """Draw the patch on axes and return its shading.
 
     The map goes to `reach` in m, by default to a little beyond the contact. The shading is the
-    variable times `scale` between `limits`.
+    variable times `scale` in these colours. The word stands in the middle where that sticks.
     """
     reach = reach or _reach(dataset)
     x, unit, length = style.scaled(dataset, "x", like=reach)
     y = dataset["y"].values * length
     contact, stick = (float(dataset[name]) * length for name in ("contact_radius", "stick_radius"))
-    how: Any = {"cmap": style.MAP, "shading": "gouraud", "rasterized": True, **limits}
+    how: Any = {"shading": "gouraud", "rasterized": True, **colours}
     shading = axis.pcolormesh(x, y, dataset[variable] * scale, **how)
     shading.set_clip_path(Circle((0.0, 0.0), contact, transform=axis.transData))
-    _draw_zones(axis, contact, stick, slip_band(dataset).hatch)
+    ink = "0.5" if colours["cmap"] == style.SIGNED_MAP else "white"
+    _draw_zones(axis, contact, stick, slip_band(dataset).hatch, ink)
+    if stick > ROOM * contact:
+        _name_stick(axis, word)
     _draw_arrows(axis, arrows(dataset, reach), length)
     axis.set_aspect("equal")
     ends = (-reach * length, reach * length)
@@ -127,19 +134,21 @@ def _reach(dataset: xr.Dataset) -> float:
     return min(around, float(np.abs(dataset["x"].values).max()))
 
 
-def _draw_zones(axis: Axes, contact: float, stick: float, hatch: str) -> None:
+def _draw_zones(axis: Axes, contact: float, stick: float, hatch: str, ink: str) -> None:
     if contact > stick:
         ring = Annulus((0, 0), contact, contact - stick) if stick else None
         marked: Any = ring or Circle((0, 0), contact)
-        marked.set(fill=False, hatch=hatch[:3], edgecolor="white", alpha=0.6, lw=0.0)
+        marked.set(fill=False, hatch=hatch[:3], edgecolor=ink, alpha=0.6, lw=0.0)
         axis.add_patch(marked)
     if 0.0 < stick < contact:
         for color, width, dash in (("white", 1.6, "-"), ("black", 0.9, (0, (4, 2)))):
             axis.add_patch(Circle((0, 0), stick, fill=False, ec=color, lw=width, ls=dash))
     axis.add_patch(Circle((0, 0), contact, fill=False, ec="black", lw=1.0))
-    if stick > ROOM * contact:
-        word = axis.text(0.0, 0.0, "stick", ha="center", va="center")
-        word.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
+
+
+def _name_stick(axis: Axes, word: str) -> None:
+    text = axis.text(0.0, 0.0, word, ha="center", va="center")
+    text.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
 
 
 class Arrows(NamedTuple):

@@ -1,5 +1,7 @@
 """Pressure, traction and memory along a line through the contact, zones shaded."""
 
+from typing import Any, Unpack
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -8,6 +10,9 @@ from matplotlib.patches import Patch
 
 from carom.plots import style
 from carom.plots.bands import STICK, Band, moment, shade, slip_band
+from carom.plots.drawing import Drawable, at_instant, draws
+from carom.plots.legends import legend_above
+from carom.plots.look import Look
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError
 
@@ -15,19 +20,25 @@ MARGIN = 1.2  # of a line through the contact, in contact radii
 NEAR = 1e-9  # relative: a y that is 0 but for rounding
 
 
-@style.draws(
+@draws(
     "fields on the line y = 0 or along the radius, what Impact.fields or Impact.radial returns",
     *("pressure", "traction_x", "contact_radius", "stick_radius", "friction"),
+    take=at_instant("radial"),
 )
-def plot_profiles(dataset: xr.Dataset) -> Figure:
-    """Draw the traction f between its limits, mu p, along the line y = 0 of the contact.
+def plot_profiles(dataset: Drawable, *, at: Any = None, **look: Unpack[Look]) -> Figure:
+    """Draw the traction f_x between its limits, mu p, along the line y = 0 of the contact.
 
     Of a profile along the radius also the memory: g = -dq/ds, and the deflection q of the springs.
 
     Parameters
     ----------
-    dataset : xarray.Dataset
+    dataset : xarray.Dataset or result
         Fields on a grid or at points of the line y = 0, or a contact's radial profile.
+    at : float or str, optional
+        Of a result: the time in s of an impact, by default that of the largest normal force, or the
+        step of a load path, by default the last.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
     -------
@@ -97,11 +108,24 @@ def _shade_zones(axis: Axes, line: xr.Dataset, scale: float, place: Array) -> No
 def _tractions(axis: Axes, line: xr.Dataset, place: Array) -> None:
     limit = float(line["friction"]) * line["pressure"].values
     traction, unit, scale = style.scaled(line, "traction_x", like=limit)
-    axis.plot(place, traction, color=style.BLUE, label="$f$")
+    axis.plot(place, traction, color=style.BLUE, label="$f_x$")
     style.limit_lines(axis, place, limit * scale, r"$\pm\mu p$")
-    axis.set_ylabel(style.label("traction_x", unit, room=24 if "memory_g" in line else 100))
+    axis.set_ylabel(style.label("traction_x", unit))
     lines, _ = axis.get_legend_handles_labels()
-    style.legend_above(axis, 4, handles=[*lines, *zone_handles(line)])
+    legend_above(axis, 4, handles=[*lines, *zone_handles(line)])
+
+
+def profile_panel(axis: Axes, fields: xr.Dataset, reach: float, scale: float) -> None:
+    """Draw the traction between its limits along y = 0, to a `reach` in m, times a scale."""
+    line = _middle(fields)
+    place, unit, length = style.scaled(line, "x", like=reach)
+    _shade_zones(axis, line, length, place)
+    style.zero_line(axis)
+    axis.plot(place, line["traction_x"] * scale, color=style.BLUE)
+    limit = float(line["friction"]) * line["pressure"].values
+    style.limit_lines(axis, place, limit * scale)
+    style.span(axis, (-reach * length, reach * length))
+    axis.set_xlabel(style.label("x", unit))
 
 
 def zone_handles(dataset: xr.Dataset) -> list[Patch]:
@@ -125,4 +149,4 @@ def _deflection(axis: Axes, line: xr.Dataset, place: Array) -> None:
     scale, unit = style.prefixed(limit, "m")
     axis.plot(place, line["memory_q"].values * scale, color=style.BLUE)
     style.limit_lines(axis, place, limit * scale)
-    axis.set_ylabel(style.label("memory_q", unit, room=24))
+    axis.set_ylabel(style.label("memory_q", unit))

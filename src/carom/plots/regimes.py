@@ -1,6 +1,6 @@
 """Rebound curves with their regimes, and the map of regimes over psi_1 and chi."""
 
-from typing import Any
+from typing import Any, Unpack
 
 import matplotlib
 import numpy as np
@@ -16,6 +16,9 @@ from scipy.ndimage import distance_transform_cdt
 
 from carom.plots import style
 from carom.plots.bands import BANDS, MINUS, STICK, Band, mirrored, shade
+from carom.plots.drawing import Drawable, draws
+from carom.plots.legends import legend_above
+from carom.plots.look import Look
 from carom.quantities.arrays import Array
 
 MARKERS = "os^Dv"
@@ -31,12 +34,12 @@ REGIMES = {
 }
 
 
-@style.draws(
+@draws(
     "rebound curves, what carom.curve returns",
     *("psi_out", "psi_in", "chi", "contact_restitution"),
     along=("chi", "psi_in"),
 )
-def plot_curve(dataset: xr.Dataset) -> Figure:
+def plot_curve(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw psi_2 against psi_1, one line per chi, with the borders of the regimes if it has them.
 
     Of a single chi the regimes are bands, told by how the impact begins; of several, marks on the
@@ -46,6 +49,8 @@ def plot_curve(dataset: xr.Dataset) -> Figure:
     ----------
     dataset : xarray.Dataset
         What `carom.curve` returns.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
     -------
@@ -76,10 +81,10 @@ def plot_curve(dataset: xr.Dataset) -> Figure:
     ends = dataset["border"].values[0] if regimes and single else None
     bands = shade_regimes(axis, ends, psi.min(), psi.max())
     style.span(axis, psi)
-    axis.set_xlabel(style.label("psi_in", room=44))
-    axis.set_ylabel(style.label("psi_out", room=36))
+    axis.set_xlabel(style.label("psi_in"))
+    axis.set_ylabel(style.label("psi_out"))
     entries = [*lines, *bands]
-    style.legend_above(axis, 2 if single or len(entries) < 5 else 3, handles=entries)
+    legend_above(axis, 2 if single or len(entries) < 5 else 3, handles=entries)
     return figure
 
 
@@ -117,12 +122,12 @@ def _short(name: str) -> str:
     return name.replace(",", "").replace(" +", "+").replace(" -", MINUS)
 
 
-@style.draws(
+@draws(
     "a map of regimes, what carom.regime_map returns",
     *("sequence", "sequence_name", "psi_in", "chi"),
     along=("chi", "psi_in"),
 )
-def plot_regime_map(dataset: xr.Dataset) -> Figure:
+def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw which phases follow which over psi_1 and chi, with the borders 1, 2 chi, 4 chi - 1.
 
     The shading tells the number of phases; letters name the sequences, the commonest first.
@@ -131,6 +136,8 @@ def plot_regime_map(dataset: xr.Dataset) -> Figure:
     ----------
     dataset : xarray.Dataset
         What `carom.regime_map` returns.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
     -------
@@ -159,7 +166,7 @@ def plot_regime_map(dataset: xr.Dataset) -> Figure:
     axis.pcolormesh(psi, chi, shown, cmap=shades, norm=norm, shading="nearest", rasterized=True)
     axis.add_collection(_outlines(psi, chi, codes), autolim=False)
     style.span(axis, psi, chi)
-    axis.set(xlabel=style.label("psi_in"), ylabel=style.label("chi", room=44))
+    axis.set(xlabel=style.label("psi_in"), ylabel=style.label("chi"))
     _letter_regions(axis, dataset)
     draw_borders(axis, float(dataset.get("restitution", 1.0)))
     patches = [

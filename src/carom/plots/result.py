@@ -6,13 +6,15 @@ from collections.abc import Mapping
 from html import escape
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 from carom import plots
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
+
+    from carom.plots.look import Look
 
 DPI = 80
 
@@ -29,14 +31,14 @@ class Result(ABC):
         """Return what to cite for this result, as BibTeX."""
 
     @abstractmethod
-    def _draw(self, dataset: Any) -> "Figure":
+    def _draw(self, dataset: Any, **look: Any) -> "Figure":
         """Return the figure of the dataset."""
 
     @abstractmethod
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
 
-    def plot(self, path: str | Path | None = None) -> "Figure":
+    def plot(self, path: str | Path | None = None, **look: "Unpack[Look]") -> "Figure":
         """Draw the result from its dataset.
 
         An impact: forces, velocities, radii and energies against time. A load path: the forces
@@ -47,6 +49,9 @@ class Result(ABC):
         ----------
         path : str or Path, optional
             Where the figure is stored, too: .png, .pdf or .svg.
+        width, font_size, style : optional
+            Width in mm, size of labels in points, style of matplotlib; see
+            `carom.plots.style.style`.
 
         Returns
         -------
@@ -66,7 +71,7 @@ class Result(ABC):
         >>> len(carom.impact(pair, speed=2.0, angle="30 deg").plot().axes)
         4
         """
-        figure = self._draw(self.to_dataset())
+        figure = self._draw(self.to_dataset(), **look)
         if path is not None:
             plots.save_figure(figure, path)
         return figure
@@ -97,7 +102,6 @@ def _image(title: str, figure: "Figure | None") -> str:
     if figure is None:
         return ""
     stream = BytesIO()
-    with plots.style.style(), plots.style.quiet():
-        figure.savefig(stream, format="png", dpi=DPI)
+    figure.savefig(stream, format="png", dpi=DPI)
     data = f"data:image/png;base64,{b64encode(stream.getvalue()).decode('ascii')}"
     return f"<img alt='{escape(title)}' style='max-width:100%;background:white' src='{data}'>"

@@ -1,6 +1,6 @@
 """Results against the exact answer: psi_2 and its errors, or a history of forces and its errors."""
 
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 import xarray as xr
@@ -9,7 +9,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from carom.plots import style
+from carom.plots.drawing import Drawable, draws
 from carom.plots.impact import phase_handles, time_axis
+from carom.plots.legends import legend_above, legend_outside
+from carom.plots.look import Look
 from carom.plots.regimes import shade_regimes
 from carom.quantities.arrays import Array
 
@@ -18,19 +21,26 @@ GIVEN: Any = {"mfc": "white", "mec": style.BLACK, "mew": 0.8, "ls": ""}
 SPARSE = 100  # times; more of them make a line
 FAR = 2.0  # times the psi_1 from which all slides: beyond it a figure has little to show
 MARGIN, ROOM = 0.03, 0.12  # beyond what is shown, along psi_1 and the error
+MARKERS, EDGES = "os^Dv<>p", (style.BLACK, style.VERMILION, style.GREEN, style.PURPLE)
+LONGEST = 40  # characters of a name in a legend
+ROW = 4.0  # of a legend, in mm
+SMALL = 1e-6  # an error that is told as less than that
 
 
-@style.draws("a score, what carom.verify.score returns", "error", "psi_in", "psi_out", "tolerance")
-def plot_score(dataset: xr.Dataset) -> Figure:
+@draws("a score, what carom.verify.score returns", "error", "psi_in", "psi_out", "tolerance")
+def plot_score(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw results beside the exact answer, and their errors with the tolerance below.
 
     A rebound curve or velocities: psi_2 against psi_1, the regimes as bands. A history: forces and
-    their errors against time, the phases of the exact impact as bands.
+    their errors against time, the phases of the exact impact as bands. The legend names code and
+    law, if the dataset tells them, and the largest error of each.
 
     Parameters
     ----------
     dataset : xarray.Dataset
         What `carom.verify.score(...).to_dataset()` returns.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
     -------
@@ -54,26 +64,36 @@ def plot_score(dataset: xr.Dataset) -> Figure:
 
 
 def _points(dataset: xr.Dataset) -> Figure:
-    figure, axes = style.new_figure(2, 1, height=98.0, sharex=True, height_ratios=(1.6, 1.0))
+    markers = _markers(dataset)
+    height = 98.0 + ROW * (len(markers) - 1)
+    figure, axes = style.new_figure(2, 1, height=height, sharex=True, height_ratios=(1.6, 1.0))
     upper, lower = axes[:, 0]
     whole, dataset = dataset, _near(dataset)
     psi = dataset["psi_in"].values
     if left_out := whole["psi_in"].size - psi.size:
-        note = f"{left_out} results beyond, in gross slip throughout"
-        upper.annotate(note, (1.0, 0.02), xycoords="axes fraction", ha="right", va="bottom")
-    _results(upper, dataset)
-    lower.plot(psi, dataset["error"].values, "o", **GIVEN)
-    _tolerance(lower, dataset["error"].values, float(dataset["tolerance"]))
+        note = f"{left_out} results beyond"
+        lower.annotate(note, (1.0, 1.03), xycoords="axes fraction", ha="right", va="bottom")
     low, high = min(0.0, psi.min()), max(0.0, psi.max())
     room = MARGIN * (high - low) or 1.0
-    upper.set_xlim(low - room * (low < 0.0), high + room)
+    low -= room * (low < 0.0)
+    _exact(upper, dataset, (low, high + room))
+    for name, marker in markers.items():
+        where = _names(dataset) == name
+        upper.plot(
+            psi[where], dataset["psi_out"].values[where], label=_label(whole, name), **marker
+        )
+        lower.plot(psi[where], dataset["error"].values[where], **marker)
+    _tolerance(lower, dataset["error"].values, float(dataset["tolerance"]))
+    upper.set_xlim(low, high + room)
     bands = _bands(upper, dataset)
     _bands(lower, dataset)
-    upper.set_ylabel(style.label("psi_out", room=36))
+    upper.set_ylabel(style.label("psi_out"))
     lower.set_ylabel(r"error in $\psi_2$")
-    lower.set_xlabel(style.label("psi_in", room=44))
-    style.legend_above(upper, 2, handles=[*upper.get_legend_handles_labels()[0], *bands])
-    style.legend_above(lower, 2)
+    lower.set_xlabel(style.label("psi_in"))
+    legend_outside(figure, upper.get_legend_handles_labels()[0], 2)
+    if bands:
+        legend_above(upper, 2, handles=bands)
+    legend_above(lower, 2)
     return figure
 
 
@@ -84,14 +104,44 @@ def _near(dataset: xr.Dataset) -> xr.Dataset:
     return dataset.isel(point=np.flatnonzero(inside)) if inside.any() else dataset
 
 
-def _results(axis: Axes, dataset: xr.Dataset) -> None:
-    """Draw psi_2 as it was given, over the exact curves, or over exact points."""
+def _names(dataset: xr.Dataset) -> Any:
+    """Return what computed each result, code and law, or "results"."""
+    told = [dataset[name].values.tolist() for name in ("code", "law") if name in dataset]
+    if not told:
+        return np.full(dataset["psi_in"].size, "results", dtype=object)
+    rows = (", ".join(filter(None, row)) for row in zip(*told, strict=True))
+    return np.array([row or "results" for row in rows], dtype=object)
+
+
+def _markers(dataset: xr.Dataset) -> dict[str, Any]:
+    """Return how the results of each code and law are drawn, by its name."""
+    names = dict.fromkeys(_names(dataset))
+    return {
+        name: GIVEN | {"marker": MARKERS[i % len(MARKERS)], "mec": EDGES[i % len(EDGES)]}
+        for i, name in enumerate(names)
+    }
+
+
+def _label(dataset: xr.Dataset, name: str) -> str:
+    """Return the name of results for a legend, and how far they are off at most."""
+    error = float(np.abs(dataset["error"].values[_names(dataset) == name]).max())
+    short = name if len(name) <= LONGEST else f"{name[: LONGEST - 1]}…"
+    plain = short.replace("$", r"\$")  # no formula of matplotlib's
+    off = f"{error:.2g}" if error >= SMALL else f"less than {SMALL:g}"
+    return rf"{' ' * plain.startswith('_')}{plain} ($\psi_2$ off by {off})"
+
+
+def _exact(axis: Axes, dataset: xr.Dataset, span: tuple[float, float]) -> None:
+    """Draw the exact psi_2 between two psi_1: curves, or points where curves were too many."""
     style.zero_line(axis)
     psi = dataset["psi_in"].values
     if "curve_psi_out" in dataset:
         chis = dataset["curve_chi"].values
+        along = dataset["curve_psi_in"].values
+        shown = (along >= span[0]) & (along <= span[1])
         for row, chi in enumerate(np.unique(chis)):
-            line = [dataset[f"curve_psi_{side}"].values[chis == chi] for side in ("in", "out")]
+            where = shown & (chis == chi)
+            line = [dataset[f"curve_psi_{side}"].values[where] for side in ("in", "out")]
             stroke = {
                 "color": style.LINES[row % len(style.LINES)],
                 "ls": style.DASHES[row % len(style.DASHES)],
@@ -100,8 +150,6 @@ def _results(axis: Axes, dataset: xr.Dataset) -> None:
     else:
         exact = dataset["psi_out_exact"].values
         axis.plot(psi, exact, "x", ms=4.5, color=style.BLUE, zorder=3, label="exact")
-    given = dataset["psi_out"].values
-    axis.plot(psi, given, "o", **GIVEN, label="results")
 
 
 def _bands(axis: Axes, dataset: xr.Dataset) -> list[Patch]:
@@ -137,7 +185,7 @@ def _forces(dataset: xr.Dataset) -> Figure:
         lower.plot(time, difference, color=style.VERMILION)
         _tolerance(lower, difference, float(dataset["tolerance"]))
         lower.set_ylabel(f"error in {words}")
-        style.legend_above(lower, 2)
+        legend_above(lower, 2)
     figure.legend(handles=phase_handles(dataset), loc="outside upper center", ncols=5)
     return figure
 
@@ -151,10 +199,10 @@ def _force(axis: Axes, dataset: xr.Dataset, name: str) -> Array:
     given, unit, scale = style.scaled(dataset, name, like=exact)
     axis.plot(time, exact * scale, color=style.BLUE, label="exact")
     how = {"marker": "o", "ms": 2.0, "ls": ""} if time.size <= SPARSE else {"ls": style.DASHES[1]}
-    axis.plot(time, given, color=style.VERMILION, label="results", **how)
+    axis.plot(time, given, color=style.VERMILION, label=_label(dataset, _names(dataset)[0]), **how)
     if name == "tangential_force":
         limit = float(dataset["friction"]) * dataset["normal_force_exact"].values * scale
         style.limit_lines(axis, time, limit, r"$\pm\mu F_z$, exact")
     axis.set_ylabel(style.label(name, unit))
-    style.legend_above(axis, 3)
+    legend_above(axis, 3)
     return time

@@ -1,11 +1,15 @@
 """The amplitude spectra of the forces of an impact, with their corner frequencies."""
 
+from typing import Unpack
+
 import numpy as np
-import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
 from carom.plots import style
+from carom.plots.drawing import Drawable, draws
+from carom.plots.legends import legend_above
+from carom.plots.look import Look
 from carom.quantities.refusals import InputError
 
 FORCES = {
@@ -16,14 +20,15 @@ MARKS = {"corner": ("o", "\u22123 dB"), "half": ("s", "\u22126 dB")}
 LOWEST = 1e-4  # of the largest amplitude
 
 
-@style.draws(
+@draws(
     "the spectra of an impact, what Impact.spectrum returns",
     *(f"{name}_spectrum" for name in FORCES),
     *(f"{name}_{mark}_frequency" for name in FORCES for mark in MARKS),
     "normal_notch_frequency",
     along="frequency",
+    take="spectrum",
 )
-def plot_spectrum(dataset: xr.Dataset) -> Figure:
+def plot_spectrum(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw the amplitude spectra of normal and tangential force on logarithmic axes.
 
     Marks stand at the corner frequencies, where an amplitude has fallen by 3 and by 6 dB; a dotted
@@ -34,6 +39,8 @@ def plot_spectrum(dataset: xr.Dataset) -> Figure:
     ----------
     dataset : xarray.Dataset
         What `Impact.spectrum` returns.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
     -------
@@ -79,6 +86,6 @@ def plot_spectrum(dataset: xr.Dataset) -> Figure:
     style.span(axis, frequency)
     axis.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_xlabel(style.label("frequency", unit))
-    axis.set_ylabel(rf"amplitude spectrum, $|\hat F_z|$, $|\hat F_x|$ ({force_unit})")
-    style.legend_above(axis, 3, columnspacing=0.8, handlelength=2.0)
+    axis.set_ylabel(rf"$|\hat F_z|$, $|\hat F_x|$ ({force_unit})")
+    legend_above(axis, 3, columnspacing=0.8, handlelength=2.0)
     return figure

@@ -1,5 +1,7 @@
 """The speeds that bodies bear, against the angle of incidence and the coefficient of friction."""
 
+from typing import Unpack
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -8,6 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator
 
 from carom.plots import style
+from carom.plots.drawing import Drawable, draws
+from carom.plots.look import Look
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError
 
@@ -22,14 +26,16 @@ TITLES = {
 SPEEDS = tuple(f"{name}_{body}" for name in TITLES for body in ("first", "second"))
 
 
-@style.draws("speeds that bodies bear, what carom.strength returns", "friction", "angle", "status")
-def plot_strength(dataset: xr.Dataset) -> Figure:
+@draws("speeds that bodies bear, what carom.strength returns", "friction", "angle", "status")
+def plot_strength(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw the speeds from which on bodies yield or crack: lines, or maps of many frictions.
 
     Parameters
     ----------
     dataset : xarray.Dataset
         What `strength` returns: one panel for each of its speeds.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
     -------
@@ -106,7 +112,7 @@ def _map(axis: Axes, dataset: xr.Dataset, name: str) -> None:
     levels = levels[(levels > low) & (levels < high)]
     if levels.size:
         curves = axis.contour(angle, friction, values, levels, colors="white", linewidths=0.7)
-        axis.clabel(curves, fmt=lambda speed: f"{speed:g}", fontsize=6.5)
+        axis.clabel(curves, fmt=lambda speed: f"{speed:g}", fontsize="small")
     axis.set_title(f"{axis.get_title()}: {style.symbol(name)}")
     axis.set_ylabel(style.label("friction"))
     style.span(axis, angle, friction)

@@ -1,5 +1,7 @@
 """The stress below the surface: a map with contours, and where the largest lies."""
 
+from typing import Any, Unpack
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -10,25 +12,36 @@ from matplotlib.ticker import MaxNLocator
 
 from carom.plots import style
 from carom.plots.bands import moment
+from carom.plots.drawing import Drawable, at_instant, draws
+from carom.plots.look import Look
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError, one_of
 
-CONTOURS = 9
+CONTOURS, TICKS = 9, 8
 NEAR = 1e-6  # relative: a largest stress that lies in the plane drawn
 
 
-@style.draws("stresses on a grid of z and x, what Impact.stress returns", "z", "x")
-def plot_stress(dataset: xr.Dataset, variable: str = "von_mises") -> Figure:
+@draws(
+    "stresses on a grid of z and x, what Impact.stress returns", "z", "x", take=at_instant("stress")
+)
+def plot_stress(
+    dataset: Drawable, variable: str = "von_mises", *, at: Any = None, **look: Unpack[Look]
+) -> Figure:
     """Draw a stress in the plane y = 0 below the surface, with contours; a cross at the largest.
 
     The bar on the surface is the contact.
 
     Parameters
     ----------
-    dataset : xarray.Dataset
+    dataset : xarray.Dataset or result
         Stresses on a grid of z and x.
     variable : str
         Which stress, e.g. "von_mises", "max_shear", "principal_1", "sigma_xx".
+    at : float or str, optional
+        Of a result: the time in s of an impact, by default that of the largest normal force, or the
+        step of a load path, by default the last.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
     -------
@@ -60,14 +73,15 @@ def plot_stress(dataset: xr.Dataset, variable: str = "von_mises") -> Figure:
     x, unit, length = style.scaled(dataset, "x")
     z = dataset["z"].values * length
     values, stress_unit, scale = style.scaled(dataset, variable)
-    shading = axis.pcolormesh(x, z, values, cmap=style.MAP, shading="gouraud", rasterized=True)
+    colours = style.colours(variable, values)
+    shading = axis.pcolormesh(x, z, values, shading="gouraud", rasterized=True, **colours)
     bar = figure.colorbar(shading, ax=axis, location="bottom", aspect=32, pad=0.03)
     bar.set_label(style.label(variable, stress_unit))
     bar.outline.set_linewidth(0.6)
     if np.ptp(values) > 0.0:
-        contours = _contours(axis, x, z, values)
+        contours = _contours(axis, x, z, values, colours["cmap"] == style.SIGNED_MAP)
         bar.add_lines(contours)
-        bar.set_ticks(list(contours.levels))
+        bar.set_ticks(MaxNLocator(TICKS).tick_values(*shading.get_clim()))
     column, row, largest = _largest(dataset, variable)
     _mark_contact(axis, dataset, length)
     place = column * length, row * length
@@ -81,17 +95,18 @@ def plot_stress(dataset: xr.Dataset, variable: str = "von_mises") -> Figure:
     return figure
 
 
-def _contours(axis: Axes, x: Array, z: Array, values: Array) -> ContourSet:
+def _contours(axis: Axes, x: Array, z: Array, values: Array, signed: bool) -> ContourSet:
     low, high = values.min(), values.max()
     levels = MaxNLocator(CONTOURS).tick_values(low, high)
     levels = levels[(levels > low) & (levels < high)]
-    colors = ["white" if level < 0.5 * (low + high) else "black" for level in levels]
+    dark = ["white" if level < 0.5 * (low + high) else "black" for level in levels]
+    colors: Any = "0.25" if signed else dark
     return axis.contour(
         x, z, values, levels=levels, colors=colors, linewidths=0.6, negative_linestyles="solid"
     )
 
 
-def _largest(dataset: xr.Dataset, variable: str) -> tuple[float, float, float]:
+def _largest(dataset: Drawable, variable: str) -> tuple[float, float, float]:
     """Return x, z and value of the largest stress: between the grid's points where it is known."""
     name = f"max_{variable}"
     if name in dataset and abs(float(dataset[f"{name}_y"])) < NEAR * float(dataset["x"].max()):

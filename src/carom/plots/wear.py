@@ -1,5 +1,7 @@
 """Wear of a contact by impacts: along the distance from its centre, and seen from above."""
 
+from typing import Unpack
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -7,17 +9,20 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from carom.plots import style
+from carom.plots.drawing import Drawable, draws
+from carom.plots.look import Look
 
 MARGIN = 1.05  # of the map around the contact
 WORK, DEPTH = "friction_work", "wear_depth"
 
 
-@style.draws(
+@draws(
     "the wear of one spot, what Impact.wear, or carom.wear without an area, returns",
     *("mean_friction_work", "distance", "max_wear_radius"),
     along="distance",
+    take="wear",
 )
-def plot_wear(dataset: xr.Dataset) -> Figure:
+def plot_wear(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw the depth of wear, or else the work of friction per area, around and over the contact.
 
     Parameters
@@ -25,6 +30,8 @@ def plot_wear(dataset: xr.Dataset) -> Figure:
     dataset : xarray.Dataset
         What `Impact.wear` returns, or `carom.wear` for impacts on one spot, of which there is no
         map.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
     -------

@@ -119,7 +119,7 @@ def _bare(given: Any, reading: _Reading) -> Any:
         return as_float(reading.name, plain)
     if isinstance(plain, np.ma.MaskedArray):
         if not reading.gaps:
-            allowed = "a mask is not heeded; give plain arrays, NaN where none is"
+            allowed = "masked arrays are not supported; give plain arrays"
             raise refusal(reading.name, given, f"{allowed}; {reading.allowed}")
         return np.ma.filled(plain.astype(np.float64), np.nan) if plain.dtype.kind in REAL else None
     array = np.asarray(plain)
@@ -144,12 +144,12 @@ def together(given: Mapping[str, Array], most: int = AT_ONCE) -> tuple[int, ...]
     except (ValueError, RuntimeError):  # RuntimeError: of more than 32 dimensions
         words = " and ".join(map(str, shapes))
         raise InputError(
-            f"{names}: arrays of shapes {words} cannot be used together; give one number for each, "
-            "or arrays that broadcast: these do not fit each other"
+            f"{names}: the shapes {words} do not fit each other; give numbers, or arrays that "
+            "broadcast"
         ) from None
     if prod(shape) > most:
-        allowed = f"{prod(shape):,} points are too many at once, the most are {most:,}"
-        raise InputError(f"{names}: {allowed}; give them in parts")
+        allowed = f"{prod(shape):,} points are too many at once; the limit is {most:,}"
+        raise InputError(f"{names}: {allowed}, so give them in parts")
     return shape
 
 
@@ -228,7 +228,7 @@ def finite_line(name: str, given: ArrayLike) -> Array:
 
 def positive_line(name: str, given: ArrayLike) -> Array:
     """Return one positive number or more as an array of shape (n,), or raise InputError."""
-    allowed = "must be one positive finite number or more"
+    allowed = "must be one or more positive finite numbers"
     values = np.atleast_1d(numbers(name, given, allowed))
     bad = ~((values > 0.0) & (values < np.inf))
     if values.size == 0 or values.ndim > 1 or bad.any():
@@ -257,7 +257,7 @@ def places(
     }
     if prod(values.size for values in lines.values()) > PLACES:
         sizes = " by ".join(f"{values.size}" for values in lines.values())
-        raise refusal(" and ".join(grid), f"{sizes} points", f"at most {PLACES:,} fit at once")
+        raise refusal(" and ".join(grid), f"{sizes} points", f"at most {PLACES:,} are allowed")
     columns = dict(zip(lines, np.meshgrid(*lines.values()), strict=True))
     zero = np.zeros_like(next(iter(columns.values())))
     at = np.stack([columns.get(name, zero) for name in space], axis=-1)

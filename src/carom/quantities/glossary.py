@@ -1,7 +1,8 @@
 """The glossary: symbol, unit and meaning of every quantity; labels and attributes come from it."""
 
-from math import degrees, isnan
 from typing import NamedTuple
+
+from carom.quantities.prefixes import DIGITS, span, text
 
 
 class Quantity(NamedTuple):
@@ -16,21 +17,23 @@ class Quantity(NamedTuple):
         unit = "" if self.unit == "1" else f" ({self.unit})"
         return f"{self.meaning}, {self.symbol}{unit}"
 
-    def text(self, value: float) -> str:
-        """Return a value with its unit, to read; angles in degrees, a dash for what is no number.
+    def text(self, value: float, digits: int = DIGITS) -> str:
+        """Return a value with its unit, to read; a dash for what is no number.
 
         >>> from carom.quantities.glossary import GLOSSARY
-        >>> GLOSSARY["speed"].text(2.0), GLOSSARY["angle"].text(0.5)
-        ('2 m/s', '28.648 deg')
-        >>> GLOSSARY["spin"].text(-0.0)
-        '0 rad/s'
+        >>> GLOSSARY["radius"].text(0.000187666), GLOSSARY["angle"].text(0.5)
+        ('187.666 µm', '28.6479 deg (0.5 rad)')
         """
-        if isnan(value):
-            return "-"
-        value += 0.0  # makes -0.0 a plain zero
-        if self.unit == "rad":
-            return f"{degrees(value):.5g} deg"
-        return f"{value:.6g}" + ("" if self.unit == "1" else f" {self.unit}")
+        return text(value, self.unit, digits)
+
+    def span(self, low: float, high: float, digits: int = DIGITS) -> str:
+        """Return from where to where values go, in one unit, to read.
+
+        >>> from carom.quantities.glossary import GLOSSARY
+        >>> GLOSSARY["normal_force"].span(0.0, 845.996)
+        '0 to 845.996 N'
+        """
+        return span(low, high, self.unit, digits)
 
 
 GLOSSARY = {
@@ -73,6 +76,12 @@ GLOSSARY = {
     ),
     "tangential_restitution": Quantity(
         "$e_t$", "1", "tangential velocity of the centres, after to before"
+    ),
+    "border_psi": Quantity(r"$\psi_1$", "1", "psi_1 of the points of borders between regimes"),
+    "border_chi": Quantity(r"$\chi$", "1", "chi of the points of borders between regimes"),
+    "border_number": Quantity("$n$", "1", "number of the border that a point belongs to"),
+    "border_tolerance": Quantity(
+        r"$\epsilon$", "1", "largest error of psi_1 or chi on a border, a share of it beyond 1"
     ),
     "time_limit": Quantity("$t_{max}$", "s", "time after which a program is killed"),
     "tolerance": Quantity(r"$\epsilon$", "1", "largest error that is allowed"),
@@ -163,7 +172,7 @@ GLOSSARY = {
     "z": Quantity("$z$", "m", "depth below the surface"),
     "distance": Quantity("$r$", "m", "distance from the centre of the contact"),
     "pressure": Quantity("$p$", "Pa", "contact pressure"),
-    "traction_x": Quantity("$f$", "Pa", "tangential traction, positive against $V_x$"),
+    "traction_x": Quantity("$f_x$", "Pa", "tangential traction, positive against $V_x$"),
     "traction_y": Quantity("$f_y$", "Pa", "tangential traction across the motion"),
     "friction_limit": Quantity(r"$\mu p$", "Pa", "largest traction that friction allows"),
     "memory_g": Quantity("$g$", "1", "memory, $-dq/ds$"),

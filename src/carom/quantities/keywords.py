@@ -63,8 +63,8 @@ def renamed_keyword(
         def called(*args: Given.args, **kwargs: Given.kwargs) -> Found:
             if old in kwargs:
                 if new in kwargs:
-                    raise InputError(f"{old}: the old name of {new}; give {new} alone")
-                message = f"{old}= is now called {new}=; the old name will be dropped"
+                    raise InputError(f"{old}: this is the old name of {new}; give only {new}")
+                message = f"{old}= is now called {new}=; the old name will be removed"
                 warnings.warn(message, DeprecationWarning, stacklevel=2)
                 kwargs[new] = kwargs.pop(old)
             return function(*args, **kwargs)

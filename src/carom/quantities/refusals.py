@@ -14,7 +14,7 @@ _short.maxstring = _short.maxother = _short.maxlong = LONGEST
 
 
 class InputError(ValueError):
-    """What was given cannot be used; the message names it, its value, and what is allowed."""
+    """An input cannot be used; the message names it, its value, and what is allowed."""
 
     __module__ = "carom"  # the name by which users know it
 
@@ -44,7 +44,7 @@ def hint(word: object, known: Iterable[str]) -> str:
     known = tuple(known)
     if name := meant(str(word), known):
         return f"write {remark(str(word), name)}"
-    return nearest(str(word), known) or f"known are {', '.join(known)}"
+    return nearest(str(word), known) or f"known names are {', '.join(known)}"
 
 
 def one_of(name: str, value: Any, known: Iterable[str]) -> str:

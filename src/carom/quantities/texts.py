@@ -33,7 +33,7 @@ PRODUCT = re.compile(rf"[{BLANKS}]*[*·⋅][{BLANKS}]*|[{BLANKS}]+")
 SLASH = re.compile(rf"[{BLANKS}]*/[{BLANKS}]*")
 SPELT = {"°": "degree", "rev": "turn", "revs": "turn"}
 OTHER_KIND = {
-    "1": "it has a unit and is no pure number",
+    "1": "it has a unit, but a pure number is needed",
     "rad/s": "a spin is not in {0}; write rad/s or rpm",
 }
 LENGTHS = "meter inch foot yard mile thou micron angstrom nautical_mile"
@@ -147,7 +147,7 @@ def split(text: str) -> tuple[float, str]:
     Raises Unreadable, also for numbers that floating point cannot hold.
     """
     if len(text) > LONGEST:
-        raise Unreadable(f"{LONGEST} characters are read at most", enough=True)
+        raise Unreadable(f"it is longer than {LONGEST} characters", enough=True)
     plain = text.strip(BLANKS)
     found = NUMBER.match(plain)
     if found is None:
@@ -179,7 +179,7 @@ def _factor(expression: str, unit: str) -> Factor | Unreadable:
     if known is not None:
         return as_factor(known)
     if unit == TOUGHNESS:
-        return Unreadable(f"{expression!r} is no unit of fracture toughness")
+        return Unreadable(f"{expression!r} is not a unit of fracture toughness")
     try:
         given, wanted = _root(_terms(expression)), _root(_terms("" if unit == "1" else unit))
         if given[1] == wanted[1]:
@@ -201,7 +201,7 @@ def _terms(expression: str) -> tuple[tuple[str, int], ...]:
     while True:
         found = TERM.match(expression, place)
         if found is None or len(terms) == TERMS:
-            raise Unreadable(f"{expression!r} is no unit")
+            raise Unreadable(f"{expression!r} is not a unit")
         power = (found[2] or found[3] or found[4] or "1").translate(LOWERED)
         terms.append((found[1], sign * int(power)))
         place = found.end()
@@ -210,9 +210,9 @@ def _terms(expression: str) -> tuple[tuple[str, int], ...]:
         slash = SLASH.match(expression, place)
         step = slash or PRODUCT.match(expression, place)
         if step is None:
-            raise Unreadable(f"{expression!r} is no unit")
+            raise Unreadable(f"{expression!r} is not a unit")
         if sign < 0:  # what a second slash, or a product after one, divides is not sure
-            raise Unreadable(f"{expression!r} is no unit: after '/' stands one unit, as in kg/m^3")
+            raise Unreadable(f"{expression!r} is not a unit; one unit may follow '/', as in kg/m^3")
         place, sign = step.end(), -1 if slash else 1
 
 

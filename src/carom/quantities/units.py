@@ -66,7 +66,7 @@ def number(name: str, value: Any, unit: str | None = None, bare: Factor = UNCHAN
     plain, told = told_unit(name, value, unit)
     if isinstance(plain, str):
         if told is not None:
-            allowed = f"it is a text with the unit {told} besides; {_expected(unit)}"
+            allowed = f"it is a text, and has the unit {told}, too; {_expected(unit)}"
             raise refusal(name, plain, allowed)
         return _of_text(name, plain, unit, bare)
     result = as_float(name, plain) if is_real(plain) else math.nan
@@ -267,4 +267,4 @@ def _of_pint(own: Any, unit: str) -> Factor:
             nothing, one = (quantity(n, own).to(wanted.units).magnitude for n in (0, 1))
             if nothing == 0:  # no offset, no logarithm
                 return as_factor(float(one))
-    raise Unreadable(f"that is no {'pure number' if unit == '1' else f'value in {unit}'}")
+    raise Unreadable(f"that is not a {'pure number' if unit == '1' else f'value in {unit}'}")

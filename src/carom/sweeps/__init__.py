@@ -60,8 +60,8 @@ def sweep(
     workers : int, optional
         Threads of this process, by default one for each core.
     progress : bool or callable, optional
-        Whether a bar is shown once two seconds have passed, by default in a notebook and on a
-        terminal; or what is called with the points done and their number.
+        Whether a progress bar is shown after two seconds, by default in a notebook and on a
+        terminal; or a function that is called with the number of points done and their total.
 
     Returns
     -------
@@ -97,7 +97,9 @@ def _fill(
 ) -> None:
     """Write blocks as they come, and show how far it is."""
     left = sum(points_in(box) for box in record.todo)
-    with advancing("sweep", total, progress, unit="points", done=total - left) as advance:
+    with advancing(
+        "solving the sweep", total, progress, unit="points", done=total - left
+    ) as advance:
         for box, values in results:
             record.write(box, values)
             advance(points_in(box))
@@ -110,7 +112,7 @@ def _record(
     if store is not None:
         return opened(store, problem, resume)
     if resume:
-        raise InputError("resume: there is nothing to continue; give the store, too")
+        raise InputError("resume: there is no store to continue; give the store, too")
     return nullcontext(MemoryRecord(problem))
 
 

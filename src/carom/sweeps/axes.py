@@ -73,9 +73,9 @@ def read_range(name: str, given: Any, *, apart: bool = True) -> Range:
     spacing = whole.get("spacing", SPACINGS[0])
     one_of(f"{name}.spacing", spacing, SPACINGS)
     if apart and start == stop:
-        raise refusal(name, start, "a range must end elsewhere than it starts")
+        raise refusal(name, start, "a range must not end where it starts")
     if spacing == "log" and min(start, stop) <= 0.0:
-        raise refusal(name, min(start, stop), "log spacing needs positive ends")
+        raise refusal(name, min(start, stop), "logarithmic spacing needs positive ends")
     return Range(start, stop, spacing == "log")
 
 

@@ -180,4 +180,4 @@ def _refuse_missing(whole: Common) -> None:
             if name not in columns:
                 raise InputError(f"{name}: missing; give it in the case or in the design")
         if whole.yields and not any(leaf(name) == YIELD for name in columns):
-            raise InputError("yield_velocity: missing, as no yield strength is known; give it")
+            raise InputError("yield_velocity: missing; give it, or a yield_strength of a material")

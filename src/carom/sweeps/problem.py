@@ -167,7 +167,7 @@ class SweepProblem:
             if output not in WANTED:
                 continue
             if self.loses:
-                allowed = "with losses a sweep does not search for stresses; leave them out"
+                allowed = "a sweep with losses does not compute stresses; leave them out"
                 raise refusal("outputs", output, allowed)
             body = WANTED[output].body
             if self._common.fixed.get(f"{body}.material.young") == inf:
@@ -195,5 +195,5 @@ def _checked(outputs: Sequence[str], names: Sequence[str]) -> tuple[str, ...]:
         if name not in known:
             raise InputError(f"outputs: {name!r} is not a result of an impact; {hint(name, known)}")
         if name in names or list(outputs).count(name) > 1:
-            raise InputError(f"outputs: {name!r} is there already, as input or output")
+            raise InputError(f"outputs: {name!r} is there already, as an input or an output")
     return tuple(outputs)

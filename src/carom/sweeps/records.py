@@ -40,7 +40,7 @@ class MemoryRecord:
                 name: np.empty(shape, info.dtype) for name, info in problem.variables().items()
             }
         except MemoryError:
-            allowed = "its results do not fit into memory; give a store"
+            allowed = "its results do not fit into memory; give a store, --store DIR.zarr (store=)"
             raise refusal("design", f"{prod(shape)} points", allowed) from None
         self.todo = list(boxes(shape, problem.chunks()))
 
@@ -51,7 +51,7 @@ class MemoryRecord:
 
     def safe(self) -> str:
         """Return what has been finished, and how to go on."""
-        return "nothing is stored; with --store DIR.zarr (store=) it could be continued"
+        return "nothing is stored; with --store DIR.zarr (store=) you could continue it"
 
     def dataset(self) -> "xr.Dataset":
         """Return the sweep."""

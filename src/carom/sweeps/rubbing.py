@@ -100,7 +100,7 @@ def solve_all(
     status = np.full(counts.size, PointStatus.NOT_RUN, dtype=np.int8)
     nothing = np.full(counts.size, np.nan)
     many = Many(columns, counts, status, nothing, nothing.copy())
-    with advancing("wear", counts.size, progress, unit="impacts") as advance:
+    with advancing("solving the impacts", counts.size, progress, unit="impacts") as advance:
         for start in range(0, counts.size, BLOCK):
             part = slice(start, start + BLOCK)
             with np.errstate(all="ignore"):

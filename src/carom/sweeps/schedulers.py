@@ -56,7 +56,9 @@ def team(scheduler: str | None, workers: int | None, problem: SweepProblem) -> I
         with _threads(workers, problem) as here:
             yield here
     elif workers is not None:
-        raise refusal("workers", workers, "a cluster has its own; leave it out with a scheduler")
+        raise refusal(
+            "workers", workers, "a cluster has its own workers; leave it out with a scheduler"
+        )
     else:
         with _cluster(scheduler, problem) as there:
             yield there
@@ -76,8 +78,10 @@ def _cluster(address: str, problem: SweepProblem) -> Iterator[Team]:
         executor: futures.Executor = client.get_executor(pure=False)
         shared = client.submit(_itself, problem, pure=False)  # a task, made anew if it is lost
         losses = {
-            futures.CancelledError: f"the scheduler {address} is gone",
-            extra("distributed", CLUSTER).KilledWorker: "one worker after another died",
+            futures.CancelledError: f"the scheduler {address} no longer answers",
+            extra(
+                "distributed", CLUSTER
+            ).KilledWorker: "the workers of the cluster died, one after another",
         }
         yield Team(
             lambda box: executor.submit(_remote_block, shared, box, versions()), size, losses
@@ -112,7 +116,9 @@ def _checked_threads(client: Any, address: str) -> int:
     try:
         client.wait_for_workers(1, timeout=ANSWER)
     except TimeoutError:
-        raise refusal("scheduler", address, f"no workers; start: dask worker {address}") from None
+        raise refusal(
+            "scheduler", address, f"it has no workers; start one with: dask worker {address}"
+        ) from None
     for worker, found in client.run(versions, on_error="return").items():
         _require_same(worker, found)
     return sum(client.nthreads().values())

@@ -120,7 +120,7 @@ class StoreRecord:
             for name in sorted(values, key=STATUS.__eq__):
                 write_chunk(self.path / name, corner, chunks, values[name])
         except OSError as error:
-            advice = "; free space" if error.errno in FULL else ""
+            advice = "; free some space" if error.errno in FULL else ""
             raise SweepStopped(f"{self.path}: {error.strerror}{advice}") from None
         self._finished += 1
 
@@ -146,7 +146,7 @@ def opened(folder: str | Path, problem: SweepProblem, resume: bool) -> Iterator[
         _create(path, problem)
     elif not resume:
         read_store(path)
-        raise refusal("store", str(path), "it is there; --resume (resume=True) continues it")
+        raise refusal("store", str(path), "it exists already; --resume (resume=True) continues it")
     else:
         _check(path, problem)
     with _locked(path):
@@ -159,7 +159,7 @@ def _checked(folder: str | Path) -> Path:
     if path.suffix.lower() != STORE:
         raise refusal("store", str(folder), f"must be the name of a {kind}")
     if not os.path.isdir(os.path.dirname(os.path.realpath(path))):
-        raise refusal("store", str(path), "the folder around it must exist; make it first")
+        raise refusal("store", str(path), "the folder that holds it must exist; make it first")
     return path
 
 
@@ -230,11 +230,11 @@ def _check(path: Path, problem: SweepProblem) -> None:
     version = str(dataset.attrs["source"]).removeprefix("carom ")
     if version != __version__:
         raise refusal(
-            "store", str(path), f"it is of carom {version}, and this is carom {__version__}"
+            "store", str(path), f"carom {version} has written it, and this is carom {__version__}"
         )
     found = islice(_differences(json.loads(dataset.attrs["inputs"]), identity(problem), ""), SHOWN)
     if words := "; ".join(found):
-        raise refusal("store", str(path), f"it is of another sweep: {words}")
+        raise refusal("store", str(path), f"it holds another sweep: {words}")
 
 
 def _differences(there: Any, here: Any, name: str) -> Iterator[str]:

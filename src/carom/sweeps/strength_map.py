@@ -21,7 +21,7 @@ from carom.sweeps.strength import speeds_known, unit_case
 if TYPE_CHECKING:
     import xarray as xr
 
-BOUNDS = "speeds above the lower yield speed are those of elastic bodies: lower bounds"
+BOUNDS = "speeds above the lower yield speed hold for elastic bodies, and so are lower bounds"
 ANGLES = np.linspace(0.0, 85.0, 18) * (pi / 180.0)  # where none are given
 
 

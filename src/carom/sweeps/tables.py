@@ -113,7 +113,7 @@ def _chosen(name: str, cells: Any) -> tuple[NDArray[Any], tuple[Choice, ...]]:
         codes, values = pd.factorize(listed)
     except TypeError:
         strange = next((cell for cell in cells if not isinstance(cell, Hashable)), cells)
-        raise refusal(name, strange, "a column of names holds texts, or materials") from None
+        raise refusal(name, strange, "a column of names must hold texts, or materials") from None
     read: dict[int, Choice] = {}
     for i, value in enumerate(values):
         with suppress(InputError):

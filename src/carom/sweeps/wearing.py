@@ -76,8 +76,8 @@ def wear(
     n : int
         How many distances from the centre of the spot, from 2 to 100,000.
     progress : bool or callable, optional
-        Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
-        what is called with the impacts done and their number.
+        Whether a progress bar is shown after two seconds, by default in a notebook and on a
+        terminal; or a function that is called with the number of impacts done and their total.
 
     Returns
     -------
@@ -178,7 +178,7 @@ def _on_spot(
     radii = np.union1d(distance, _evenly(distance[-1], FINE))
     mean, lateral, (normal, motion) = *np.zeros((2, radii.size)), motion_of(many.columns)
     which = np.flatnonzero(many.solved & (many.counts > 0.0))
-    with advancing("wear around the centre", which.size, progress, unit="impacts") as advance:
+    with advancing("adding up the wear", which.size, progress, unit="impacts") as advance:
         for i in which.tolist():
             before = Tangential(*(float(values[i]) for values in motion))
             rubbed = rubbed_at(solve_exactly(pair, float(normal[i]), before, losses), radii)
@@ -208,7 +208,7 @@ def _checked(losses: LossLaw | None, pair: Pair, on_spot: bool) -> None:
     if any(map(np.ndim, checked_law(losses, "loss")(pair, 1.0))):
         raise refusal("losses", losses, "wear takes one number; carom.sweep takes many")
     if on_spot and not isinstance(losses, KelvinVoigt):
-        allowed = "the contact of this solid is not known over its area"
+        allowed = "wear on a spot needs the pressure, which such a solid does not give"
         raise refusal("losses", losses, f"{allowed}; take KelvinVoigt, or give the area")
 
 

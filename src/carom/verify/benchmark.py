@@ -68,9 +68,14 @@ class Bench:
         return any(one.failure for one in self.measured)
 
     def results(self) -> str:
-        """Return the impacts with the best law as the scorer reads them, bodies in a comment."""
-        rows = results_csv(*self.outcomes[self.measured[0].entry.label])
-        return f"{CASE} {json.dumps(case_of(self.pair))}\n{rows}"
+        """Return the impacts with the best law as the scorer reads them.
+
+        Comments hold the bodies, the program and the law.
+        """
+        law = self.measured[0].entry.label
+        names = f"# code: {self.engine}\n# law: {law}\n"
+        rows = results_csv(*self.outcomes[law])
+        return f"{CASE} {json.dumps(case_of(self.pair))}\n{names}{rows}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the measurements as what JSON can hold."""
@@ -90,11 +95,12 @@ class Bench:
         what = f"{self.engine} {self.version}".strip()
         return "\n".join(
             [
-                f"|error in psi_2| of {what}, chi = {self.pair.chi:.5g},"
-                f" {in_words(self.psi)}, {self.steps} steps a contact",
+                f"|error in psi_2| of {what} at chi = {self.pair.chi:.5g},"
+                f" {in_words(self.psi)}, with {self.steps} steps per contact",
                 f"  {'':32s} {head}",
                 *(_row(one) for one in self.measured),
-                "law: largest difference from the same law in Carom at the same steps",
+                "max, at: largest error, and its psi_1",
+                "law: largest difference from the same law in Carom, in the same steps",
             ]
         )
 
@@ -131,8 +137,8 @@ def bench(
     time_limit : float
         Seconds for each run of the program.
     progress : bool or callable, optional
-        Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
-        what is called with the laws done so far and their number.
+        Whether a progress bar is shown after two seconds, by default in a notebook and on a
+        terminal; or a function that is called with the number of laws done and their total.
 
     Returns
     -------
@@ -204,7 +210,7 @@ def _supported(engine: Engine, entries: Sequence[Entry]) -> list[Entry]:
         labels = ", ".join(entry.label for entry in entries)
         builds = engine.builder and labels == EXACT
         until = f" until {engine.builder} has built it" if builds else ""
-        allowed = f"{engine.name} does not have it{until}, but {'; '.join(has)}"
+        allowed = f"{engine.name} does not have it{until}; it has {'; '.join(has)}"
         raise refusal("law", labels, allowed)
     return known
 

@@ -37,7 +37,7 @@ EXACT = "exact, 32 springs"
 SHORT = {"carom": EXACT}  # as its styles in LAMMPS are called
 
 CATALOGUE = (
-    Entry("linear spring, k_t/k_n = kappa", dem.LinearSpring(), "any code, set so"),
+    Entry("linear spring, k_t/k_n = kappa", dem.LinearSpring(), "any code with this ratio"),
     Entry(
         "linear spring, k_t/k_n = 2/7", dem.LinearSpring(2.0 / 7.0), "LAMMPS gran/hooke by default"
     ),
@@ -70,8 +70,7 @@ def called(law: dem.Law) -> str:
 def as_entry(given: object) -> Entry:
     """Return an entry as it is, or one for a law; raise InputError for anything else."""
     if isinstance(given, Entry):
-        as_law(given.law)
-        return given
+        return given._replace(law=as_law(given.law))
     law = as_law(given)
     return Entry(called(law), law, "")
 

@@ -200,7 +200,7 @@ def restitution(value: float, convention: str = "critical") -> float:
     if wanted <= least:
         return 1.0
     if wanted > most:
-        raise refusal("damping", value, f"must be at most {most:.4g}: no restitution has more")
+        raise refusal("damping", value, f"must be at most {most:.4g}; no restitution needs more")
     return float(brentq(lambda e: rule(e) - wanted, SMALLEST, 1.0, xtol=1e-14))
 
 

@@ -1,6 +1,6 @@
 """How far a contact law is from the exact impact: in psi_2, in its forces, in energy."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -12,19 +12,21 @@ from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.rebounds import rebound
 from carom.dimensionless.solution import solve
 from carom.io.labels import labelled_dataset
-from carom.laws.dem import ContactLaw, Law
+from carom.laws.dem import ContactLaw, FunctionLaw, Law
 from carom.laws.dem.base import SOLID
 from carom.quantities.arrays import Array, finite_line, positive_line
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import finite, positive
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
+LawOrFunction = Law | Callable[..., Any]  # the latter as a `FunctionLaw` takes it
 INCIDENCES = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0)
 LARGEST, LARGEST_CHI = 1e9, 1e4  # psi_1, chi
 INSTANTS = 400  # at which forces are compared
+PLAIN = float | int | str | None  # parameters that a file can hold
 MISSED = 1e-3  # of the restitution asked for, less than which is rounding
 
 
@@ -35,20 +37,27 @@ class ForceError(NamedTuple):
     rms: float
 
 
+def is_function(given: object) -> bool:
+    """Return whether something may be a contact law that is written as a Python function."""
+    return callable(given) and not isinstance(given, type | Law)
+
+
 def as_law(law: object) -> Law:
-    """Return a law as it is, or raise InputError."""
-    if not isinstance(law, Law):
-        raise refusal("law", law, "must be a contact law, e.g. carom.LinearSpring()")
-    return law
+    """Return a law as it is, a function as a contact law, or raise InputError."""
+    if isinstance(law, Law):
+        return law
+    if callable(law) and is_function(law):
+        return FunctionLaw(law)
+    raise refusal("law", law, "must be a contact law, e.g. carom.LinearSpring()")
 
 
 def laws_of(name: str, given: Any) -> Sequence[Any]:
     """Return what is given as laws, one or a sequence, not yet checked; InputError for none."""
-    if isinstance(given, Law):
+    if isinstance(given, Law) or is_function(given):
         return [given]
     if isinstance(given, list | tuple) and given:
         return given
-    raise refusal(name, given, "give one law at least, e.g. [carom.LinearSpring()]")
+    raise refusal(name, given, "give at least one law, e.g. [carom.LinearSpring()]")
 
 
 def law_rebound(
@@ -57,6 +66,19 @@ def law_rebound(
     """Return psi_2 by a law, NaN where it leaves an impact unsolved, without a word of it."""
     found = law.rebound(psi, chi, kappa=kappa, steps=steps, return_status=True)[0]
     return np.asarray(found)
+
+
+def refuse_failure(
+    law: Law, psi: Array, chi: float | Array, kappa: float | None, given: Array
+) -> None:
+    """Raise InputError for the first impact in which the function of a law failed, if any did."""
+    if np.all(np.isfinite(given)):
+        return
+    psis, chis, found = np.broadcast_arrays(psi, np.asarray(chi), given)
+    first = int(np.flatnonzero(~np.isfinite(found))[0])
+    size = float(chis.flat[first])
+    if words := law._why(float(psis.flat[first]), size, SOLID * size if kappa is None else kappa):
+        raise InputError(words)
 
 
 def incidences(psi: ArrayLike) -> Array:
@@ -79,7 +101,7 @@ def psi_line(psi: ArrayLike) -> Array:
     """Return psi_1 as an array, or raise InputError beyond what errors can be told of."""
     values = finite_line("psi", psi)
     if np.max(np.abs(values)) > LARGEST:
-        allowed = f"must not be beyond {LARGEST:g}, of which rounding leaves no error to be told"
+        allowed = f"must be at most {LARGEST:g}; beyond it rounding hides the error"
         raise refusal("psi", float(np.max(np.abs(values))), allowed)
     return values
 
@@ -132,7 +154,7 @@ def exact_rebound(psi: Array, chi: ArrayLike, restitution: float = 1.0) -> Array
 
 
 def error_map(
-    law: Law,
+    law: LawOrFunction,
     psi: ArrayLike | None = None,
     chi: ArrayLike | None = None,
     *,
@@ -146,8 +168,8 @@ def error_map(
 
     Parameters
     ----------
-    law : Law
-        A contact law, e.g. `carom.LinearSpring()`.
+    law : Law or callable
+        A contact law, e.g. `carom.LinearSpring()`, or a function as of `carom.FunctionLaw`.
     psi, chi : array_like, optional
         Values along either axis, chi positive; by default those of solid spheres: chi from 7/6
         (nu = 1/2) to 7/4 (nu = 0), psi_1 to beyond where all impacts slide throughout.
@@ -180,6 +202,8 @@ def error_map(
     own = None if kappa is None else positive("kappa", kappa)
     exact = rebound(psis, rows, losses=losses_of(left_restitution(rule, float(chis[0]), own)))
     given = law_rebound(rule, psis, rows, own, steps)
+    if not np.any(np.isfinite(given)):
+        refuse_failure(rule, psis, rows, own, given)
     error = given - exact
     names = {"law": rule.name, "law_source": rule.source, "law_parameters": parameters(rule)}
     return labelled_dataset(
@@ -200,11 +224,14 @@ def error_map(
 
 
 def parameters(law: Law) -> dict[str, float | str | None]:
-    """Return the parameters of a law by name."""
-    return {item.name: getattr(law, item.name) for item in fields(law)}
+    """Return the parameters of a law by name, those that are numbers or texts, without its name."""
+    given = {item.name: getattr(law, item.name) for item in fields(law) if item.name != "name"}
+    return {name: given[name] for name in given if isinstance(given[name], PLAIN)}
 
 
-def force_error(law: Law, psi: float, chi: float, *, kappa: float | None = None) -> ForceError:
+def force_error(
+    law: LawOrFunction, psi: float, chi: float, *, kappa: float | None = None
+) -> ForceError:
     """Return the error of the tangential force through an impact, at equal parts of its duration.
 
     (F_x - F_x,exact)/(mu P_max), both forces at the same part of their own contact's duration, as a
@@ -213,8 +240,8 @@ def force_error(law: Law, psi: float, chi: float, *, kappa: float | None = None)
 
     Parameters
     ----------
-    law : Law
-        A contact law, e.g. `carom.LinearSpring()`.
+    law : Law or callable
+        A contact law, e.g. `carom.LinearSpring()`, or a function as of `carom.FunctionLaw`.
     psi : float
         Incidence psi_1.
     chi : float
@@ -238,9 +265,9 @@ def force_error(law: Law, psi: float, chi: float, *, kappa: float | None = None)
     >>> round(carom.verify.force_error(carom.LammpsMindlin("mindlin"), 0.75, 1.4412).rms, 2)
     0.16
     """
-    if not isinstance(as_law(law), ContactLaw):
+    law = as_law(law)
+    if not isinstance(law, ContactLaw):
         return ForceError(np.nan, np.nan)
-    assert isinstance(law, ContactLaw)
     psi, chi = finite("psi", psi, "1"), positive("chi", chi)
     history = law.history(psi, chi, kappa=kappa)
     parts = np.linspace(0.0, 1.0, INSTANTS)

@@ -11,7 +11,7 @@ from carom import plots
 from carom.io.citations import IMPACT, bibtex
 from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
-from carom.laws.dem import ContactLaw, Law
+from carom.laws.dem import ContactLaw
 from carom.laws.dem.damping import damped_restitution
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
@@ -19,6 +19,7 @@ from carom.quantities.units import or_none
 from carom.verify.catalogue import CATALOGUE, Entry, as_entry
 from carom.verify.errors import (
     INCIDENCES,
+    LawOrFunction,
     checked_chi,
     damped,
     dashed,
@@ -33,6 +34,7 @@ from carom.verify.errors import (
     laws_of,
     left_restitution,
     pure,
+    refuse_failure,
     root_mean_square,
 )
 from carom.verify.steps import TimeSteps, advised_steps, told_steps
@@ -111,8 +113,8 @@ class Ranking(Result):
         """Return what to cite for the exact answer, as BibTeX."""
         return bibtex(*IMPACT)
 
-    def _draw(self, dataset: "xr.Dataset") -> "Figure":
-        return plots.plot_laws(dataset)
+    def _draw(self, dataset: "xr.Dataset", **look: Any) -> "Figure":
+        return plots.plot_laws(dataset, **look)
 
     def to_dataset(self) -> "xr.Dataset":
         """Return psi_2 of each law and of the exact impact, and all errors, as one dataset.
@@ -167,7 +169,7 @@ def _without_copies(exact: list[Array]) -> tuple[tuple[str, ...], Array]:
 
 
 def rank(
-    entries: Sequence[Entry | Law] = CATALOGUE,
+    entries: Sequence[Entry | LawOrFunction] = CATALOGUE,
     *,
     chi: float = CHI,
     kappa: float | None = None,
@@ -182,8 +184,9 @@ def rank(
 
     Parameters
     ----------
-    entries : sequence of Entry or Law
-        Laws, or entries that have a label and who uses them; by default all of the catalogue.
+    entries : sequence of Entry, Law or callable
+        Laws, functions as of `carom.FunctionLaw`, or entries that have a label and who uses them;
+        by default all of the catalogue.
     chi : float
         (kappa/2)(m_n/m_t), positive.
     kappa : float, optional
@@ -193,8 +196,8 @@ def rank(
     restitution : float, optional
         e for which all laws are damped; of the catalogue those without damping are left out.
     progress : bool or callable, optional
-        Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
-        what is called with the laws done so far and their number.
+        Whether a progress bar is shown after two seconds, by default in a notebook and on a
+        terminal; or a function that is called with the number of laws done and their total.
 
     Returns
     -------
@@ -227,7 +230,7 @@ def rank(
         given = [entry._replace(law=damped(entry.law, e)) for entry in given]
     own = kappa_or_solid(kappa, ratio)
     standings = []
-    with advancing("ranking", len(given), progress, unit="laws") as advance:
+    with advancing("ranking the laws", len(given), progress, unit="laws") as advance:
         for entry in given:
             standings.append(_standing(entry, psis, ratio, own))
             advance(1)
@@ -238,6 +241,7 @@ def rank(
 def _standing(entry: Entry, psi: Any, chi: float, kappa: float) -> Standing:
     law = entry.law
     given = law_rebound(law, psi, chi, kappa)
+    refuse_failure(law, psi, chi, kappa, given)
     left = left_restitution(law, chi, kappa)
     error = given - exact_rebound(psi, chi, left)
     most = largest(error)
@@ -284,13 +288,14 @@ def _table(ranking: Ranking) -> str:
     ]
     return "\n".join(
         [
-            f"|error in psi_2| of contact laws, chi = {ranking.chi:g}, kappa = {ranking.kappa:.4g},"
-            f" {in_words(ranking.psi)}",
-            *(["against viscoelastic bodies that are left the same e"] if loses else []),
+            f"|error in psi_2| of contact laws at chi = {ranking.chi:g},"
+            f" kappa = {ranking.kappa:.4g}, {in_words(ranking.psi)}",
+            *(["compared with viscoelastic bodies of the same restitution e"] if loses else []),
             f"  {'':32s} {head}  used by",
             *rows,
-            "force: rms error of the tangential force through the worst impact, in mu P_max",
-            "steps: per contact, from which on the step costs less than the law is off;"
-            f" fine: less than {FINE:g}",
+            "max, at: largest error, and its psi_1; force: rms error of the tangential force in the"
+            " worst impact, in mu P_max",
+            "steps: time steps per contact, enough that they add less error than the law has; fine:"
+            f" enough for an error below {FINE:g}",
         ]
     )

@@ -49,7 +49,9 @@ def setting_of(
     wanted = damped_restitution("restitution", restitution)
     if case is None:
         if wanted != 1.0:
-            raise refusal("restitution", restitution, "needs a case file: dampings are of bodies")
+            raise refusal(
+                "restitution", restitution, "it needs a case file, as dampings depend on the bodies"
+            )
         ratio = positive("chi", chi)
         last = 4.0 * ratio if stop is None else finite("psi_in", stop)
         own = None if kappa is None else positive("kappa", kappa)
@@ -60,7 +62,9 @@ def setting_of(
     content = read_case(case)
     pair, motion = pair_of(content), motion_of(content)
     if pair.friction == 0.0:
-        raise refusal("friction", 0.0, "must be positive: without it nothing is to tune")
+        raise refusal(
+            "friction", 0.0, "must be positive; without friction there is nothing to tune"
+        )
     given = {name: motion.get(name) for name in SPEEDS}
     speed = approach(**given)[0] if any(value is not None for value in given.values()) else SPEED
     per_slope = pair.kappa / pair.friction  # psi_1 = kappa tan(angle)/mu
@@ -75,7 +79,9 @@ def _range(first: float, last: float, start: str, stop: str | None) -> NDArray[n
     if first < 0.0:
         raise refusal("from", start, "must not be negative")
     if first >= last and stop is None:
-        raise refusal("from", start, f"psi_1 = {first:.4g} slides throughout; give a lower one")
+        raise refusal(
+            "from", start, f"at psi_1 = {first:.4g} the contact slides throughout; give a lower one"
+        )
     if first >= last:
         raise refusal("to", stop, f"must be above --from, {start}")
     return np.linspace(first, last, POINTS)[0 if first > 0.0 else 1 :]

@@ -5,10 +5,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.laws.dem import Law
 from carom.quantities.units import counted, positive
 from carom.verify.errors import (
     INCIDENCES,
+    LawOrFunction,
     as_law,
     checked_chi,
     incidences,
@@ -35,7 +35,7 @@ def told_steps(given: TimeSteps | None) -> dict[str, Any]:
 
 
 def step_error(
-    law: Law,
+    law: LawOrFunction,
     steps: int,
     psi: ArrayLike = INCIDENCES,
     chi: float = 1.4412,
@@ -49,8 +49,8 @@ def step_error(
 
     Parameters
     ----------
-    law : Law
-        A contact law, e.g. `carom.LinearSpring()`.
+    law : Law or callable
+        A contact law, e.g. `carom.LinearSpring()`, or a function as of `carom.FunctionLaw`.
     steps : int
         Time steps per t_c, from 10 to two million.
     psi : array_like
@@ -77,14 +77,14 @@ def step_error(
     True
     """
     counted("steps", steps, FEWEST, MOST)
-    psis, ratio = incidences(psi), checked_chi(chi)
+    law, psis, ratio = as_law(law), incidences(psi), checked_chi(chi)
     own = kappa_or_solid(kappa, ratio)
-    converged = law_rebound(as_law(law), psis, ratio, own)
+    converged = law_rebound(law, psis, ratio, own)
     return largest(law_rebound(law, psis, ratio, own, steps) - converged)
 
 
 def advised_steps(
-    law: Law,
+    law: LawOrFunction,
     allowed: float,
     psi: ArrayLike = INCIDENCES,
     chi: float = 1.4412,
@@ -94,12 +94,13 @@ def advised_steps(
     """Return the fewest time steps whose error in psi_2 stays within what is allowed.
 
     The error of twice as many steps must be within it, too; numbers are tried in steps of sqrt 2.
-    None if two million do not suffice, or the law has no limit.
+    None if two million do not suffice, 2000 for a law that is a Python function, or the law has no
+    limit.
 
     Parameters
     ----------
-    law : Law
-        A contact law, e.g. `carom.LinearSpring()`.
+    law : Law or callable
+        A contact law, e.g. `carom.LinearSpring()`, or a function as of `carom.FunctionLaw`.
     allowed : float
         Largest |error in psi_2| that the steps may cause.
     psi : array_like
@@ -126,14 +127,14 @@ def advised_steps(
     28
     """
     bound = positive("allowed", allowed, "1")
-    psis, ratio = incidences(psi), checked_chi(chi)
+    law, psis, ratio = as_law(law), incidences(psi), checked_chi(chi)
     own = kappa_or_solid(kappa, ratio)
-    converged = law_rebound(as_law(law), psis, ratio, own)
+    converged = law_rebound(law, psis, ratio, own)
     if not np.all(np.isfinite(converged)):
         return None
     held: list[TimeSteps] = []
     wanted = float(FEWEST)
-    while wanted <= MOST:
+    while wanted <= min(MOST, law.most_steps):
         steps = round(wanted)
         error = largest(law_rebound(law, psis, ratio, own, steps) - converged)
         held = [*held, TimeSteps(steps, error)] if error <= bound else []

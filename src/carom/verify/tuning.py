@@ -14,6 +14,7 @@ from carom.quantities.arrays import Array
 from carom.quantities.refusals import one_of
 from carom.verify.catalogue import CATALOGUE, called
 from carom.verify.errors import (
+    LawOrFunction,
     as_law,
     checked_chi,
     dashed,
@@ -24,6 +25,7 @@ from carom.verify.errors import (
     law_rebound,
     laws_of,
     left_restitution,
+    refuse_failure,
     root_mean_square,
 )
 from carom.verify.steps import TimeSteps, advised_steps, told_steps
@@ -138,18 +140,19 @@ class Tuning:
         ]
         return "\n".join(
             [
-                f"closest to the exact psi_2 at chi = {self.chi:g}, kappa = {self.kappa:.4g},"
+                f"Laws closest to the exact psi_2 at chi = {self.chi:g}, kappa = {self.kappa:.4g},"
                 f" psi_1 from {self.span[0]:g} to {self.span[1]:g}",
                 f"  {'':32s} {head}{'steps':>6s} {'cost':>7s}",
                 *rows,
-                "max, rms: error in psi_2 that remains; steps: per contact, for a tenth of it;"
-                " cost: error in psi_2 of such a time step; all for e = 1",
+                "max, rms: error in psi_2 with this value; as given: largest error without tuning",
+                "steps: time steps per contact that add less than a tenth of max; cost: the error"
+                " that they add; all for e = 1",
             ]
         )
 
 
 def tune(
-    laws: dem.Law | Sequence[dem.Law] = TUNED,
+    laws: LawOrFunction | Sequence[LawOrFunction] = TUNED,
     *,
     chi: float,
     kappa: float | None = None,
@@ -165,8 +168,8 @@ def tune(
 
     Parameters
     ----------
-    laws : Law or sequence of Law
-        Laws of impact; all but the tuned parameter is kept.
+    laws : Law, callable, or sequence of them
+        Laws of impact, or functions as of `carom.FunctionLaw`; all but the tuned parameter is kept.
     chi : float
         (kappa/2)(m_n/m_t), positive.
     kappa : float, optional
@@ -176,8 +179,8 @@ def tune(
     measure : str
         "max" or "rms".
     progress : bool or callable, optional
-        Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
-        what is called with the laws done so far and their number.
+        Whether a progress bar is shown after two seconds, by default in a notebook and on a
+        terminal; or a function that is called with the number of laws done and their total.
 
     Returns
     -------
@@ -204,7 +207,7 @@ def tune(
     one_of("measure", measure, MEASURES)
     advice = []
     given = laws_of("laws", laws)
-    with advancing("tuning", len(given), progress, unit="laws") as advance:
+    with advancing("tuning the laws", len(given), progress, unit="laws") as advance:
         for law in map(as_law, given):
             exact = exact_rebound(psis, ratio, left_restitution(law, ratio, own))
             advice.append(_advice(law, psis, exact, ratio, own, measure))
@@ -231,6 +234,7 @@ def _advice(
             low, high = kappa * low, kappa * high
         best = _closest(law, name, low, high, cost)
     left, step = error(best), None
+    refuse_failure(law, psi, chi, kappa, left)
     most = largest(left)
     if isinstance(best, dem.ContactLaw) and most > 0.0:
         step = advised_steps(best, 0.1 * most, psi, chi, kappa=kappa)
@@ -281,4 +285,4 @@ def _told(one: TunedLaw) -> str:
     error = f"|error in psi_2| {one.max_error:.3f}"
     if one.value is None:
         return error
-    return f"{one.parameter} {one.value:.4g}: {error}, {one.before:.3f} before"
+    return f"{one.parameter} {one.value:.4g}: {error}, {one.before:.3f} without tuning"

@@ -12,12 +12,19 @@ from carom.quantities.refusals import InputError
 from carom.quantities.units import positive, whole
 
 PURPOSE = """\
-Run {} through impacts with each of its laws and rank them by their error in psi_2.
+Run {0} and rank its contact laws by their error.
 
-Example: carom verify {}
+Use this command to see how far the rebound in {0} is from the exact impact, with each contact law
+that the program has. The error is that of psi_2, the dimensionless tangential velocity of the
+contact point after the impact. {0} must be installed.
+
+\b
+Example: carom verify {1}
 """
-VERDICT = """
-To a verdict: carom verify lammps --law mindlin --output results.csv, and carom verify score
+VERDICT = """\
+Results of one law, and a verdict on them:
+  carom verify lammps --law mindlin --output results.csv
+  carom verify score results.csv
 """
 COMMANDS = {
     name.lower(): PURPOSE.format(name, name.lower()) for name in ("LAMMPS", "LIGGGHTS", "YADE")
@@ -28,19 +35,23 @@ COMMANDS["lammps"] += VERDICT
 def engine_command(
     context: typer.Context,
     case: Annotated[
-        Path | None, file_option("Case file as for `carom impact`: the bodies (steel, 1.4412).")
+        Path | None,
+        file_option(
+            "Case file, as for carom impact, with the bodies (default: a steel ball on a steel "
+            "plate, chi = 1.4412)."
+        ),
     ] = None,
     law: Annotated[
-        str | None, typer.Option(help="Only this law, named as by `carom verify laws`.")
+        str | None, typer.Option(help="Run only this law, by its name in carom verify laws.")
     ] = None,
     steps: Annotated[str, whole_option("Time steps per duration of Hertz's contact.")] = "2000",
     time_limit: Annotated[str, typer.Option(help="Time limit of each run, e.g. '60 s'.")] = "120 s",
     program: Annotated[
-        str | None, typer.Option(help="Where the program is (searched for).")
+        str | None, typer.Option(help="Path of the executable (default: Carom looks for it).")
     ] = None,
     output: Annotated[
         str | None,
-        typer.Option(help="Store the results of one --law: .csv, for carom verify score."),
+        typer.Option(help="Store the results of the one --law as .csv, for carom verify score."),
     ] = None,
     as_json: Json = False,
 ) -> None:
@@ -53,7 +64,7 @@ def engine_command(
     count = whole("steps", steps, 10, MOST_STEPS)
     check_outputs((output, (".csv",)))
     if output is not None and law is None:
-        raise InputError("output: needs one --law, e.g. --law mindlin: results are of one")
+        raise InputError("output: it stores the results of one law; give --law, e.g. --law mindlin")
     engine = getattr(carom.verify, str(context.command.name).capitalize())
     found = carom.verify.bench(
         engine(program),

@@ -16,16 +16,35 @@ if TYPE_CHECKING:
 
 
 def laws_command(
-    chi: Annotated[str, typer.Option(help="(kappa/2)(m_n/m_t), positive.")] = "1.4412",
+    chi: Annotated[
+        str,
+        typer.Option(
+            help="Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive; the default "
+            "is that of solid spheres with Poisson's ratio 0.3."
+        ),
+    ] = "1.4412",
     kappa: Annotated[
-        str | None, typer.Option(help="G*/E*; by default that of solid spheres, 4 chi/7.")
+        str | None,
+        typer.Option(
+            help="Stiffness ratio kappa = G*/E* (default: that of solid spheres, 4 chi/7)."
+        ),
     ] = None,
     psi: Annotated[
-        list[str] | None, typer.Option(help="Incidence psi_1; repeat for several.")
+        list[str] | None,
+        typer.Option(
+            help="Incidence psi_1 = kappa V_x/(mu V_1) at which laws are compared (default: 15 "
+            "from 0.1 to 6). You can repeat this option."
+        ),
     ] = None,
-    law: Annotated[str | None, typer.Option(help="Only this law, e.g. mindlin_rescale.")] = None,
+    law: Annotated[
+        str | None, typer.Option(help="Rank only this law, e.g. mindlin_rescale.")
+    ] = None,
     restitution: Annotated[
-        str | None, typer.Option(help="Damp all laws for this normal restitution, e.g. 0.9.")
+        str | None,
+        typer.Option(
+            help="Give all laws the damping for this normal coefficient of restitution, e.g. 0.9 "
+            "(default: no damping)."
+        ),
     ] = None,
     as_json: Json = False,
     plot: Plot = None,
@@ -34,18 +53,21 @@ def laws_command(
         str | None,
         typer.Option(
             "--map",
-            help="Store the error of one --law for solid spheres of any nu: a figure or table.",
+            help="Store a map of the errors of the one --law, for solid spheres of any Poisson's "
+            "ratio: a figure or a table.",
         ),
     ] = None,
 ) -> None:
-    """Rank the contact laws of DEM codes by their largest error in psi_2.
+    """Rank contact laws of DEM codes by their largest error.
 
+    Use this command to choose a contact law, or to see how wrong the law of your DEM code is. The
+    error is that of psi_2, the dimensionless tangential velocity of the contact point after the
+    impact, against the exact impact. The table also says how many time steps a law needs.
+
+    \b
     Example: carom verify laws
-
-    Damped, against the exact impact that loses as much: carom verify laws --restitution 0.7
-
-    For shells on a wall: carom verify laws --chi 1.0294 --kappa 0.8235 --plot laws.png
-
+    Damped laws, compared at equal restitution: carom verify laws --restitution 0.7
+    Thin shells on a wall: carom verify laws --chi 1.0294 --kappa 0.8235 --plot laws.png
     One law for all solid spheres: carom verify laws --law mindlin --map mindlin.png
     """
     from carom.io.files import FIGURES, TABLES
@@ -54,9 +76,9 @@ def laws_command(
     from carom.verify.errors import INCIDENCES
 
     if error_map is not None and law is None:
-        raise InputError("map: is of one law; give --law, e.g. --law mindlin")
+        raise InputError("map: it shows one law; give --law, e.g. --law mindlin")
     if error_map is not None and (kappa is not None or psi):
-        raise InputError("map: is of solid spheres, all psi_1; leave --kappa and --psi out")
+        raise InputError("map: it shows solid spheres at all psi_1; leave --kappa and --psi out")
     refuse_same({"plot": plot, "output": output, "map": error_map})
     check_outputs((plot, FIGURES), (output, TABLES), (error_map, (*FIGURES, *TABLES)))
     incidences = [finite("psi_in", value) for value in psi or INCIDENCES]

@@ -7,15 +7,18 @@ import typer
 
 
 def pack_command(
-    folder: Annotated[str, typer.Argument(help="A new or empty folder, e.g. bench.")],
+    folder: Annotated[str, typer.Argument(help="New or empty folder for the pack, e.g. bench.")],
     as_json: Annotated[
         bool, typer.Option("--json", help="Print JSON instead of a summary.")
     ] = False,
 ) -> None:
-    """Write reference impacts with error bars, and inputs of DEM codes for them, into a folder.
+    """Write the benchmark pack for developers of DEM codes.
 
-    Frozen: a version of the pack has the same numbers, to the last byte, wherever it is written.
+    Use this command to test a DEM code that you write. The pack holds reference impacts with error
+    bars, and inputs of DEM codes for them. A version of the pack has the same numbers, to the last
+    byte, wherever it is written.
 
+    \b
     Example: carom verify pack bench
     """
     from carom.verify.pack import VERSION, write_pack
@@ -24,4 +27,7 @@ def pack_command(
     if as_json:
         typer.echo(json.dumps({"version": VERSION, "folder": folder, "files": files}, indent=2))
         return
-    typer.echo(f"benchmark pack {VERSION}: {len(files)} files in {folder}; start with README.md")
+    typer.echo(
+        f"Carom has written benchmark pack {VERSION}, {len(files)} files, into {folder}. "
+        "Start with its README.md."
+    )

@@ -22,44 +22,72 @@ from carom.cli.cases import (
 
 
 def score_command(
-    results: Annotated[Path, file_argument("CSV file with a header; comments after #.")],
+    results: Annotated[
+        Path, file_argument("CSV file with the names of its columns in a head; # starts a comment.")
+    ],
     case: Annotated[
         Path | None,
-        file_option("Case file as for `carom impact`: the bodies; for a history the motion."),
+        file_option(
+            "Case file, as for carom impact, with the bodies; to score forces it must have the "
+            "speeds, too."
+        ),
     ] = None,
     chi: Annotated[
-        str | None, typer.Option(help="chi of psi_1, psi_2 if there is no such column, e.g. 1.44.")
+        str | None,
+        typer.Option(
+            help="Ratio of inertia to stiffness chi of psi_1 and psi_2, e.g. 1.44, if there is no "
+            "column chi."
+        ),
     ] = None,
     restitution: Annotated[
         str | None,
-        typer.Option(help="What a damped normal contact is to leave, e.g. 0.9; also in the case."),
+        typer.Option(
+            help="Normal coefficient of restitution of the exact impact, e.g. 0.9, if your contact "
+            "is damped (default: that of the case, or 1)."
+        ),
     ] = None,
     tolerance: Annotated[
         str,
         typer.Option(
-            help="Largest |error in psi_2| that passes, and of the audit; the best laws reach 0.05."
+            help="Largest |error in psi_2| that passes, and the limit of every finding of the "
+            "audit; tuned laws of DEM codes reach 0.05 at best."
         ),
     ] = "0.01",
     column: Column = None,
+    code: Annotated[
+        str | None,
+        typer.Option(help="Name of the program, for the report and the figure, e.g. LAMMPS."),
+    ] = None,
+    law: Annotated[
+        str | None,
+        typer.Option(help="Name of its contact law, for the report and the figure, e.g. mindlin."),
+    ] = None,
     plot: Plot = None,
     output: Annotated[str | None, typer.Option(help="Store the score: .csv or .nc.")] = None,
     as_json: Json = False,
 ) -> None:
-    """Score your own results against the exact impact; exit code 0 if they pass, 1 if they fail.
+    """Score your own results against the exact impact.
 
-    The columns tell what they are: psi_1, psi_2 (chi); or normal_speed, tangential_speed, spin,
-    tangential_speed_out, spin_out (normal_speed_out); or time, normal_force, tangential_force of
-    one impact, the tangential force positive where it slows V_x > 0: minus the x force on the
-    first body. SI units, or named in the head: "spin [rpm]".
+    Use this command to test a DEM code or a contact law of your own. Results pass if no psi_2 is
+    off by more than the tolerance, and none breaks the laws of energy, momentum or friction. Errors
+    of forces count in units of mu P_max and P_max. The exit code is 0 if the results pass, and 1 if
+    they fail.
 
-    They pass if no psi_2 is off by more than the tolerance, and no energy, momentum or friction is;
-    errors of forces count in units of mu P_max and P_max.
+    The columns of the file say what the results are:
 
+    \b
+    a rebound curve:       psi_1, psi_2, and chi as a column or as an option
+    velocities:            normal_speed, tangential_speed, spin,
+                           tangential_speed_out, spin_out, normal_speed_out if known
+    forces of one impact:  time, normal_force, tangential_force
+
+    The tangential force is positive where it slows V_x > 0, and so is minus the x force on the
+    first body. Numbers are in SI units, or in the unit that the head names: "spin [rpm]".
+
+    \b
     Example: carom verify score rebounds.csv --chi 1.44 --plot score.png
-
     Velocities or forces: carom verify score results.csv --case examples/steel_ball.toml
-
-    Damped, against solids that leave as much: add --restitution 0.9
+    A damped contact: carom verify score rebounds.csv --chi 1.44 --restitution 0.9
     """
     from carom.io.files import FIGURES, TABLES
 
@@ -72,6 +100,8 @@ def score_command(
         restitution=restitution,
         tolerance=tolerance,
         columns=named_values("column", column, "omega=spin_out"),
+        code=code,
+        law=law,
     )
     store(score, output, plot)
     typer.echo(json.dumps(score.to_dict(), indent=2) if as_json else str(score))

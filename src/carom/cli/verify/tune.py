@@ -8,6 +8,7 @@ import typer
 
 import carom
 from carom.cli.cases import Json, file_argument, told_case
+from carom.quantities.glossary import GLOSSARY
 
 if TYPE_CHECKING:
     from carom.verify.setting import Setting
@@ -16,32 +17,48 @@ if TYPE_CHECKING:
 
 def tune_command(
     case: Annotated[
-        Path | None, file_argument("Case file as of `carom impact`: bodies, friction, speed.")
+        Path | None,
+        file_argument("Case file, as for carom impact, with bodies, friction and speed."),
     ] = None,
-    chi: Annotated[str | None, typer.Option(help="Instead of a case: chi, positive.")] = None,
+    chi: Annotated[
+        str | None, typer.Option(help="Ratio of inertia to stiffness chi, instead of a case file.")
+    ] = None,
     kappa: Annotated[
-        str | None, typer.Option(help="With --chi: G*/E*; by default 4 chi/7, of solid spheres.")
+        str | None,
+        typer.Option(
+            help="Stiffness ratio kappa = G*/E*, only with --chi (default: that of solid spheres, "
+            "4 chi/7)."
+        ),
     ] = None,
     start: Annotated[
-        str, typer.Option("--from", help="First incidence: an angle of a case, or psi_1.")
+        str, typer.Option("--from", help="First incidence: an angle with a case file, else psi_1.")
     ] = "0",
     stop: Annotated[
         str | None,
-        typer.Option("--to", help="Last incidence: an angle, e.g. '60 deg', or psi_1 (4 chi)."),
+        typer.Option(
+            "--to",
+            help="Last incidence: an angle, e.g. '60 deg', with a case file, else psi_1 (default: "
+            "psi_1 = 4 chi).",
+        ),
     ] = None,
     restitution: Annotated[
-        str, typer.Option(help="Wanted normal restitution e, for the dampings.")
+        str, typer.Option(help="Normal coefficient of restitution that the dampings shall give.")
     ] = "1",
-    measure: Annotated[str, typer.Option(help="Error to minimise: max or rms.")] = "max",
+    measure: Annotated[
+        str,
+        typer.Option(help="Error in psi_2 to minimise over the incidences: its max or its rms."),
+    ] = "max",
     as_json: Json = False,
 ) -> None:
-    """Find the parameters of each contact law that come closest to the exact rebound.
+    """Find the least wrong stiffness of every contact law.
 
-    With a case also what to write into the inputs of DEM codes: stiffnesses, dampings for a wanted
-    restitution, and time steps with the errors that they cause.
+    Use this command if you cannot change the contact law of your DEM code. It finds the parameter
+    with which each law comes closest to the exact psi_2. With a case file it also prints what to
+    write into the inputs of DEM codes: stiffnesses, dampings for the restitution that you want, and
+    time steps with the errors that they cause.
 
+    \b
     Example: carom verify tune examples/steel_ball.toml --from "5 deg" --to "60 deg"
-
     Without bodies: carom verify tune --chi 1.4412
     """
     from carom.verify.setting import setting_of
@@ -74,8 +91,10 @@ def _text(tuning: "Tuning", record: dict[str, Any]) -> str:
     speed, duration = record["normal_speed"], record["duration"]
     if duration is not None:
         lines.append(
-            f"contact of {duration:.4g} s at {speed:.4g} m/s: time step = that / steps;"
-            " inputs, with the stiffnesses above:"
+            f"At a normal speed of {GLOSSARY['normal_speed'].text(speed, 4)} the contact lasts"
+            f" {GLOSSARY['duration'].text(duration, 4)}; the time step is this duration divided by"
+            " steps."
         )
+        lines.append("Inputs of DEM codes with these stiffnesses:")
         lines += [f"  {code:26s} {text}" for code, text in record["inputs"].items()]
     return "\n".join(lines)

@@ -87,7 +87,7 @@ NEXT = _table()
 
 
 class Status(WordedStatus):
-    """How a run ended; its `message` says so in words.
+    """The status of a solved impact; its `message` is a short explanation.
 
     Examples
     --------
@@ -100,7 +100,7 @@ class Status(WordedStatus):
     PSI_NOT_FINITE = 1, "psi must be a finite number"
     CHI_NOT_POSITIVE = 2, "chi must be positive and finite"
     TOO_MANY_PHASES = 3, f"not solved: more than {MAX_PHASES} phases (chi is too large)"
-    UNRESOLVED = 4, "not solved: a phase did not end within the bound on steps"
+    UNRESOLVED = 4, "not solved: a phase did not end within the allowed number of steps"
 
 
 # A stick phase that lasts to within this speed of the turning point, times psi_1, goes back as it

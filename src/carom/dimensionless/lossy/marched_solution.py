@@ -62,7 +62,7 @@ class MarchedSolution(LossySolution):
 
 
 def _refuse_fields() -> NoReturn:
-    raise InputError("losses: fields are not known of this solid; take KelvinVoigt, or no losses")
+    raise InputError("losses: fields of this solid are not known; use KelvinVoigt, or no losses")
 
 
 def solve_by_marching(psi: float, chi: float, losses: LossNumbers) -> MarchedSolution:

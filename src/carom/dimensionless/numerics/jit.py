@@ -1,4 +1,4 @@
-"""Kernels compiled by numba on first use, and the word to users who wait for it."""
+"""Kernels compiled by numba on first use, and the message to users who wait for them."""
 
 import sys
 from collections.abc import Callable
@@ -24,9 +24,9 @@ def dispatcher(function: Callable[..., Any]) -> Any:
 
 
 def message() -> str:
-    """Return what to say to users who wait, and why they do."""
+    """Return the message for users who wait, with the reason."""
     why = f" ({shared_library.reason()})" if shared_library.reason() else ""
-    return f"carom: compiling its kernels, once; this takes up to a minute{why} ..."
+    return f"Carom is compiling its solver. This happens once and takes up to a minute{why}."
 
 
 class Teller(event.Listener):  # type: ignore[misc]

@@ -56,12 +56,12 @@ def get_library() -> str:
     Returns
     -------
     str
-        The path of the library that was made for this processor.
+        Path of the library that was built for this processor.
 
     Raises
     ------
     RuntimeError
-        If there is none, with the reason: Carom was installed without a C compiler, or as editable.
+        If there is no library, because Carom was installed without a C compiler or as editable.
 
     Examples
     --------
@@ -116,7 +116,7 @@ def opened() -> Opened:
     try:
         contents = json.loads((FOLDER / CONTENTS).read_text(encoding="utf-8"))
         if digest(PACKAGE / name for name in contents["files"]) != contents["sources"]:
-            raise Unusable("the compiled library was made from other sources")
+            raise Unusable("the compiled library was built from other sources")
         return _best(contents)
     except FileNotFoundError:
         raise Unusable("carom was installed without its compiled library") from None
@@ -136,7 +136,7 @@ def _best(contents: Any) -> Opened:
             raise Unusable(f"the compiled library cannot be opened: {error}") from None
         if handle.carom_processor_level() >= each["level"]:
             return Opened(path, handle, contents["signatures"])
-    raise Unusable("no compiled library is for this processor")
+    raise Unusable("there is no compiled library for this processor")
 
 
 def digest(files: Iterable[Path]) -> str:

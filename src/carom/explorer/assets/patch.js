@@ -128,14 +128,14 @@ Carom.patch = (() => {
     ["1", "0.5", "0", "−0.5", "−1"].forEach((text, i) => {
       canvas.word(pen, text, x + 18, top + (i / 4) * height, { base: "middle", size: 11 });
     });
-    canvas.word(pen, "q / (µ p₀)", x, top - 11, { size: 11 });
+    canvas.word(pen, "fₓ / (µ p₀)", x, top - 11, { size: 11 });
   }
 
   // Traction along y = 0, between the limits of friction, below the map and on its scale.
   function drawLine(pen, box, now) {
     const { map, line } = box;
     const half = line.height / 2 - 4;
-    const at = (x, q) => [map.x + x * map.unit, line.middle - q * half];
+    const at = (x, f) => [map.x + x * map.unit, line.middle - f * half];
     drawAxes(pen, box, half);
     if (now.apart || now.contact <= 0) return;
     pen.save(); // above the scale it goes on: viscous bodies press without bound at the edge
@@ -153,8 +153,8 @@ Carom.patch = (() => {
       pen.setLineDash([]);
     }
     const step = now.contact / (now.traction.length - 1);
-    const right = now.traction.map((q, i) => at(i * step, q));
-    const left = now.traction.map((q, i) => at(-i * step, q)).reverse();
+    const right = now.traction.map((f, i) => at(i * step, f));
+    const left = now.traction.map((f, i) => at(-i * step, f)).reverse();
     path(pen, [...left, ...right]);
     pen.lineWidth = 2.2;
     pen.lineJoin = "round";
@@ -176,7 +176,7 @@ Carom.patch = (() => {
     const words = { size: 11, base: "middle", color: color("ink") };
     const beside = map.x + map.unit + 8;
     canvas.word(pen, "± µ p", beside, line.middle - half + 4, { ...words, color: color("muted") });
-    canvas.word(pen, "q", beside, line.middle, { ...words, color: color("accent") });
+    canvas.word(pen, "fₓ", beside, line.middle, { ...words, color: color("accent") });
     const y = line.top + line.height + 9;
     ["−1", "0", "1"].forEach((text, i) => {
       canvas.word(pen, text, map.x + (i - 1) * map.unit, y, { ...words, align: "center" });

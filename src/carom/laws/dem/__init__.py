@@ -1,6 +1,8 @@
 """Contact laws as the codes of the discrete element method define them, each with its source."""
 
 from carom.laws.dem.base import ContactLaw, Law
+from carom.laws.dem.contact_step import ContactStep
+from carom.laws.dem.function import FunctionLaw, FunctionRebound
 from carom.laws.dem.hard import HardSphere
 from carom.laws.dem.incremental import ThorntonLaw, WaltonBraunLaw
 from carom.laws.dem.memory import MemoryLaw
@@ -10,7 +12,10 @@ from carom.laws.dem.status import LawStatus
 
 __all__ = [
     "ContactLaw",
+    "ContactStep",
     "EdemHertzMindlin",
+    "FunctionLaw",
+    "FunctionRebound",
     "HardSphere",
     "HertzLinearHistory",
     "LammpsMindlin",

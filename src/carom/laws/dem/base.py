@@ -1,4 +1,4 @@
-"""What all contact laws have in common: a name, a source, the rebound that follows from them."""
+"""The base of all contact laws, with a name, a source and the rebound that follows from them."""
 
 from abc import ABC, abstractmethod
 from concurrent.futures import ThreadPoolExecutor
@@ -13,7 +13,7 @@ from carom.dimensionless.rebounds import warn_of_unsolved
 from carom.laws.dem.adaptive import WORK, rebounds
 from carom.laws.dem.coefficients import Coefficients
 from carom.laws.dem.damping import damped_restitution
-from carom.laws.dem.status import Codes, LawStatus, status_of
+from carom.laws.dem.status import OF_FUNCTIONS, Codes, LawStatus, status_of
 from carom.laws.dem.stepping import HISTORY, PATIENCE, REMEMBERED, stepped, stepped_rebounds
 from carom.quantities.arrays import Array, along_the_same, pure_numbers, together
 from carom.quantities.refusals import flag, refusal
@@ -32,11 +32,12 @@ READERS = {  # of the parameters that laws have
 
 @dataclass(frozen=True)
 class Law(ABC):
-    """A law of impact in the place of the exact one."""
+    """A law of impact that stands for the exact one."""
 
     name: ClassVar[str]
     source: ClassVar[str]
     largest_chi: ClassVar[float] = np.inf
+    most_steps: ClassVar[int] = MOST_STEPS  # that are tried for a time step
 
     def __post_init__(self) -> None:
         for name, read in READERS.items():
@@ -62,33 +63,32 @@ class Law(ABC):
         Parameters
         ----------
         psi : array_like
-            psi_1 = kappa V_x/(mu V_1) before.
+            Dimensionless tangential velocity before the impact, psi_1 = kappa V_x/(mu V_1).
         chi : array_like
-            (kappa/2)(m_n/m_t), positive; broadcast against `psi`.
+            Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive; broadcast against `psi`.
         kappa : array_like, optional
-            G*/E*, by default that of solid spheres, 4 chi/7; of use to a law with a k_t/k_n or a
-            damping of its own.
+            Stiffness ratio G*/E*, by default that of solid spheres, 4 chi/7. It matters for laws
+            with their own k_t/k_n or damping.
         steps : int, optional
-            How many equal time steps the elastic impact takes (the duration of Hertz's contact),
-            as the codes do it, 4 to ten million; by default as many, of adaptive size, as it takes
-            for 1e-8.
+            Number of equal time steps in the duration of Hertz's contact, as in DEM codes, from 4
+            to ten million; by default steps of adaptive size that reach an error of 1e-8.
         threads : int, optional
-            How many threads to use, all cores by default. The result does not depend on it.
+            Number of threads, by default all cores. The result does not depend on it.
         return_status : bool
-            Return also an array of `carom.laws.dem.LawStatus` values, one per impact.
+            Whether to return also an array of `carom.laws.dem.LawStatus` values, one per impact.
 
         Returns
         -------
         float or ndarray
-            psi_2; NaN where an argument is out of range or masked, chi above a million, or the
-            bodies do not part, with one RuntimeWarning that says where and why unless
-            `return_status` is set.
+            psi_2, in the shape of the broadcast arguments. It is NaN where an argument is out of
+            range or masked, where chi is above a million, and where the bodies do not part. One
+            RuntimeWarning then says where and why, unless `return_status` is set.
 
         Raises
         ------
         InputError
-            If an argument is not a pure number at all, the shapes do not fit, or `steps` or
-            `threads` is out of range.
+            If an argument is not a pure number, the shapes do not fit, or `steps` or `threads` is
+            out of range.
 
         Examples
         --------
@@ -104,13 +104,20 @@ class Law(ABC):
         given = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
         given["kappa"] = SOLID * given["chi"] if kappa is None else pure_numbers("kappa", kappa)
         shape = together(given)
-        flat = (np.broadcast_to(values, shape).ravel() for values in given.values())
-        result, status = self._solved(next(flat), next(flat), next(flat), steps, threads)
+        psis, chis, kappas = (np.broadcast_to(values, shape).ravel() for values in given.values())
+        result, status = self._solved(psis, chis, kappas, steps, threads)
         psi_out = result.reshape(shape) if shape else float(result[0])
         if return_status:
             return psi_out, status.reshape(shape) if shape else int(status[0])
-        warn_of_unsolved(status.reshape(shape), LawStatus)
+        lost, reason = np.flatnonzero(status), ""
+        if lost.size and status[lost[0]] in OF_FUNCTIONS:
+            reason = self._why(*(float(each[lost[0]]) for each in (psis, chis, kappas)))
+        warn_of_unsolved(status.reshape(shape), LawStatus, reason)
         return psi_out
+
+    def _why(self, psi: float, chi: float, kappa: float) -> str:
+        """Return what the function of a law did wrong in an impact, "" if nothing."""
+        return ""
 
     def _solved(
         self, psi: Array, chi: Array, kappa: Array, steps: int | None, threads: int | None
@@ -146,9 +153,10 @@ def _parts(chi: Array, kappa: Array) -> list[NDArray[np.intp]]:
 
 @dataclass(frozen=True)
 class ContactLaw(Law):
-    """A law of the forces in a contact, from touch to parting."""
+    """A law of the forces in a contact, from the first touch to separation."""
 
     largest_chi: ClassVar[float] = 1e6  # which an adaptive impact takes a tenth of a second for
+    symmetric: ClassVar[bool] = True  # in the sign of psi: it is solved for |psi|
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
@@ -172,23 +180,24 @@ class ContactLaw(Law):
     def history(
         self, psi: float, chi: float, *, kappa: float | None = None, steps: int = 1000
     ) -> dict[str, Array]:
-        """Return what happens in equal time steps, in the units of Hertz's impact.
+        """Return the history of an impact in equal time steps, in the units of Hertz's impact.
 
         Parameters
         ----------
         psi : float
-            psi_1 = kappa V_x/(mu V_1) before.
+            Dimensionless tangential velocity before the impact, psi_1 = kappa V_x/(mu V_1).
         chi : float
-            (kappa/2)(m_n/m_t), positive.
+            Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
         kappa : float, optional
-            G*/E*, by default that of solid spheres, 4 chi/7.
+            Stiffness ratio G*/E*, by default that of solid spheres, 4 chi/7.
         steps : int
-            Equal time steps that the elastic impact takes, as the codes do it, 4 to a million.
+            Number of equal time steps in the duration of Hertz's contact, from 4 to a million.
 
         Returns
         -------
         dict
-            Arrays by name: time, penetration, normal_velocity, psi, normal_force, tangential_force.
+            Arrays named `time`, `penetration`, `normal_velocity`, `psi`, `normal_force` and
+            `tangential_force`.
 
         Raises
         ------
@@ -206,10 +215,11 @@ class ContactLaw(Law):
         chi, psi = positive("chi", chi), finite("psi", psi, "1")
         own = SOLID * chi if kappa is None else positive("kappa", kappa)
         record = np.empty((PATIENCE * steps + 2, len(HISTORY)))
-        count = self._recorded(abs(psi), chi, own, steps, record)
+        sign = float(np.copysign(1.0, psi)) if self.symmetric else 1.0
+        count = self._recorded(sign * psi, chi, own, steps, record)
         if count < 0 or not np.all(np.isfinite(record[:count])):
             raise refusal("steps", steps, "the bodies do not part; take more steps")
         columns = {name: record[:count, i].copy() for i, name in enumerate(HISTORY)}
         for name in ("psi", "tangential_force"):
-            columns[name] *= np.copysign(1.0, psi)
+            columns[name] *= sign
         return columns

@@ -1,4 +1,4 @@
-"""Impacts without a duration: rigid Coulomb friction and Walton's hard spheres."""
+"""Impacts without duration, with rigid Coulomb friction or Walton's parameters."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -13,17 +13,19 @@ from carom.quantities.units import number
 
 @dataclass(frozen=True)
 class HardSphere(Law):
-    """Spheres that do not deform: they slide, or leave with a part of the tangential velocity.
+    """Rigid spheres, which slide or keep a fixed fraction of the tangential velocity.
 
-    psi_2 = psi_1 - min(2 chi (1 + e), (1 + beta_0) psi_1) for psi_1 >= 0: with beta_0 = 0 rigid
-    Coulomb friction (Routh 1891), else Walton's three parameters (Foerster et al. 1994, (11)-(13)).
+        psi_2 = psi_1 - min(2 chi (1 + e), (1 + beta_0) psi_1) for psi_1 >= 0
+
+    With beta_0 = 0 this is rigid Coulomb friction (Routh 1891), otherwise the law with Walton's
+    three parameters (Foerster et al. 1994, (11)-(13)).
 
     Parameters
     ----------
     tangential_restitution : float
-        beta_0 = -psi_2/psi_1 where it does not slide, from -1 to 1.
+        Tangential restitution beta_0 = -psi_2/psi_1 without sliding, from -1 to 1.
     restitution : float
-        e, above 0 and at most 1.
+        Coefficient of restitution e, above 0 and at most 1.
 
     Raises
     ------

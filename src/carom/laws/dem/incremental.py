@@ -1,4 +1,4 @@
-"""Laws that soften as slip spreads from the edge: after Mindlin & Deresiewicz."""
+"""Laws after Mindlin & Deresiewicz, which soften as slip spreads from the edge."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -10,13 +10,17 @@ from carom.laws.dem.springs import BilinearLaw
 
 @dataclass(frozen=True)
 class ThorntonLaw(ContactLaw):
-    """Mindlin & Deresiewicz's (1953) law in increments, with Hertz's normal force.
+    """The law of Mindlin & Deresiewicz (1953) in increments, with Hertz's normal force.
 
-    dT = theta k_t dU +- (1 - theta) mu dN, k_t = 2 G* a; theta^3 = 1 - T/(mu N) in first loading,
-    1 - (T* - T)/(2 mu N) in unloading, 1 - (T - T**)/(2 mu N) in reloading, and theta = 1 where
-    k_t |dU| < mu dN; turning points move with the load, dT* = mu dN, dT** = -mu dN. As the latter
-    goes on in contacts that stick, impacts of small psi_1 may gain energy. theta = 1 is decided
-    step by step; kept until sum k_t |dU| > sum mu dN, psi_2 would be some 0.01 further off.
+        dT = theta k_t dU +- (1 - theta) mu dN, k_t = 2 G* a
+        theta^3 = 1 - T/(mu N) in the first loading
+        theta^3 = 1 - (T* - T)/(2 mu N) in unloading
+        theta^3 = 1 - (T - T**)/(2 mu N) in reloading
+        theta = 1 where k_t |dU| < mu dN
+
+    The turning points move with the load, dT* = mu dN and dT** = -mu dN. They also move in contacts
+    that stick, so that impacts of small psi_1 may gain energy. Whether theta = 1 is decided at each
+    step; if it were kept until sum k_t |dU| > sum mu dN, psi_2 would be about 0.01 further off.
 
     Examples
     --------
@@ -35,18 +39,20 @@ class ThorntonLaw(ContactLaw):
 
 @dataclass(frozen=True)
 class WaltonBraunLaw(BilinearLaw):
-    """Walton & Braun's law: a normal spring that unloads stiffer, a tangential one that softens.
+    """Walton & Braun's law, with a stiffer normal spring in unloading and softening in shear.
 
-    F_n = K_1 d while loading, K_1/e^2 (d - d_p) while unloading; dT = K_0 (1 - (T - T*)/(mu N -
-    T*))^(1/3) dU, T* the last turning point, mirrored for dU < 0 and in proportion to N (Walton &
-    Braun 1986, J. Rheol. 30:949).
+        F_n = K_1 d while loading, F_n = K_1/e^2 (d - d_p) while unloading
+        dT = K_0 (1 - (T - T*)/(mu N - T*))^(1/3) dU
+
+    T* is the force at the last turning point, in proportion to N; for dU < 0 the law is mirrored
+    (Walton & Braun 1986, J. Rheol. 30:949).
 
     Parameters
     ----------
     stiffness_ratio : float, optional
         K_0/K_1, positive; by default kappa = G*/E*.
     restitution : float
-        e, above 0 and at most 1.
+        Coefficient of restitution e, above 0 and at most 1.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The exact law of contact as codes can step it: springs that remember their slip."""
+"""The exact contact law in time steps, by springs that remember their slip."""
 
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -27,22 +27,25 @@ def read_springs(name: str, value: Any) -> int:
 
 @dataclass(frozen=True)
 class MemoryLaw(ContactLaw):
-    """The exact contact law in steps: springs that keep what slip has left in them.
+    """The exact contact law in time steps, by springs that remember their slip.
 
-    |q(s)| <= d - s in all springs, F_t = 2 E* mu int_0^b q dx, s = x^2/R* (Barber 1979; method of
-    dimensionality reduction, Popov & Hess 2015); exact in the limit of many springs and small
-    steps, of second order in both. With a restitution Kelvin & Voigt's solid. In C++ it is
-    carom/contact.hpp, to be found under `carom.get_include()`.
+        F_t = 2 E* mu int_0^b q dx, |q| <= d - s, s = x^2/R*
+
+    The springs follow Barber (1979) and the method of dimensionality reduction (Popov & Hess 2015).
+    The law becomes exact, with second order, for many springs and small steps. With a restitution
+    the bodies are Kelvin-Voigt solids. In C++ the law is in `carom/contact.hpp`, in the folder that
+    `carom.get_include()` returns.
 
     Parameters
     ----------
     springs : int
-        How many, a multiple of 4 from 8 to 4096; 32 reach 0.001 in psi_2, 64 a quarter of it.
+        Number of springs, a multiple of 4 from 8 to 4096; the error of psi_2 is 0.001 with 32
+        springs and a quarter of that with 64.
     restitution : float
-        e of the normal direction, above 0 and at most 1.
+        Normal coefficient of restitution e, above 0 and at most 1.
     viscous_shear : bool
-        Whether shear loses energy, too, as in a solid; if not, Coulomb's law holds for the whole
-        contact but not at every point of it.
+        Whether shear loses energy, too, as in a solid. If not, Coulomb's law holds for the whole
+        contact but not at every point.
 
     Raises
     ------

@@ -1,7 +1,7 @@
-"""Hertz's normal force with Mindlin's tangential stiffness, as DEM codes have it.
+"""Hertz's normal force with Mindlin's tangential stiffness, as in DEM codes.
 
-All of them are increments dF = k_t dU with k_t = 2 G* a of a contact of radius a; they differ in
-what becomes of the force F that is there when a changes to a', F (a'/a)^n, and in their damping.
+All of them use increments dF = k_t dU with k_t = 2 G* a at a contact radius a. They differ in their
+damping, and in how the force F changes when a becomes a', which is F (a'/a)^n.
 """
 
 from dataclasses import dataclass
@@ -23,27 +23,29 @@ KEPT = {  # powers n, while the contact grows and while it shrinks
 
 @dataclass(frozen=True)
 class LammpsMindlin(ContactLaw):
-    """Hertz-Mindlin in the four variants of LAMMPS, pair_style granular.
+    """The four variants of Hertz-Mindlin in LAMMPS, `pair_style granular`.
 
-    mindlin: F_t = k_t(a) U; mindlin/force: the force is accumulated, dF_t = k_t(a) dU; with
-    _rescale what is stored, U or F_t, shrinks with a while the contact unloads (Thornton, Cummins &
-    Cleary 2013). Here k_t = 2 G* a, which is 8 G_eff a of LAMMPS, and F_t, with its damping, is
-    limited by mu F_n. mindlin and mindlin/force may gain energy, up to 13 % for some chi of 1.5 to
-    1.9. With tangential damping the displacement is singular at the first touch: near psi_1 = 1 a
-    code needs more than a million steps to come to the rebound of this law.
+        F_t = k_t(a) U in mindlin, dF_t = k_t(a) dU in mindlin/force
+        k_t = 2 G* a, |F_t| <= mu F_n
+
+    In the variants with `_rescale` the stored U or F_t shrinks with a while the contact unloads
+    (Thornton, Cummins & Cleary 2013). LAMMPS writes k_t as 8 G_eff a; the limit mu F_n includes the
+    damping. Without rescaling an impact may gain energy, up to 13 % for some chi from 1.5 to 1.9.
+    With tangential damping the displacement is singular at the first touch, and near psi_1 = 1 a
+    code needs more than a million steps to reach the rebound of this law.
 
     Parameters
     ----------
     variant : str
         "mindlin", "mindlin/force", "mindlin_rescale" or "mindlin_rescale/force".
     stiffness : float
-        k_t in units of Mindlin's, positive.
+        k_t in units of Mindlin's stiffness, positive.
     restitution : float
-        e that the damping is made for, above 0 and at most 1; at 1 there is none.
+        Restitution e that the damping is designed for, above 0 and at most 1 (no damping).
     damping : str
-        "coeff_restitution" or "tsuji", as LAMMPS calls them.
+        Damping model of LAMMPS, "coeff_restitution" or "tsuji".
     tangential_damping : float
-        x_gamma: tangential damping in units of the normal one.
+        Tangential damping in units of the normal damping, `x_gamma` of LAMMPS.
 
     Raises
     ------
@@ -87,16 +89,18 @@ class LammpsMindlin(ContactLaw):
 
 @dataclass(frozen=True)
 class LiggghtsHertz(ContactLaw):
-    """LIGGGHTS, model hertz with tangential history: a spring of stored displacement.
+    """The model `hertz` of LIGGGHTS with tangential history, a spring of stored displacement.
 
-    F_t = k_t(a) U with k_t = 2 G* a; dampings 2 beta sqrt((5/6) S m_n) with S_n = 2 E* a and
-    S_t = k_t, beta = -ln e/sqrt(pi^2 + ln^2 e). The spring alone is limited by mu F_n, and a
-    contact that slides has no damping.
+        F_t = k_t(a) U, k_t = 2 G* a
+        c = 2 beta sqrt((5/6) S m_n), beta = -ln e/sqrt(pi^2 + ln^2 e)
+
+    The damping c has S = 2 E* a in the normal direction and S = k_t in the tangential one. The
+    force of the spring alone is limited by mu F_n, and a contact that slides has no damping.
 
     Parameters
     ----------
     restitution : float
-        e that the damping is made for, above 0 and at most 1.
+        Restitution e that the damping is designed for, above 0 and at most 1.
 
     Raises
     ------
@@ -131,17 +135,19 @@ class LiggghtsHertz(ContactLaw):
 
 @dataclass(frozen=True)
 class EdemHertzMindlin(LiggghtsHertz):
-    """EDEM, Hertz-Mindlin (no slip): F_t = k_t(a) U and dampings as LIGGGHTS, their sum limited.
+    """Hertz-Mindlin (no slip) of EDEM, with the spring and damping of `LiggghtsHertz`.
+
+    The sum of both forces, and not that of the spring alone, is limited by mu F_n.
 
     Parameters
     ----------
     restitution : float
-        e, above 0 and at most 1, which sets the damping.
+        Restitution e that the damping is designed for, above 0 and at most 1.
 
     Raises
     ------
     InputError
-        If it is out of range.
+        If the restitution is out of range.
 
     Examples
     --------
@@ -161,16 +167,18 @@ class EdemHertzMindlin(LiggghtsHertz):
 
 @dataclass(frozen=True)
 class YadeMindlin(ContactLaw):
-    """YADE, MindlinPhys with the law Mindlin: the force is accumulated, dF_t = k_t(a) dU.
+    """The law Mindlin of YADE with MindlinPhys, which accumulates the force.
 
-    k_t = 2 G* a; dampings 2 beta sqrt(m_n S) with S = 2 E* a or k_t, and beta after Thornton,
-    Cummins & Cleary (2013), (B6). The contact does not pull: F_n >= 0. The spring alone is limited
-    by mu F_n, and a contact that slides has no damping.
+        dF_t = k_t(a) dU, k_t = 2 G* a, c = 2 beta sqrt(m_n S)
+
+    The damping c has S = 2 E* a in the normal direction and S = k_t in the tangential one, with
+    beta after Thornton, Cummins & Cleary (2013), (B6). The contact does not pull, F_n >= 0. The
+    force of the spring alone is limited by mu F_n, and a contact that slides has no damping.
 
     Parameters
     ----------
     restitution : float
-        e that the damping is made for, e_n and e_s of YADE; above 0 and at most 1.
+        Restitution e that the damping is designed for (`en` and `es` of YADE), in (0, 1].
 
     Raises
     ------

@@ -10,18 +10,20 @@ from carom.laws.dem.damping import damping_ratio, hertz_damping
 
 @dataclass(frozen=True)
 class LinearSpring(ContactLaw):
-    """Linear springs and dashpots in both directions, the tangential one with a slider.
+    """A linear spring and dashpot in each direction, with a slider in the tangential one.
 
-    F_n = k_n d + c_n d', F_t = k_t U + c_t U', |F_t| <= mu F_n (Cundall & Strack 1979). The model
-    of LAMMPS (hooke with linear_history), YADE (CundallStrack) and, with another cap, most codes.
-    psi_2 does not depend on k_n, only on k_t/k_n.
+        F_n = k_n d + c_n d', F_t = k_t U + c_t U', |F_t| <= mu F_n
+
+    This law (Cundall & Strack 1979) is the model of LAMMPS (`hooke` with `linear_history`), YADE
+    (`CundallStrack`) and, with another limit of the force, of most codes. psi_2 does not depend on
+    k_n, only on k_t/k_n.
 
     Parameters
     ----------
     stiffness_ratio : float, optional
-        k_t/k_n, positive; by default kappa = G*/E*, that of elastic bodies (Mindlin 1949).
+        k_t/k_n, positive; by default kappa = G*/E* of elastic bodies (Mindlin 1949).
     restitution : float
-        e of the normal direction, above 0 and at most 1; the dashpot follows from it.
+        Normal coefficient of restitution e, above 0 and at most 1, which sets the dashpot.
     tangential_damping : float
         c_t/c_n, zero or positive.
 
@@ -57,15 +59,16 @@ class LinearSpring(ContactLaw):
 class HertzLinearHistory(ContactLaw):
     """Hertz's normal force beside a tangential spring of constant stiffness.
 
-    F_n = (4/3) E* sqrt(R*) d^(3/2), F_t = k_t U, |F_t| <= mu F_n: LAMMPS, pair_style granular with
-    hertz and linear_history.
+        F_n = (4/3) E* sqrt(R*) d^(3/2), F_t = k_t U, |F_t| <= mu F_n
+
+    This is `pair_style granular` of LAMMPS with `hertz` and `linear_history`.
 
     Parameters
     ----------
     stiffness : float
-        k_t in units of the stiffness of the widest contact, 2 G* a_max (Mindlin 1949); positive.
+        k_t in units of 2 G* a_max, the stiffness of the largest contact (Mindlin 1949), positive.
     restitution, tangential_damping : float
-        As of `LammpsMindlin`.
+        The damping, as for `LammpsMindlin`.
 
     Raises
     ------
@@ -112,17 +115,19 @@ class BilinearLaw(ContactLaw):
 
 @dataclass(frozen=True)
 class StrongeLaw(BilinearLaw):
-    """Bilinear compliance: a normal spring that unloads stiffer, a linear tangential one beside it.
+    """Bilinear compliance, a normal spring that is stiffer in unloading and a tangential spring.
 
-    F_n = k_n d while loading, k_n/e^2 (d - d_p) while unloading; F_t = k_t U, |F_t| <= mu F_n
-    (Stronge 2000, Impact Mechanics, chapter 5).
+        F_n = k_n d while loading, F_n = k_n/e^2 (d - d_p) while unloading
+        F_t = k_t U, |F_t| <= mu F_n
+
+    The law is that of Stronge (2000), Impact Mechanics, chapter 5.
 
     Parameters
     ----------
     stiffness_ratio : float, optional
         k_t/k_n = 1/eta^2 of the loading contact; by default kappa = G*/E*.
     restitution : float
-        e, energetic, above 0 and at most 1.
+        Energetic coefficient of restitution e, above 0 and at most 1.
 
     Raises
     ------

@@ -25,6 +25,11 @@ class LawStatus(WordedStatus):
     KAPPA_NOT_POSITIVE = 3, "kappa must be positive and finite"
     CHI_TOO_LARGE = 4, "not solved: chi is too large"
     UNRESOLVED = 5, "not solved: the bodies do not part, or steps are too few"
+    RAISED = 6, "not solved: the function of the law raised an exception"
+    NOT_A_NUMBER = 7, "not solved: the function of the law did not return a finite number"
+
+
+OF_FUNCTIONS = (LawStatus.RAISED, LawStatus.NOT_A_NUMBER)
 
 
 def status_of(psi: Array, chi: Array, kappa: Array, largest_chi: float) -> Codes:

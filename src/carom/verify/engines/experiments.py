@@ -86,11 +86,11 @@ class Experiment:
         speeds = _column("tangential_speed", self.tangential_speed)
         spins = _column("spin", self.spin) or (0.0,) * len(speeds)
         if not speeds:
-            raise refusal("tangential_speed", self.tangential_speed, "give one value an impact")
+            raise refusal("tangential_speed", self.tangential_speed, "give one value per impact")
         if len(spins) != len(speeds):
             raise InputError(
                 f"spin: {len(spins)} values for {len(speeds)} of tangential_speed; "
-                "give one of each an impact"
+                "give one of each per impact"
             )
         object.__setattr__(self, "normal_speed", positive("normal_speed", self.normal_speed))
         checked_scales(self.pair, self.normal_speed)
@@ -172,18 +172,22 @@ def _refuse_bodies(pair: Pair) -> None:
         raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
     if not isinstance(pair.second, Sphere | HalfSpace):
         raise refusal(
-            "second body", pair.second, "must be a Sphere or HalfSpace: engines lack cups"
+            "second body", pair.second, "must be a Sphere or HalfSpace; DEM codes have no cups"
         )
     for body in pair.moving:
         if not isclose(body.gyration_ratio, SOLID):
-            raise refusal("sphere", body, "must be solid: engines give a sphere K^2 = 2/5 R^2")
+            raise refusal(
+                "sphere", body, "must be solid; DEM codes give every sphere K^2 = 2/5 R^2"
+            )
     if pair.friction == 0.0:
-        raise refusal("friction", pair.friction, "must be positive: without it nothing is to test")
+        raise refusal(
+            "friction", pair.friction, "must be positive; without friction there is nothing to test"
+        )
 
 
 def _column(name: str, values: Any) -> tuple[float, ...]:
     if isinstance(values, tuple) and not values:
         return ()
-    if np.ndim(numbers(name, values, "must be a sequence, one value an impact")) != 1:
-        raise refusal(name, values, "must be a sequence, one value an impact")
+    if np.ndim(numbers(name, values, "must be a sequence, one value per impact")) != 1:
+        raise refusal(name, values, "must be a sequence, one value per impact")
     return tuple(finite_line(name, values).tolist())

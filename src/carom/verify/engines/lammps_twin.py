@@ -124,7 +124,7 @@ def trajectory(experiment: Experiment, segments: Sequence[int]) -> list[State]:
         If the law has damping, or LAMMPS does not have it.
     """
     if arrangement.restitution(experiment) != 1.0:
-        raise refusal("law", experiment.law, "has damping, which this twin lacks")
+        raise refusal("law", experiment.law, "it has damping, which this twin lacks")
     bodies, now = _before(experiment)
     contact = Contact(
         coefficients(experiment), bodies, experiment.time_step, *np.zeros((2, len(experiment)))

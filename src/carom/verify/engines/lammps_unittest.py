@@ -123,7 +123,7 @@ def exact(experiment: Experiment) -> Outcomes:
     """
     if arrangement.restitution(experiment) != 1.0:
         raise refusal(
-            "law", experiment.law, "has damping, the exact theory has none; give outcomes"
+            "law", experiment.law, "it has damping, the exact theory has none; give outcomes"
         )
     pair, first = experiment.pair, experiment.pair.first
     outgoing = np.asarray(rebound(experiment.psi_in, pair.chi))

@@ -44,7 +44,7 @@ def collect(folder: str | Path) -> Path:
         name: [repr(float(value)) for value in values]
         for name, values in zip(AFTER, outcomes, strict=True)
     }
-    text = DecimalTable((), given | after).as_csv()
+    text = DecimalTable((f"code: {program.name}",), given | after).as_csv()
     return replace_whole(place / INPUTS, lambda file: file.write_text(text, encoding="utf-8"))
 
 

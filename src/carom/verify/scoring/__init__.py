@@ -13,13 +13,17 @@ from carom.bodies.pairs import Pair
 from carom.impacts.exact import Impact
 from carom.io.columns import Results, in_units, others
 from carom.io.tables import read_table
+from carom.laws.dem import Law
 from carom.quantities.arrays import Array
 from carom.quantities.faults import Faults
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError, nearest, refusal
 from carom.quantities.units import number, positive
+from carom.verify.errors import is_function
 from carom.verify.scoring.cases import Given, given_of
 from carom.verify.scoring.histories import NAMES as HISTORY, score_history
+from carom.verify.scoring.origins import MOST, NAMES, origins_of
+from carom.verify.scoring.own_law import results_of
 from carom.verify.scoring.points import (
     compared,
     energy_audit,
@@ -46,8 +50,10 @@ def score(
     restitution: float | str | None = None,
     tolerance: float | str = TOLERANCE,
     columns: Mapping[str, str] | None = None,
+    code: str | None = None,
+    law: str | None = None,
 ) -> Score:
-    """Score a user's own results of oblique impacts against the exact answer.
+    """Score a user's own results of oblique impacts, or a contact law, against the exact answer.
 
     The error is psi_2 - psi_2(psi_1, chi), psi = kappa V_x/(mu V_1), absolute; the exact psi_2 is
     that of Maw, Barber & Fawcett (1976); with a restitution, that of Kelvin-Voigt solids that leave
@@ -61,18 +67,19 @@ def score(
 
     Parameters
     ----------
-    results : str, Path, mapping or pandas.DataFrame
+    results : str, Path, mapping, pandas.DataFrame, Law or callable
         A CSV file with a header, comments after #; or columns by name, each of shape (n,). SI
         units, or with a unit in the name of a column: "spin [rpm]", "angle (deg)". Speeds of two
         spheres are relative; normal_speed is positive before and normal_speed_out after; positive
         spin adds to the tangential speed of the contact point; tangential_force is positive
-        against V_x > 0. At least 3 points, or 20 rows with a force.
+        against V_x > 0. At least 3 points, or 20 rows with a force. Or a contact law, or a function
+        as of `carom.FunctionLaw`: its psi_2 at the 15 incidences of `rank`.
     case : str, Path, mapping, Pair or Impact, optional
         The bodies and their friction, as a case file for `carom impact` has them; needed but for
         psi, unless a comment of the file, "# case:", holds them as JSON. A history needs the
         motion, too: a case with speeds, or an Impact.
     chi : float, optional
-        For psi_1 and psi_2 if there is no column of that name.
+        For psi_1 and psi_2 if there is no column of that name; for a law 1.4412 by default.
     restitution : float, optional
         What the normal impact is to leave, if the contact is damped; by default what the case says,
         or 1.
@@ -81,19 +88,24 @@ def score(
         of psi; of the errors of forces, in units of mu P_max and P_max; of the duration, relative.
     columns : mapping, optional
         What heads of the results stand for, {"omega": "spin_out"}, or {"w": "spin_out [rpm]"}.
+    code, law : str, optional
+        What the program and its contact law are called in reports and figures; by default the
+        columns of these names, up to eight different ones, else the comments "# code:" and "# law:"
+        of the file.
 
     Returns
     -------
     Score
         `passed` and `failures`; max_error, rms_error and mean_error in psi_2, the same for each
-        sequence of phases in `groups`; `audit`, a finding each with its value, limit and verdict;
-        `notes`; and what gives the rest: plot, to_dataset, cite.
+        sequence of phases in `groups` and for each code and law in `by_origin`; `audit`, a finding
+        each with its value, limit and verdict; `notes`; and what gives the rest: plot, to_dataset,
+        cite.
 
     Raises
     ------
     InputError
-        If columns are missing, a number is missing or in a wrong unit, there are too few, or a
-        history is not that of one whole contact.
+        If columns are missing, a number is missing or in a wrong unit, there are too few, a history
+        is not that of one whole contact, or the function of a law fails.
 
     Examples
     --------
@@ -104,10 +116,18 @@ def score(
     (False, 0.075)
     >>> result.groups[0].name
     'stick, slip -, gross slip -'
+    >>> round(carom.verify.score(carom.LammpsMindlin("mindlin")).max_error, 3)
+    0.576
     """
     limit = number("tolerance", tolerance, "1")
     if not 0.0 < limit < float("inf"):
         raise refusal("tolerance", tolerance, f"must be positive and finite, e.g. {TOLERANCE}")
+    if isinstance(results, Law) or (is_function(results) and not hasattr(results, "items")):
+        own = results_of(results, case, chi, restitution)
+        given_so: Any = {"tolerance": limit, "columns": columns, "code": code}
+        given_so["law"] = own.name if law is None else law
+        found = score(own.columns, chi=own.chi, restitution=own.restitution, **given_so)
+        return replace(found, notes=(*found.notes, *own.notes))
     table = read_table(results, columns)
     kind, known = _kind(table.names)
     if kind != "psi" and chi is not None:
@@ -118,8 +138,11 @@ def score(
         given = in_units(table, known, faults=faults)
         faults.settle()
         found = scored[kind](given, given_of(case, chi, table.case, restitution), chi, limit)
-    told = (f"columns that were not used: {', '.join(unused)}",) if unused else ()
-    return replace(found, notes=(*found.notes, *told))
+    most = 1 if kind == "history" else MOST
+    origins, notes = origins_of(table, {"code": code, "law": law}, most)
+    left = [name for name in unused if name not in NAMES]
+    told = (f"columns that were not used: {', '.join(left)}",) if left else ()
+    return replace(found, notes=(*found.notes, *notes, *told), told_origins=origins)
 
 
 def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
@@ -161,8 +184,8 @@ def _chis(results: Results, case: Given, chi: Any) -> Array:
         return np.asarray(results["chi"])
     if len(ways) != 1:
         raise InputError(
-            f"chi: {'given twice' if ways else 'missing'}; give a column chi, --chi, e.g. 1.44, or "
-            "--case with the bodies"
+            f"chi: {'given twice' if ways else 'missing'}; give a column chi, or --chi, e.g. 1.44, "
+            "or --case with the bodies"
         )
     value = positive("chi", chi) if chi is not None else case.pair.chi
     return np.full(len(results), value)

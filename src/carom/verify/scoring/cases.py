@@ -13,7 +13,7 @@ from carom.bodies.shapes import describe
 from carom.impacts.exact import Impact
 from carom.impacts.solve import impact
 from carom.quantities.refusals import InputError, refusal
-from carom.quantities.units import positive
+from carom.quantities.units import number, positive
 from carom.verify import errors
 
 ROUNDED = 0.01  # part of chi by which a number that is told may be rounded
@@ -34,7 +34,7 @@ class Given:
         else:
             pair = pair_of(_content(self.case))
         if pair.friction == 0.0:
-            allowed = "psi is infinite without friction; nothing can be scored"
+            allowed = "without friction psi is infinite, and nothing can be scored"
             raise refusal("friction", 0.0, allowed)
         return pair
 
@@ -44,7 +44,9 @@ class Given:
         if isinstance(self.case, Impact):
             return self.case
         if isinstance(self.case, Pair):
-            raise InputError("case: a history needs the motion, too; give a case or an Impact")
+            raise InputError(
+                "case: a history needs the speeds, too; give a case that has them, or an Impact"
+            )
         motion = motion_of(_content(self.case))
         hit: Impact = impact(self.pair, losses=errors.losses_of(self.restitution), **motion)
         return hit
@@ -68,11 +70,11 @@ def _chosen(case: Any, chi: Any, own: Any) -> Any:
     bodies = Given(own).pair
     if chi is not None:
         if abs(positive("chi", chi) / bodies.chi - 1.0) > ROUNDED:
-            allowed = f"the bodies of the results have {bodies.chi:.4g}; leave it out"
+            allowed = f"the bodies in the results have chi = {bodies.chi:.4g}; leave it out"
             raise refusal("chi", chi, allowed)
         return case
     if case is not None and not alike(Given(case).pair, bodies, friction=True):
-        raise InputError("case: its bodies are not those of the results; leave it out")
+        raise InputError("case: its bodies differ from those in the results; leave it out")
     return own if case is None else case
 
 
@@ -81,12 +83,15 @@ def _restitution(cases: Iterable[Any], restitution: Any) -> float:
     told = {each for each in map(_told, cases) if each is not None}
     if len(told) > 1:
         both = " and ".join(f"{each:g}" for each in sorted(told))
-        raise InputError(f"restitution: case and results tell {both}; leave one of them out")
+        raise InputError(
+            f"restitution: the case and the results have {both}; leave one of them out"
+        )
     if restitution is None:
         return told.pop() if told else 1.0
     if told:
-        raise refusal("restitution", restitution, "the case tells its own; leave one of them out")
-    return float(KelvinVoigt(restitution=restitution).restitution)
+        raise refusal("restitution", restitution, "the case has its own; leave one of them out")
+    one = number("restitution", restitution, "1")
+    return float(KelvinVoigt(restitution=one).restitution)
 
 
 def _told(case: Any) -> float | None:
@@ -98,7 +103,7 @@ def _told(case: Any) -> float | None:
         return 1.0 if isinstance(case, Impact) else None
     if isinstance(losses, KelvinVoigt) and losses.restitution is not None:
         return float(losses.restitution)
-    allowed = "scores are against solids of one restitution at all speeds; give that instead"
+    allowed = "a score needs a restitution that is the same at all speeds; give that instead"
     raise refusal("losses", losses, allowed)
 
 

@@ -10,6 +10,7 @@ from carom.dimensionless.numerics import hertz
 from carom.impacts.exact import Impact
 from carom.io.columns import Mask, Results
 from carom.quantities.arrays import Array
+from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError
 
 FEWEST = 20  # rows with a force
@@ -53,7 +54,7 @@ def contact_samples(results: Results, hit: Impact) -> Samples:
     count = last - first + 1
     if count < FEWEST:
         raise InputError(
-            f"results: {count} rows with a normal force; a history needs at least {FEWEST}, "
+            f"results: {count} rows have a normal force; a history needs at least {FEWEST}, "
             "record more often"
         )
     touch = float(time[first]) - _since_touch(float(force[first]), hit)
@@ -103,7 +104,9 @@ def _framed(results: Results, first: int, last: int, touch: float, end: float) -
 
 def _check_order(results: Results) -> None:
     falls = np.concatenate([[False], np.diff(results["time"]) <= 0.0])
-    results.refuse("time", falls, "it must rise from row to row; sort the rows, delete doubles")
+    results.refuse(
+        "time", falls, "it must rise from row to row; sort the rows, and delete duplicates"
+    )
 
 
 def _ends(results: Results) -> tuple[int, int]:
@@ -112,7 +115,7 @@ def _ends(results: Results) -> tuple[int, int]:
     touching = force > 0.0
     if touching.sum() < 0.5 * np.count_nonzero(force) or not touching.any():
         raise InputError(
-            "normal_force: must be positive where the bodies press on each other; turn its sign"
+            "normal_force: must be positive where the bodies press on each other; change its sign"
         )
     first, last = (int(i) for i in np.flatnonzero(touching)[[0, -1]])
     inside = np.arange(force.size)
@@ -151,5 +154,5 @@ def _check_units(time: Array, force: Array, scales: Scales) -> None:
     if len(time) > 1 and not 1.0 / FAR < lasted < FAR:
         raise InputError(
             f"time: the contact lasts {lasted:.4g} times Hertz's duration, "
-            f"{hertz.DURATION * scales.time:.4g} s; is time counted in steps?"
+            f"{text(hertz.DURATION * scales.time, 's', 4)}; is time counted in steps?"
         )

@@ -68,6 +68,19 @@ def _points(score: ScoreRecord) -> dict[str, Any]:
         "chi": ("point", points.chi),
         "energy_change": ("point", points.energy_change, energy),
         "sequence": ("point", points.sequence.astype(np.int16), order),
+        **_origins(score),
+    }
+
+
+def _origins(score: ScoreRecord) -> dict[str, Any]:
+    """Return code and law of each point, where any is known."""
+    known, places = score.origins
+    if not score.origins.named:
+        return {}
+    words = {"code": "program that computed the results", "law": "contact law of the results"}
+    return {
+        name: ("point", [getattr(known[place], name) for place in places], {"long_name": meaning})
+        for name, meaning in words.items()
     }
 
 

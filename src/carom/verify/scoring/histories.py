@@ -9,6 +9,7 @@ from carom.impacts.exact import Impact
 from carom.io.columns import Results
 from carom.io.labels import Finding
 from carom.quantities.arrays import Array
+from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError
 from carom.verify.scoring.contact import Samples, contact_samples
 from carom.verify.scoring.points import (
@@ -100,7 +101,7 @@ def score_history(
     """
     results.require("time", "normal_force", "tangential_force")
     if hit.pair.friction == 0.0:
-        raise InputError("friction: without friction psi is infinite; there is nothing to score")
+        raise InputError("friction: without friction psi is infinite, and nothing can be scored")
     _refuse_large(results, hit.scales)
     forces = forces_of(hit, contact_samples(results, hit))
     change = np.array([_energy_change(forces)])
@@ -143,7 +144,7 @@ def _energy_change(forces: Forces) -> float:
 def _off(name: str, forces: Forces, error: Array, unit: str, limit: float) -> Finding:
     worst = int(np.argmax(np.abs(error)))
     value = float(abs(error[worst]))
-    where = f"{error[worst]:+.3g} {unit} at t = {forces.time[worst]:.4g} s"
+    where = f"{error[worst]:+.3g} {unit} at t = {text(forces.time[worst], 's', 4)}"
     verdict = f"off by {where} after the touch; rms {forces.rms(error):.3g}"
     return Finding(name, value, limit, value <= limit, verdict)
 
@@ -174,9 +175,9 @@ def _work_audit(forces: Forces, limit: float) -> Finding:
     worst = int(np.argmax(gain))
     value = max(float(gain[worst]), 0.0)
     if value <= PRINTED * limit:
-        return Finding("work", value, limit, True, "at no time does friction add to the motion")
-    when = f"at t = {forces.time[worst]:.4g} s after the touch"
-    verdict = f"the tangential force has added to the motion, most {when}: {value:.3g} of psi"
+        return Finding("work", value, limit, True, "friction never adds to the motion")
+    when = f"at t = {text(forces.time[worst], 's', 4)} after the touch"
+    verdict = f"the tangential force adds to the motion, most {when}: {value:.3g} of psi"
     return Finding("work", value, limit, value <= limit, verdict)
 
 
@@ -190,7 +191,9 @@ def _velocity_audit(results: Results, forces: Forces, limit: float) -> tuple[Fin
     off = np.abs(velocity - forces.psi[: own.size][own])
     worst = int(np.argmax(off))
     value = float(off[worst])
-    words = f"off the impulse by at most {value:.3g} of psi, in {results.one(int(rows[worst]))}"
+    words = (
+        f"differs from the impulse by up to {value:.3g} of psi, in {results.one(int(rows[worst]))}"
+    )
     return (Finding("contact velocity", value, limit, value <= limit, words),)
 
 
@@ -198,5 +201,5 @@ def _notes(forces: Forces) -> tuple[str, ...]:
     turned = -forces.tangential_force - forces.exact_tangential_force
     off = forces.tangential_force - forces.exact_tangential_force
     if 2.0 * forces.rms(turned) < forces.rms(off):
-        return ("tangential_force has the opposite sign? It is positive against V_x > 0",)
+        return ("does tangential_force have the opposite sign? It is positive against V_x > 0",)
     return ()

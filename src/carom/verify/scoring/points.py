@@ -16,6 +16,7 @@ from carom.io.labels import Finding
 from carom.io.progress import advancing
 from carom.io.tables import SHOWN, named
 from carom.quantities.arrays import Array
+from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError
 from carom.verify.errors import losses_of
 
@@ -34,6 +35,11 @@ class Group(NamedTuple):
     max_error: float
     rms_error: float
     mean_error: float
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """All but the name."""
+        return {name: value for name, value in self._asdict().items() if name != "name"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +134,7 @@ def _solved(
     """Return the exact rebounds, their status and codes of phases, chunk by chunk."""
     one = solved if restitution == 1.0 else partial(_with_losses, restitution=restitution)
     parts = []
-    with advancing("exact rebounds", psi.size, unit="impacts") as advance:
+    with advancing("solving the exact impacts", psi.size, unit="impacts") as advance:
         for start in range(0, psi.size, CHUNK):
             part = slice(start, start + CHUNK)
             parts.append(one(np.array(psi[part]), np.array(chi[part])))
@@ -180,11 +186,13 @@ def energy_audit(points: Points, unit: Array, symbol: str, limit: float) -> Find
         return Finding(name, 0.0, limit, True, "no impact gains energy")
     order = np.argsort(-np.where(gains, change, -np.inf))
     largest = [
-        f"{points.one(i)}: {change[i]:.6g} {symbol}" for i in order[: min(SHOWN, gains.sum())]
+        f"{points.one(i)}: {text(change[i], symbol)}" for i in order[: min(SHOWN, gains.sum())]
     ]
     more = f"; and {gains.sum() - SHOWN} more" if gains.sum() > SHOWN else ""
     value = float(excess.max())
-    return Finding(name, value, limit, value <= limit, f"gained in {'; '.join(largest)}{more}")
+    return Finding(
+        name, value, limit, value <= limit, f"energy is gained in {'; '.join(largest)}{more}"
+    )
 
 
 def friction_audit(points: Points, restitution: Array, limit: float) -> Finding:
@@ -196,7 +204,7 @@ def friction_audit(points: Points, restitution: Array, limit: float) -> Finding:
     if not above.any():
         verdict = "no tangential impulse exceeds mu times the normal one"
         return Finding(name, value, limit, True, verdict)
-    verdict = f"above mu times the normal impulse in {points.named(above)}, most in "
+    verdict = f"tangential above mu times normal impulse in {points.named(above)}, most in "
     return Finding(name, value, limit, value <= limit, verdict + points.one(worst))
 
 
@@ -206,11 +214,11 @@ def restitution_audit(points: Points, restitution: Array, limit: float) -> Findi
     off, elastic = np.abs(restitution - expected), expected == 1.0
     name, value, worst = "restitution error", float(off.max()), int(np.argmax(off))
     if value <= limit:
-        verdict = "the normal impact is elastic" if elastic else f"e = {expected:g}, as it is to be"
+        verdict = "the normal impact is elastic" if elastic else f"e = {expected:g}, as expected"
         return Finding(name, value, limit, True, verdict)
     where = f"in {points.named(off > limit)}, most in {points.one(worst)}"
-    advice = "let the normal contact be undamped, or say what it is to leave, restitution="
-    advice = advice if elastic else "adapt the damping of the normal contact"
+    advice = "switch the normal damping off, or give the restitution that it has, restitution="
+    advice = advice if elastic else "change the damping of the normal contact"
     verdict = f"e = {restitution[worst]:.6g}, not {expected:g}, {where}; {advice}"
     return Finding(name, value, limit, False, verdict)
 
@@ -222,7 +230,7 @@ def notes_on(points: Points) -> tuple[str, ...]:
     """
     notes = []
     if 2.0 * np.linalg.norm(points.psi_out + points.exact) < np.linalg.norm(points.error):
-        notes.append("psi_2 has the opposite sign? Before and after count along the same axis")
+        notes.append("does psi_2 have the opposite sign? Count psi_1 and psi_2 along the same axis")
     most = 2.0 * (1.0 + points.restitution) * points.chi
     slides = np.abs(points.psi_in) > np.maximum(most, 1.0)
     ratio = np.abs(points.psi_in - points.psi_out)[slides] / most[slides]

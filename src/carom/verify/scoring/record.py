@@ -7,6 +7,7 @@ from typing import Any
 
 from carom.io.labels import Finding
 from carom.verify.scoring.histories import Forces
+from carom.verify.scoring.origins import Origins, unknown
 from carom.verify.scoring.points import Group, Points
 
 
@@ -21,6 +22,7 @@ class ScoreRecord:
     notes: tuple[str, ...] = ()
     forces: Forces | None = field(default=None, repr=False)
     inputs: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    told_origins: Origins | None = field(default=None, repr=False)
 
     @cached_property
     def overall(self) -> Group:
@@ -51,6 +53,20 @@ class ScoreRecord:
     def groups(self) -> tuple[Group, ...]:
         """Errors by the sequence of phases of the exact impact, as for psi_1 > 0."""
         return self.points.groups
+
+    @cached_property
+    def origins(self) -> Origins:
+        """By which code and law each point was computed."""
+        return self.told_origins or unknown(self.points.rows.size)
+
+    @property
+    def by_origin(self) -> tuple[Group, ...]:
+        """Errors by code and law, in the order in which they come."""
+        known, places = self.origins
+        return tuple(
+            self.points.group(origin.label or "no name", places == place)
+            for place, origin in enumerate(known)
+        )
 
     @property
     def failures(self) -> tuple[str, ...]:

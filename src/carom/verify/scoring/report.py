@@ -1,8 +1,11 @@
 """The score in words."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from carom.io.labels import MARKS
+from carom.verify.scoring.points import Group
 from carom.verify.scoring.record import ScoreRecord
 
 LISTED = 40  # points; of more, as many of the worst are listed
@@ -10,7 +13,7 @@ LISTED = 40  # points; of more, as many of the worst are listed
 
 def as_text(score: ScoreRecord) -> str:
     """Return the score as text to read, the verdict last."""
-    parts = [*_points(score), *_groups(score), *_audit(score)]
+    parts = [*_points(score), *_groups(score), *_origins(score), *_audit(score)]
     parts += [f"note: {note}" for note in score.notes]
     return "\n".join([*parts, verdict(score)])
 
@@ -19,6 +22,8 @@ def verdict(score: ScoreRecord) -> str:
     """Return pass or fail in one line."""
     points = score.points
     worst = f"max |error in psi_2| = {score.max_error:.4g}"
+    if label := score.origins.of(points.worst).label:
+        worst += f" with {label}"
     if points.rows.size > 1:
         worst += f" in {points.one(points.worst)}, rms {score.rms_error:.4g}"
         worst += f", mean {score.mean_error:+.4g}"
@@ -30,7 +35,7 @@ def verdict(score: ScoreRecord) -> str:
 def _points(score: ScoreRecord) -> list[str]:
     points = score.points
     shown = np.arange(points.rows.size)
-    title = "psi_2 against the exact answer"
+    title = "psi_2 against the exact impact"
     if score.restitution != 1.0:
         title += f" with e = {score.restitution:g}"
     if shown.size > LISTED:
@@ -46,14 +51,24 @@ def _points(score: ScoreRecord) -> list[str]:
 
 
 def _groups(score: ScoreRecord) -> list[str]:
+    groups = (*score.groups, score.overall)
+    return _table("By sequence of phases, for psi_1 > 0", groups)
+
+
+def _origins(score: ScoreRecord) -> list[str]:
+    several = len(score.origins.known) > 1
+    return _table("By law", score.by_origin) if several else []
+
+
+def _table(title: str, groups: Sequence[Group]) -> list[str]:
     head = f"{'points':>7s} {'max |error|':>12s} {'rms':>11s} {'mean':>11s}"
-    wide = max(44, *(len(group.name) for group in score.groups))
+    wide = max(44, *(len(group.name) for group in groups))
     rows = [
         f"  {group.name:{wide}s} {group.points:7d} {group.max_error:12.4e}"
         f" {group.rms_error:11.4e} {group.mean_error:+11.3e}"
-        for group in (*score.groups, score.overall)
+        for group in groups
     ]
-    return ["Phase by phase, for psi_1 > 0", f"  {'':{wide}s} {head}", *rows]
+    return [title, f"  {'':{wide}s} {head}", *rows]
 
 
 def _audit(score: ScoreRecord) -> list[str]:

@@ -40,7 +40,7 @@ class Score(ScoreRecord, Result):
         -------
         dict
             passed, tolerance, failures, kind, restitution, max_error, rms_error, mean_error, points
-            by column, phases, audit, notes.
+            by column, phases, laws by code and name, audit, notes.
         """
         points = self.points
         columns = {
@@ -60,6 +60,10 @@ class Score(ScoreRecord, Result):
             **{name: getattr(self, name) for name in names},
             "points": {name: values.tolist() for name, values in columns.items()},
             "phases": [group._asdict() for group in self.groups],
+            "laws": [
+                {"code": origin.code or None, "law": origin.law or None, **group.numbers}
+                for origin, group in zip(self.origins.known, self.by_origin, strict=True)
+            ],
             "audit": [finding._asdict() for finding in self.audit],
             "notes": list(self.notes),
         }
@@ -83,11 +87,12 @@ class Score(ScoreRecord, Result):
         -------
         xarray.Dataset
             Along `point`: psi_in, psi_out, psi_out_exact, error, chi, sequence and energy_change
-            (in J, a pure number for psi); audit_name, audit_value, audit_limit, audit_holds and
-            audit_verdict (audit); tolerance, passed and the errors as numbers. Exact curves along
-            `curve` where chi are few; forces of a history in N along `time` in s.
+            (in J, a pure number for psi), code and law where they are known; audit_name,
+            audit_value, audit_limit, audit_holds and audit_verdict (audit); tolerance, passed and
+            the errors as numbers. Exact curves along `curve` where chi are few; forces of a history
+            in N along `time` in s.
         """
         return score_dataset(self)
 
-    def _draw(self, dataset: "xr.Dataset") -> "Figure":
-        return plots.plot_score(dataset)
+    def _draw(self, dataset: "xr.Dataset", **look: Any) -> "Figure":
+        return plots.plot_score(dataset, **look)

@@ -30,9 +30,9 @@ UNITS = {  # by the ratio of the impulse in the spins to that in the speeds
     1.0 / 3.6: "in km/h; head the columns 'normal_speed [km/h]' and so on",
 }
 CAUSES = {
-    -1.0: "spin has the opposite sign? Positive spin adds to the tangential speed of the contact",
+    -1.0: "does spin have the opposite sign? Positive spin adds to the speed of the contact point",
     2.0: "is the radius in the case a diameter?",
-    0.5: "is the radius in the case half of what it was?",
+    0.5: "is the radius in the case half of the true one?",
     0.8: "is the moment of inertia in the results that of a disc?",
 }
 CLOSE = 0.02  # how near a ratio is to one that is known, relative
@@ -121,14 +121,16 @@ def _after(
         results.refuse("normal_speed_out", normal <= 0.0, receding)
     else:
         times = "" if expected == 1.0 else f"{expected:g} "
-        taken = f"taken as {times}normal_speed, e = {expected:g}"
-        notes.append(f"normal_speed_out is not given: {taken}")
+        taken = f"it was taken as {times}normal_speed, e = {expected:g}"
+        notes.append(f"normal_speed_out is not given; {taken}")
     spin = results["spin_out"]
     spin2 = results.get("spin2_out", 0.0 * spin)
     if isinstance(pair.second, Sphere) and "spin2_out" not in results.columns:
         impulse = (before.tangential.spin - spin) * inertia(pair.first) / pair.first.radius
         spin2 = before.tangential.after(pair, impulse).spin2
-        notes.append("spin2_out is not given: taken from the impulse that changed the first spin")
+        notes.append(
+            "spin2_out is not given; it was computed from the impulse that changed the first spin"
+        )
     return Velocities(normal, Tangential(results["tangential_speed_out"], spin, spin2)), tuple(
         notes
     )
@@ -164,9 +166,9 @@ def momentum_audit(
     _refuse_units(ratio)
     name, value, worst = "angular momentum", float(off.max()), int(np.argmax(off))
     if value <= limit:
-        return Finding(name, value, limit, True, "speeds and spins changed by one impulse")
+        return Finding(name, value, limit, True, "speeds and spins change by the same impulse")
     where = results.named(off > limit)
-    verdict = f"speeds and spins changed by different impulses in {where}"
+    verdict = f"speeds and spins change by different impulses in {where}"
     verdict += f", most in {results.one(worst)}{_cause(ratio)}"
     return Finding(name, value, limit, False, verdict)
 
@@ -189,8 +191,8 @@ def _refuse_units(ratio: float) -> None:
         if abs(abs(ratio) / factor - 1.0) < CLOSE:
             wrong = "spins" if "spin" in words else "speeds"
             raise InputError(
-                f"{wrong}: the spins change {abs(ratio):.4g} times as much as the speeds tell in "
-                f"every row; the {wrong} seem to be {words}"
+                f"{wrong}: in every row the spins change {abs(ratio):.4g} times as much as the "
+                f"speeds imply; the {wrong} seem to be {words}"
             )
 
 

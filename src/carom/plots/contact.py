@@ -1,0 +1,191 @@
+"""The contact through one impact: small multiples of the patch above the course of the force."""
+
+from collections.abc import Iterable
+from itertools import pairwise
+from string import ascii_lowercase
+from typing import Any, Unpack
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
+
+from carom.plots import style
+from carom.plots.bands import moment, phases
+from carom.plots.drawing import Drawable, checked_dataset
+from carom.plots.impact import FORCES, HISTORY, RADII, forces_panel, phase_handles
+from carom.plots.legends import legend_outside
+from carom.plots.look import WIDTH, Look, quiet
+from carom.plots.patch import patch_panel
+from carom.plots.profiles import profile_panel
+from carom.quantities.refusals import InputError, refusal
+
+MARGIN = 1.08  # around the largest contact
+NARROWEST = 26.0  # mm, of a patch
+USUAL, MOST = 6, 12  # patches beside each other
+BESIDE, PROFILE, FORCE, TEXTS = 20.0, 16.0, 34.0, 36.0  # mm, of what is beside and below them
+BARS = (1.0, 2.0, 5.0)  # lengths of the scale bar, times powers of ten
+BAR = 0.5  # its longest, in radii of the largest contact
+
+
+def plot_contact(
+    history: Drawable,
+    frames: Iterable[xr.Dataset] | None = None,
+    *,
+    count: int | None = None,
+    **look: Unpack[Look],
+) -> Figure:
+    """Draw the contact patch at several instants, its traction along the middle, and the force.
+
+    Colours are the tangential traction on one scale, hatched rings slip, arrows are slip velocities
+    (of each patch on its own scale), and the dashed lines are the limits of friction. Without
+    frames the instants are the middles of the phases and others between them.
+
+    Parameters
+    ----------
+    history : impact or xarray.Dataset
+        The impact, or what `Impact.history` returns; then the frames are needed, too.
+    frames : iterable of xarray.Dataset, optional
+        What `Impact.fields` returns, on a grid, at the instants to be shown, from 1 to 12.
+    count : int, optional
+        How many instants are chosen, by default six, or as many as the width has room for.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure, 178 mm wide: a column for each instant, and the force below them.
+
+    Raises
+    ------
+    InputError
+        If it is another dataset, there are no frames or too many, or they lie on no grid.
+
+    Examples
+    --------
+    >>> import carom
+    >>> ball = carom.Sphere(radius="5 mm", material="steel")
+    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+    >>> figure = carom.plots.plot_contact(hit, count=3)
+    >>> [axis.get_title().split(",")[0] for axis in figure.axes[:2]]
+    ['gross slip +', 'stick']
+    """
+    with style.style(**look), quiet():
+        course, shown = _read(history, frames, count)
+        return _draw(course, shown)
+
+
+def _read(given: Any, frames: Any, count: int | None) -> tuple[xr.Dataset, list[xr.Dataset]]:
+    """Return the history and the frames, those of a result if it is one."""
+    known = not hasattr(given, "data_vars") and hasattr(given, "history")
+    course = given.history() if known else given
+    needed = (*FORCES, *RADII, "max_pressure")
+    checked_dataset(course, f"plot_contact draws {HISTORY}", needed, ("time",))
+    if frames is not None:
+        shown = list(frames)
+    elif known:
+        shown = [given.fields(time) for time in _instants(course, _checked(count))]
+    else:
+        raise InputError(f"plot_contact draws {HISTORY}; give the fields of its instants, too")
+    if not 1 <= len(shown) <= MOST:
+        raise refusal("frames", len(shown), f"must be the fields of 1 to {MOST} instants")
+    for fields in shown:
+        style.check_grid(fields, "traction_x", "y", "x")
+    return course, shown
+
+
+def _checked(count: int | None) -> int:
+    if count is None:
+        return int(np.clip(style.room(style.DOUBLE) // NARROWEST, 1, USUAL))
+    if not isinstance(count, int) or not 1 <= count <= MOST:
+        raise refusal("count", count, f"must be a whole number from 1 to {MOST}")
+    return count
+
+
+def _instants(course: xr.Dataset, count: int) -> list[float]:
+    """Return the middles of the longest phases, and of the largest gaps between them."""
+    longest = sorted(phases(course), key=lambda phase: phase.start - phase.end)[:count]
+    times = sorted(0.5 * (phase.start + phase.end) for phase in longest)
+    while len(times) < count:
+        gaps = pairwise([0.0, *times, float(course["time"][-1])])
+        start, end = max(gaps, key=lambda gap: gap[1] - gap[0])
+        times = sorted([*times, 0.5 * (start + end)])
+    return times
+
+
+def _draw(course: xr.Dataset, shown: list[xr.Dataset]) -> Figure:
+    side = ((WIDTH.get() or style.DOUBLE) - BESIDE) / len(shown)
+    heights = (side, max(PROFILE, 0.5 * side), FORCE)
+    figure = style.blank_figure(style.DOUBLE, sum(heights) + TEXTS, keep_height=True)
+    grid = figure.add_gridspec(3, len(shown), height_ratios=heights)
+    patches = [figure.add_subplot(grid[0, i]) for i in range(len(shown))]
+    below: list[Axes] = []
+    for i in range(len(shown)):
+        shared: Any = {"sharey": below[0]} if below else {}
+        below.append(figure.add_subplot(grid[1, i], **shared))
+    force = figure.add_subplot(grid[2, :])
+    largest = float(course["friction"]) * float(course["max_pressure"])
+    scale, unit = style.prefixed(largest, "Pa")
+    reach = MARGIN * float(course["contact_radius"].max())
+    for i, fields in enumerate(shown):
+        shading = _patch(patches[i], fields, course, scale, reach, largest)
+        profile_panel(below[i], fields, reach, scale)
+        _letter(patches[i], ascii_lowercase[i])
+        below[i].tick_params(labelleft=i == 0)
+    below[0].set_ylabel(style.label("traction_x", unit))
+    below[0].set_ylim(-1.1 * largest * scale, 1.1 * largest * scale)
+    _scale_bar(patches[0], reach)
+    bar = figure.colorbar(shading, ax=patches, aspect=18, pad=0.01, shrink=0.9)
+    bar.set_label(style.label("traction_x", unit))
+    bar.outline.set_linewidth(0.6)
+    forces_panel(force, course)
+    _mark(force, course, shown)
+    legend_outside(figure, phase_handles(course), 5)
+    return figure
+
+
+def _patch(
+    axis: Axes, fields: xr.Dataset, course: xr.Dataset, scale: float, reach: float, largest: float
+) -> Any:
+    colours = style.colours("traction_x", largest * scale)
+    shading = patch_panel(axis, fields, "traction_x", scale, reach=reach, word="", **colours)
+    axis.set(xticks=[], yticks=[], xlabel="", ylabel="")
+    axis.set_title(moment(fields, like=course["time"].values).replace(", ", ",\n"))
+    for side in axis.spines.values():
+        side.set_visible(False)
+    return shading
+
+
+def _letter(axis: Axes, letter: str) -> None:
+    axis.text(0.0, 1.0, letter, transform=axis.transAxes, va="top", weight="bold")
+
+
+def _scale_bar(axis: Axes, reach: float) -> None:
+    """Draw a length of one significant digit below the first patch."""
+    length, unit = style.prefixed(reach, "m")
+    most = BAR * reach * length
+    power = 10.0 ** np.floor(np.log10(most))
+    bar = max(power * step for step in BARS if power * step <= most)
+    left, low = -reach * length, -reach * length
+    axis.plot([left, left + bar], [low, low], color=style.BLACK, lw=1.5, clip_on=False)
+    text = f"{bar:g}\u00a0{unit}"
+    note: Any = {"xytext": (0, 2), "textcoords": "offset points", "fontsize": "small"}
+    axis.annotate(text, (left, low), **note).set_path_effects(
+        [withStroke(linewidth=2.0, foreground="white")]
+    )
+
+
+def _mark(axis: Axes, course: xr.Dataset, shown: list[xr.Dataset]) -> None:
+    """Mark the instants of the patches in the course of the force."""
+    scale = style.scaled(course, "time").scale
+    limit = float(course["friction"]) * course["normal_force"].values
+    force = style.prefixed(limit, "N")[0]
+    for letter, fields in zip(ascii_lowercase, shown, strict=False):
+        place = float(fields["time"]) * scale, float(fields["tangential_force"]) * force
+        axis.plot(*place, "o", color=style.BLACK, ms=4.0, zorder=5)
+        near: Any = {"xytext": (3, 3), "textcoords": "offset points", "weight": "bold"}
+        mark = axis.annotate(letter, place, zorder=6, **near)
+        mark.set_path_effects([withStroke(linewidth=2.0, foreground="white")])

@@ -1,0 +1,129 @@
+"""What every function that draws shares: results or datasets as input, refusals, size and style."""
+
+from collections.abc import Callable, Iterator
+from functools import wraps
+from inspect import signature
+from typing import Any, ParamSpec, TypeAlias, TypeVar
+
+import numpy as np
+
+from carom.plots import style
+from carom.plots.look import Look, quiet
+from carom.quantities.refusals import InputError, hint
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+Drawable: TypeAlias = Any  # a dataset, or the result that makes it
+Take: TypeAlias = Callable[[Any, Any], Any]  # makes a dataset of a result, at an instant
+
+LOOK = tuple(Look.__annotations__)
+
+
+def draws(
+    what: str,
+    *needed: str,
+    along: str | tuple[str, ...] = (),
+    take: str | Take = "to_dataset",
+    several: bool = False,
+) -> Callable[[Callable[P, T]], Callable[P, T]]:
+    """Let a function of a dataset take a result, too, in any size and style; refuse all else.
+
+    `what` says what it draws and what makes such a dataset; all of `needed` must be in it, and the
+    first of them must go along these dimensions, if any are named, and have values. A result gives
+    its dataset by a method that `take` names, or by a function of the result and the argument
+    `at`. With `several`, a list or dictionary of them becomes a dictionary of datasets.
+    """
+    dims = (along,) if isinstance(along, str) else along
+
+    def decorate(draw: Callable[P, T]) -> Callable[P, T]:
+        name, parameters = getattr(draw, "__name__", ""), signature(draw)
+        first = next(iter(parameters.parameters))
+
+        def read(given: Any, at: Any) -> Any:
+            return checked_dataset(_dataset(given, take, at), f"{name} draws {what}", needed, dims)
+
+        @wraps(draw)
+        def checked(*args: P.args, **kwargs: P.kwargs) -> T:
+            given: dict[str, Any] = parameters.bind(*args, **kwargs).arguments
+            look: Any = given.pop("look", {})
+            for word in look:
+                if word not in LOOK:
+                    known = hint(word, [*parameters.parameters, *LOOK])
+                    raise InputError(f"{word}: no keyword of {name}; {known}")
+            with style.style(**look), quiet():
+                try:
+                    if several and isinstance(given[first], list | tuple | dict):
+                        pairs = _named(given[first], name)
+                        given[first] = {key: read(one, None) for key, one in pairs}
+                    else:
+                        given[first] = read(given[first], given.get("at"))
+                    return draw(**given)  # type: ignore[call-arg]
+                except InputError:
+                    raise
+                except (ValueError, LookupError, ArithmeticError) as error:  # of what is in it
+                    reason = " ".join(str(error).split())
+                    raise InputError(f"{name}: this dataset cannot be drawn; {reason}") from error
+
+        return checked
+
+    return decorate
+
+
+def _dataset(given: Any, take: str | Take, at: Any) -> Any:
+    """Return a dataset, that of a result if it is one; else what was given."""
+    if hasattr(given, "data_vars"):
+        return given
+    if callable(take):
+        return take(given, at)
+    method = getattr(given, take, None)
+    return method() if callable(method) else given
+
+
+def _named(given: Any, name: str) -> Iterator[tuple[str, Any]]:
+    """Yield results or datasets with their names: those of a dictionary, or numbers."""
+    if not given:
+        raise InputError(f"{name}: there is nothing to draw; give one result or more")
+    items = given.items() if isinstance(given, dict) else enumerate(given, 1)
+    yield from ((str(key), one) for key, one in items)
+
+
+def checked_dataset(
+    dataset: Any, drawn: str, needed: tuple[str, ...], along: tuple[str, ...] = ()
+) -> Any:
+    """Return a dataset in which all is that is needed, or refuse it in words that begin as told."""
+    lacks = _lacking(dataset, needed, along)
+    if lacks:
+        raise InputError(f"{drawn}; what was given {lacks}")
+    return dataset
+
+
+def _lacking(given: Any, needed: tuple[str, ...], along: tuple[str, ...]) -> str:
+    """Return what keeps an object from being a dataset of a kind; nothing if it is one."""
+    if not hasattr(given, "data_vars"):
+        return f"is no dataset but of type {type(given).__name__}"
+    missing = [name for name in needed if name not in given.variables]
+    if missing:
+        return f"has no {missing[0]}"
+    lies = given[needed[0]].dims
+    if lies != along if along else not lies:
+        return f"has no {needed[0]} along {' and '.join(along) or 'a dimension'}"
+    return "" if given[needed[0]].size else f"has no values of {needed[0]}"
+
+
+def at_instant(method: str) -> Take:
+    """Return what takes fields of a result: at an instant of an impact, a step of a load path.
+
+    By default the instant at which the normal force is largest, or the last step.
+    """
+
+    def take(result: Any, at: Any) -> Any:
+        make = getattr(result, method, None)
+        if not callable(make):
+            return result
+        if at is None and hasattr(result, "history"):
+            history = result.history()
+            at = float(history["time"][int(np.argmax(history["normal_force"].values))])
+        return make(-1 if at is None else at)
+
+    return take

@@ -1,0 +1,50 @@
+"""Legends above axes and figures, in as many columns as there is room: they cover no data."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
+from matplotlib.textpath import TextPath
+
+from carom.plots.look import RC
+
+SPACES = ("handlelength", "handletextpad", "columnspacing")  # of a legend
+MARGIN = 5.0  # beside axes, for their labels, in sizes of the font
+
+
+def legend_above(axis: Axes, columns: int, **options: Any) -> None:
+    """Put the legend above the axes, where it covers no data, in as many columns as there is room.
+
+    One that is wider than the axes would make these narrower.
+    """
+    handles = options.pop("handles", None) or axis.get_legend_handles_labels()[0]
+    grid = axis.get_subplotspec()
+    across = grid.get_gridspec().ncols / len(grid.colspan) if grid else 1
+    figure: Any = axis.figure
+    room = figure.get_figwidth() * 72.0 / across - MARGIN * RC["font.size"]
+    columns = fitting_columns(handles, columns, room, **options)
+    place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (-0.02, 1.0)}
+    axis.legend(handles=handles, ncols=columns, **place, **options)
+
+
+def legend_outside(figure: Figure, handles: list[Any], columns: int, **options: Any) -> None:
+    """Put a legend above all axes of a figure, in as many columns as there is room."""
+    columns = fitting_columns(handles, columns, 72.0 * figure.get_figwidth(), **options)
+    figure.legend(handles=handles, loc="outside upper center", ncols=columns, **options)
+
+
+def fitting_columns(handles: list[Any], most: int, room: float, **options: Any) -> int:
+    """Return how many columns of a legend fit into a width in points."""
+    settings = {n: options.get(n, RC[f"legend.{n}"]) for n in SPACES}
+    size = FontProperties(size=options.get("fontsize", RC["legend.fontsize"]))
+    em = size.get_size_in_points()
+    widths = [TextPath((0, 0), h.get_label(), prop=size).get_extents().width for h in handles]
+    beside = em * (settings["handlelength"] + settings["handletextpad"])
+    for columns in range(min(most, len(handles)), 1, -1):
+        wide = [part.max() for part in np.array_split(widths, columns)]
+        spaces = em * settings["columnspacing"] * (len(wide) - 1)
+        if sum(wide) + beside * len(wide) + spaces <= room:
+            return columns
+    return 1

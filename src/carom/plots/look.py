@@ -1,0 +1,153 @@
+"""The style of a figure: Carom's own, what a user wants besides, and a figure that keeps both."""
+
+import logging
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from pathlib import Path
+from typing import Any, TypedDict
+
+import matplotlib
+import matplotlib.style
+import numpy as np
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+
+from carom.quantities.refusals import refusal
+from carom.quantities.units import pure_number
+
+DPI = 300
+FONT_SIZE = 7.5  # of labels, in points
+SMALLER = 0.5  # by how much ticks and legends are
+
+RC: Any = matplotlib.rcParams  # typed differently by the versions of matplotlib
+FIXED: Any = {  # settings that do not go with the size of fonts
+    "font.family": "sans-serif",
+    "mathtext.fontset": "dejavusans",
+    "axes.linewidth": 0.6,
+    **{
+        f"{axis}tick.major.{what}": value
+        for axis in "xy"
+        for what, value in (("size", 2.5), ("width", 0.6), ("pad", 2.0))
+    },
+    "axes.formatter.useoffset": False,
+    "lines.linewidth": 1.2,
+    "lines.markersize": 3.5,
+    "hatch.linewidth": 0.3,
+    "legend.frameon": False,
+    "legend.handlelength": 2.4,
+    "legend.columnspacing": 1.2,
+    "legend.borderaxespad": 0.2,
+    "legend.labelspacing": 0.3,
+    "savefig.dpi": DPI,
+    "svg.fonttype": "none",
+    "pdf.fonttype": 42,
+}
+LABELS = ("font.size", "axes.labelsize", "axes.titlesize", "figure.titlesize")
+SMALL = ("xtick.labelsize", "ytick.labelsize", "legend.fontsize", "legend.title_fontsize")
+
+LOGGERS = ("matplotlib", "fontTools")  # which log what does not help a user
+LUMINANCE, DARK = (0.2126, 0.7152, 0.0722), 0.5  # of red, green, blue (ITU-R BT.709)
+WIDTHS, FONT_SIZES = (20.0, 1000.0), (3.0, 72.0)
+STYLES = "must be a style of matplotlib, a style file or a dictionary of its settings (rcParams)"
+
+
+class Look(TypedDict, total=False):
+    """How a figure looks: what every function that draws takes besides its data.
+
+    width : the whole figure in mm. font_size : of labels, in points. style : what goes on top of
+    Carom's own style: the name of a style of matplotlib, a style file, or settings (rcParams).
+    """
+
+    width: float | None
+    font_size: float | None
+    style: str | Path | Mapping[str, Any] | None
+
+
+def _read(name: str, given: Any, limits: tuple[float, float], unit: str) -> float:
+    """Return a size, or refuse it in one line."""
+    allowed = f"must be a number of {unit} from {limits[0]:g} to {limits[1]:g}"
+    size = pure_number(name, given, allowed)
+    if not limits[0] <= size <= limits[1]:
+        raise refusal(name, given, allowed)
+    return size
+
+
+def carom_sizes(font_size: float) -> dict[str, Any]:
+    """Return the sizes of all texts that go with that of labels."""
+    return dict.fromkeys(LABELS, font_size) | dict.fromkeys(SMALL, font_size - SMALLER)
+
+
+def carom_settings() -> dict[str, Any]:
+    """Return the settings of matplotlib that make Carom's style."""
+    return {**FIXED, **carom_sizes(FONT_SIZE)}
+
+
+WIDTH: ContextVar[float | None] = ContextVar("width", default=None)
+SETTINGS: ContextVar[dict[str, Any] | None] = ContextVar("settings", default=None)
+
+
+def settings(look: Look) -> dict[str, Any]:
+    """Return the settings of the style that is in use, Carom's by default, with more on top."""
+    size = look.get("font_size")
+    wanted: Any = look.get("style")
+    chosen = SETTINGS.get() or carom_settings()
+    if size is not None:
+        chosen = chosen | carom_sizes(_read("font_size", size, FONT_SIZES, "points"))
+    if wanted is None:
+        return chosen
+    with using(chosen):
+        before = dict(RC)
+        try:
+            matplotlib.style.use(dict(wanted) if isinstance(wanted, Mapping) else wanted)
+        except (OSError, KeyError, ValueError, TypeError, AttributeError) as error:
+            raise refusal("style", wanted, STYLES) from error
+        changed = {n: v for n, v in RC.items() if before[n] != v}
+        grounds = [RC[f"{what}.facecolor"] for what in ("figure", "axes")]
+        if any(np.dot(to_rgb(ground), LUMINANCE) < DARK for ground in grounds):
+            raise refusal("style", wanted, "its ground is dark, and Carom draws black lines")
+    return chosen | changed
+
+
+def wanted_width(look: Look) -> float | None:
+    """Return the width of a figure in mm, if a user wants another than the usual one."""
+    width = look.get("width")
+    return WIDTH.get() if width is None else _read("width", width, WIDTHS, "mm")
+
+
+@contextmanager
+def using(chosen: dict[str, Any]) -> Iterator[None]:
+    """Set matplotlib to some settings for a while, its defaults for the rest."""
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        RC.update(chosen)
+        yield
+
+
+class Drawing(Figure):
+    """A figure that keeps the style it was made in, whoever draws or stores it, and when."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.settings = SETTINGS.get() or carom_settings()
+
+    def draw(self, renderer: Any) -> None:
+        """Draw in the style of the figure: matplotlib makes ticks only now."""
+        with using(self.settings), quiet():
+            super().draw(renderer)
+
+
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Let matplotlib not complain of numbers that are not finite, of glyphs, of fonts and room."""
+    levels = {logger: logger.level for logger in map(logging.getLogger, LOGGERS)}
+    for logger in levels:
+        logger.setLevel(logging.ERROR)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        for logger, level in levels.items():
+            logger.setLevel(level)

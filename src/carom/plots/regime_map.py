@@ -1,0 +1,204 @@
+"""The map of regimes over psi_1 and chi: regions in colours, each with its sequence of phases."""
+
+from collections import Counter
+from itertools import groupby
+from typing import Any, NamedTuple, Unpack
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch, PathPatch
+
+from carom.plots import style
+from carom.plots.drawing import Drawable, draws
+from carom.plots.legends import fitting_columns
+from carom.plots.look import Look
+from carom.plots.placing import Placed, middle
+from carom.plots.regimes import draw_borders
+from carom.plots.region_labels import SMALLEST, find_labels, in_letters, signed, wrapped
+from carom.plots.regions import Region, frame_of, regions
+from carom.quantities.arrays import Array
+
+HUES = {"gross slip +": "Oranges", "gross slip -": "Blues"}
+OTHER = "Greys"  # of what ends in stick or a slip ring, as few impacts do
+PALEST, DARKEST = 0.08, 0.62  # of the colours of a map of matplotlib
+KEY = (
+    "Labels: G gross slip, S stick, s slip in a ring around a stick region; "
+    "+ and \u2212 are the sign of the slip velocity."
+)
+ENDS = "ends in {}, reversals of slip:"
+SHORT = "Colours: the last phase, and how often slip reverses."
+EDGE: Any = {"ec": "0.2", "lw": 0.4}
+SPACING: Any = {"handlelength": 1.6, "handletextpad": 0.5, "columnspacing": 1.0}
+TALL = 0.42  # the map, in widths of the figure
+POINT = 25.4 / 72.0  # in mm
+
+
+class Group(NamedTuple):
+    """Regimes that end in the same way, in which slip reverses its sense as often."""
+
+    ending: str
+    reversals: int
+
+
+def group_of(name: str) -> Group:
+    """Return to which group a sequence of phases belongs."""
+    phases = name.split(", ")
+    senses = [phase[-1] for phase in phases if phase[-1] in "+-"]
+    return Group(phases[-1], len(list(groupby(senses))) - 1 if senses else 0)
+
+
+@draws(
+    "a map of regimes, what carom.regime_map returns",
+    *("sequence", "sequence_name", "psi_in", "chi"),
+    along=("chi", "psi_in"),
+)
+def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
+    """Draw which phases follow which over psi_1 and chi, with the borders 1, 2 chi, 4 chi - 1.
+
+    The colour of a region tells how the impact ends and how often slip reverses its sense. Its
+    label is the sequence of phases in letters, at the end of a line where it has no room inside.
+    Regions narrower than 0.2 mm are listed below the map. A dataset without borders, of an older
+    version, is drawn by its cells.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        What `carom.regime_map` returns.
+    width, font_size, style : optional
+        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure, 178 mm wide by default.
+
+    Raises
+    ------
+    InputError
+        If the dataset is another one.
+
+    Examples
+    --------
+    >>> import carom
+    >>> figure = carom.plots.plot_regime_map(carom.regime_map([0.5, 2.0, 6.0], [1.0, 1.44]))
+    >>> sorted(text.get_text() for text in figure.axes[0].texts)[:2]
+    ['$\\\\psi_1 = $$1$', '$\\\\psi_1 = $$4\\\\chi-1$']
+    """
+    figure, axis = style.single_axis(width=style.DOUBLE, height=TALL * style.DOUBLE + 30.0)
+    found, frame = regions(dataset), frame_of(dataset)
+    colours = _colours({group_of(region.name) for region in found if region.name})
+    for region in found:
+        face = colours[group_of(region.name)] if region.name else "white"
+        hatch = None if region.name else "xxxx"
+        axis.add_patch(PathPatch(region.path(), fc=face, hatch=hatch, **EDGE))
+    axis.set(xlim=frame[:2], ylim=frame[2:])
+    axis.set(xlabel=style.symbol("psi_in"), ylabel=style.symbol("chi"))
+    draw_borders(axis, float(dataset.get("restitution", 1.0)))
+    to_mm = _laid_out(figure, axis)[1]
+    wide = {region.name for region in found if middle(region, to_mm).width >= SMALLEST}
+    _add_key(figure, sorted({group_of(name) for name in wide if name}), colours)
+    _label_regions(figure, axis, found, Counter(r.name for r in found if r.name not in wide))
+    return figure
+
+
+def _colours(groups: set[Group]) -> dict[Group, Any]:
+    most = max((group.reversals for group in groups), default=0)
+    shades = np.linspace(PALEST, DARKEST, most + 1)
+    return {
+        group: matplotlib.colormaps[HUES.get(group.ending, OTHER)](shades[group.reversals])
+        for group in groups
+    }
+
+
+def _add_key(figure: Figure, groups: list[Group], colours: dict[Group, Any]) -> None:
+    """Add what colours and letters mean: a row for each ending, a column for each number."""
+    room = 25.4 * figure.get_figwidth() - 4.0
+    counts = sorted({group.reversals for group in groups})
+    endings = sorted({group.ending for group in groups})
+    blank: Any = {"fc": "none", "ec": "none"}
+    handles = [Patch(label=ENDS.format(signed(ending)), **blank) for ending in endings]
+    for group in (Group(ending, count) for count in counts for ending in endings):
+        face = {"fc": colours[group], **EDGE} if group in groups else blank
+        handles.append(Patch(label=str(group.reversals), **face))
+    columns, key = len(counts) + 1, KEY
+    if fitting_columns(handles, columns, room / POINT, **SPACING) < columns:
+        key = f"{SHORT} {KEY}"
+        handles = [
+            Patch(fc=colours[group], label=f"{signed(group.ending)}, {group.reversals}", **EDGE)
+            for group in groups
+        ]
+        columns = fitting_columns(handles, 4, room / POINT, **SPACING)
+    for handle in handles[len(endings) :]:
+        if handle.get_facecolor()[3] == 0.0:
+            handle.set_label(" ")
+    place: Any = {"loc": "outside upper left", "alignment": "left", "title_fontsize": "small"}
+    title = wrapped(key, room)
+    figure.legend(handles=handles, ncols=columns, title=title, **place, **SPACING)
+
+
+def _label_regions(figure: Figure, axis: Axes, found: list[Region], unmarked: Counter[str]) -> None:
+    """Write the sequence of every region into it or beside it; list the others below the map."""
+    lines = [np.asarray(line.get_xydata()) for line in axis.lines]
+    _list(figure, [], unmarked, [])
+    size, _ = _laid_out(figure, axis)
+    target = TALL * 25.4 * figure.get_figwidth()
+    figure.set_figheight(figure.get_figheight() + (target - size[1]) / 25.4)
+    size, to_mm = _laid_out(figure, axis)
+    labels = find_labels(found, lines, to_mm, size)
+    _list(figure, labels.numbered, unmarked, labels.lost)
+    for label in labels.placed.values():
+        _write(axis, label, np.array(size))
+    size, _ = _laid_out(figure, axis)
+    figure.set_figheight(figure.get_figheight() + (target - size[1]) / 25.4)
+
+
+def _laid_out(figure: Figure, axis: Axes) -> tuple[tuple[float, float], Array]:
+    """Return the size of the axes in mm, and what makes mm of its coordinates: factor, shift."""
+    figure.draw_without_rendering()
+    box = axis.get_window_extent()
+    size = np.array([box.width, box.height]) * 25.4 / figure.dpi
+    low, high = np.array([axis.get_xlim(), axis.get_ylim()]).T
+    factor = size / (high - low)
+    return (float(size[0]), float(size[1])), np.array([factor, -low * factor])
+
+
+def _list(figure: Figure, numbered: list[str], narrow: Counter[str], lost: list[str]) -> None:
+    """Write below the map what numbers mean, and which sequences are not marked, and why."""
+    room = 25.4 * figure.get_figwidth() - 4.0
+    parts = ["; ".join(f"{k}\u00a0=\u00a0{_tied(name)}" for k, name in enumerate(numbered, 1))]
+    reasons = f"narrower than {SMALLEST:g} mm", "without room"
+    for reason, names in zip(reasons, (narrow, Counter(lost)), strict=True):
+        counted = (_tied(n) + f"\u00a0({k}\u00a0regions)" * (k > 1) for n, k in names.items())
+        parts.append(f"Not marked, {reason}: {'; '.join(counted)}" if names else "")
+    text = "\n".join(wrapped(part, room) for part in parts if part)
+    if text:
+        figure.supxlabel(text, x=0.01, ha="left", fontsize="small")
+
+
+def _tied(name: str) -> str:
+    """Return a sequence in letters that stay on one line."""
+    return "\u00a0".join(in_letters(name)) if name else "not\u00a0resolved"
+
+
+def _write(axis: Axes, label: Placed, size: Array) -> None:
+    """Write a label, with a line to its region if it is not inside."""
+    text = axis.text(
+        *(label.at / size),
+        label.block.text,
+        transform=axis.transAxes,
+        ha="center",
+        va="center",
+        rotation=90.0 if label.block.turned else 0.0,
+        fontsize="small",
+        linespacing=1.1,
+        zorder=5,
+    )
+    text.set_in_layout(False)
+    if label.line is not None:
+        text.set_bbox({"boxstyle": "square,pad=0.12", "fc": "white", "ec": "none", "alpha": 0.9})
+        ends = label.line / size
+        (line,) = axis.plot(*ends.T, transform=axis.transAxes, color="black", lw=0.5, zorder=4)
+        line.set(marker="o", markevery=[0], ms=1.5)
+        line.set_in_layout(False)

@@ -1,0 +1,176 @@
+"""Figures in the size, font and style that a user wants; of results and of several impacts."""
+
+import matplotlib
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_rgb
+from matplotlib.text import Text
+
+import carom
+from carom import plots
+from carom.plots.legends import fitting_columns
+from carom.plots.style import colours
+
+MM = 1.0 / 25.4
+
+
+@pytest.fixture(scope="module")
+def pair():
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    return carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+
+
+@pytest.fixture(scope="module")
+def hit(pair):
+    return carom.impact(pair, speed=2.0, angle="30 deg")
+
+
+@pytest.fixture(scope="module")
+def drawers(pair, hit):
+    """Every public function that draws, with what it draws."""
+    path = carom.load_path(pair, normal_force=10.0, tangential_force=[0.0, 1.2, -1.2])
+    psi = [0.5, 1.0, 3.0]
+    law = carom.LinearSpring()
+    given = {
+        "plot_impact": hit,
+        "plot_forces": hit,
+        "plot_radii": hit,
+        "plot_cone": path,
+        "plot_patch": hit,
+        "plot_profiles": hit,
+        "plot_stress": hit,
+        "plot_spectrum": hit,
+        "plot_wear": hit,
+        "plot_contact": hit,
+        "plot_strength": carom.strength(pair, angle=["0 deg", "60 deg"]),
+        "plot_curve": carom.curve(1.44, [0.0, 0.5, 1.0, 6.0]),
+        "plot_regime_map": carom.regime_map([0.5, 2.0, 6.0], [1.0, 1.44]),
+        "plot_laws": carom.verify.rank([law], psi=psi),
+        "plot_error_map": carom.verify.error_map(law, psi, [1.2, 1.4]),
+        "plot_score": carom.verify.score(
+            {"psi_1": psi, "psi_2": carom.rebound(psi, 1.44)}, chi=1.44
+        ),
+    }
+    assert set(given) == {name for name in plots.__all__ if name.startswith("plot_")}
+    return given
+
+
+def texts(figure):
+    """Return the texts that can be seen, once drawn."""
+    FigureCanvasAgg(figure).draw()
+    return [text for text in figure.findobj(Text) if text.get_text() and text.get_visible()]
+
+
+def test_every_figure_has_the_width_and_the_font_that_were_asked_for(drawers):
+    """The larger font is that of labels; no text keeps the size of the usual one."""
+    for name, given in drawers.items():
+        usual = getattr(plots, name)(given)
+        figure = getattr(plots, name)(given, width=150.0, font_size=9.5)
+        assert figure.get_figwidth() == pytest.approx(150.0 * MM, rel=1e-12), name
+        sizes = {round(text.get_fontsize(), 3) for text in texts(figure)}
+        assert max(sizes) == pytest.approx(9.5), name
+        assert max(text.get_fontsize() for text in texts(usual)) == pytest.approx(7.5), name
+        assert min(sizes) > min(text.get_fontsize() for text in texts(usual)), name
+
+
+def test_a_style_of_matplotlib_goes_on_top_and_stays_with_the_figure(hit):
+    """Ticks are made when the figure is drawn, long after the style was set."""
+    before = dict(matplotlib.rcParams)
+    figure = hit.plot(style={"font.family": "serif", "axes.linewidth": 2.0})
+    assert {text.get_fontfamily()[0] for text in texts(figure)} == {"serif"}
+    assert figure.axes[0].spines["left"].get_linewidth() == 2.0
+    assert dict(matplotlib.rcParams) == before
+    named = plots.plot_forces(hit, style="ggplot")
+    assert to_rgb(named.axes[0].get_facecolor()) == to_rgb("#E5E5E5")
+
+
+@pytest.mark.parametrize(
+    ("look", "said"),
+    [
+        ({"width": 5.0}, "width: 5.0 cannot be used; must be a number of mm from 20 to 1000"),
+        ({"width": "wide"}, "width: 'wide' cannot be used; "),
+        ({"font_size": float("nan")}, "font_size: nan cannot be used; "),
+        ({"style": "no such style"}, "style: 'no such style' cannot be used; must be a style of"),
+        ({"style": {"no.such": 1}}, "must be a style of matplotlib, a style file or"),
+        ({"style": "dark_background"}, "its ground is dark, and Carom draws black lines"),
+        ({"fontsize": 8.0}, "fontsize: no keyword of plot_forces; did you mean"),
+    ],
+)
+def test_what_no_figure_can_look_like_is_refused_in_one_line(hit, look, said):
+    with pytest.raises(carom.InputError) as refused:
+        plots.plot_forces(hit, **look)
+    assert said in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_result_is_drawn_as_its_dataset_is(pair, hit):
+    path = carom.load_path(pair, normal_force=10.0, tangential_force=[0.0, 1.2, -1.2])
+    largest = 0.5 * hit.duration
+    twins = [
+        (plots.plot_impact(hit), plots.plot_impact(hit.to_dataset())),
+        (plots.plot_cone(path), plots.plot_cone(path.to_dataset())),
+        (plots.plot_profiles(hit, at="21 us"), plots.plot_profiles(hit.radial("21 us"))),
+        (plots.plot_profiles(path), plots.plot_profiles(path.radial(-1))),
+        (plots.plot_profiles(path, at=1), plots.plot_profiles(path.radial(1))),
+        (plots.plot_spectrum(hit), plots.plot_spectrum(hit.spectrum())),
+    ]
+    for one, two in twins:
+        for axis, other in zip(one.axes, two.axes, strict=True):
+            for line, twin in zip(axis.lines, other.lines, strict=True):
+                np.testing.assert_array_equal(line.get_ydata(), twin.get_ydata())
+    title = plots.plot_patch(hit).axes[0].get_title()
+    time = float(title.splitlines()[0].split("=")[1].split("\u00a0")[0].strip(" $"))
+    assert time == pytest.approx(1e6 * largest, rel=0.02)  # three digits, one of 200 times
+
+
+def test_several_impacts_are_laid_over_each_other(pair, hit):
+    """Each has its colour, its name and its own values; friction's share ends at what is lost."""
+    steeper = carom.impact(pair, speed=2.0, angle="10 deg")
+    figure = plots.plot_impact({"10 deg": steeper, "30 deg": hit})
+    forces, _, _, lost = figure.axes
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["10 deg", "30 deg"]
+    for one, each in zip(forces.lines[1:3], (steeper, hit), strict=True):
+        values = each.to_dataset()["tangential_force"].values
+        np.testing.assert_allclose(one.get_ydata(), values, rtol=1e-12)
+    for one, each in zip(lost.lines[1:], (steeper, hit), strict=True):
+        energy = 0.5 * pair.normal_mass * 2.0**2
+        assert one.get_ydata()[-1] == pytest.approx(each.dissipated_energy / energy, rel=1e-9)
+    numbered = plots.plot_radii([hit.history(), steeper])
+    assert [text.get_text() for text in numbered.legends[0].get_texts()] == ["1", "2"]
+    with pytest.raises(carom.InputError, match="there is nothing to draw"):
+        plots.plot_radii([])
+    with pytest.raises(carom.InputError, match="plot_radii draws"):
+        plots.plot_radii([hit, 3.0])
+
+
+def test_zero_is_white_where_a_quantity_has_a_sign():
+    """To the last bit of eight: matplotlib's map has 256 colours, none of them quite white."""
+    for name in ("traction_x", "sigma_xz", "principal_1"):
+        found = colours(name, [-3.0, 1.0])
+        shade = matplotlib.colormaps[found["cmap"]](
+            -found["vmin"] / (found["vmax"] - found["vmin"])
+        )
+        assert found["vmax"] == -found["vmin"] == 3.0
+        assert min(shade[:3]) > 0.96
+    assert "vmin" not in colours("pressure", [0.0, 2.0])
+
+
+def test_a_legend_has_as_many_columns_as_fit():
+    """A legend drawn with so many is no wider than the room; one column more would be wider."""
+    names = ("one", "two", "three", "a longer one", r"$\pm\mu F_z$")
+    with plots.style.style():
+        figure, axis = plots.style.single_axis(width=300.0)
+        for text in names:
+            axis.plot([], label=text)
+        handles = axis.get_legend_handles_labels()[0]
+        canvas = FigureCanvasAgg(figure)
+        canvas.draw()
+        wide = {}
+        for columns in range(1, 6):
+            legend = axis.legend(handles=handles, ncols=columns, borderpad=0.0)
+            found = legend.get_window_extent(canvas.get_renderer()).width
+            wide[columns] = found * 72.0 / figure.dpi
+        for columns in range(1, 5):
+            assert fitting_columns(handles, 5, wide[columns] * 1.04) == columns
+    assert fitting_columns(handles, 5, 10.0) == 1
