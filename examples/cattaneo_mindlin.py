@@ -17,13 +17,13 @@ import numpy as np
 
 import carom
 from carom.classical import cattaneo_mindlin
+from carom.plots.legends import legend_above
 from carom.plots.style import (
     BLACK,
     BLUE,
     DASHES,
     DOUBLE,
     VERMILION,
-    legend_above,
     new_figure,
     save_figure,
     styled,

@@ -18,7 +18,8 @@ import numpy as np
 
 import carom
 from carom.dimensionless.twins.stick import Stick, transition_speed
-from carom.plots.style import BLACK, DASHES, LINES, legend_above, new_figure, save_figure, styled
+from carom.plots.legends import legend_above
+from carom.plots.style import BLACK, DASHES, LINES, new_figure, save_figure, styled
 
 CHIS = (0.8, 1.44, 2.5)
 

@@ -17,16 +17,8 @@ import numpy as np
 
 import carom
 from carom.dimensionless.twins.stick import Stick
-from carom.plots.style import (
-    BLACK,
-    BLUE,
-    DASHES,
-    VERMILION,
-    legend_above,
-    new_figure,
-    save_figure,
-    styled,
-)
+from carom.plots.legends import legend_above
+from carom.plots.style import BLACK, BLUE, DASHES, VERMILION, new_figure, save_figure, styled
 
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)

@@ -15,13 +15,13 @@ import numpy as np
 from scipy.special import gamma, rgamma
 
 import carom
+from carom.plots.legends import legend_above
 from carom.plots.style import (
     BLACK,
     BLUE,
     DASHES,
     DOUBLE,
     VERMILION,
-    legend_above,
     new_figure,
     save_figure,
     styled,

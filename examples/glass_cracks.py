@@ -16,16 +16,8 @@ from pathlib import Path
 import numpy as np
 
 import carom
-from carom.plots.style import (
-    BLACK,
-    DASHES,
-    DOUBLE,
-    LINES,
-    legend_above,
-    new_figure,
-    save_figure,
-    styled,
-)
+from carom.plots.legends import legend_above
+from carom.plots.style import BLACK, DASHES, DOUBLE, LINES, new_figure, save_figure, styled
 
 MEASURED = 8600.0  # P E*/(K_c^2 R), Rhee et al. 2001
 DIAMETERS = np.geomspace(0.5, 20.0, 25)  # mm

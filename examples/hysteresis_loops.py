@@ -3,9 +3,10 @@
 
 A tangential force that swings at constant normal force: its loops, and the energy of each loop.
 
-The first push runs along the curve of Cattaneo and Mindlin. Every later swing is that curve, twice
-as large in both directions, so the loop closes at once. For small amplitudes the energy per cycle
-goes with their third power: what slips is a thin ring, and it slips little.
+The first push of the force :math:`F_x`, with the displacement :math:`U`, runs along the curve of
+Cattaneo and Mindlin. Every later swing is that curve, twice as large in both directions, so the
+loop closes at once. For small amplitudes the energy per cycle goes with their third power: what
+slips is a thin ring, and it slips little.
 
 Mindlin & Deresiewicz (1953), J. Appl. Mech. 20:327; Johnson (1985), section 7.4.
 """

@@ -19,6 +19,7 @@ import numpy as np
 import carom
 from carom.dimensionless.lossy.panels.stages import viscous_loss
 from carom.dimensionless.twins.marching_solid import extrapolated
+from carom.plots.legends import legend_above
 from carom.plots.style import (
     BLACK,
     BLUE,
@@ -26,7 +27,6 @@ from carom.plots.style import (
     DOUBLE,
     GREEN,
     VERMILION,
-    legend_above,
     new_figure,
     save_figure,
     styled,

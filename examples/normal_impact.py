@@ -18,7 +18,8 @@ from scipy.integrate import solve_ivp
 from scipy.special import beta
 
 import carom
-from carom.plots.style import DASHES, DOUBLE, LINES, legend_above, new_figure, save_figure, styled
+from carom.plots.legends import legend_above
+from carom.plots.style import DASHES, DOUBLE, LINES, new_figure, save_figure, styled
 
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PLATE = carom.HalfSpace(material="steel")

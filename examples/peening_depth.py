@@ -15,16 +15,8 @@ from pathlib import Path
 import numpy as np
 
 import carom
-from carom.plots.style import (
-    BLACK,
-    DASHES,
-    DOUBLE,
-    LINES,
-    legend_above,
-    new_figure,
-    save_figure,
-    styled,
-)
+from carom.plots.legends import legend_above
+from carom.plots.style import BLACK, DASHES, DOUBLE, LINES, new_figure, save_figure, styled
 
 FRICTIONS = (0.0, 0.2, 0.3, 0.5)
 ANGLES = np.arange(0.0, 86.0)  # deg; at the last all of them slide throughout

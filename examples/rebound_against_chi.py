@@ -18,16 +18,8 @@ import numpy as np
 
 import carom
 from carom.dimensionless.twins.marching import extrapolated
-from carom.plots.style import (
-    BLACK,
-    DASHES,
-    LINES,
-    label,
-    legend_above,
-    new_figure,
-    save_figure,
-    styled,
-)
+from carom.plots.legends import legend_above
+from carom.plots.style import BLACK, DASHES, LINES, label, new_figure, save_figure, styled
 
 SPEEDS = (1.2, 0.3)
 

@@ -18,7 +18,8 @@ import numpy as np
 import carom
 from carom.dimensionless.twins.marching import extrapolated
 from carom.plots import plot_curve, save_figure
-from carom.plots.style import BLACK, legend_above, styled
+from carom.plots.legends import legend_above
+from carom.plots.style import BLACK, styled
 
 CHIS = (0.5, 1.0, 1.44, 2.0)
 

@@ -20,7 +20,8 @@ from scipy.special import gamma, hyp2f1
 
 import carom
 from carom.dimensionless.twins.stick import Stick
-from carom.plots.style import BLACK, DASHES, LINES, legend_above, new_figure, save_figure, styled
+from carom.plots.legends import legend_above
+from carom.plots.style import BLACK, DASHES, LINES, new_figure, save_figure, styled
 
 CHIS = (0.3, 0.5, 1.44, 4.0, 6.0)
 PSI = 0.3

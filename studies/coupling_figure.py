@@ -22,6 +22,7 @@ from scipy.stats import f as fisher
 from small_pictures import store_small
 
 from carom.plots import style
+from carom.plots.legends import legend_above
 
 PICTURE = Path(__file__).parents[1] / "docs" / "figures" / "coupling.png"
 
@@ -51,7 +52,7 @@ def draw_restitutions(axis: Axes, rows: Rows, full: Coulomb) -> None:
         axis.plot(at, from_spin, color="0.5", label="from the spin" if first else None, **points)
     axis.set(xlim=(0.0, 33.0), ylim=(0.56, 0.81), xlabel="angle of incidence (°)")
     axis.set_ylabel("tangential restitution $e_t$")
-    style.legend_above(axis, 2, columnspacing=0.6)
+    legend_above(axis, 2, columnspacing=0.6)
 
 
 def draw_slips(axis: Axes, rows: Rows, full: Coulomb) -> None:
@@ -77,7 +78,7 @@ def draw_slips(axis: Axes, rows: Rows, full: Coulomb) -> None:
     axis.set_xticks([0.2, 0.3, 0.5, 1.0], ["0.2", "0.3", "0.5", "1"])
     axis.minorticks_off()
     title = "friction before any slip over that in sliding"
-    style.legend_above(axis, 5, title=title, handlelength=1.4, columnspacing=0.8)
+    legend_above(axis, 5, title=title, handlelength=1.4, columnspacing=0.8)
 
 
 def draw_shares(axis: Axes, full: Coulomb) -> None:
@@ -92,7 +93,7 @@ def draw_shares(axis: Axes, full: Coulomb) -> None:
     axis.annotate("95 %", (1.1, 4.9), va="bottom", ha="right", fontsize=7)
     axis.set(ylim=(0.0, 30.0), xlabel=r"$\beta$ over that of the pair")
     axis.set_ylabel("$F$")
-    style.legend_above(axis, 3)
+    legend_above(axis, 3)
 
 
 def draw_elements(axis: Axes, rows: Rows) -> None:
@@ -103,7 +104,7 @@ def draw_elements(axis: Axes, rows: Rows) -> None:
     style.zero_line(axis)
     axis.set(ylim=(-0.25, 0.25), xlabel=r"$V_x/(\mu V_1)$ before the impact")
     axis.set_ylabel(r"$V_x'/(\mu V_1')$ less the theory's")
-    style.legend_above(axis, 2)
+    legend_above(axis, 2)
 
 
 @style.styled

@@ -12,6 +12,7 @@ import carom
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.plots import style
 from carom.plots.laws import plot_error_map, plot_laws
+from carom.plots.legends import legend_above
 from carom.verify import error_map
 from carom.verify.errors import INCIDENCES
 
@@ -60,7 +61,7 @@ def plot_stiffness() -> Figure:
     axis.minorticks_off()
     axis.set(xlim=(0.1, 3.0), ylim=(0.0, None), ylabel=r"max |error in $\psi_2$|")
     axis.set_xlabel(r"$k_t/(\kappa k_n)$ of linear springs, $k_t/(2G^*a)$ of others")
-    style.legend_above(axis, 2)
+    legend_above(axis, 2)
     return figure
 
 

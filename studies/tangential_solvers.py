@@ -242,7 +242,7 @@ def draw_tolerances(axes: "Axes", moved: list[dict[str, object]]) -> None:
         x, y = ([float(m[key]) for m in rows] for key in ("value", "change of psi_2"))
         label = which if case == moved[0]["case"] else None
         axes.loglog(x, y, mark, color=colour, ms=4, lw=1, label=label)
-    axes.set(xlabel="tolerance", ylabel="change of psi_2", title="tolerances of whole impacts")
+    axes.set(xlabel="tolerance", ylabel=r"change of $\psi_2$", title="tolerances of whole impacts")
     axes.legend()
 
 

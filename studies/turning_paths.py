@@ -28,6 +28,7 @@ from carom.halfspace.compliance import Materials
 from carom.halfspace.quasistatic import Patch
 from carom.laws.dem import lattice
 from carom.plots import style
+from carom.plots.legends import legend_above
 
 TABLE = Path(__file__).with_suffix(".csv")
 PICTURE = TABLE.parents[1] / "docs" / "figures" / "turning_paths.png"
@@ -179,7 +180,7 @@ def draw(rows: list[dict[str, str]]) -> None:
     axis.minorticks_off()
     axis.set_xlabel(r"$U \kappa/(\mu d)$")
     axis.set_ylabel(r"largest error of $F/\mu P$")
-    style.legend_above(axis, 1)
+    legend_above(axis, 1)
     store_small(style.save_figure(figure, PICTURE), PICTURE)
 
 

@@ -107,7 +107,7 @@ def test_crash_shows_the_last_words(tmp_path):
     script = "seq 8\necho 'ERROR:  Unknown command' >&2\nexit 3"
     message = failure(Shell(script, tmp_path / "note"))
     assert message == (
-        "Shell has crashed (exit code 3); its last words: 7 | 8 | ERROR: Unknown command"
+        "Shell has crashed (exit code 3); it printed last: 7 | 8 | ERROR: Unknown command"
     )
 
 
@@ -133,7 +133,7 @@ def test_hanging_engine_is_killed_with_its_children(tmp_path):
     script = "echo step 5\nsleep 1000 &\n(trap '' TERM; sleep 1000) &\nwhile :; do sleep 0.1; done"
     start = time.monotonic()
     message = failure(Shell(script, tmp_path / "note"), time_limit=0.4)
-    assert message == "Shell was killed at its time limit of 0.4 s; its last words: step 5"
+    assert message == "Shell was killed at its time limit of 0.4 s; it printed last: step 5"
     assert 0.4 <= time.monotonic() - start < 1000.0  # nobody waits for those who sleep
 
 
@@ -154,11 +154,11 @@ def test_children_of_a_finished_engine_are_killed(tmp_path):
 @pytest.mark.parametrize(
     ("script", "words"),
     [
-        ("echo done", "has left no results; its last words: done"),
+        ("echo done", "has left no results; it printed last: done"),
         ("echo so it is > results", "has left no results (could not convert"),
         ("echo 1 2 > results", "has left no results (invalid column"),
-        (": > results", "has left 0 of 2 results; its last words: nothing"),
-        ("echo 1 2 3 > results; echo done", "has left 1 of 2 results; its last words: done"),
+        (": > results", "has left 0 of 2 results; it printed last: nothing"),
+        ("echo 1 2 3 > results; echo done", "has left 1 of 2 results; it printed last: done"),
         ("printf '1 2 nan\\n1 2 3\\n' > results", "results that are not finite"),
         ("printf '1 -inf 3\\n1 2 3\\n' > results", "results that are not finite"),
     ],
@@ -269,7 +269,7 @@ class Spoilt(Lammps):
         ("nve/sphere", "nve/spere", "exit code .*nve/spere"),
         ("run             1152", "run 600", "the bodies still touch"),
         ("run             1152", "run 2000000000", "time limit of 0.7 s"),
-        ("write_dump", "# write_dump", "has left no results; its last words: .*Total wall time"),
+        ("write_dump", "# write_dump", "has left no results; it printed last: .*Total wall time"),
     ],
 )
 def test_real_lammps_fails(old, new, words):

@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -266,6 +267,26 @@ def test_the_largest_stresses_are_read_as_they_are(capsys):
     assert units == {"GPa"}
     smallest = min(float(peaks[name].min()) for name in ("peak_shear", "peak_tension"))
     assert smallest < 1e9, "of which one alone would be in MPa"
+
+
+def test_ranges_of_a_sweep_are_read_as_they_are(capsys):
+    """From and to in one unit; angles in degrees and in radians."""
+    case = str(Path(__file__).parents[2] / "examples/sweep.toml")
+    main(["sweep", case, "--no-progress"])
+    printed = capsys.readouterr().out
+    main(["sweep", case, "--no-progress", "--json"])
+    ranges = json.loads(capsys.readouterr().out)["ranges"]
+    rows = dict(re.split(r"\s{2,}", line.strip(), maxsplit=1) for line in printed.splitlines()[3:])
+    assert len(rows) == len(ranges)
+    for name, known in ranges.items():
+        ends = [known["min"], known["max"]]
+        low, high, *unit = rows[GLOSSARY[name].meaning].split()
+        words = [[low, high, unit[0] if unit else ""]]
+        if known["units"] == "rad":
+            words.append(re.search(r"\((.*) to (.*) (rad)\)", " ".join(unit)).groups())
+        for first, last, shown in words:
+            read = [read_text(f"{number} {shown}", known["units"]) for number in (first, last)]
+            assert read == pytest.approx(ends, rel=1e-5, abs=1e-12)
 
 
 def test_fitted_parameters_have_prefixes_too():

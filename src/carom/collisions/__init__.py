@@ -88,42 +88,44 @@ def collide(
 ) -> Collisions | JudgedCollisions:
     """Return velocities and spins after collisions of a pair of bodies in three dimensions.
 
-    With V = v_1 - v_2 + (R_1 omega_1 + R_2 omega_2) x n at the contact point, V_n = V . n and
-    V_t = V - V_n n: J = (1 + e) m_n V_n n + m_t (1 + beta) V_t, v_1' = v_1 - J/M_1,
-    v_2' = v_2 + J/M_2, omega_i' = omega_i - (R_i/I_i) n x J; e and beta = -V_t'/V_t are the law's,
-    by default e = 1 and the exact rebound to 1e-9 (Maw, Barber & Fawcett 1976; for rigid rough
-    spheres Walton 1993). With losses: law=ReboundLaw(pair.chi, losses=KelvinVoigt(restitution=e)),
-    made once, in a second or two.
+    The velocity at the contact point is V = v_1 - v_2 + (R_1 omega_1 + R_2 omega_2) x n, with V_n =
+    V . n and V_t = V - V_n n. The impulse is J = (1 + e) m_n V_n n + m_t (1 + beta) V_t, and after
+    the collision v_1' = v_1 - J/M_1, v_2' = v_2 + J/M_2, omega_i' = omega_i - (R_i/I_i) n x J. The
+    law gives e and beta = -V_t'/V_t. By default e = 1, and beta is that of the exact rebound, to
+    1e-9 (Maw, Barber & Fawcett 1976; for rigid rough spheres Walton 1993). For losses pass
+    law=ReboundLaw(pair.chi, losses=KelvinVoigt(restitution=e)), which takes a second or two to
+    make, once.
 
     Parameters
     ----------
     pair : Pair
         The bodies; they are the same in every collision.
     velocity1, spin1, velocity2, spin2 : array_like, shape (..., 3)
-        In m/s and rad/s, or with a unit, broadcast; zero where left out. A half-space or cup keeps
-        its velocity, and does not spin.
+        Velocities in m/s and spins in rad/s, or texts with units. They are broadcast against each
+        other, and zero if left out. A half-space or cup keeps its velocity and does not spin.
     normal : array_like, shape (..., 3)
         Unit vectors from the first body to the second.
     law : ReboundLaw, SmoothLaw, RoughLaw or WaltonLaw, optional
         By default the exact law of the pair, built once for each chi.
     inplace : bool
-        Write into the arrays that were given; they must be writable and of full shape.
+        Write the results into the given arrays, which must be writable and of full shape.
     threads : int, optional
         How many threads to use on NumPy arrays, all cores by default; the result does not depend
         on it.
     judge : bool
-        Whether to tell for each collision how far psi_2 may be off by what the theory leaves out:
-        spin about the normal, slip off the motion, the coupling of unlike materials.
+        Whether to bound, for each collision, the error in psi_2 from what the theory neglects:
+        spin about the normal, slip across the motion, and the coupling of unlike materials.
 
     Returns
     -------
     Collisions, or JudgedCollisions if judge is true
-        velocity1, spin1, velocity2, spin2 in the shape and type of what was given, float32 or
-        float64, and status, shape (...): `CollisionStatus`. Pairs that do not approach, or with
-        numbers that cannot be used, are left alone; a UserWarning tells how many have normals that
-        are not of length one, or numbers that are not finite. Arrays of other libraries (JAX,
-        torch, CuPy) are answered in kind, and can be differentiated; lists and NumPy arrays beside
-        them take their type and device.
+        velocity1, spin1, velocity2, spin2 in the shape and type of the given arrays, float32 or
+        float64, and status, shape (...), with values of `CollisionStatus`. Pairs that do not
+        approach, or have numbers that cannot be used, keep their velocities and spins; a
+        UserWarning says how many have normals that are not of length one, or numbers that are not
+        finite. Given arrays of another library (JAX, torch, CuPy), the results are arrays of that
+        library and can be differentiated; lists and NumPy arrays among them take their type and
+        device.
 
     Raises
     ------

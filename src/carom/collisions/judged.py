@@ -20,7 +20,7 @@ from carom.quantities.statuses import WordedStatus
 
 
 class Judgement(WordedStatus):
-    """What `psi_out_error` of a collision says; its `message` is that in words.
+    """Whether the error in psi_2 of a collision is bounded; `message` says it in words.
 
     Examples
     --------
@@ -35,12 +35,12 @@ class Judgement(WordedStatus):
 
 
 class JudgedCollisions(NamedTuple):
-    """What `collide` gives with `judge=True`: `Collisions`, and how far psi_2 may be off.
+    """What `collide` returns with `judge=True`: `Collisions`, and bounds of the error in psi_2.
 
-    psi_out_error, shape (...), bounds what spin about the normal, slip off the motion and unlike
-    materials do to psi_2, mu V_n/kappa times that the velocity of the contact point along the
-    motion; NaN where `judgement`, shape (...), is not 0 (`Judgement`). That unlike bodies with spin
-    veer off is not bounded.
+    psi_out_error, shape (...), bounds the error in psi_2 from spin about the normal, slip across
+    the motion and the coupling of unlike materials; mu V_n/kappa times it bounds that of the
+    velocity of the contact point along the motion. It is NaN where `judgement`, shape (...), is not
+    0 (`Judgement`). Unlike bodies with spin also leave sideways, which is not bounded.
 
     Examples
     --------

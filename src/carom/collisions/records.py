@@ -26,7 +26,7 @@ ALLOWED = "must be an array of real numbers of shape (..., 3)"
 
 
 class CollisionStatus(WordedStatus):
-    """What became of a pair; its `message` says so in words.
+    """What became of a pair in `collide`; `message` says it in words.
 
     Examples
     --------

@@ -34,46 +34,49 @@ def fit(
 ) -> Fit:
     """Return friction, stiffness ratio and restitution from measured rebounds, with intervals.
 
-    V_n' = e V_n, V_x' = mu V_n psi_2(psi_1; chi, e)/kappa with psi_1 = kappa V_x/(mu V_n) and
-    chi = (kappa/2)(m_n/m_t), J_t = m_t (V_x - V_x'), psi_2 that of Maw, Barber & Fawcett (1976);
-    what e < 1 loses is as in `KelvinVoigt`. The sum of losses of the residuals in standard
-    deviations is least; an interval ends where it has risen by a quantile of chi squared (or F,
-    where errors come from the scatter), all other parameters following (profile likelihood).
+    The model is V_n' = e V_n and V_x' = mu V_n psi_2(psi_1; chi, e)/kappa, with psi_1 = kappa
+    V_x/(mu V_n), chi = (kappa/2)(m_n/m_t), J_t = m_t (V_x - V_x'), and the psi_2 of Maw, Barber &
+    Fawcett (1976). For e < 1 the solid is that of `KelvinVoigt`. The fit minimises the sum of a
+    loss of the residuals, which count in standard deviations. An interval ends where this sum,
+    minimised over all other parameters, has risen by a quantile of chi squared (profile
+    likelihood), or of F where errors come from the scatter.
 
     Parameters
     ----------
     data : str, mapping or data frame
-        A CSV file, or columns by name, SI or with a unit in the head, "angle [deg]". The motion
-        before: angle and speed, normal_speed and tangential_speed, or angle, contact_angle or
-        psi_in alone where no speed is needed; spin, spin2. Measured after, any of:
-        normal_restitution, normal_speed_out, tangential_restitution, tangential_speed_out,
-        rebound_speed, rebound_angle, spin_out, contact_restitution, contact_beta,
-        contact_rebound_angle, impulse_ratio, psi_out. Of vertical drops instead: drop_height and
-        rebound_height. Standard deviations in columns `<name>_error`; errors of the motion before
-        count, too; where there are none they come from the scatter. "-": not measured.
+        A CSV file, or columns by name, in SI units or with a unit in the head: "angle [deg]". The
+        motion before is angle and speed; or normal_speed and tangential_speed; or angle,
+        contact_angle or psi_in alone if no speed is needed; spin and spin2 may be added. Of the
+        motion after give any of normal_restitution, normal_speed_out, tangential_restitution,
+        tangential_speed_out, rebound_speed, rebound_angle, spin_out, contact_restitution,
+        contact_beta, contact_rebound_angle, impulse_ratio, psi_out. For vertical drops give
+        drop_height and rebound_height instead. Standard deviations are in columns `<name>_error`,
+        also for the motion before; where none are given they come from the scatter. "-" means not
+        measured.
     pair : Pair, optional
-        The bodies, by default those of the comment "# case:" of the file.
+        The bodies, by default those in the comment "# case:" of the file.
     vary : names, optional
-        Of friction, kappa (or chi), restitution, spin_offset; by default the first three, of normal
-        impacts restitution alone.
+        Parameters to fit, of friction, kappa (or chi), restitution and spin_offset; by default the
+        first three, or restitution alone if all impacts are normal ones.
     fixed : mapping, optional
-        Values of parameters that are not varied, e.g. {"restitution": 0.98}.
+        Values of parameters that are known, e.g. {"restitution": 0.98}.
     robust : bool
-        Whether outliers count less: loss (nu + 1) log(1 + r^2/nu), that of Student's t, instead of
+        Whether outliers count less, by the loss (nu + 1) log(1 + r^2/nu) of Student's t instead of
         r^2; nu is 3, 5, 10 or 30, whichever is likeliest.
     confidence : float or str
-        Of the intervals, e.g. 0.95 or "95 %".
+        Confidence level of the intervals, e.g. 0.95 or "95 %".
     columns : mapping, optional
-        What heads of the data stand for, {"omega": "spin_out"}, or {"w": "spin_out [rpm]"}.
+        Quantities by the heads of columns that have other names, e.g. {"omega": "spin_out"} or
+        {"w": "spin_out [rpm]"}.
 
     Returns
     -------
     Fit
-        `estimates` by name: friction, kappa, chi and restitution as pure numbers, spin_offset in
-        rad/s, each an `Estimate` with value, low, high and, where the data do not determine it, a
-        reason. Also `regimes`, how many rows lie in each, `notes`, the `comparison` with other
-        laws, `losses` (restitution against speed), and what gives the rest: advice, posterior,
-        plot, to_dataset.
+        `estimates` has friction, kappa, chi and restitution as pure numbers and spin_offset in
+        rad/s, each an `Estimate` with value, low and high, or with a reason if the data do not
+        determine it. `regimes` counts the rows in each regime, `notes` has remarks, `comparison`
+        compares with other laws, and `losses` has laws of restitution against speed. Methods for
+        the rest are advice, posterior, plot and to_dataset.
 
     Raises
     ------

@@ -27,12 +27,12 @@ LIMITS = {  # what a parameter can be at all
 
 @dataclass(frozen=True)
 class Estimate:
-    """A parameter: its value, the ends of its interval, and why there is none if so.
+    """A fitted parameter: its value and interval, or the reason why it has none.
 
-    An end that the data leave open is that of what is possible: 0, 1, infinity. An undetermined
-    parameter has NaN as ends, a reason, and as value what was assumed; one that was not varied has
-    NaN as ends and no reason. `elastic` is what the elastic constants of the bodies give for kappa
-    and chi.
+    An end of the interval that the data leave open is the end of the possible values: 0, 1 or
+    infinity. If the data do not determine a parameter, its ends are NaN, `reason` says why, and its
+    value is what was assumed. If a parameter was not varied, its ends are NaN and there is no
+    reason. `elastic` is what the elastic constants of the bodies give for kappa and chi.
 
     Examples
     --------
@@ -50,12 +50,12 @@ class Estimate:
 
     @property
     def determined(self) -> bool:
-        """Whether there is an interval, be it with an open end."""
+        """Whether there is an interval, also one with an open end."""
         return not isnan(self.low)
 
     @property
     def open(self) -> bool:
-        """Whether an end is open."""
+        """Whether an end of the interval is open."""
         lowest, highest = LIMITS[self.name]
         return self.determined and (self.low == lowest or self.high == highest)
 
@@ -106,7 +106,7 @@ class FitRecord:
 
     @cached_property
     def comparison(self) -> Comparison:
-        """Akaike's criterion of the exact law, rigid Coulomb and Walton's, on the same data."""
+        """The exact law, rigid Coulomb and Walton's, compared by Akaike's criterion."""
         return compare(self.best)
 
 

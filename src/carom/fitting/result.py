@@ -25,7 +25,7 @@ class Fit(FitRecord, Result):
     """Parameters from measured rebounds; made by `carom.fit`.
 
     `estimates` holds friction, kappa, chi, restitution and spin_offset by name, `fit["friction"]`
-    one of them. `regimes` counts the rows by regime, `notes` says what else is to be known.
+    one of them. `regimes` counts the rows in each regime, `notes` has remarks on the fit.
 
     Examples
     --------
@@ -50,17 +50,17 @@ class Fit(FitRecord, Result):
 
     @property
     def chi(self) -> Estimate:
-        """(kappa/2)(m_n/m_t)."""
+        """Ratio of inertia to stiffness, (kappa/2)(m_n/m_t)."""
         return self.estimates["chi"]
 
     @property
     def restitution(self) -> Estimate:
-        """Normal restitution e."""
+        """Normal coefficient of restitution e."""
         return self.estimates["restitution"]
 
     @property
     def spin_offset(self) -> Estimate:
-        """Initial spin besides what was meant, in rad/s."""
+        """Spin that the bodies had before all impacts besides the given one, in rad/s."""
         return self.estimates["spin_offset"]
 
     @property
@@ -76,7 +76,7 @@ class Fit(FitRecord, Result):
 
     @cached_property
     def losses(self) -> LossComparison | None:
-        """Laws of losses by Akaike's criterion on normal velocities, if their speeds differ.
+        """Laws of losses, compared on the normal velocities; None unless their speeds differ.
 
         Examples
         --------
@@ -86,31 +86,31 @@ class Fit(FitRecord, Result):
         >>> heights = {"drop_height": [0.1, 0.2, 0.4, 0.8],
         ...            "rebound_height": [0.06, 0.1, 0.17, 0.29]}
         >>> print(carom.fit(heights, pair=pair).losses.verdict)
-        restitution against speed is that of ElasticPlastic; KelvinVoigt is out of the question
+        the restitution depends on the speed as in ElasticPlastic; the data rule out KelvinVoigt
         """
         return compare_losses(self.best, self.confidence)
 
     def advice(self, n: int = 5, parameter: str | None = None) -> Advice:
-        """Return which incidences to measure next, and what that would give.
+        """Return the incidences to measure next, and how much shorter they make an interval.
 
-        c-optimal design (Atkinson, Donev & Tobias 2007, chapter 10): one more impact at an angle
-        adds its expected information.
+        This is a c-optimal design (Atkinson, Donev & Tobias 2007, chapter 10): one more impact at
+        an angle adds its expected information.
 
         Parameters
         ----------
         n : int
-            How many measurements, 1 to 1000.
+            Number of further measurements, 1 to 1000.
         parameter : str, optional
-            What is to be known better, by default what is known least: friction, kappa, chi,
-            restitution or spin_offset.
+            Parameter that shall become more certain, of friction, kappa, chi, restitution and
+            spin_offset; by default the least certain.
 
         Returns
         -------
         Advice
-            `places`: n incidences of the contact point, each an `angle` in rad with its `regime`
-            and how many measurements there, `needed`, would halve the interval (None if too many);
-            `best` the single one that needs fewest; `shorter` the width of the interval after all
-            places, in units of the present one.
+            `places` has n incidences of the contact point: the `angle` in rad, its `regime`, and
+            `needed`, the number of measurements at this angle that would halve the interval (None
+            if there are too many). `best` is the incidence that needs the fewest. `shorter` is the
+            width of the interval after measuring all places, over the present width.
 
         Raises
         ------
@@ -130,19 +130,19 @@ class Fit(FitRecord, Result):
     def posterior(
         self, steps: int = 1000, seed: int | None = None, progress: Progress = None
     ) -> "xr.Dataset":
-        """Return samples of the posterior of what the data determine, along `sample`.
+        """Return samples of the posterior of the parameters that the data determine.
 
         Walkers move by differential evolution (ter Braak 2006) in emcee (Foreman-Mackey et al.
-        2013). The likelihood is exp(-loss/(2 lambda)) with the loss and its spread lambda of the
-        fit, the prior even in log friction, log kappa, restitution and spin offset within their
+        2013). The likelihood is exp(-loss/(2 lambda)), with the loss and its spread lambda of the
+        fit. The prior is even in log friction, log kappa, restitution and spin offset within their
         ranges.
 
         Parameters
         ----------
         steps : int
-            Steps of the walkers, 100 to 100000, of which a quarter is left out.
+            Number of steps of the walkers, 100 to 100000; the first quarter is discarded.
         seed : int, optional
-            Of the random numbers, not negative; the same seed gives the same samples.
+            Seed of the random numbers, not negative; the same seed gives the same samples.
         progress : bool or callable, optional
             Whether a progress bar is shown after two seconds, by default in a notebook and on a
             terminal; or a function that is called with the number of steps done and their total.
@@ -151,8 +151,8 @@ class Fit(FitRecord, Result):
         -------
         xarray.Dataset
             Along `sample`: the parameters that were varied, friction, kappa and restitution as pure
-            numbers, spin_offset in rad/s; and chi if kappa was varied. The attributes tell steps,
-            seed, autocorrelation_time in steps, and whether it has converged.
+            numbers, spin_offset in rad/s; and chi if kappa was varied. The attributes are steps,
+            seed, autocorrelation_time in steps, and converged.
 
         Raises
         ------
@@ -204,12 +204,12 @@ class Fit(FitRecord, Result):
         }
 
     def cite(self, *, posterior: bool = False) -> str:
-        """Return what to cite for this result, and for the data if they tell a DOI, as BibTeX.
+        """Return what to cite for this result, and for the data if they have a DOI, as BibTeX.
 
         Parameters
         ----------
         posterior : bool
-            Whether `posterior` was used, too.
+            Whether to include what `posterior` uses.
 
         Returns
         -------

@@ -139,7 +139,7 @@ class HalfspaceImpact(ImpactResult):
 
     @property
     def lost_energy(self) -> float:
-        """Energy lost in the normal motion other than to friction, in J: zero for elastic bodies."""
+        """Energy lost in the normal motion, except to friction, in J: zero for elastic bodies."""
         return 0.0
 
     @property
@@ -185,12 +185,13 @@ class HalfspaceImpact(ImpactResult):
         return bibtex(*ELEMENTS)
 
     def fields(self, time: Value) -> xr.Dataset:
-        """Return tractions, zones and slip velocities on the grid, at the stored step nearest to a time.
+        """Return tractions, zones and slip velocities on the grid, at one of the stored steps.
 
         Parameters
         ----------
         time : float or str
-            Time since the first touch in s, 0 to `duration`. About 60 steps are stored.
+            Time since the first touch in s, 0 to `duration`; the nearest of some 60 stored steps is
+            taken.
 
         Returns
         -------

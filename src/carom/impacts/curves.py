@@ -45,7 +45,7 @@ def borders(chi: float) -> tuple[float, float, float]:
     Parameters
     ----------
     chi : float
-        (kappa/2)(m_n/m_t), positive.
+        Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
 
     Returns
     -------
@@ -154,9 +154,9 @@ def regime_map(
     """Return which phases follow which for every psi_1 and chi, and the borders between regimes.
 
     Phases are those of the exact impact (Maw, Barber & Fawcett 1976). Beyond psi_1 =
-    2 chi (1 + e) - e, e = 1 without losses, the contact slips throughout. Borders are curves through
-    points that bisection finds along lines of constant psi_1 or chi, between the given values, too.
-    A regime is missed only where it holds none of the given points and parts no two of them.
+    2 chi (1 + e) - e, e = 1 without losses, the contact slips throughout. Borders are curves
+    through points that are found by bisection along lines of constant psi_1 or chi, of the given
+    values and between them. A region smaller than a cell of these lines may be missed.
 
     Parameters
     ----------
@@ -173,9 +173,10 @@ def regime_map(
     xarray.Dataset
         sequence (chi, psi_in), the place of the sequence of phases in sequence_name, -1 where an
         impact is not resolved; sequence_name (sequence_name), the kinds of phases in order with the
-        sign of slip, the commonest first; and the restitution. Border number border_number has the
-        points border_psi, border_chi (border_point) in order, to within border_tolerance, and the
-        sequences border_left, border_right (border_curve) on either side of their direction.
+        sign of slip, the commonest first; and the restitution. Borders between regimes: points
+        border_psi, border_chi (border_point) in order, each on curve border_number, with an error
+        of at most border_tolerance; border_left, border_right (border_curve), the sequences on
+        either side of a curve, seen along its points.
 
     Raises
     ------

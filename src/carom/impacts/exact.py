@@ -128,9 +128,9 @@ class Impact(ImpactResult, InContact):
         """Return the work of friction per area through the impact, and the depth of wear.
 
         The work per area is W_A = integral of mu p w dt, with the pressure p and the slip rate w
-        along x, the direction in which points slip in the theory. The depth of wear is h = k/mu W_A,
-        and the worn volume is k/mu times the work of friction (Archard 1953, J. Appl. Phys.
-        24:981). Without friction the depth is the integral of k p w dt.
+        along x, the direction in which points slip in the theory. The depth of wear is h =
+        k/mu W_A, and the worn volume is k/mu times the work of friction (Archard 1953, J. Appl.
+        Phys. 24:981). Without friction the depth is the integral of k p w dt.
 
         Parameters
         ----------
@@ -146,11 +146,11 @@ class Impact(ImpactResult, InContact):
         Returns
         -------
         xarray.Dataset
-            Along `distance` in m: mean_friction_work in J/m^2, the mean around the centre. Along (y,
-            x): friction_work. As numbers: dissipated_energy, the work of friction by the balance of
-            energies; max_friction_work, the largest anywhere in the contact, at the distance
-            max_wear_radius; and work_error, the relative difference between dissipated_energy and
-            the work per area summed over the contact. It is 1e-8 for elastic bodies up to chi = 6
+            Along `distance` in m: mean_friction_work in J/m^2, the mean around the centre. Along
+            (y, x): friction_work. As numbers: dissipated_energy, the work of friction by the
+            balance of energies; max_friction_work, the largest anywhere in the contact, at the
+            distance max_wear_radius; and work_error, the relative difference between it and the
+            work per area summed over the contact. It is 1e-8 for elastic bodies up to chi = 6
             and 2e-7 beyond; for viscous ones it is about 1e-5, and more near normal incidence, as
             their energies are known to some 1e-7 only. With a coefficient also mean_wear_depth,
             wear_depth, max_wear_depth in m and worn_volume in m^3, which is computed from the work

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,7 +77,7 @@ class Sequences:
         rows = record.changes[: record.counts[2]].tolist()
         mirror = -1 if np.signbit(psi) else 1
         found = []
-        for row, after in zip(rows, rows[1:], strict=False):
+        for row, after in pairwise(rows):
             if abs(row[AT_V] - after[AT_V]) < NEAR and lasts(row, after) <= SHORTEST:
                 continue
             phase = KIND_NAMES[Kind(int(row[KIND]))], mirror * int(row[KIND_SIGN])

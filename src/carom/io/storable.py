@@ -33,8 +33,8 @@ def storable(dataset: "xr.Dataset") -> "xr.Dataset":
     >>> from carom.io.storable import storable
     >>> storable(xr.Dataset({"speed": ("row", [1.0, 2.0], {"digits": None})}))
     Traceback (most recent call last):
-    carom.InputError: digits: None cannot be used; an attribute is a text, a number, or a list of \
-two or more texts or numbers
+    carom.InputError: digits: None cannot be used; an attribute must be a text, a number, or a \
+list of two or more texts or numbers
     """
     found = dataset.copy()
     found.attrs = _attributes(dataset.attrs)

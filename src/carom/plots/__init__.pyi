@@ -6,7 +6,8 @@ from .impact import plot_forces as plot_forces, plot_impact as plot_impact, plot
 from .laws import plot_error_map as plot_error_map, plot_laws as plot_laws
 from .patch import plot_patch as plot_patch
 from .profiles import plot_profiles as plot_profiles
-from .regimes import plot_curve as plot_curve, plot_regime_map as plot_regime_map
+from .regime_map import plot_regime_map as plot_regime_map
+from .regimes import plot_curve as plot_curve
 from .scores import plot_score as plot_score
 from .spectrum import plot_spectrum as plot_spectrum
 from .strength import plot_strength as plot_strength

@@ -9,9 +9,9 @@ from carom.plots.placing import APART, Spot
 from carom.quantities.arrays import Array
 
 TRIALS = 12  # of which the best stays
-SWEEPS, LAST = 60, 5  # times that every label may move, and the last of them without chance
-CHANCE = 8.0  # in mm, by which lines may be longer than the shortest at first
-IN_THE_WAY = 30.0  # cost of two labels or lines that meet, in mm
+SWEEPS, LAST = 100, 5  # times that every label may move, and the last of them without chance
+CHANCE = 15.0  # in mm, by which lines may be longer than the shortest at first
+IN_THE_WAY = 80.0  # cost of two labels or lines that meet, in mm
 
 
 def arranged(anchors: list[Array], spots: list[list[Spot]]) -> list[Spot | None]:

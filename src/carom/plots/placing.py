@@ -17,6 +17,7 @@ PIXEL = 0.25  # mm
 ROOM = (3.0, 2.0, 1.2, 0.7, 0.4)  # around a label in its region, in mm: the widest that there is
 APART = 0.6  # of other labels, in mm
 LEADER = 2.5  # shortest leader line, in mm
+LONGEST = 0.25  # leader line, in widths of the map
 GRAIN = 48  # points along a region for its middle
 STRIDE = 8  # between places for labels with a leader line, in pixels
 ON_BORDER = 3.0  # by how much more a leader line costs where it is on a border
@@ -131,7 +132,7 @@ class Sheet:
             ends = np.clip(anchor, centres - half, centres + half)
             away = np.hypot(*(ends - anchor).T)
             near = np.argsort(np.where(away < LEADER, np.inf, away))[: 2 * most]
-            near = near[away[near] >= LEADER]
+            near = near[(away[near] >= LEADER) & (away[near] <= LONGEST * PIXEL * self.shape[1])]
             lines = self._along(anchor, ends[near])
             costs = away[near] * (1.0 + ON_BORDER * self.lines[lines].mean(axis=-1))
             costs += BY_OTHER * np.sum(_distances(others, anchor, ends[near]) < CLOSE, axis=-1)

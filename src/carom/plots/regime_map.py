@@ -24,8 +24,8 @@ HUES = {"gross slip +": "Oranges", "gross slip -": "Blues"}
 OTHER = "Greys"  # of what ends in stick or a slip ring, as few impacts do
 PALEST, DARKEST = 0.08, 0.62  # of the colours of a map of matplotlib
 KEY = (
-    "Labels: G gross slip, S stick, s slip in a ring around a stick region; "
-    "+ and \u2212 are the sign of the slip velocity."
+    "Labels: G gross slip, S stick, s slip in a ring around a stick region, "
+    "with the sign of the slip velocity."
 )
 ENDS = "ends in {}, reversals of slip:"
 SHORT = "Colours: the last phase, and how often slip reverses."

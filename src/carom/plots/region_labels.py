@@ -16,7 +16,7 @@ from carom.quantities.arrays import Array
 
 SMALLEST = 0.2  # width in mm of a region that has a label
 UNSEEN = 0.02  # width in mm of one that is not even listed, if its sequence is elsewhere
-SPOTS = 3000  # places for labels with leader lines that are compared
+SPOTS = 5000  # places for labels with leader lines that are compared
 PITCH = 1.3  # of lines of text, in sizes of the font
 MM = 25.4 / 72.0  # a point
 LETTERS = {"gross slip": "G", "stick": "S", "slip": "s"}
@@ -68,22 +68,25 @@ def find_labels(
     middles = {n: middle(found[n], to_mm) for n in inside.keys() - placed.keys()}
     marked = sorted(n for n, at in middles.items() if at.width >= SMALLEST)
     ways = [[block for block in blocks if not block.turned] for blocks in ways]
-    numbered: list[int] = []
+    short: list[int] = []
     while True:
         outside = _beside(sheet, marked, middles, ways)
-        full = sorted(set(marked) - outside.keys() - set(numbered), key=lambda n: -middles[n].at[1])
+        full = sorted(set(marked) - outside.keys() - set(short), key=lambda n: -middles[n].at[1])
         if not full:
             break
         for n in full:
-            numbered.append(n)
-            ways[n] = [_block([str(len(numbered))])]
+            short.append(n)
+            ways[n] = [_block([str(len(short))])]
             within = sheet.inside(n, ways[n])
             if within:
                 placed[n] = within
                 marked.remove(n)
     placed |= outside
-    lost = [found[n].name for n in marked if n not in placed]
-    return Labels(placed, [found[n].name for n in numbered], lost)
+    names = list(dict.fromkeys(found[n].name for n in short if n in placed))
+    for n in set(short) & placed.keys():
+        number = _block([str(names.index(found[n].name) + 1)])
+        placed[n] = placed[n]._replace(block=number)
+    return Labels(placed, names, [found[n].name for n in marked if n not in placed])
 
 
 def _beside(

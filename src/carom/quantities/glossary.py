@@ -1,4 +1,4 @@
-"""The glossary: symbol, unit and meaning of every quantity; labels and attributes come from it."""
+"""Symbol, unit and meaning of every quantity, from which labels and attributes are made."""
 
 from typing import NamedTuple
 
@@ -48,7 +48,7 @@ GLOSSARY = {
     "yield_strength": Quantity("$Y$", "Pa", "yield strength"),
     "tensile_strength": Quantity(r"$\sigma_t$", "Pa", "tensile strength"),
     "fracture_toughness": Quantity("$K_c$", "Pa m^0.5", "fracture toughness"),
-    "flaw_size": Quantity("$c$", "m", "depth of the flaws of the surface"),
+    "flaw_size": Quantity("$c$", "m", "depth of the flaws in the surface"),
     "friction": Quantity(r"$\mu$", "1", "coefficient of friction"),
     "speed": Quantity("$V$", "m/s", "speed of approach of the centres"),
     "angle": Quantity(r"$\theta$", "rad", "angle of incidence from the normal"),
@@ -106,15 +106,15 @@ GLOSSARY = {
     "contact_rebound_angle": Quantity(
         r"$\theta_c'$", "rad", "angle of rebound of the contact point, from the normal"
     ),
-    "spin_offset": Quantity(r"$\delta\omega$", "rad/s", "initial spin besides what was meant"),
+    "spin_offset": Quantity(r"$\delta\omega$", "rad/s", "initial spin that was not intended"),
     "loss_time": Quantity(r"$\tau$", "s", "retardation time of a Kelvin-Voigt solid"),
     "relaxation_time": Quantity(
         r"$\tau_r$", "s", "relaxation time of a standard linear solid, at constant strain"
     ),
     "modulus_ratio": Quantity(
-        "$E_0/E$", "1", "modulus at once over the one that a standard linear solid relaxes to"
+        "$E_0/E$", "1", "instantaneous over relaxed modulus of a standard linear solid"
     ),
-    "yield_velocity": Quantity("$V_y$", "m/s", "normal velocity from which on a body yields"),
+    "yield_velocity": Quantity("$V_y$", "m/s", "normal velocity above which a body yields"),
     "lost_energy": Quantity("$W_n$", "J", "energy lost in the normal motion"),
     "shear_lost_energy": Quantity("$W_s$", "J", "energy lost to viscosity in shear"),
     "impulse_ratio": Quantity("$J_t/J_n$", "1", "tangential impulse to normal impulse"),
@@ -192,7 +192,7 @@ GLOSSARY = {
     "max_friction_work": Quantity(r"$\max W_A$", "J/m^2", "largest work of friction per area"),
     "max_wear_radius": Quantity("$r_w$", "m", "distance from the centre at which wear is largest"),
     "work_error": Quantity(
-        r"$\delta W$", "1", "work per area, summed over the contact, against the work, as a share"
+        r"$\delta W$", "1", "relative error of the work per area, summed over the contact"
     ),
     "wear_coefficient": Quantity(
         "$k$", "m^2/N", "coefficient of wear, volume over load and sliding distance"
@@ -201,7 +201,7 @@ GLOSSARY = {
     "mean_wear_depth": Quantity(r"$\bar h_w$", "m", "depth of wear, mean around the centre"),
     "max_wear_depth": Quantity(r"$\max h_w$", "m", "largest depth of wear"),
     "worn_volume": Quantity("$V_w$", "m^3", "volume that wear removes"),
-    "counts": Quantity("$N$", "1", "how often the impact happens"),
+    "counts": Quantity("$N$", "1", "number of times that the impact happens"),
     "area": Quantity("$A$", "m^2", "area over which impacts are spread"),
     "total_friction_work": Quantity(r"$\sum W$", "J", "work of friction of all impacts"),
     "total_worn_volume": Quantity(r"$\sum V_w$", "m^3", "volume that all impacts remove"),
@@ -209,7 +209,7 @@ GLOSSARY = {
         r"$\sum W/A$", "J/m^2", "work of friction per area, spread evenly"
     ),
     "spread_wear_depth": Quantity(r"$\sum V_w/A$", "m", "depth of wear, spread evenly"),
-    "unsolved_impacts": Quantity("$N_0$", "1", "impacts that are left out as they are not solved"),
+    "unsolved_impacts": Quantity("$N_0$", "1", "number of impacts that are not solved, left out"),
     "sigma_xx": Quantity(r"$\sigma_{xx}$", "Pa", "stress along x, tension positive"),
     "sigma_yy": Quantity(r"$\sigma_{yy}$", "Pa", "stress along y, tension positive"),
     "sigma_zz": Quantity(r"$\sigma_{zz}$", "Pa", "stress along the depth, tension positive"),
@@ -228,24 +228,22 @@ GLOSSARY = {
     "max_tension": Quantity(r"$\max\sigma_1$", "Pa", "largest tensile stress on the surface"),
     "max_tension_x": Quantity("$x_t$", "m", "where the surface tension is largest, along x"),
     "max_tension_y": Quantity("$y_t$", "m", "where the surface tension is largest, along y"),
-    "max_tension_z": Quantity("$z_t$", "m", "depth of the largest surface tension: zero"),
+    "max_tension_z": Quantity("$z_t$", "m", "depth of the largest surface tension, which is zero"),
     # of the bodies through a whole impact
     "peak_von_mises": Quantity(r"$\hat\sigma_M$", "Pa", "largest von Mises stress of the impact"),
     "peak_shear": Quantity(r"$\hat\tau$", "Pa", "largest shear stress of the impact"),
     "peak_tension": Quantity(r"$\hat\sigma_1$", "Pa", "largest tensile stress of the impact"),
-    "searched_depth": Quantity("$z_0$", "m", "depth from which on peaks are searched for"),
+    "searched_depth": Quantity("$z_0$", "m", "depth below which largest stresses are searched for"),
     "stress_intensity": Quantity("$K$", "Pa m^0.5", "largest stress intensity at a flaw"),
-    "critical_flaw": Quantity("$c_K$", "m", "depth of the flaw at which it is"),
+    "critical_flaw": Quantity("$c_K$", "m", "depth of the flaw with the largest stress intensity"),
     "yield_ratio": Quantity(r"$\hat\sigma_M/Y$", "1", "largest von Mises stress to yield strength"),
     "tension_ratio": Quantity(
         r"$\hat\sigma_1/\sigma_t$", "1", "largest tensile stress to tensile strength"
     ),
     "toughness_ratio": Quantity("$K/K_c$", "1", "largest stress intensity to fracture toughness"),
-    "yield_speed": Quantity("$V_Y$", "m/s", "speed from which on the body yields"),
-    "tensile_speed": Quantity(
-        "$V_t$", "m/s", "speed from which on the tensile strength is exceeded"
-    ),
-    "crack_speed": Quantity("$V_c$", "m/s", "speed from which on flaws of the surface crack"),
+    "yield_speed": Quantity("$V_Y$", "m/s", "speed above which the body yields"),
+    "tensile_speed": Quantity("$V_t$", "m/s", "speed above which the tensile strength is exceeded"),
+    "crack_speed": Quantity("$V_c$", "m/s", "speed above which flaws in the surface crack"),
     # a result
     "duration": Quantity("$t_c$", "s", "duration of the contact"),
     "max_penetration": Quantity("$d_{max}$", "m", "largest penetration"),
@@ -264,10 +262,10 @@ GLOSSARY = {
     ),
     "dissipated_energy": Quantity("$W$", "J", "energy lost to friction"),
     "psi_out_error": Quantity(
-        r"$\delta\psi_2$", "1", "error of psi_2 by grid and steps, as coarser ones tell it"
+        r"$\delta\psi_2$", "1", "error of the velocity after by grid and time steps"
     ),
     "energy_error": Quantity(
-        r"$\delta E$", "1", "largest change of the sum of all energies, as a share"
+        r"$\delta E$", "1", "largest relative change of the sum of all energies"
     ),
     # spectra of forces
     "frequency": Quantity("$f$", "Hz", "frequency"),
@@ -315,10 +313,10 @@ GLOSSARY = {
         "$f_{p,x}$", "Hz", "frequency at which the tangential spectrum is largest"
     ),
     "tangential_corner_frequency": Quantity(
-        r"$f_{-3\,dB,x}$", "Hz", "frequency at which it has fallen by 3 dB beyond the largest"
+        r"$f_{-3\,dB,x}$", "Hz", "frequency beyond the tangential peak at 3 dB below it"
     ),
     "tangential_half_frequency": Quantity(
-        r"$f_{-6\,dB,x}$", "Hz", "frequency at which it has fallen by 6 dB beyond the largest"
+        r"$f_{-6\,dB,x}$", "Hz", "frequency beyond the tangential peak at 6 dB below it"
     ),
 }
 NEEDED_STRENGTHS: dict[str, tuple[str, ...]] = {  # of a body, for what a sweep tells of it

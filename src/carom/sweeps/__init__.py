@@ -36,29 +36,29 @@ def sweep(
     workers: int | None = None,
     progress: Progress = None,
 ) -> xr.Dataset:
-    """Return many impacts as one dataset: those of a design, each with a status that explains it.
+    """Return the impacts of a design as one dataset, each with a status.
 
     Every point is the impact of `carom.impact`, solved exactly (Maw, Barber & Fawcett 1976). The
-    result does not depend, to the last bit, on who computed it: threads here, or a dask cluster.
+    result is the same to the last bit, whether threads or a dask cluster have computed it.
 
     Parameters
     ----------
     case : mapping
         What all impacts have in common, as in a case file: friction, speed, angle, first, second.
     design : Grid, LatinHypercube or Table
-        In what they differ.
+        What varies between the impacts.
     outputs : sequence of str, optional
-        Names of results, by default all.
+        Names of the results to compute, by default all.
     store : str or Path, optional
-        A folder, ending in .zarr, that takes the results block by block; the dataset that is
-        returned then reads them when they are used.
+        A folder, ending in .zarr, in which results are stored block by block while they are
+        computed. The returned dataset then reads them when they are used.
     resume : bool
-        Continue what the store has of this sweep: nothing that was finished is computed again.
+        Continue the sweep that is in the store: what is finished is not computed again.
     scheduler : str, optional
         Address of the scheduler of a dask.distributed cluster, tcp://host:8786, whose workers have
         the same versions of carom, numpy and numba.
     workers : int, optional
-        Threads of this process, by default one for each core.
+        Number of threads of this process, by default one for each core.
     progress : bool or callable, optional
         Whether a progress bar is shown after two seconds, by default in a notebook and on a
         terminal; or a function that is called with the number of points done and their total.
@@ -74,7 +74,7 @@ def sweep(
         If something cannot be used: the case, the design, a store of another sweep or version, or
         one that another process is writing, a scheduler that does not answer.
     SweepStopped
-        If it could not go on, for instance as the disk is full; what is stored is safe.
+        If the sweep cannot go on, for instance because the disk is full; what is stored is safe.
 
     Examples
     --------

@@ -99,10 +99,11 @@ class Grid(Design):
     Parameters
     ----------
     axes : mapping
-        By name of input, e.g. "angle" or "first.radius": a list of numbers or of texts with units,
-        an array, or a range such as {"from": "0 deg", "to": "85 deg", "points": 86, "spacing":
-        "linear"} ("log" spaces evenly in the logarithm). For "first.material", "second.material"
-        and "second.kind" a list of names. The last axis varies fastest.
+        The values of each input by its name, e.g. "angle" or "first.radius": a list of numbers or
+        of texts with units, an array, or a range such as {"from": "0 deg", "to": "85 deg",
+        "points": 86, "spacing": "linear"}, where the spacing "log" is even in the logarithm. For
+        "first.material", "second.material" and "second.kind" give a list of names. The last axis
+        varies fastest.
 
     Raises
     ------
@@ -164,18 +165,19 @@ class Grid(Design):
 class LatinHypercube(Design):
     """Samples that fill the range of every input evenly (McKay, Beckman & Conover 1979).
 
-    x_ij = (p_j(i) + u_ij)/n with permutations p_j and random u_ij in (0, 1), each computed where it
-    is needed: of n equal parts of the range of an input each holds exactly one sample.
+    Each of n equal parts of the range of an input holds exactly one sample: x_ij = (p_j(i) +
+    u_ij)/n, with permutations p_j and random numbers u_ij in (0, 1).
 
     Parameters
     ----------
     ranges : mapping
-        By name of input: (first, last), or {"from": ..., "to": ..., "spacing": "linear" or "log"};
-        for "first.material", "second.material" and "second.kind" a list of names.
+        The range of each input by its name: (first, last), or {"from": ..., "to": ..., "spacing":
+        "linear" or "log"}; for "first.material", "second.material" and "second.kind" a list of
+        names.
     samples : int
         Number of points n.
     seed : int
-        Which of the samples of this kind.
+        Seed of the random numbers; the same seed gives the same samples.
 
     Raises
     ------

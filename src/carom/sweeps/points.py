@@ -30,7 +30,7 @@ Columns = Mapping[str, Any]  # inputs by name: a number, or an array with one fo
 
 
 class PointStatus(WordedStatus):
-    """What became of one point of a sweep; its `message` says so in words.
+    """What became of one point of a sweep; `message` says it in words.
 
     Examples
     --------

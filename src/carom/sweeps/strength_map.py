@@ -34,44 +34,46 @@ def strength(
     workers: int | None = None,
     progress: Progress = None,
 ) -> xr.Dataset:
-    """Return the speeds from which on bodies yield or crack, against angle and friction.
+    """Return the speeds above which bodies yield or crack, against angle and friction.
 
-    The largest stress of an elastic impact grows as V^(2/5) at one angle, so that
-    V_Y = V (Y/sigma_M)^(5/2), and V_t likewise of the tensile strength, with the largest von Mises
-    and tensile stress over the whole impact (`Impact.peaks`). Flaws up to the flaw size crack from
-    the speed on at which K = K_c; where the contact is so small that deeper flaws are pulled at
-    less, the force for that is proportional to the radius: Auerbach's law (1891). Without friction,
-    nu = 0.3, a sphere yields at a pressure of 1.6 Y (Johnson 1985, section 6.1). Of V_t and V_c
-    take the second where flaws are known: a tensile strength that is measured in bending is
-    exceeded long before flaws crack in the stress beside a contact, which falls with the depth.
+    At one angle the largest stress of an elastic impact grows as V^(2/5). Hence a body yields above
+    V_Y = V (Y/sigma_M)^(5/2), with the largest von Mises stress sigma_M of the whole impact
+    (`Impact.peaks`), and exceeds its tensile strength above V_t, which follows in the same way from
+    the largest tensile stress. Flaws up to the flaw size grow into cracks above V_c, the speed at
+    which K = K_c. If the contact is so small that deeper flaws are pulled at less, the force for
+    this is proportional to the radius: Auerbach's law (1891). Without friction, for nu = 0.3, a
+    sphere yields at a pressure of 1.6 Y (Johnson 1985, section 6.1). If flaws are known, use V_c
+    and not V_t: a tensile strength measured in bending is exceeded beside a contact long before
+    flaws crack, as the stress there falls with the depth.
 
     Parameters
     ----------
     pair : Pair
-        The bodies, with yield_strength, tensile_strength, or fracture_toughness and flaw_size, of
-        the materials that are to be judged.
+        The bodies. The materials to be judged need a yield_strength, a tensile_strength, or
+        fracture_toughness and flaw_size.
     angle : array_like, optional
         Angles of incidence from the normal, in rad or as text; by default 18 up to 85 degrees.
     friction : array_like, optional
         Coefficients of friction; by default that of the pair.
     workers : int, optional
-        Threads, by default one for each core.
+        Number of threads, by default one for each core.
     progress : bool or callable, optional
-        As `sweep` takes it.
+        As for `sweep`.
 
     Returns
     -------
     xarray.Dataset
         Along `friction` and `angle`: yield_speed_first, tensile_speed_first, crack_speed_first and
-        the same of the second body in m/s, those that the strengths give, inf for never; `status`.
-        Speeds above the lower of both yield speeds are lower bounds: bodies that yield are pressed
-        less. The attribute `notes` says so, and of unlike materials what the theory leaves out.
+        the same for the second body in m/s, as far as the strengths are known, inf for never; and
+        `status`. Speeds above the lower of both yield speeds are lower bounds, as the pressure is
+        smaller once a body yields. The attribute `notes` says so, and names what the theory
+        neglects for unlike materials.
 
     Raises
     ------
     InputError
-        If no strength is known, or angles and frictions are no numbers. One that is out of range
-        raises nothing; its status says so.
+        If no strength is known, or angles and frictions are not numbers. A number that is out of
+        range raises nothing; its status says so.
 
     Examples
     --------

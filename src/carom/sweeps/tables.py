@@ -34,16 +34,16 @@ from carom.sweeps.inputs import (
 
 @dataclass(frozen=True, eq=False, init=False)
 class Table(Design):
-    """Cases one by one, the rows of a table.
+    """Cases from a table, one per row.
 
     Parameters
     ----------
     source : str, Path or mapping
-        A CSV file, or a mapping of columns. Columns are called as inputs are, with a unit if they
-        have one, "speed [km/h]"; a cell may have its own, "5 mm". A row with a cell that cannot be
-        read gets a status that says so.
+        A CSV file, or a mapping of columns. Columns have the names of inputs, with a unit where
+        there is one: "speed [km/h]"; a cell may have a unit of its own: "5 mm". A row with a cell
+        that cannot be read gets a status that says so.
     columns : mapping, optional
-        What heads of the table stand for, {"omega [rpm]": "spin"}.
+        Inputs by the heads of columns that have other names, e.g. {"omega [rpm]": "spin"}.
 
     Raises
     ------

@@ -50,10 +50,10 @@ def wear(
 ) -> "xr.Dataset":
     """Add up the wear of many impacts of one pair: spread over an area, or all on one spot.
 
-    The work of friction of each impact, exactly (Maw, Barber & Fawcett 1976); the volume k/mu times
-    that (Archard 1953). Spread evenly, volume over area is the depth; on one spot the depths of all
-    impacts add up around the centre, as `Impact.wear` has them. That the surface changes its shape
-    is left out.
+    The work of friction of each impact is exact (Maw, Barber & Fawcett 1976), and k/mu times it is
+    the worn volume (Archard 1953). If the impacts are spread evenly, the depth is volume over area.
+    On one spot the depths of all impacts, those of `Impact.wear`, add up around the centre. The
+    change in shape of the worn surface is neglected.
 
     Parameters
     ----------
@@ -62,19 +62,19 @@ def wear(
     speed, angle : array_like
         Speeds of approach in m/s and angles from the normal in rad, or texts with units.
     normal_speed, tangential_speed : array_like
-        The same as components, instead of speed and angle.
+        Components of the velocity in m/s, instead of speed and angle.
     spin, spin2 : array_like
-        Spins before in rad/s.
+        Spins before the impacts in rad/s.
     counts : array_like
         How often each impact happens: a number, a share, or a rate; the totals are in its unit.
     coefficient : float or str, optional
-        Coefficient of wear k in m^2/N of the body whose wear is asked for, as in `Impact.wear`.
+        Coefficient of wear k in m^2/N of one body, as in `Impact.wear`.
     area : float or str, optional
         Area in m^2 over which the impacts are spread evenly; without it they all hit one spot.
     losses : KelvinVoigt, StandardLinearSolid or ElasticPlastic, optional
-        What the impacts lose energy to; on one spot KelvinVoigt alone.
+        How the impacts lose energy besides friction; on one spot only KelvinVoigt.
     n : int
-        How many distances from the centre of the spot, from 2 to 100,000.
+        Number of distances from the centre of the spot, from 2 to 100,000.
     progress : bool or callable, optional
         Whether a progress bar is shown after two seconds, by default in a notebook and on a
         terminal; or a function that is called with the number of impacts done and their total.
@@ -82,21 +82,22 @@ def wear(
     Returns
     -------
     xarray.Dataset
-        Along `impact` what was given, counts, status (`PointStatus`) and dissipated_energy, the
-        work of friction in J of one such impact; as numbers total_friction_work, the
-        unsolved_impacts that are left out of it, and with a coefficient total_worn_volume; NaN if
-        no impact is solved. With an area spread_friction_work and spread_wear_depth, without it
-        mean_friction_work and mean_wear_depth along `distance`, means around the centre, and of the
-        deepest place max_friction_work, max_wear_depth and max_wear_radius; on one spot an elastic
+        Along `impact`: the given motion, counts, status (`PointStatus`) and dissipated_energy, the
+        work of friction in J of one such impact. As numbers: total_friction_work, and
+        unsolved_impacts, the number of impacts that it does not contain; with a coefficient also
+        total_worn_volume. Both totals are NaN if no impact is solved. With an area also
+        spread_friction_work and spread_wear_depth. Without an area mean_friction_work and
+        mean_wear_depth along `distance`, means around the centre, and max_friction_work and
+        max_wear_depth at the deepest place, at the distance max_wear_radius. On one spot an elastic
         impact takes some 2 ms, a viscous one 0.2 s. The work of each viscous impact is known to
         some 1e-7 of its energy.
 
     Raises
     ------
     InputError
-        If arrays do not fit each other, a number is given twice or cannot be read, or the losses
-        are those of a solid whose contact is not known over its area. An impact that is out of
-        range or not solved raises nothing; its status says so.
+        If arrays do not fit each other, a number is given twice or cannot be read, or wear on a
+        spot is asked for a solid whose pressure is not known. An impact that is out of range or not
+        solved raises nothing; its status says so.
 
     Examples
     --------

@@ -52,7 +52,7 @@ class Measured(NamedTuple):
 
 @dataclass(frozen=True)
 class Bench:
-    """What a DEM program made of impacts, the best law first; made by `bench`."""
+    """Impacts in a DEM program against the exact impact, the best law first; made by `bench`."""
 
     engine: str
     version: str
@@ -127,7 +127,7 @@ def bench(
     engine : Engine
         `carom.verify.Lammps()`, `carom.verify.Liggghts()` or `carom.verify.Yade()`.
     entries : sequence of Entry or Law
-        Laws; those that the program lacks, and the same law twice, are left out.
+        Laws; those that the program lacks, and repeated ones, are left out.
     pair : Pair, optional
         By default a steel ball on a steel half-space, chi = 1.4412.
     psi : array_like
@@ -143,14 +143,15 @@ def bench(
     Returns
     -------
     Bench
-        `measured`, a law each, the best first: its `entry`, max_error and rms_error in psi_2,
-        `worst`, the psi_1 of the largest, law_error against the same law in Carom, seconds, and the
-        `failure` or None; `version` of the program, `psi`, `steps`, `outcomes`.
+        `measured` has one item per law, the best first: its `entry`, max_error and rms_error in
+        psi_2, `worst`, the psi_1 of the largest error, law_error, the largest difference from the
+        same law in Carom, seconds, and the `failure` or None. Also `version` of the program, `psi`,
+        `steps` and `outcomes`.
 
     Raises
     ------
     InputError
-        If the program is absent, has none of the laws, or a value is out of range.
+        If the program is not installed, has none of the laws, or a value is out of range.
 
     Examples
     --------

@@ -9,16 +9,16 @@ from carom.verify.errors import as_law
 
 
 class Entry(NamedTuple):
-    """A law with its parameters, and who uses it so.
+    """A law with its parameters, and the programs that use it.
 
     Parameters
     ----------
     label : str
-        What it is called in tables.
+        Name of the law in tables.
     law : Law
         A contact law, e.g. `carom.LinearSpring()`.
     used_by : str
-        Programs, in a few words.
+        Programs that use the law, in a few words.
 
     Examples
     --------

@@ -42,10 +42,11 @@ class Stiffnesses(NamedTuple):
 
 
 def stiffnesses(pair: Pair, normal_speed: float | str) -> Stiffnesses:
-    """Return the stiffnesses of a contact for the codes, from E, nu, sizes and normal speed.
+    """Return the stiffnesses of a contact for DEM codes, from E, nu, sizes and normal speed.
 
-    k_n = (4/5) P_max/d_max (the energy of the impact presses it to d_max, as LIGGGHTS's hooke has
-    it), or k_n = m_n (pi/t_c)^2; k_t/k_n = kappa = G*/E* (Mindlin 1949).
+    A linear spring has k_n = (4/5) P_max/d_max, so that the energy of the impact presses it to
+    d_max, as in LIGGGHTS' hooke, or k_n = m_n (pi/t_c)^2, so that the contact lasts as long. Its
+    k_t/k_n is kappa = G*/E* (Mindlin 1949).
 
     Parameters
     ----------
@@ -63,7 +64,7 @@ def stiffnesses(pair: Pair, normal_speed: float | str) -> Stiffnesses:
     Raises
     ------
     InputError
-        If the pair is none or the speed not positive.
+        If the pair is not a Pair, or the speed is not positive.
 
     Examples
     --------
@@ -92,7 +93,7 @@ def stiffnesses(pair: Pair, normal_speed: float | str) -> Stiffnesses:
 def poisson_from_kappa(kappa: float) -> float:
     """Return Poisson's ratio of equal materials: kappa = 2 (1 - nu)/(2 - nu) (Mindlin 1949) for nu.
 
-    Above 1/2 there is no elastic material: kappa is from 2/3 to 4/3.
+    Elastic materials have nu from -1 to 1/2, and so kappa from 4/3 down to 2/3.
 
     Parameters
     ----------
@@ -129,12 +130,13 @@ CONVENTIONS: dict[str, tuple[str, Callable[[float], float]]] = {
 
 
 def damping(restitution: float, convention: str = "critical") -> float:
-    """Return the damping that codes take for a wanted restitution, without unit.
+    """Return the damping, a pure number, that DEM codes need for a restitution.
 
-    critical: zeta = -ln e/sqrt(pi^2 + ln^2 e), so that c = 2 zeta sqrt(k m_n) for a linear spring
-    and c = 2 zeta sqrt(5/6) sqrt(2 E* a m_n) for Hertz's contact, exact while it may pull (Antypov
-    & Elliott 2011); lammps tsuji: alpha of Tsuji et al. (1992); thornton: of a contact that ends
-    when its force does (Thornton, Cummins & Cleary 2013, (B6), (B7)).
+    "critical" is the fraction zeta = -ln e/sqrt(pi^2 + ln^2 e) of critical damping: c = 2 zeta
+    sqrt(k m_n) for a linear spring, and c = 2 zeta sqrt(5/6) sqrt(2 E* a m_n) for Hertz's contact,
+    exact if the force may become a pull (Antypov & Elliott 2011). "lammps tsuji" is alpha of Tsuji
+    et al. (1992). "thornton" is for a contact that ends when its force becomes zero (Thornton,
+    Cummins & Cleary 2013, (B6), (B7)).
 
     Parameters
     ----------
@@ -165,14 +167,14 @@ def damping(restitution: float, convention: str = "critical") -> float:
 
 
 def restitution(value: float, convention: str = "critical") -> float:
-    """Return the restitution that a code's damping is meant for: the inverse of `damping`.
+    """Return the restitution of a damping, the inverse of `damping`.
 
     Parameters
     ----------
     value : float
         The damping, not negative.
     convention : str
-        As of `damping`.
+        As for `damping`.
 
     Returns
     -------
@@ -182,7 +184,7 @@ def restitution(value: float, convention: str = "critical") -> float:
     Raises
     ------
     InputError
-        If the damping is negative or no restitution has it, or the convention is not known.
+        If the damping is negative or too large for any restitution, or the convention is unknown.
 
     Examples
     --------
@@ -216,16 +218,16 @@ def recipes(
     spring: dem.LinearSpring = SPRING,
     mindlin: dem.LammpsMindlin = MINDLIN,
 ) -> dict[str, str]:
-    """Return what to write into the inputs of codes for this contact, by code; SI units.
+    """Return what to write into the inputs of DEM codes for a contact, by code, in SI units.
 
     Parameters
     ----------
     pair : Pair
         The bodies and their friction.
     normal_speed : float
-        Of the impact for which linear springs are made, in m/s.
+        Normal speed of the impact for which linear springs are made, in m/s.
     wanted : float or str
-        Normal restitution.
+        Normal coefficient of restitution.
     spring, mindlin : LinearSpring, LammpsMindlin
         Tangential stiffnesses, e.g. those that `tune` has found; by default those of the bodies.
 

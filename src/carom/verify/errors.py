@@ -163,18 +163,18 @@ def error_map(
 ) -> "xr.Dataset":
     """Return the error of a contact law in psi_2 over psi_1 and chi, as a labelled dataset.
 
-    error = psi_2 of the law - psi_2(psi_1, chi); the exact one of Maw, Barber & Fawcett (1976). A
-    law with damping is compared with Kelvin-Voigt solids of the e that it leaves.
+    The error is psi_2 of the law less the exact psi_2(psi_1, chi) of Maw, Barber & Fawcett (1976).
+    A law with damping is compared with Kelvin-Voigt solids of the same e.
 
     Parameters
     ----------
     law : Law or callable
         A contact law, e.g. `carom.LinearSpring()`, or a function as of `carom.FunctionLaw`.
     psi, chi : array_like, optional
-        Values along either axis, chi positive; by default those of solid spheres: chi from 7/6
-        (nu = 1/2) to 7/4 (nu = 0), psi_1 to beyond where all impacts slide throughout.
+        Values along both axes, chi positive. By default chi goes over solid spheres, from 7/6
+        (nu = 1/2) to 7/4 (nu = 0), and psi_1 up to where all of these slide throughout.
     kappa, steps : optional
-        As of `law.rebound`.
+        As for `law.rebound`.
 
     Returns
     -------
@@ -185,7 +185,7 @@ def error_map(
     Raises
     ------
     InputError
-        If the law is none, a chi is not positive or a psi not finite.
+        If the law is not a law, a chi is not positive, or a psi is not finite.
 
     Examples
     --------
@@ -234,9 +234,9 @@ def force_error(
 ) -> ForceError:
     """Return the error of the tangential force through an impact, at equal parts of its duration.
 
-    (F_x - F_x,exact)/(mu P_max), both forces at the same part of their own contact's duration, as a
-    linear contact lasts longer than Hertz's. NaN for a law without a duration. A law with damping
-    is compared with the viscoelastic impact of the e that it leaves.
+    The error is (F_x - F_x,exact)/(mu P_max). Both forces are taken at the same fraction of their
+    own contact's duration, as a linear contact lasts longer than Hertz's. The error is NaN for a
+    law without a duration. A law with damping is compared with viscoelastic bodies of the same e.
 
     Parameters
     ----------
@@ -245,9 +245,9 @@ def force_error(
     psi : float
         Incidence psi_1.
     chi : float
-        (kappa/2)(m_n/m_t), positive.
+        Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
     kappa : float, optional
-        G*/E*; by default that of solid spheres, 4 chi/7.
+        Stiffness ratio G*/E*; by default that of solid spheres, 4 chi/7.
 
     Returns
     -------
@@ -257,7 +257,7 @@ def force_error(
     Raises
     ------
     InputError
-        If the law is none, or its bodies do not part.
+        If the law is not a law, or its bodies do not part.
 
     Examples
     --------

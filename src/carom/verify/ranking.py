@@ -49,12 +49,13 @@ NUMBERS = ("max_error", "worst", "rms_error", "force_error", "energy_gain")
 
 
 class Standing(NamedTuple):
-    """How a law stands: its errors in psi_2 and force, its gain of energy, the step it needs.
+    """A law in a ranking: its errors in psi_2 and force, its gain of energy, the steps it needs.
 
-    `worst` is the psi_1 at which psi_2 is off most; `force_error` the rms over the impact at which
-    that is largest, in units of mu P_max; `energy_gain` the largest |psi_2| - |psi_1|; `step` the
-    fewest steps per contact whose own error is below that of the law, `fine_step` those below 0.01;
-    `restitution` the e that the law leaves, and at which it is compared.
+    `worst` is the psi_1 of the largest error in psi_2. `force_error` is the rms error of the
+    tangential force in the impact where it is largest, in units of mu P_max. `energy_gain` is the
+    largest |psi_2| - |psi_1|. `step` has the fewest time steps per contact whose own error is below
+    that of the law, `fine_step` those with an error below 0.01. `restitution` is the e of the law,
+    at which it is compared.
     """
 
     entry: Entry
@@ -72,7 +73,8 @@ class Standing(NamedTuple):
 class Ranking(Result):
     """Contact laws by their largest error in psi_2, the best first; made by `rank`.
 
-    `standings` holds a law each: its errors in psi_2 and in the force, and the time step it needs.
+    Each of `standings` is a law with its errors in psi_2 and in the force, and the time step that
+    it needs.
 
     Examples
     --------
@@ -179,22 +181,23 @@ def rank(
 ) -> Ranking:
     """Return how far contact laws are from the exact impact, the best first.
 
-    max |psi_2 of the law - psi_2(psi_1, chi)| over the incidences, and what `Standing` holds. A law
-    with damping is compared with Kelvin-Voigt solids (Kuwabara & Kono 1987) of the e it leaves.
+    Laws are ranked by the largest |psi_2 of the law - psi_2(psi_1, chi)| over the incidences. A law
+    with damping is compared with Kelvin-Voigt solids (Kuwabara & Kono 1987) of the same e.
 
     Parameters
     ----------
     entries : sequence of Entry, Law or callable
-        Laws, functions as of `carom.FunctionLaw`, or entries that have a label and who uses them;
-        by default all of the catalogue.
+        Laws, functions as of `carom.FunctionLaw`, or entries with a label and the programs that use
+        the law; by default the whole catalogue.
     chi : float
-        (kappa/2)(m_n/m_t), positive.
+        Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
     kappa : float, optional
-        G*/E*; by default that of solid spheres, 4 chi/7.
+        Stiffness ratio G*/E*; by default that of solid spheres, 4 chi/7.
     psi : array_like
         Incidences psi_1.
     restitution : float, optional
-        e for which all laws are damped; of the catalogue those without damping are left out.
+        Normal coefficient of restitution e for which all laws are damped; laws of the catalogue
+        that have no damping are left out.
     progress : bool or callable, optional
         Whether a progress bar is shown after two seconds, by default in a notebook and on a
         terminal; or a function that is called with the number of laws done and their total.
@@ -202,14 +205,15 @@ def rank(
     Returns
     -------
     Ranking
-        `standings`, a law each, by max_error: its `entry`, max_error and rms_error in psi_2,
-        `worst`, the psi_1 of the largest, force_error in units of mu P_max, energy_gain in units of
-        psi, and the time steps it needs, `step` and `fine_step`, or None.
+        `standings` has one item per law, ordered by max_error: its `entry`, max_error and rms_error
+        in psi_2, `worst`, the psi_1 of the largest error, force_error in units of mu P_max,
+        energy_gain in units of psi, and the time steps that the law needs, `step` and `fine_step`,
+        or None.
 
     Raises
     ------
     InputError
-        If there is no law, one has no damping that is to have it, or a value is out of range.
+        If there is no law, a law to be damped has no damping, or a value is out of range.
 
     Examples
     --------

@@ -44,8 +44,8 @@ def step_error(
 ) -> float:
     """Return the largest |error in psi_2| that a number of time steps causes.
 
-    max |psi_2(steps) - psi_2(converged)|; the time step is t_c/steps, t_c the duration of Hertz's
-    contact.
+    This is the largest |psi_2(steps) - psi_2(converged)| over the incidences. The time step is
+    t_c/steps, with the duration t_c of Hertz's contact.
 
     Parameters
     ----------
@@ -56,9 +56,9 @@ def step_error(
     psi : array_like
         Incidences psi_1.
     chi : float
-        (kappa/2)(m_n/m_t), positive.
+        Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
     kappa : float, optional
-        G*/E*; by default that of solid spheres, 4 chi/7.
+        Stiffness ratio G*/E*; by default that of solid spheres, 4 chi/7.
 
     Returns
     -------
@@ -68,7 +68,7 @@ def step_error(
     Raises
     ------
     InputError
-        If the law is none or a value out of range.
+        If the law is not a law, or a value is out of range.
 
     Examples
     --------
@@ -106,9 +106,9 @@ def advised_steps(
     psi : array_like
         Incidences psi_1.
     chi : float
-        (kappa/2)(m_n/m_t), positive.
+        Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
     kappa : float, optional
-        G*/E*; by default that of solid spheres, 4 chi/7.
+        Stiffness ratio G*/E*; by default that of solid spheres, 4 chi/7.
 
     Returns
     -------
@@ -118,7 +118,7 @@ def advised_steps(
     Raises
     ------
     InputError
-        If the law is none or a value out of range.
+        If the law is not a law, or a value is out of range.
 
     Examples
     --------

@@ -67,10 +67,10 @@ class TunedLaw(NamedTuple):
 
 @dataclass(frozen=True)
 class Tuning:
-    """Laws as close to the exact rebound as they get, the best first; made by `tune`.
+    """Laws tuned to come closest to the exact rebound, the best first; made by `tune`.
 
-    `span` holds the first and the last psi_1, `advice` a law each: its parameter, its value, the
-    errors in psi_2 before and after, and a time step.
+    `span` holds the first and the last psi_1. Each of `advice` is a law with its tuned parameter,
+    the errors in psi_2 before and after, and a time step.
 
     Examples
     --------
@@ -162,22 +162,22 @@ def tune(
 ) -> Tuning:
     """Return the parameters with which contact laws come closest to the exact rebound.
 
-    Minimises max |psi_2 of the law - psi_2(psi_1, chi)|, or its root mean square, over the
-    incidences, both for e = 1; stiffnesses from 0.05 to 2.5 of those of the bodies, beta_0 from -1
-    to 1. Laws without a free parameter are measured as they are.
+    The largest |psi_2 of the law - psi_2(psi_1, chi)| over the incidences, or its root mean square,
+    is minimised, for e = 1. Stiffnesses are varied from 0.05 to 2.5 of those of the bodies, beta_0
+    from -1 to 1. Laws without a free parameter are only compared.
 
     Parameters
     ----------
     laws : Law, callable, or sequence of them
-        Laws of impact, or functions as of `carom.FunctionLaw`; all but the tuned parameter is kept.
+        Contact laws, or functions as of `carom.FunctionLaw`; only the tuned parameter is changed.
     chi : float
-        (kappa/2)(m_n/m_t), positive.
+        Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
     kappa : float, optional
-        G*/E*; by default that of solid spheres, 4 chi/7.
+        Stiffness ratio G*/E*; by default that of solid spheres, 4 chi/7.
     psi : array_like, optional
         Incidences psi_1, by default 60 of them up to 4 chi, beyond which all impacts slide.
     measure : str
-        "max" or "rms".
+        Error to minimise: "max", the largest, or "rms", the root mean square.
     progress : bool or callable, optional
         Whether a progress bar is shown after two seconds, by default in a notebook and on a
         terminal; or a function that is called with the number of laws done and their total.
@@ -185,9 +185,9 @@ def tune(
     Returns
     -------
     Tuning
-        `advice`, a law each, by the error that was minimised: the `law` with the parameter set, the
-        name of the `parameter` and its `value` (None if it has none), max_error and rms_error in
-        psi_2, `before`, the largest error as given, and a time `step`.
+        `advice` has one item per law, ordered by the minimised error: the tuned `law`, the name of
+        the `parameter` and its `value` (None if the law has none), max_error and rms_error in
+        psi_2, `before`, the largest error without tuning, and a time `step`.
 
     Raises
     ------

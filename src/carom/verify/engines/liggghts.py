@@ -57,9 +57,9 @@ run             $run
 class Liggghts(Engine):
     """LIGGGHTS-PUBLIC: Hertz or linear springs, with tangential history.
 
-    One that `carom liggghts build` has built has the exact law, too.
-    The contact point of LIGGGHTS lies at R - d/2 from the centre, which costs a few d/R of psi_2:
-    impacts at low speed are the sharper test. It asks for a restitution above 0.05.
+    A LIGGGHTS that `carom liggghts build` has compiled has the exact law, too. The contact point of
+    LIGGGHTS lies at R - d/2 from the centre, which changes psi_2 by a few d/R; impacts at low speed
+    are the sharper test. LIGGGHTS needs a restitution above 0.05.
 
     Parameters
     ----------

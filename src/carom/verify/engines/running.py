@@ -31,7 +31,7 @@ READ, MOST_PRINTED = 1 << 16, 1 << 26  # bytes of it
 
 
 class EngineError(RuntimeError):
-    """A DEM program has failed; the message ends with its last words."""
+    """A DEM program has failed; the message ends with the last lines that it printed."""
 
 
 class EngineKilled(EngineError):
@@ -72,7 +72,7 @@ class Engine(ABC):
 
     @property
     def remedy(self) -> str:
-        """What to do where it is absent."""
+        """What to do if the program is not there."""
         if self.path is not None:
             return f"{str(self.path)!r} is not an executable; give another path"
         return f"not found; {self.advice}"
@@ -101,7 +101,7 @@ class Run(NamedTuple):
 
 
 def run(engine: Engine, experiment: Experiment, *, time_limit: float = 120.0) -> Run:
-    """Return how the impacts of an experiment come out of a DEM program.
+    """Run the impacts of an experiment in a DEM program and return how the bodies leave.
 
     Parameters
     ----------
@@ -123,9 +123,9 @@ def run(engine: Engine, experiment: Experiment, *, time_limit: float = 120.0) ->
     Raises
     ------
     InputError
-        If the program is absent or does not have the law.
+        If the program is not installed or does not have the law.
     EngineError
-        If it crashes, takes too long, or leaves no results or such as are not finite.
+        If it crashes, takes too long, or leaves no results, or results that are not finite.
 
     Examples
     --------
@@ -140,7 +140,7 @@ def run(engine: Engine, experiment: Experiment, *, time_limit: float = 120.0) ->
     Traceback (most recent call last):
     carom.InputError: LAMMPS: '/nowhere/lmp' is not an executable; give another path
 
-    What is not LAMMPS stands in for it here: it lets each body keep its tangential speed.
+    Here another program stands in for LAMMPS. It lets each body keep its tangential speed.
 
     >>> import sys
     >>> import numpy as np
@@ -247,7 +247,7 @@ def _failure(
     """Return the error that tells what has happened and the last words of a program."""
     lines = [" ".join(line.split()) for line in _printed(folder).splitlines() if line.strip()]
     words = " | ".join(lines[-LAST_LINES:])[-LAST_CHARACTERS:] or "nothing"
-    return kind(f"{engine.name} {what}; its last words: {words}")
+    return kind(f"{engine.name} {what}; it printed last: {words}")
 
 
 def _printed(folder: Path) -> str:

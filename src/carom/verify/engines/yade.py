@@ -87,10 +87,10 @@ ABOUT_MINDLIN = """
 
 @dataclass(frozen=True)
 class Yade(Engine):
-    """YADE: its law Mindlin, which accumulates the force as LAMMPS's mindlin/force, and springs.
+    """YADE: its law Mindlin, which adds up the force as LAMMPS's mindlin/force does, and springs.
 
     HertzWithLinearShear with nonLin = 1 is the same law; with nonLin = 0, its default, k_t does not
-    follow from the contact at all. MindlinDeresiewitz never sets a shear force: psi_2 = psi_1.
+    depend on the contact at all. MindlinDeresiewitz never sets a shear force, so psi_2 = psi_1.
 
     Parameters
     ----------

@@ -55,15 +55,15 @@ def score(
 ) -> Score:
     """Score a user's own results of oblique impacts, or a contact law, against the exact answer.
 
-    The error is psi_2 - psi_2(psi_1, chi), psi = kappa V_x/(mu V_1), absolute; the exact psi_2 is
-    that of Maw, Barber & Fawcett (1976); with a restitution, that of Kelvin-Voigt solids that leave
-    it. The columns tell what the results are: a rebound curve
-    (psi_1, psi_2, chi); velocities (normal_speed and tangential_speed, or speed and angle; spin,
-    spin2; after: tangential_speed_out, spin_out, and normal_speed_out, spin2_out if known); or the
-    history of forces of one impact (time, normal_force, tangential_force, contact_velocity if
-    known), whose psi_2 is what its impulse makes of psi_1. Whatever its law, no result may gain
-    energy, |psi_2| <= |psi_1|, need more friction than there is, |psi_1 - psi_2| <= 2 (1 + e) chi,
-    |F_t| <= mu F_n, or change speeds and spins by different impulses: the audit names what does.
+    The error is psi_2 of the results less the exact psi_2(psi_1, chi) of Maw, Barber & Fawcett
+    (1976), with psi = kappa V_x/(mu V_1); for a restitution below 1 the exact psi_2 is that of
+    Kelvin-Voigt solids. The columns say what the results are. A rebound curve has psi_1, psi_2 and
+    chi. Velocities have normal_speed and tangential_speed, or speed and angle, with spin and spin2;
+    and after the impact tangential_speed_out, spin_out, and normal_speed_out, spin2_out if known.
+    The history of one impact has time, normal_force, tangential_force, and contact_velocity if
+    known; its psi_2 follows from psi_1 and the impulse. The audit names results that no contact law
+    may give: a gain of energy, |psi_2| > |psi_1|, more friction than there is, |psi_1 - psi_2| >
+    2 (1 + e) chi or |F_t| > mu F_n, and speeds and spins that change by different impulses.
 
     Parameters
     ----------
@@ -75,19 +75,21 @@ def score(
         against V_x > 0. At least 3 points, or 20 rows with a force. Or a contact law, or a function
         as of `carom.FunctionLaw`: its psi_2 at the 15 incidences of `rank`.
     case : str, Path, mapping, Pair or Impact, optional
-        The bodies and their friction, as a case file for `carom impact` has them; needed but for
-        psi, unless a comment of the file, "# case:", holds them as JSON. A history needs the
-        motion, too: a case with speeds, or an Impact.
+        The bodies and their friction, as in a case file for `carom impact`. They are needed unless
+        the results are psi_1 and psi_2, or a comment of the file, "# case:", holds them as JSON. A
+        history needs the motion, too: give a case with speeds, or an Impact.
     chi : float, optional
         For psi_1 and psi_2 if there is no column of that name; for a law 1.4412 by default.
     restitution : float, optional
-        What the normal impact is to leave, if the contact is damped; by default what the case says,
-        or 1.
+        Normal coefficient of restitution of the exact impact, if the contact is damped; by default
+        that of the case, or 1.
     tolerance : float
-        Largest |error in psi_2| that passes. It is also the limit of what the audit finds, in units
-        of psi; of the errors of forces, in units of mu P_max and P_max; of the duration, relative.
+        Largest |error in psi_2| that passes. It is also the limit of the findings of the audit in
+        units of psi, of the errors of forces in units of mu P_max and P_max, and of the relative
+        error of the duration.
     columns : mapping, optional
-        What heads of the results stand for, {"omega": "spin_out"}, or {"w": "spin_out [rpm]"}.
+        Quantities by the heads of columns that have other names, e.g. {"omega": "spin_out"} or
+        {"w": "spin_out [rpm]"}.
     code, law : str, optional
         What the program and its contact law are called in reports and figures; by default the
         columns of these names, up to eight different ones, else the comments "# code:" and "# law:"

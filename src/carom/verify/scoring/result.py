@@ -18,8 +18,9 @@ if TYPE_CHECKING:
 class Score(ScoreRecord, Result):
     """How far results are from the exact answer; made by `score`.
 
-    Results pass if no psi_2 is off by more than the tolerance, and every finding of the audit
-    holds; all are in units of psi, forces in those of the largest, mu P_max and P_max.
+    Results pass if no psi_2 is off by more than the tolerance, and every finding of the audit is
+    within it, too. Findings are in units of psi; errors of forces are in units of the largest
+    forces, mu P_max and P_max.
 
     Examples
     --------

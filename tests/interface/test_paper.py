@@ -1,0 +1,239 @@
+"""The paper for a journal and the citation file: complete, and with the numbers of the manual."""
+
+import re
+import sys
+from importlib.metadata import version
+from pathlib import Path
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[2]
+PAPER = (ROOT / "paper/paper.md").read_text(encoding="utf-8")
+HEADER, BODY = PAPER.split("---\n", 2)[1:]
+BIB = (ROOT / "paper/paper.bib").read_text(encoding="utf-8")
+SHIPPED = (ROOT / "src/carom/data/citations.bib").read_text(encoding="utf-8")
+CITATION = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+DOI = r"10\.\d{4,9}/[-._;()/:A-Za-z0-9]+"
+
+# rows of the paper's table, and of that in docs/accuracy.md: (claim, checked against)
+ROWS = {
+    "rebound $": ("$", "47 impacts"),
+    "the whole impact": ("the whole impact", "annuli"),
+    "energy balance": ("energy balance", "memory"),
+    "tractions": ("fields at the surface", "Cerruti"),
+    "stress below the surface": ("stress below the surface", "Boussinesq"),
+    "contact laws in fixed steps, $\\psi_2$ | LAMMPS": ("contact laws in fixed steps", "LAMMPS"),
+    "contact laws in fixed steps, $\\psi_2$ | YADE": (
+        "contact laws in fixed steps",
+        "LIGGGHTS, YADE",
+    ),
+    "boundary elements": ("boundary elements", "the exact impact"),
+    "bound on what": ("bound on what", "full contact"),
+}
+
+
+def entries(bib):
+    """Return the fields of all entries of a BibTeX file, by key."""
+    found = {}
+    for entry in re.split(r"(?m)^@", bib)[1:]:
+        key = re.match(r"\w+\{(\w+),", entry)[1]
+        assert key not in found, key
+        found[key] = dict(re.findall(r"(?m)^  (\w+) = \{(.*)\},$", entry))
+    return found
+
+
+def rows(text):
+    """Return the rows of all tables of a page, without the lines that frame them."""
+    return [line.strip("| ") for line in text.splitlines() if line.startswith("|")]
+
+
+def last_number(text):
+    """Return the last number of a cell: 4e-13, [4e-9](laws.md) or $4 \\cdot 10^{-13}$."""
+    text = re.sub(r"\]\([^)]*\)| of \$p_0\$| in \$\\psi_2\$| of the bound", "]", text)
+    text = re.sub(
+        r"\$(?:([\d.]+) \\cdot )?10\^\{(-?\d+)\}\$", lambda m: f"{m[1] or 1}e{m[2]}", text
+    )
+    return float(re.findall(r"\d+(?:\.\d+)?(?:e-?\d+)?", text)[-1])
+
+
+def table_of_claims():
+    """Return (claim, checked against, found) of docs/accuracy.md."""
+    page = (ROOT / "docs/accuracy.md").read_text(encoding="utf-8")
+    cells = [re.split(r" \| ", row) for row in rows(page)]
+    return [row[:3] for row in cells if len(row) == 4 and "`tests/" in row[3]]
+
+
+def test_header_is_what_the_journal_asks_for():
+    header = yaml.safe_load(HEADER)
+    assert header["bibliography"] == "paper.bib"
+    assert (ROOT / "paper" / header["bibliography"]).is_file()
+    assert header["title"] == CITATION["title"]
+    assert [author["name"] for author in header["authors"]] == [
+        author["name"] for author in CITATION["authors"]
+    ]
+    places = {place["index"] for place in header["affiliations"]}
+    assert {author["affiliation"] for author in header["authors"]} == places
+    assert re.fullmatch(r"\d{1,2} [A-Z][a-z]+ \d{4}", header["date"])
+    assert len(header["tags"]) >= 4
+
+
+def test_sections_are_in_the_order_of_the_journal():
+    asked = "Summary; Statement of need; State of the field; Software design; Acknowledgements"
+    found = re.findall(r"(?m)^# (.*)$", BODY)
+    places = [found.index(section) for section in (*asked.split("; "), "References")]
+    assert places == sorted(places)
+    assert found[-1] == "References"
+
+
+def test_as_long_as_the_journal_takes():
+    """From 750 to 1750 words, formulas and all."""
+    assert 750 <= len(BODY.split()) <= 1750
+
+
+def test_every_reference_is_cited_and_every_citation_has_one():
+    cited = set(re.findall(r"(?<!\w)@(\w+)", BODY))
+    assert cited == set(entries(BIB))
+    assert len(cited) >= 15
+
+
+def test_references_are_complete():
+    for key, fields in entries(BIB).items():
+        assert {"title", "author", "year"} <= set(fields), key
+        assert set(fields) & {"journal", "publisher", "booktitle", "howpublished"}, key
+        assert key.endswith(fields["year"]), key
+        assert re.fullmatch(DOI, fields.get("doi", "10.1000/182")), key
+
+
+def test_references_agree_with_those_that_results_cite():
+    """Field by field, where both have a field."""
+    shipped, here = entries(SHIPPED), entries(BIB)
+    both = set(shipped) & set(here)
+    assert len(both) >= 6
+    for key in both:
+        for field in set(shipped[key]) & set(here[key]):
+            assert shipped[key][field] == here[key][field], (key, field)
+
+
+def test_figures_are_there_and_drawn_by_the_script_that_is_named(tmp_path):
+    from PIL import Image
+
+    (name,) = re.findall(r"\]\(([^)]+\.png)\)", BODY)
+    assert re.findall(r"\\label\{(fig:\w+)\}", BODY) == ["fig:contact"]
+    (script,) = re.findall(r"`(paper/\w+\.py)`", BODY)
+    sys.path.insert(0, str((ROOT / script).parent))
+    try:
+        from figure import main
+    finally:
+        sys.path.pop(0)
+    with Image.open(main(tmp_path)) as drawn, Image.open(ROOT / "paper" / name) as stored:
+        assert drawn.size[0] == pytest.approx(stored.size[0], rel=0.02)
+        assert drawn.size[1] == pytest.approx(stored.size[1], rel=0.02)
+
+
+def test_labels_that_are_referred_to_are_there():
+    assert set(re.findall(r"\\autoref\{([\w:]+)\}", BODY)) == set(
+        re.findall(r"\\label\{([\w:]+)\}", BODY)
+    )
+
+
+@pytest.mark.parametrize("row", ROWS)
+def test_largest_differences_are_those_of_the_manual(row):
+    claim, reference = ROWS[row]
+    (paper,) = (cells for cells in rows(BODY) if cells.startswith(row))
+    found = [
+        cells[2]
+        for cells in table_of_claims()
+        if cells[0].startswith(claim) and cells[1].startswith(reference)
+    ]
+    if row == "boundary elements":  # the page says how close with words before the number
+        found = [re.search(r"within (\S+)", cell)[1] for cell in found]
+    assert len(found) == 1
+    assert last_number(paper.split(" | ")[-1]) == last_number(found[0])
+
+
+def test_the_whole_table_is_compared():
+    table = [row for row in rows(BODY) if row.count(" | ") == 2][1:]
+    assert len(table) == len(ROWS)
+    assert all(sum(row.startswith(name) for name in ROWS) == 1 for row in table)
+
+
+@pytest.mark.parametrize(
+    ("said", "page"),
+    [
+        ("20 to 30 µs", "accuracy"),
+        ("some 400 times cheaper", "accuracy"),
+        ("92 to 97 %", "accuracy"),
+        ("500 synthetic", "accuracy"),
+        ("4,808 impacts", "halfspace_study"),
+    ],
+)
+def test_other_numbers_are_those_of_the_manual(said, page):
+    text = (ROOT / f"docs/{page}.md").read_text(encoding="utf-8")
+    assert said in " ".join(BODY.split())
+    assert said in " ".join(text.split())
+
+
+def test_errors_of_contact_laws_are_those_of_the_manual():
+    """The largest error at chi = 1.4412, as the paper rounds it."""
+    page = (ROOT / "docs/laws.md").read_text(encoding="utf-8")
+    ranking = re.search(r"<!-- begin: ranking -->(.*?)<!-- end -->", page, re.DOTALL)[1]
+    largest = {}
+    for row in rows(ranking)[2:]:
+        name, _, value, *_ = row.split(" | ")
+        largest[name] = float(value)
+    words = " ".join(BODY.split())
+    for pattern, names in (
+        (r"- (\S+) with `mindlin` of LAMMPS", ("mindlin", "LIGGGHTS hertz, history")),
+        (r"- (\S+) with that of YADE", ("YADE Mindlin",)),
+        (r"(\S+) with that of Kratos", ("mindlin_rescale/force",)),
+        (r"(\S+) with that of MercuryDPM", ("mindlin, 2/3 of the stiffness",)),
+        (r"- (\S+) with a linear spring", (r"linear spring, $k_t/k_n = \kappa$",)),
+        (r"(\S+) with the ratio 2/7", ("linear spring, $k_t/k_n = 2/7$",)),
+        (r"off by (\S+) in \$\\psi_2\$ with 32 springs", ("exact, 32 springs",)),
+    ):
+        said = re.search(pattern, words)[1]
+        digits = len(said.partition(".")[2])
+        for name in names:
+            assert f"{largest[name]:.{digits}f}" == said, name
+    softer = re.search(r"<!-- begin: softer -->\S+, (\S+) and", page)[1]
+    assert re.search(r"`mindlin_rescale/force` is off by (\S+)\.(?:\s|$)", words)[1] == softer
+
+
+def test_the_ball_at_ten_degrees_is_that_of_the_manual():
+    page = (ROOT / "docs/laws.md").read_text(encoding="utf-8")
+    ball = re.search(r"<!-- begin: steel_ball -->(.*?)<!-- end -->", page, re.DOTALL)[1]
+    angles = dict(re.findall(r"(?m)^\| (exact|mindlin) \| ([\d.]+)°", ball))
+    (spin,) = re.findall(r"(?m)^\| mindlin \| [^|]* \| ([\d.]+) ", ball)
+    said = re.search(
+        r"leaves at (\S+) degrees instead of (\S+), with (\d+) % of its spin",
+        " ".join(BODY.split()),
+    )
+    assert said.groups() == (angles["mindlin"], angles["exact"], f"{100 * float(spin):.0f}")
+
+
+def test_citation_file_has_the_version_of_the_package():
+    project = re.search(
+        r'(?m)^version = "(.*)"$', (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    )[1]
+    assert str(CITATION["version"]) == project == version("carom")
+
+
+def test_citation_file_is_complete():
+    assert CITATION["cff-version"] == "1.2.0"
+    assert {"message", "title", "abstract", "keywords", "authors", "license"} <= set(CITATION)
+    for reference in CITATION["references"]:
+        assert {"type", "title", "authors", "year"} <= set(reference), reference["title"]
+        assert re.fullmatch(DOI, reference.get("doi", "10.1000/182"))
+
+
+def test_citation_file_agrees_with_the_paper():
+    """References of the same title have the same DOI, volume and year."""
+    plain = {re.sub(r"[{}]", "", fields["title"]): fields for fields in entries(BIB).values()}
+    assert len(CITATION["references"]) >= 4
+    for reference in CITATION["references"]:
+        fields = plain[reference["title"]]
+        assert reference.get("doi") == fields.get("doi")
+        assert str(reference["year"]) == fields["year"]
+        assert str(reference["volume"]) == fields["volume"]
+        assert f"{reference['start']}--{reference['end']}" == fields["pages"]
