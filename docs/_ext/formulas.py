@@ -18,7 +18,7 @@ GREEK = (
 SYMBOL = re.compile(  # a letter, with d before it, an index, stars or primes behind it
     rf"(?<!\w\.)(?P<d>d(?=[AC-Z](?![^\W_])|[qstuwxz]\b))?(?P<base>{GREEK}|[A-Za-z])"
     r"(?:_(?P<index>max|min|eff|[A-Za-z0-9]{1,2}))?(?P<stars>\*{0,2})(?P<primes>'{0,2})"
-    r"(?![\w'*]|\.[a-z])"
+    r"(?![\w*]|'(?!s\b)|\.[a-z])"
 )
 NUMBER = re.compile(r"(\d+(?:\.\d+)?)(?:e([+-]?)0*(\d+))?(?![\w%])")
 FUNCTIONS = {
@@ -38,6 +38,7 @@ CLOSING = {"(": ")", "[": "]", "|": "|"}
 ARTICLE = re.compile(r"[aAI]\s+(?!(?:and|for|in|of|or|where|while|with)\b)[A-Za-z]")
 UNIT = r"(?:[kM]?Pa|[kM]?N|[cmun]?m|[mu]?s|[mk]?J|[kmu]?g|rad|Hz)\b(?:\^-?\d+(?:\.\d+)?)?"
 UNITS = re.compile(rf"(?:1/)?{UNIT}(?:[ /]{UNIT}|/\({UNIT}(?: {UNIT})*\))*(?![\w^/(*'])")
+MEASURED = re.compile(rf"\d[\d.]*(?:e-?\d+)? (?=({UNITS.pattern}))")
 IDENTIFIER = re.compile(r"(?<![./:-])\w*_\w+")
 WORD = re.compile(r"[^\W\d][\w']*|[\d.,]*\d|[^\w]|\w")
 NO_PROSE = re.compile(  # examples, fields and heads of parameters, code, roles, texts, emphasis
@@ -195,7 +196,11 @@ def parts(text: str) -> Iterator[tuple[str, str]]:
     while at < len(text):
         units, name = UNITS.match(text, at), IDENTIFIER.match(text, at)
         whole = None if text.startswith("integral", at) else relations(text, at)
-        if units and (not whole or whole.end <= units.end()):
+        measured = MEASURED.match(text, at)
+        if measured and whole and whole.end <= measured.end(1):
+            yield "text", measured[0]
+            at = measured.end()
+        elif units and (not whole or whole.end <= units.end()):
             power = re.sub(r"\^(-?[\d.]*\d)", r"^{\1}", units[0])
             shown = rf"\mathrm{{{power}}}".replace(" ", r"\,")
             yield ("math", shown) if "^" in power else ("text", units[0])
@@ -212,8 +217,8 @@ def parts(text: str) -> Iterator[tuple[str, str]]:
 def inline(text: str) -> str:
     r"""Return prose with roles for its formulas.
 
-    >>> print(inline("psi_2 to 1e-10 max(1, |psi_1|), and spin_out; `psi_2` is code"))
-    :math:`\psi_2` to :math:`10^{-10} \max(1, \lvert \psi_1\rvert)`, and ``spin_out``; `psi_2` is code
+    >>> print(inline("psi_2 to 1e-10 max(1, |psi_1|), spin_out; `psi_2` is code"))
+    :math:`\psi_2` to :math:`10^{-10} \max(1, \lvert \psi_1\rvert)`, ``spin_out``; `psi_2` is code
     """
     held: list[str] = []
 
@@ -277,7 +282,7 @@ def convert(lines: list[str]) -> list[str]:
         literal = depth(first) if directive or group[-1].endswith("::") else None
         alone = depth(first) > depth(above) and above.lstrip()[:1] not in (":", ".")
         if shown := equations(group) if alone and not directive else []:
-            done += [" " * depth(above) + row for row in shown]
+            done += [f"{' ' * depth(above)}{row}".rstrip() for row in shown]
         else:
             done += group if directive else inline("\n".join(group)).split("\n")
         above = first

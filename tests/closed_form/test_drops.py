@@ -167,7 +167,7 @@ def test_drops_are_stored_drawn_and_told(tmp_path):
     carom.save(dataset, tmp_path / "drops.nc")
     stored = carom.read(tmp_path / "drops.nc")
     (axis,) = plot_drops(stored).axes
-    assert axis.get_xlabel() == "normal speed before (m/s)"
+    assert axis.get_xlabel() == "$V_1$\u00a0(m/s)"
     assert len(found.plot().axes) == 1
     told = json.loads(json.dumps(found.to_dict(), allow_nan=False))["losses"]
     assert told["KelvinVoigt"]["loss_time"]["value"] == pytest.approx(2e-6, rel=1e-3)

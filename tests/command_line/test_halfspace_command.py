@@ -42,7 +42,7 @@ def test_the_table_tells_the_error_and_files_are_stored(run, tmp_path):
     files = ["--plot", "hit.png", "--output", "hit.nc"]
     code, out, err = run(*BALL, *MOTION, *COARSE, *files)
     assert code == 0
-    assert "error of psi_2 by grid and steps" in out
+    assert "error of the rebound by grid and time steps" in out
     assert "energy lost in the normal motion" not in out, "like materials lose none"
     assert (tmp_path / "hit.png").stat().st_size > 20_000
     assert carom.read(tmp_path / "hit.nc").slip_angle.dims == ("time",)

@@ -7,8 +7,11 @@ where there are some, that formulas have a source, and that quantities have thei
 
 import inspect
 import re
+import sys
 from enum import Enum
 from functools import cached_property
+from importlib import import_module
+from pathlib import Path
 from pkgutil import resolve_name
 
 import pytest
@@ -19,6 +22,18 @@ import carom
 import carom.fitting
 from carom.quantities.glossary import GLOSSARY
 
+DOCS = Path(__file__).parents[2] / "docs"
+sys.path[:0] = [str(DOCS / "_ext"), str(DOCS / "make")]
+convert = import_module("formulas").convert
+PLAIN = import_module("plain_formulas").PLAIN
+NO_PROSE = (  # mathematics, code, heads of parameters, texts that a user gives
+    r"(?m)^ *>>> .*(?:\n.+)*",
+    r"(?m)^ *\.\. math::\n\n(?: *\n| {3,}.*\n)*",
+    r":math:`[^`]*`",
+    r"(`+)[^`]+\1",
+    r"(?m)^[\w*]+(?:, [\w*]+)* : .*$",
+    r"\"[^\"\n]*\"",
+)
 MODULES = (carom, carom.verify, carom.plots, carom.fitting, carom.classical, carom.datasets)
 BESIDE = ("impacts.curves.borders", "plots.style.new_figure", "plots.style.style")
 WAIVED = {
@@ -180,6 +195,23 @@ def test_there_is_an_example(label):
 @pytest.mark.parametrize("label", SOURCED)
 def test_a_formula_has_a_source(label):
     assert WORKS.search(inspect.getdoc(PUBLIC[label]))
+
+
+@pytest.mark.parametrize("label", PUBLIC)
+def test_the_manual_shows_every_formula_as_mathematics(label):
+    """By the rule of docs/make/plain_formulas.py; braces close, so that it can be typeset."""
+    text = "\n".join(convert(inspect.getdoc(PUBLIC[label]).splitlines()))
+    for tex in re.findall(r":math:`([^`]*)`", text):
+        assert tex.count("{") == tex.count("}"), tex
+    for pattern in NO_PROSE:
+        text = re.sub(pattern, "", text)
+    assert PLAIN.findall(text) == []
+
+
+@pytest.mark.parametrize("label", PROPERTIES)
+def test_no_colon_in_the_first_line_of_a_property(label):
+    """The manual would take what stands before it for a type."""
+    assert not re.search(r":(\s|$)", inspect.getdoc(PUBLIC[label]).splitlines()[0])
 
 
 def is_quantity(label):

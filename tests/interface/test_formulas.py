@@ -2,14 +2,13 @@
 
 import doctest
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT / "docs/_ext"))
-
-import formulas
+sys.path.insert(0, str(Path(__file__).parents[2] / "docs/_ext"))
+formulas = import_module("formulas")
 
 INLINE = {  # a formula, or the formulas of a sentence, and their LaTeX
     "psi_2 = psi_2(psi_1, chi)": r"\psi_2 = \psi_2(\psi_1, \chi)",
@@ -54,7 +53,7 @@ SENTENCES = {
     "by Barber's (15)-(37) of 1979, for mu\np and psi_in, in m/s": (
         r"by Barber's (15)-(37) of 1979, for :math:`\mu p` and ``psi_in``, in m/s"
     ),
-    "max |psi_2 of the law|, psi_1's": r"max |:math:`\psi_2` of the law|, psi_1's",
+    "max |psi_2 of the law|, psi_1's": r"max |:math:`\psi_2` of the law|, :math:`\psi_1`'s",
     "angle between slip and $x$": "angle between slip and :math:`x`",
 }
 UNTOUCHED = [
@@ -106,7 +105,9 @@ def test_indented_equations_are_displayed():
           2 chi (1 + e))
 
     The rest of it."""
-    assert "\n".join(formulas.convert(text.split("\n"))) == r"""    The forces.
+    assert (
+        "\n".join(formulas.convert(text.split("\n")))
+        == r"""    The forces.
 
     .. math::
 
@@ -116,6 +117,7 @@ def test_indented_equations_are_displayed():
 
 
     The rest of it."""
+    )
 
 
 def test_examples_of_the_extension_hold():

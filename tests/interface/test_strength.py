@@ -259,7 +259,7 @@ def test_peaks_and_maps_are_stored_and_read_again(tmp_path):
 def test_many_frictions_are_drawn_as_a_map():
     found = carom.strength(pair_of(), angle=[0.0, 0.5, 1.0], friction=np.linspace(0.0, 0.5, 7))
     figure = carom.plots.plot_strength(found)
-    assert figure.axes[0].get_ylabel().startswith("coefficient of friction")
+    assert figure.axes[0].get_ylabel().startswith("$\\mu$")
     with pytest.raises(carom.InputError, match="no speed in this dataset is finite"):
         carom.plots.plot_strength(found.drop_vars(["yield_speed_first", "yield_speed_second"]))
 

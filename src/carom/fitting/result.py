@@ -71,7 +71,7 @@ class Fit(FitRecord, Result):
 
     @property
     def lmfit_result(self) -> Any:
-        """What lmfit returned, in transformed coordinates: log friction, log kappa."""
+        """The result of lmfit in transformed coordinates, which are log friction and log kappa."""
         return self.best.result
 
     @cached_property
@@ -133,7 +133,7 @@ class Fit(FitRecord, Result):
         """Return samples of the posterior of the parameters that the data determine.
 
         Walkers move by differential evolution (ter Braak 2006) in emcee (Foreman-Mackey et al.
-        2013). The likelihood is exp(-loss/(2 lambda)), with the loss and its spread lambda of the
+        2013). The likelihood is exp(-L/(2 lambda)), with the loss L and its spread lambda of the
         fit. The prior is even in log friction, log kappa, restitution and spin offset within their
         ranges.
 

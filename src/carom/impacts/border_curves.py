@@ -5,42 +5,42 @@ A cell in which they could be joined in several ways, as three regions meet ther
 """
 
 from bisect import bisect_left, bisect_right, insort
-from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable, Iterator
+from collections import defaultdict
+from collections.abc import Callable, Iterable
 from itertools import pairwise
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.impacts.joined_curves import Border, Point, Segment, joined
+from carom.impacts.border_cells import (
+    WHOLE,
+    Cell,
+    Change,
+    Edge,
+    Line,
+    Node,
+    corners,
+    edges,
+    is_plain,
+    pieces,
+    quarters,
+    wholes_beside,
+)
+from carom.impacts.joined_curves import Border, Segment, joined
 from carom.quantities.arrays import Array
 
 Labels: TypeAlias = NDArray[np.int64]
 Tell: TypeAlias = Callable[[Array, Array], Labels]
-Node: TypeAlias = tuple[int, int]  # where lines cross, in smallest cells
-Cell: TypeAlias = tuple[int, int, int]  # its lower left node, and its side in smallest cells
-Line: TypeAlias = tuple[int, int]  # 0 along x or 1 along y, and its place in smallest cells
-Edge: TypeAlias = tuple[Line, int, int]  # from one place on a line to another
 Bracket: TypeAlias = tuple[tuple[float, int], tuple[float, int]]  # places with their labels
 
-WHOLE = 64  # a cell of the grid, in smallest cells
 SLIVER = 16  # times the tolerance: what is thinner between two others is not told
 FLAT = 3e-4  # of an axis: how far a curve may be from the straight pieces that are its picture
 SHIFT = 0.07  # of new lines, in cells of the grid
 
 
-class Change(NamedTuple):
-    """Where the label changes along the outline of a cell, anticlockwise, and on which side."""
-
-    place: Point
-    before: int
-    after: int
-    side: int
-
-
 def border_curves(
-    axes: tuple[Array, Array], labels: Labels, tell: Tell, tolerance: float, most: int
+    axes: tuple[Array, Array], labels: Labels, tell: Tell, tolerance: float, more: float
 ) -> list[Border]:
     """Return the borders between the regions of points with the same label.
 
@@ -54,17 +54,18 @@ def border_curves(
         Returns the labels of points (x, y).
     tolerance : float
         Of the places of borders along lines, times the larger of 1 and the place.
-    most : int
-        How many points may be told before no cell is quartered any more.
+    more : float
+        How many times as many points may be told to quarter cells as those of the grid need.
     """
     if min(labels.shape) < 2:
         return []
     plane = Plane(axes, labels, tell, tolerance)
-    corners = labels[:-1, :-1], labels[:-1, 1:], labels[1:, :-1], labels[1:, 1:]
-    differ = np.argwhere(np.any([corner != corners[0] for corner in corners], axis=0))
+    around = labels[:-1, :-1], labels[:-1, 1:], labels[1:, :-1], labels[1:, 1:]
+    differ = np.argwhere(np.any([corner != around[0] for corner in around], axis=0))
     cells = {(WHOLE * i, WHOLE * j, WHOLE) for j, i in differ.tolist()}
     plane.look_at(cells)
     quartered: set[Cell] = set()
+    most = (1.0 + more) * plane.told
     while plane.told <= most:
         outlines = {cell: plane.outline(cell) for cell in cells if cell[2] > 1}
         coarse = {cell for cell, outline in outlines.items() if not is_plain(outline)}
@@ -136,8 +137,10 @@ class Plane:
 
     def size(self, cell: Cell, unit: Array) -> float:
         """Return the longer side of a cell, each in a unit of its own."""
-        ends = ([self.coordinate(k, cell[k] + more) for k in (0, 1)] for more in (0, cell[2]))
-        return float(np.max(np.subtract(*ends) / -unit))
+        sides = (
+            self.coordinate(k, cell[k] + cell[2]) - self.coordinate(k, cell[k]) for k in (0, 1)
+        )
+        return float(np.max(np.array([*sides]) / unit))
 
     def coordinate(self, axis: int, place: int) -> float:
         """Return x or y of a line; new lines are not halfway, where values may be special."""
@@ -227,63 +230,3 @@ class Plane:
                 for at in [a != b]
             ]
             numbers, ends, sides = (np.concatenate(both) for both in zip(*halves, strict=True))
-
-
-def corners(cell: Cell) -> Iterator[Node]:
-    """Yield the corners of a cell."""
-    i, j, size = cell
-    yield from ((i, j), (i + size, j), (i + size, j + size), (i, j + size))
-
-
-def edges(cell: Cell) -> Iterator[Edge]:
-    """Yield the edges of a cell, anticlockwise; the last two are walked backwards then."""
-    i, j, size = cell
-    yield from (((0, j), i, i + size), ((1, i + size), j, j + size))
-    yield from (((0, j + size), i, i + size), ((1, i), j, j + size))
-
-
-def quarters(cell: Cell) -> Iterator[Cell]:
-    """Yield the quarters of a cell."""
-    i, j, half = cell[0], cell[1], cell[2] // 2
-    yield from ((i + m * half, j + n * half, half) for m in (0, 1) for n in (0, 1))
-
-
-def wholes_beside(cell: Cell, shape: tuple[int, ...]) -> Iterator[Cell]:
-    """Yield the cells of a grid beside the one that a cell is in."""
-    i, j = cell[0] // WHOLE, cell[1] // WHOLE
-    for m, n in ((i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)):
-        if 0 <= m < shape[1] - 1 and 0 <= n < shape[0] - 1:
-            yield (WHOLE * m, WHOLE * n, WHOLE)
-
-
-def is_plain(outline: list[Change]) -> bool:
-    """Tell whether changes can be joined across a cell in one way only, from side to side."""
-    pairs, rest = paired(outline)
-    return not rest and all(first.side != second.side for first, second in pairs)
-
-
-def paired(outline: list[Change]) -> tuple[list[tuple[Change, Change]], list[Change]]:
-    """Return the changes that border a region which touches the outline once, and the rest."""
-    rest, pairs = list(outline), []
-    while rest:
-        often = Counter(change.after for change in rest)
-        for k, first in enumerate(rest):
-            second = rest[(k + 1) % len(rest)]
-            if often[first.after] == 1 and first.before == second.after:
-                pairs.append((first, second))
-                rest = [change for change in rest if change not in (first, second)]
-                break
-        else:
-            break
-    return pairs, rest
-
-
-def pieces(outline: list[Change]) -> Iterator[Segment]:
-    """Yield what joins the changes on the outline of a cell; in its middle, where many meet."""
-    pairs, rest = paired(outline)
-    for first, second in pairs:
-        yield Segment(first.place, second.place, first.before, first.after)
-    if rest:
-        middle = np.mean([change.place for change in rest], axis=0).tolist()
-        for change in rest:
-            yield Segment(change.place, (middle[0], middle[1]), change.before, change.after)

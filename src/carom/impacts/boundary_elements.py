@@ -139,7 +139,7 @@ class HalfspaceImpact(ImpactResult):
 
     @property
     def lost_energy(self) -> float:
-        """Energy lost in the normal motion, except to friction, in J: zero for elastic bodies."""
+        """Energy lost in the normal motion, except to friction, in J; zero for elastic bodies."""
         return 0.0
 
     @property

@@ -85,9 +85,9 @@ def curve(
     Returns
     -------
     xarray.Dataset
-        psi_out, contact_restitution and tangential_restitution, pure numbers along (chi, psi_in),
-        NaN with one RuntimeWarning where chi is too large for `rebound`; and border (chi,
-        regime_border), the psi_1 at which the regime changes, 1, 2 chi, 2 chi (1 + e) - e.
+        psi_out, contact_restitution and tangential_restitution, pure numbers along `(chi, psi_in)`,
+        NaN with one RuntimeWarning where chi is too large for `rebound`; and border `(chi,
+        regime_border)`, the psi_1 at which the regime changes, 1, 2 chi, 2 chi (1 + e) - e.
 
     Raises
     ------
@@ -171,7 +171,7 @@ def regime_map(
     Returns
     -------
     xarray.Dataset
-        sequence (chi, psi_in), the place of the sequence of phases in sequence_name, -1 where an
+        sequence `(chi, psi_in)`, the place of the sequence of phases in sequence_name, -1 where an
         impact is not resolved; sequence_name (sequence_name), the kinds of phases in order with the
         sign of slip, the commonest first; and the restitution. Borders between regimes: points
         border_psi, border_chi (border_point) in order, each on curve border_number, with an error

@@ -41,9 +41,9 @@ FARTHEST = 100.0  # of the depth from which on peaks are searched for, in contac
 class Impact(ImpactResult, InContact):
     """The result of `impact`: the rebound, every phase, and what happens inside the contact.
 
-    SI units. Tangential speeds are those of the first body relative to the second, positive spin
-    adds to the tangential speed of the contact point: V_x = v_t + R spin + R_2 spin2. The theory is
-    that of Maw, Barber & Fawcett (1976), in the form of Barber (1979).
+    SI units. Tangential speeds are those of the first body relative to the second. Positive spin
+    adds to the tangential speed of the contact point: V_x = v_t + R omega + R_2 omega_2. The theory
+    is that of Maw, Barber & Fawcett (1976), in the form of Barber (1979).
 
     Examples
     --------
@@ -61,7 +61,7 @@ class Impact(ImpactResult, InContact):
 
     @property
     def validity(self) -> Validity:
-        """Whether the assumptions of the theory hold: numbers with their limits and verdicts."""
+        """Whether the assumptions of the theory hold, as numbers with limits and verdicts."""
         found: tuple[Finding, ...] = ()
         if isinstance(self.solution, LossySolution):
             found = (judge_losses(self.solution.losses, self.normal_restitution, self.pair.chi),)

@@ -12,8 +12,7 @@ from carom.quantities.arrays import Array
 
 TOLERANCE = 1e-6  # of points of a border
 COARSE = 1e-4  # the same with losses, as such an impact takes a hundred times as long
-QUARTERING = 2, 50_000  # impacts per point of the map and besides that may be solved to refine it
-COARSE_QUARTERING = 1, 2_000
+MORE, COARSE_MORE = 20.0, 1.0  # impacts to refine borders, to those that find them on the grid
 
 
 def border_variables(
@@ -22,7 +21,7 @@ def border_variables(
     """Return the borders on a map whose sequences have these numbers, shape (chi, psi)."""
     (x, columns), (y, rows) = (np.unique(line, return_index=True) for line in (psi, chi))
     plain = sequences.losses is None
-    tolerance, (each, more) = (TOLERANCE, QUARTERING) if plain else (COARSE, COARSE_QUARTERING)
+    tolerance, more = (TOLERANCE, MORE) if plain else (COARSE, COARSE_MORE)
     shown = False if callable(progress) else progress  # which counts the rows of the map
     with advancing("finding the borders of the regimes", None, shown, unit="impacts") as advance:
 
@@ -31,8 +30,7 @@ def border_variables(
             advance(psis.size)
             return found
 
-        most = each * numbers.size + more
-        curves = border_curves((x, y), numbers[np.ix_(rows, columns)], tell, tolerance, most)
+        curves = border_curves((x, y), numbers[np.ix_(rows, columns)], tell, tolerance, more)
     points = np.concatenate([np.empty((0, 2)), *(curve.points for curve in curves)])
     names = np.array(sequences.names, dtype=np.str_)
     left, right = np.array([curve[:2] for curve in curves], dtype=np.int64).reshape(-1, 2).T

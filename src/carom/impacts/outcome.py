@@ -17,7 +17,7 @@ class Outcome(Kinematics):
     """How two bodies leave an impact; SI units. Every field but the bodies may be an array.
 
     Tangential speeds are those of the first body relative to the second, positive spin adds to the
-    tangential speed of the contact point: V_x = v_t + R spin + R_2 spin2.
+    tangential speed of the contact point: V_x = v_t + R omega + R_2 omega_2.
     """
 
     tangential_speed: float
@@ -97,7 +97,7 @@ class Outcome(Kinematics):
 
     @property
     def max_pressure(self) -> float:
-        """Largest contact pressure, in Pa: that of Hertz at the largest force and true radius.
+        """Largest contact pressure, in Pa, that of Hertz at the largest force and true radius.
 
         For viscous bodies it is that of elastic bodies under the same force.
         """

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.dimensionless.elastic.batch import LINEAR, TOLERANCE
+from carom.dimensionless.elastic.integration import Work
 from carom.dimensionless.elastic.phases import Kind, Status, new_work, run_phases
-from carom.dimensionless.elastic.record import AT_B, AT_V, KIND, KIND_SIGN, new_record
+from carom.dimensionless.elastic.record import AT_B, AT_V, KIND, KIND_SIGN, Record, new_record
 from carom.dimensionless.lossy.law import ScaleFreeLaw
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.threads import in_blocks
@@ -65,7 +66,7 @@ class Sequences:
         return in_words((phase.kind, phase.sign) for phase in solution.phases)
 
     @cached_property
-    def _room(self):
+    def _room(self) -> tuple[Work, Record]:
         return new_work(), new_record(False)
 
     def _elastic(self, psi: float, chi: float) -> str:
@@ -76,7 +77,7 @@ class Sequences:
             return ""
         rows = record.changes[: record.counts[2]].tolist()
         mirror = -1 if np.signbit(psi) else 1
-        found = []
+        found: list[tuple[str, int]] = []
         for row, after in pairwise(rows):
             if abs(row[AT_V] - after[AT_V]) < NEAR and lasts(row, after) <= SHORTEST:
                 continue

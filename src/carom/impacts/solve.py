@@ -75,11 +75,12 @@ def impact(
 ) -> Impact | HalfspaceImpact:
     """Solve one oblique impact of two bodies: exactly, within the theory, or by boundary elements.
 
-    The normal speed is V_1 = speed cos(angle), the tangential speed of the centres v_t = speed
-    sin(angle), the tangential velocity of the contact point V_x = v_t + R spin + R_2 spin2, and the
-    dimensionless incidence psi_1 = kappa V_x/(mu V_1). The theory is that of Maw, Barber & Fawcett
-    (1976) and of Barber (1979), stick (15) and gross slip (33); the boundary elements are those of
-    Love (1929) and Kalker (1990), section 4.2.
+        V_1 = V cos(theta), v_t = V sin(theta), V_x = v_t + R omega + R_2 omega_2
+        psi_1 = kappa V_x/(mu V_1)
+
+    V is the `speed`, theta the `angle`, and omega and omega_2 are the spins. The theory is that of
+    Maw, Barber & Fawcett (1976) and of Barber (1979), stick (15) and gross slip (33); the boundary
+    elements are those of Love (1929) and Kalker (1990), section 4.2.
 
     Parameters
     ----------

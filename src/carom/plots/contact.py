@@ -50,7 +50,7 @@ def plot_contact(
         What `Impact.fields` returns, on a grid, at the instants to be shown, from 1 to 12.
     count : int, optional
         How many instants are chosen, by default six, or as many as the width has room for.
-    width, font_size, style : optional
+    **look : width, font_size, style
         Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns

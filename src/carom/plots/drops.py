@@ -29,7 +29,7 @@ def plot_drops(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     ----------
     dataset : xarray.Dataset
         What `carom.fit(...).to_dataset()` returns, of impacts of which none is oblique.
-    width, font_size, style : optional
+    **look : width, font_size, style
         Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Examples

@@ -40,7 +40,7 @@ def plot_fit(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     ----------
     dataset : xarray.Dataset or result
         What `carom.fit(...)` returns, or its `to_dataset()`.
-    width, font_size, style : optional
+    **look : width, font_size, style
         Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Examples
@@ -81,7 +81,7 @@ def plot_corner(samples: Drawable, **look: Unpack[Look]) -> Figure:
     ----------
     samples : xarray.Dataset
         What `carom.fit(...).posterior()` returns.
-    width, font_size, style : optional
+    **look : width, font_size, style
         Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
     """
     corner = extra("corner", "a corner plot", "fit")

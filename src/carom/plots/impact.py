@@ -51,7 +51,7 @@ def plot_impact(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     dataset : xarray.Dataset, result, or list or dictionary of them
         What `Impact.history` returns, or the impact itself. The keys of a dictionary name the
         impacts in the legend.
-    width, font_size, style : optional
+    **look : width, font_size, style
         Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
@@ -102,7 +102,7 @@ def plot_forces(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     dataset : xarray.Dataset, result, or list or dictionary of them
         What `Impact.history` returns, or the impact itself. The keys of a dictionary name the
         impacts in the legend.
-    width, font_size, style : optional
+    **look : width, font_size, style
         Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
@@ -136,7 +136,7 @@ def plot_radii(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     dataset : xarray.Dataset, result, or list or dictionary of them
         What `Impact.history` returns, or the impact itself. The keys of a dictionary name the
         impacts in the legend.
-    width, font_size, style : optional
+    **look : width, font_size, style
         Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns

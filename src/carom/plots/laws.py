@@ -60,7 +60,7 @@ def plot_laws(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     ----------
     dataset : xarray.Dataset
         What `carom.verify.rank(...).to_dataset()` returns.
-    width, font_size, style : optional
+    **look : width, font_size, style
         Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
@@ -177,7 +177,7 @@ def plot_error_map(dataset: Drawable, limit: float | None = None, **look: Unpack
         What `carom.verify.error_map` returns.
     limit : float, optional
         End of the colour scale; by default the largest |error|.
-    width, font_size, style : optional
+    **look : width, font_size, style
         Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
@@ -207,10 +207,12 @@ def plot_error_map(dataset: Drawable, limit: float | None = None, **look: Unpack
     colors: Any = {"cmap": style.SIGNED_MAP, "vmin": -most, "vmax": most}
     colors["shading"] = "gouraud" if finite.size == error.size else "nearest"
     drawn = axis.pcolormesh(psi, chi, error, rasterized=True, **colors)
-    keys = [Line2D([], [], color="black", lw=1.0, label="borders of the regimes")]
+    keys = [Line2D([], [], color="black", lw=1.0, label="thick: borders of the regimes")]
     if finite.size and finite.max() > NOTED:
         axis.contour(psi, chi, error, levels=[-NOTED, NOTED], **CONTOURS)
         for dash, level in zip(CONTOURS["linestyles"], (-NOTED, NOTED), strict=True):
+            if not np.nanmin(error) < level < np.nanmax(error):
+                continue
             stroke: Any = {"color": CONTOURS["colors"], "lw": CONTOURS["linewidths"], "ls": dash}
             keys.append(Line2D([], [], label=f"error {level:+g}".replace("-", MINUS), **stroke))
     style.span(axis, psi, chi)

@@ -89,7 +89,7 @@ def _side(a: Array, b: Array, point: Array) -> Array:
 
 def _enters(a: Array, b: Array, low: Array, high: Array) -> NDArray[np.bool_]:
     """Tell whether lines from a to b enter boxes."""
-    starts, ends = 0.0, 1.0
+    starts, ends = np.zeros(1), np.ones(1)
     with np.errstate(divide="ignore", invalid="ignore"):
         for k in (0, 1):
             slope = 1.0 / (b[..., k] - a[..., k])

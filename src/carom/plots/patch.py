@@ -51,7 +51,7 @@ def plot_patch(
     at : float or str, optional
         Of a result: the time in s of an impact, by default that of the largest normal force, or the
         step of a load path, by default the last.
-    width, font_size, style : optional
+    **look : width, font_size, style
         Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns

@@ -80,8 +80,8 @@ class Sheet:
     """A map in pixels: which region is where, and where labels and their lines are."""
 
     def __init__(self, regions: list[Region], to_mm: Array, size: tuple[float, float]) -> None:
-        self.shape = tuple(int(side / PIXEL) for side in size[::-1])
-        image = Image.new("I", self.shape[::-1], -1)
+        self.shape = int(size[1] / PIXEL), int(size[0] / PIXEL)
+        image = Image.new("I", (self.shape[1], self.shape[0]), -1)
         draw = ImageDraw.Draw(image)
         for number, region in enumerate(regions):  # the largest first: holes are drawn over
             points = (region.rings[0] * to_mm[0] + to_mm[1]) / PIXEL - 0.5
@@ -136,7 +136,7 @@ class Sheet:
             lines = self._along(anchor, ends[near])
             costs = away[near] * (1.0 + ON_BORDER * self.lines[lines].mean(axis=-1))
             costs += BY_OTHER * np.sum(_distances(others, anchor, ends[near]) < CLOSE, axis=-1)
-            clear = ~self.busy[lines].any(axis=-1)
+            clear = np.logical_not(self.busy[lines].any(axis=-1))
             found += [
                 Spot(float(costs[i]), block, centres[k], ends[k])
                 for i, k in enumerate(near.tolist())
@@ -182,4 +182,4 @@ def _free(sums: NDArray[np.int64], block: Block, room: float) -> NDArray[np.int6
     if wide >= sums.shape[1] or high >= sums.shape[0]:
         return np.empty((0, 2), dtype=np.int64)
     inner = sums[high:, wide:] - sums[:-high, wide:] - sums[high:, :-wide] + sums[:-high, :-wide]
-    return np.argwhere(inner == wide * high) + np.array([high // 2, wide // 2])
+    return np.asarray(np.argwhere(inner == wide * high) + np.array([high // 2, wide // 2]))

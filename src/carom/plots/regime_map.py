@@ -23,6 +23,7 @@ from carom.quantities.arrays import Array
 HUES = {"gross slip +": "Oranges", "gross slip -": "Blues"}
 OTHER = "Greys"  # of what ends in stick or a slip ring, as few impacts do
 PALEST, DARKEST = 0.08, 0.62  # of the colours of a map of matplotlib
+MANY = 5  # reversals of slip, of which the colour is the darkest at least
 KEY = (
     "Labels: G gross slip, S stick, s slip in a ring around a stick region, "
     "with the sign of the slip velocity."
@@ -66,7 +67,7 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     ----------
     dataset : xarray.Dataset
         What `carom.regime_map` returns.
-    width, font_size, style : optional
+    **look : width, font_size, style
         Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
@@ -93,7 +94,7 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
         face = colours[group_of(region.name)] if region.name else "white"
         hatch = None if region.name else "xxxx"
         axis.add_patch(PathPatch(region.path(), fc=face, hatch=hatch, **EDGE))
-    axis.set(xlim=frame[:2], ylim=frame[2:])
+    axis.set(xlim=(frame.left, frame.right), ylim=(frame.bottom, frame.top))
     axis.set(xlabel=style.symbol("psi_in"), ylabel=style.symbol("chi"))
     draw_borders(axis, float(dataset.get("restitution", 1.0)))
     to_mm = _laid_out(figure, axis)[1]
@@ -104,7 +105,7 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
 
 def _colours(groups: set[Group]) -> dict[Group, Any]:
-    most = max((group.reversals for group in groups), default=0)
+    most = max(MANY, *(group.reversals for group in groups)) if groups else MANY
     shades = np.linspace(PALEST, DARKEST, most + 1)
     return {
         group: matplotlib.colormaps[HUES.get(group.ending, OTHER)](shades[group.reversals])
@@ -119,9 +120,11 @@ def _add_key(figure: Figure, groups: list[Group], colours: dict[Group, Any]) -> 
     endings = sorted({group.ending for group in groups})
     blank: Any = {"fc": "none", "ec": "none"}
     handles = [Patch(label=ENDS.format(signed(ending)), **blank) for ending in endings]
+    blanks = []
     for group in (Group(ending, count) for count in counts for ending in endings):
         face = {"fc": colours[group], **EDGE} if group in groups else blank
         handles.append(Patch(label=str(group.reversals), **face))
+        blanks += [] if group in groups else handles[-1:]
     columns, key = len(counts) + 1, KEY
     if fitting_columns(handles, columns, room / POINT, **SPACING) < columns:
         key = f"{SHORT} {KEY}"
@@ -130,9 +133,8 @@ def _add_key(figure: Figure, groups: list[Group], colours: dict[Group, Any]) -> 
             for group in groups
         ]
         columns = fitting_columns(handles, 4, room / POINT, **SPACING)
-    for handle in handles[len(endings) :]:
-        if handle.get_facecolor()[3] == 0.0:
-            handle.set_label(" ")
+    for handle in blanks:
+        handle.set_label(" ")
     place: Any = {"loc": "outside upper left", "alignment": "left", "title_fontsize": "small"}
     title = wrapped(key, room)
     figure.legend(handles=handles, ncols=columns, title=title, **place, **SPACING)
@@ -184,8 +186,10 @@ def _tied(name: str) -> str:
 
 def _write(axis: Axes, label: Placed, size: Array) -> None:
     """Write a label, with a line to its region if it is not inside."""
+    x, y = label.at / size
     text = axis.text(
-        *(label.at / size),
+        x,
+        y,
         label.block.text,
         transform=axis.transAxes,
         ha="center",

@@ -49,7 +49,7 @@ class Result(ABC):
         ----------
         path : str or Path, optional
             Where the figure is stored, too: .png, .pdf or .svg.
-        width, font_size, style : optional
+        **look : width, font_size, style
             Width in mm, size of labels in points, style of matplotlib; see
             `carom.plots.style.style`.
 

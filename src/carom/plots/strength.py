@@ -34,7 +34,7 @@ def plot_strength(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     ----------
     dataset : xarray.Dataset
         What `strength` returns: one panel for each of its speeds.
-    width, font_size, style : optional
+    **look : width, font_size, style
         Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns

@@ -86,12 +86,10 @@ def style(**look: Unpack[Look]) -> Iterator[None]:
 
     Parameters
     ----------
-    width : float, optional
-        Width in mm of the figures that `new_figure` makes; their height goes with it.
-    font_size : float, optional
-        Size of labels in points; that of ticks and legends goes with it.
-    style : str, path or dict, optional
-        What goes on top: the name of a style of matplotlib, a style file, or settings (rcParams).
+    **look : width, font_size, style
+        `width` in mm is that of figures that `new_figure` makes, and their height goes with it.
+        `font_size` in points is that of labels; ticks and legends are half a point smaller. `style`
+        goes on top: the name of a style of matplotlib, a style file, or a dictionary of rcParams.
 
     Returns
     -------

@@ -30,7 +30,7 @@ def plot_wear(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     dataset : xarray.Dataset
         What `Impact.wear` returns, or `carom.wear` for impacts on one spot, of which there is no
         map.
-    width, font_size, style : optional
+    **look : width, font_size, style
         Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns

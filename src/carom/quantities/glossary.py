@@ -262,7 +262,7 @@ GLOSSARY = {
     ),
     "dissipated_energy": Quantity("$W$", "J", "energy lost to friction"),
     "psi_out_error": Quantity(
-        r"$\delta\psi_2$", "1", "error of the velocity after by grid and time steps"
+        r"$\delta\psi_2$", "1", "error of the rebound by grid and time steps"
     ),
     "energy_error": Quantity(
         r"$\delta E$", "1", "largest relative change of the sum of all energies"

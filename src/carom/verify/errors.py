@@ -179,8 +179,8 @@ def error_map(
     Returns
     -------
     xarray.Dataset
-        psi_out, psi_out_exact, error (chi, psi_in); max_error and rms_error (chi), NaN where a law
-        leaves a point unsolved.
+        psi_out, psi_out_exact, error `(chi, psi_in)`; max_error and rms_error `(chi)`, NaN where a
+        law leaves a point unsolved.
 
     Raises
     ------
@@ -234,9 +234,10 @@ def force_error(
 ) -> ForceError:
     """Return the error of the tangential force through an impact, at equal parts of its duration.
 
-    The error is (F_x - F_x,exact)/(mu P_max). Both forces are taken at the same fraction of their
-    own contact's duration, as a linear contact lasts longer than Hertz's. The error is NaN for a
-    law without a duration. A law with damping is compared with viscoelastic bodies of the same e.
+    The error is (F_x - F_e)/(mu P_max), where F_e is the exact force. Both forces are taken at the
+    same fraction of their own contact's duration, as a linear contact lasts longer than Hertz's.
+    The error is NaN for a law without a duration. A law with damping is compared with viscoelastic
+    bodies of the same e.
 
     Parameters
     ----------

@@ -38,7 +38,7 @@ class Outcomes(NamedTuple):
 class Experiment:
     """Impacts of one pair at one normal speed, with one contact law, in fixed time steps.
 
-    The second body does not spin, so that psi_1 = kappa (v_t + R spin)/(mu V_1).
+    The second body does not spin, so that psi_1 = kappa (v_t + R omega)/(mu V_1).
 
     Parameters
     ----------

@@ -1,0 +1,228 @@
+"""The borders on a map of regimes: closed forms, the sequences beside them, and inside regions."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+import carom
+from carom.impacts.border_cells import is_plain, paired
+from carom.impacts.border_curves import border_curves
+from carom.plots.regions import area, frame_of, regions
+
+PSI, CHI = np.linspace(0.02, 6.02, 61), np.linspace(0.103, 5.003, 50)
+
+
+@pytest.fixture(scope="module")
+def found():
+    return carom.regime_map(PSI, CHI)
+
+
+@pytest.fixture(scope="module")
+def coarse():
+    """A map of few points, most of whose regimes are smaller than its cells."""
+    return carom.regime_map(np.linspace(0.1, 6.0, 9), np.linspace(0.2, 4.8, 9))
+
+
+def curves(found):
+    """Yield the sequences on both sides of every border, and its points."""
+    points = np.column_stack([found.border_psi, found.border_chi])
+    for number in range(found.sizes["border_curve"]):
+        sides = {str(found[name].values[number]) for name in ("border_left", "border_right")}
+        yield sides, points[found.border_number.values == number]
+
+
+def sequence(psi, chi, losses=None):
+    """Return the phases of one impact as `solve` tells them."""
+    signs = {0: "", 1: " +", -1: " -"}
+    solution = carom.solve(psi, chi, losses=losses)
+    return ", ".join(f"{phase.kind}{signs[phase.sign]}" for phase in solution.phases)
+
+
+def distances(points, found):
+    """Return how far points are from the next border, in shares of the axes."""
+    frame = frame_of(found)
+    unit = np.array([frame.right - frame.left, frame.top - frame.bottom])
+    nearest = np.full(len(points), np.inf)
+    for _, line in curves(found):
+        for start, end in pairwise(line / unit):
+            along, out = end - start, points / unit - start
+            share = np.clip(out @ along / max(along @ along, 1e-300), 0.0, 1.0)
+            nearest = np.minimum(nearest, np.hypot(*(out - share[:, np.newaxis] * along).T))
+    return nearest
+
+
+BORDERS = {
+    "1": (lambda a: a.startswith("stick"), lambda b: b.startswith("gross slip +"), 1.0, 0.0),
+    "2 chi": (
+        lambda a: a.startswith("gross slip +, stick"),
+        lambda b: b.startswith("gross slip +, slip -"),
+        0.0,
+        2.0,
+    ),
+    "4 chi - 1": (
+        lambda a: a == "gross slip +",
+        lambda b: b.startswith("gross slip +, "),
+        -1.0,
+        4.0,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BORDERS)
+def test_borders_are_those_in_closed_form(found, name):
+    """Between the ends of curves, where several borders meet, to the tolerance, and all along."""
+    one, other, start, slope = BORDERS[name]
+    points = [
+        line[1:-1]
+        for (a, b) in [(0, 1)]
+        for sides, line in curves(found)
+        if len(sides) == 2
+        for pair in [sorted(sides)]
+        if (one(pair[a]) and other(pair[b])) or (one(pair[b]) and other(pair[a]))
+    ]
+    psi, chi = np.concatenate(points).T
+    error = np.abs(psi - (start + slope * chi))
+    tolerance = float(found.border_tolerance)
+    assert np.all(error <= max(1.0, slope) * tolerance * np.maximum(1.0, psi))
+    seen = np.sort(chi)
+    last = min(CHI[-1], (PSI[-1] - start) / slope) if slope else CHI[-1]
+    first = 0.5 if slope else CHI[0]
+    assert seen[0] == pytest.approx(first, abs=0.15)
+    assert seen[-1] == pytest.approx(last, abs=1e-6)
+    assert np.diff(seen).max() < 0.2
+
+
+def test_the_rebound_sticks_on_both_sides_of_chi_one_half(found):
+    """Below psi_1 = 1 the first slip changes its sign at chi = 1/2, where nothing slips."""
+    wanted = {"stick, slip +, gross slip +", "stick, slip -, gross slip -"}
+    (line,) = [points for sides, points in curves(found) if sides == wanted]
+    assert np.abs(line[1:-1, 1] - 0.5).max() <= float(found.border_tolerance)
+
+
+@pytest.mark.parametrize("which", ["found", "coarse"])
+def test_sequences_beside_borders_are_those_of_single_impacts(which, request):
+    """A step of two tolerances, along psi_1 or chi, leads from one side to the other."""
+    given = request.getfixturevalue(which)
+    step = 2.0 * float(given.border_tolerance)
+    rng, checked = np.random.default_rng(5), 0
+    for sides, line in curves(given):
+        for psi, chi in rng.permutation(line[1:-1])[:4]:
+            across, up = step * max(1.0, psi), step * max(1.0, chi)
+            moves = ((across, 0.0), (-across, 0.0), (0.0, up), (0.0, -up))
+            beside = {sequence(psi + x, chi + y) for x, y in moves}
+            assert sides <= beside, (psi, chi)
+            checked += 1
+    assert checked > 40
+
+
+@pytest.mark.parametrize("which", ["found", "coarse"])
+def test_points_have_the_sequence_of_the_region_that_holds_them(which, request):
+    """Away from borders; every point is in one region, by the rule of even and odd crossings."""
+    given = request.getfixturevalue(which)
+    rng, frame = np.random.default_rng(77), frame_of(given)
+    points = np.column_stack(
+        [rng.uniform(frame.left, frame.right, 500), rng.uniform(frame.bottom, frame.top, 500)]
+    )
+    points = points[distances(points, given) > 1e-3]
+    assert len(points) > 450
+    shapes = regions(given)
+    inside = np.array([region.holds(points) for region in shapes])
+    np.testing.assert_array_equal(inside.sum(axis=0), 1)
+    for (psi, chi), number in zip(points, inside.argmax(axis=0), strict=True):
+        assert sequence(psi, chi) == shapes[number].name, (psi, chi)
+
+
+@pytest.mark.parametrize("which", ["found", "coarse"])
+def test_regions_fill_the_map(which, request):
+    given = request.getfixturevalue(which)
+    frame = frame_of(given)
+    whole = (frame.right - frame.left) * (frame.top - frame.bottom)
+    filled = sum(area(ring) for region in regions(given) for ring in region.rings)
+    assert filled == pytest.approx(whole, rel=1e-12)
+
+
+def test_regimes_between_points_are_found(coarse):
+    """Borders know more sequences than the points of the map."""
+    known = set(coarse.sequence_name.values.tolist())
+    met = {name for sides, _ in curves(coarse) for name in sides}
+    assert len(met - known) > 3
+    assert known <= met
+
+
+def test_curves_are_the_same_whatever_the_order_of_the_points(found):
+    again = carom.regime_map(PSI[::-1], CHI[::-1])
+    for name in ("border_psi", "border_chi"):
+        np.testing.assert_array_equal(np.sort(again[name]), np.sort(found[name]))
+    assert [r.name for r in regions(again)] == [r.name for r in regions(found)]
+
+
+def test_a_map_without_cells_has_no_borders():
+    row = carom.regime_map(PSI, [1.44])
+    assert row.sizes["border_point"] == row.sizes["border_curve"] == 0
+    assert [region.name for region in regions(row)]
+
+
+def test_borders_are_stored_and_read(found, tmp_path):
+    stored = carom.read(carom.save(found, tmp_path / "map.nc"))
+    for name in (name for name in found.variables if name.startswith("border_")):
+        np.testing.assert_array_equal(stored[name], found[name])
+        assert stored[name].attrs["long_name"]
+    empty = carom.read(carom.save(carom.regime_map([1.0], [1.0]), tmp_path / "one.nc"))
+    assert empty.sizes["border_point"] == 0
+
+
+def test_with_losses_sliding_begins_at_2_chi_1_plus_e_less_e():
+    """And stick after gross slip ends at 2 chi; to the coarser tolerance of maps with losses."""
+    losses, e = carom.KelvinVoigt(restitution=0.8), 0.8
+    given = carom.regime_map([1.3, 2.0, 2.6], [0.7, 1.0, 1.4], losses=losses)
+    slides = [line[1:-1] for sides, line in curves(given) if "gross slip +" in sides]
+    grips = [
+        line[1:-1]
+        for sides, line in curves(given)
+        if {name.split(", ")[1][:5] for name in sides if ", " in name} == {"stick", "slip "}
+    ]
+    tolerance = float(given.border_tolerance)
+    for lines, start, slope in ((slides, -e, 2.0 * (1.0 + e)), (grips, 0.0, 2.0)):
+        psi, chi = np.concatenate(lines).T
+        assert len(psi) > 3
+        assert np.abs(psi - (start + slope * chi)).max() <= slope * tolerance * psi.max()
+
+
+def test_discs_and_strips_are_found_whole():
+    """A disc, a strip narrower than a cell that a point has met, and sides that are straight."""
+
+    def tell(x, y):
+        disc = np.hypot(x - 3.0, y - 2.0) < 1.5
+        strip = np.abs(y - 0.4 * x - 2.9) < 0.02
+        return np.where(disc, 1, np.where(strip, 2, 0)).astype(np.int64)
+
+    x, y = np.linspace(0.0, 6.0, 16), np.linspace(0.0, 6.0, 17)
+    across, up = np.meshgrid(x, y)
+    labels = tell(across.ravel(), up.ravel()).reshape(across.shape)
+    assert 0 < np.sum(labels == 2) < 6
+    borders = border_curves((x, y), labels, tell, 1e-9, 50.0)
+    disc = np.concatenate([b.points for b in borders if {b.left, b.right} == {0, 1}])
+    assert np.abs(np.hypot(*(disc - (3.0, 2.0)).T) - 1.5).max() < 1e-8
+    (ring,) = [b.points for b in borders if {b.left, b.right} == {0, 1}]
+    assert abs(area(ring)) == pytest.approx(np.pi * 1.5**2, rel=2e-3)
+    strip = np.concatenate([b.points for b in borders if 2 in (b.left, b.right)])
+    assert np.abs(np.abs(strip[:, 1] - 0.4 * strip[:, 0] - 2.9) - 0.02).max() < 1e-8
+    assert np.ptp(strip[:, 0]) > 5.9
+
+
+def test_what_meets_in_several_ways_is_not_plain():
+    """Opposite corners alike can be joined in two ways; a strip from side to side in one."""
+    from carom.impacts.border_cells import Change
+
+    def outline(*labels):
+        around = [*labels, labels[0]]
+        return [Change((k, 0.0), *pair, side=k) for k, pair in enumerate(pairwise(around))]
+
+    assert is_plain(outline(0, 1))
+    assert is_plain(outline(0, 2, 1, 2))
+    assert not is_plain(outline(0, 1, 0, 1))
+    assert not is_plain(outline(0, 1, 2))
+    pairs, rest = paired(outline(0, 2, 1, 2))
+    assert [(a.before, a.after) for a, _ in pairs] == [(2, 0), (2, 1)] or len(pairs) == 2
+    assert rest == []
