@@ -3,12 +3,13 @@
 
 The speed from which on a steel ball cracks a glass plate, against its size, its angle and friction.
 
-Left: impacts head on against the diameter of the ball, for flaws up to three depths. If there is a
-flaw of the worst depth, the force that cracks is proportional to the radius: Auerbach's law (1891).
+Left: impacts along the normal, against the diameter of the ball, for flaws up to three depths. If
+there is a flaw of the worst depth, the force that cracks glass is proportional to the radius:
+Auerbach's law (1891).
 Carom's straight edge cracks give :math:`P E^*/(K_c^2 R) = 2492`, a lower bound; the constant
 measured on ceramics is 8600 (Rhee et al. 2001, J. Am. Ceram. Soc. 84:561). Right: a ball of 5 mm
-against the angle of incidence. With friction the worst impact is oblique: it slides until the force
-is largest.
+against the angle of incidence; circles mark the lowest speeds. With friction the worst impact is
+oblique: it slides nearly until the force is largest.
 """
 
 from pathlib import Path
@@ -47,18 +48,20 @@ def draw(head_on, measured, oblique):
     left, right = axes
     for i, (flaw, speeds) in enumerate(head_on.items()):
         left.plot(DIAMETERS, speeds, color=LINES[i], ls=DASHES[i], label=f"flaws up to {flaw:g} µm")
-    left.plot(DIAMETERS, measured, color=BLACK, ls=DASHES[4], label="measured constant")
+    left.plot(DIAMETERS, measured, color=BLACK, lw=0.8, label="measured constant")
     left.set(xscale="log", yscale="log", xlim=DIAMETERS[[0, -1]], ylim=(0.2, 20.0))
     left.set(xlabel="diameter of the ball (mm)", ylabel="speed from which on glass cracks (m/s)")
     left.set_xticks([0.5, 1, 2, 5, 10, 20], minor=False)
-    left.text(0.6, 0.24, "head on")
+    left.text(0.6, 0.24, "along the normal")
     for i, (mu, speeds) in enumerate(zip(FRICTIONS, oblique, strict=True)):
         right.plot(ANGLES, speeds, color=LINES[i], ls=DASHES[i], label=f"$\\mu$ = {mu:g}")
         if mu:
             worst = speeds.argmin()
             right.plot(ANGLES[worst], speeds[worst], "o", color=LINES[i], mfc="white")
+    right.plot([], [], "o", color="0.4", mfc="white", label="lowest speed")
     right.set(yscale="log", xlim=(0.0, 85.0), ylim=(0.03, 10.0))
-    right.set(xlabel=r"$\theta$ (deg)")
+    right.set(xlabel=r"angle of incidence $\theta$ (deg)")
+    right.set_ylabel("speed from which on glass cracks (m/s)")
     for axis in axes:
         axis.yaxis.set_major_formatter("{x:g}")
         axis.xaxis.set_major_formatter("{x:g}")
@@ -94,8 +97,8 @@ def main(folder: str | Path = ".") -> str:
 
     save_figure(draw(head_on, measured, oblique), Path(folder) / "glass_cracks.png")
     return (
-        f"P E*/(K_c^2 R) = {np.median(constants):.0f}; a ball of 5 mm cracks glass from"
-        f" {oblique[0, 0]:.2f} m/s on head on, with mu = 0.2 from {oblique[2].min():.2f} m/s on"
+        f"P E*/(K_c^2 R) = {np.median(constants):.0f}; a ball of 5 mm cracks glass along the normal"
+        f" from {oblique[0, 0]:.2f} m/s on, with mu = 0.2 from {oblique[2].min():.2f} m/s on"
         f" at {worst[2]:.0f} deg"
     )
 

@@ -60,7 +60,7 @@ def plot_stiffness() -> Figure:
     axis.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     axis.minorticks_off()
     axis.set(xlim=(0.1, 3.0), ylim=(0.0, None), ylabel=r"max |error in $\psi_2$|")
-    axis.set_xlabel(r"$k_t/(\kappa k_n)$ of linear springs, $k_t/(2G^*a)$ of others")
+    axis.set_xlabel(r"$k_t/(\kappa k_n)$ of linear springs, $k_t/(2G^*b)$ of others")
     legend_above(axis, 2)
     return figure
 
@@ -80,7 +80,7 @@ def plot_histories() -> Figure:
             axis.plot(time, history["tangential_force"], color=color, ls=dash, lw=1.0, label=name)
         axis.set(xlim=(0.0, 1.0), xlabel="part of the contact's duration")
         axis.set_title(rf"$\psi_1$ = {psi:g}")
-    axes[0, 0].set_ylabel(r"$F_x/(\mu P_{max})$")
+    axes[0, 0].set_ylabel(r"$F_x/(\mu F_{z,\max})$")
     handles, _ = axes[0, 0].get_legend_handles_labels()
     figure.legend(handles=handles, loc="outside upper center", ncols=5)
     return figure

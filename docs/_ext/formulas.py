@@ -261,6 +261,8 @@ def equations(lines: list[str]) -> list[str]:
     shown = [equation(row) for row in rows if "`" not in row]
     if len(shown) < len(rows) or not all(shown):
         return []
+    if len(shown) > 1:  # one below the other at their first relation
+        shown = [re.sub(r" (?=(?:=|\\le|\\ge|<|>) )", " & ", row, count=1) for row in shown]
     return [".. math::", "", *(line for row in shown for line in (f"   {row}", ""))]
 
 

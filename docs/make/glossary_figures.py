@@ -203,12 +203,17 @@ def cone(axis: Axes) -> None:
 
 def strip(axis: Axes, borders: list[float], last: float) -> None:
     """Draw the regimes as a strip over psi_1, with the angles of a steel ball above it."""
-    words = ("stick", "gross slip,\nthen stick", "gross slip,\nthen slip ring", "gross slip\nonly")
+    words = (
+        "stick,\nslip \N{MINUS SIGN},\ngross slip \N{MINUS SIGN}",
+        "gross slip +,\nstick, slip \N{MINUS SIGN},\ngross slip \N{MINUS SIGN}",
+        "gross slip +,\nslip \N{MINUS SIGN},\ngross slip \N{MINUS SIGN}",
+        "gross slip +",
+    )
     bands: list[Band] = list(REGIMES.values())
     ends = [0.0, *borders, last]
     for start, end, band, text in zip(ends[:-1], ends[1:], bands, words, strict=True):
         axis.axvspan(start, end, facecolor=band.face, edgecolor="white", lw=1.0)
-        axis.text(0.5 * (start + end), 0.5, text, **MIDDLE, fontsize=6.5)
+        axis.text(0.5 * (start + end), 0.5, text, **MIDDLE, fontsize=6.0)
     axis.set(ylim=(0.0, 1.0), yticks=[])
     axis.tick_params(bottom=False, labelbottom=False)
     axis.spines[["left", "right", "bottom", "top"]].set_visible(False)
@@ -259,7 +264,7 @@ def psi() -> Figure:
     left, right = figure.subfigures(1, 2, width_ratios=(3.0, 5.0))
     first = left.subplots()
     cone(first)
-    above, below = right.subplots(2, 1, sharex=True, height_ratios=(1.0, 4.2))
+    above, below = right.subplots(2, 1, sharex=True, height_ratios=(1.3, 4.0))
     strip(above, borders, last)
     rebound(below, borders, last)
     letter(first, "a")
@@ -384,13 +389,13 @@ def scalars(axis: Axes) -> None:
     axis.text(0.95, -0.8, r"$V_x = v_t + R\,\omega$", **MIDDLE)
     arrow(axis, (0.0, 0.0), (0.0, -0.8), PLAIN)
     axis.text(-0.1, -0.66, r"$\mathbf{n}$", ha="right", va="center")
-    arrow(axis, (-0.3, -0.22), (-1.3, -0.22), PLAIN)
-    axis.text(-0.8, -0.48, "$F_x > 0$", **MIDDLE)
+    arrow(axis, (0.0, 0.07), (-1.1, 0.07), PLAIN)
+    axis.text(-1.18, 0.1, "$F_x > 0$\non the ball", ha="right", va="bottom")
     axis.plot(0.0, 0.0, "o", ms=3.0, color=PLAIN, zorder=6)
     arrow(axis, (1.55, 1.75), (2.15, 1.75), PLAIN)
     arrow(axis, (1.55, 1.75), (1.55, 2.35), PLAIN)
     axis.text(2.2, 1.75, "$x$", va="center")
-    axis.text(1.55, 2.38, "$z$", ha="center", va="bottom")
+    axis.text(1.55, 2.38, "$z$ of DEM codes", ha="center", va="bottom")
     bare(axis, (-2.05, 2.4), (-1.0, 2.6))
 
 

@@ -1,7 +1,7 @@
 """Carom: how an elastic sphere leaves an oblique impact, and what happens inside the contact.
 
-The public names stand in `__init__.pyi`, each with its home, and are loaded when they are first
-used, so that `import carom` costs nothing.
+The public names are listed in `__init__.pyi` with their modules. They are loaded when they are
+first used, so that `import carom` is fast.
 """
 
 import lazy_loader

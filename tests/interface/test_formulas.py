@@ -111,9 +111,9 @@ def test_indented_equations_are_displayed():
 
     .. math::
 
-       F_n = k_n d\text{ while loading},\quad k_n/e^2 (d - d_p)\text{ while unloading}
+       F_n & = k_n d\text{ while loading},\quad k_n/e^2 (d - d_p)\text{ while unloading}
 
-       \psi_2 = \psi_1 - \min((1 + \beta_0) \psi_1, 2 \chi (1 + e))
+       \psi_2 & = \psi_1 - \min((1 + \beta_0) \psi_1, 2 \chi (1 + e))
 
 
     The rest of it."""

@@ -127,5 +127,5 @@ def test_a_table_with_losses_counts_its_impacts(monkeypatch, capsys):
     monkeypatch.setattr("carom.io.progress.place", lambda progress: Place.TEXT)
     carom.ReboundLaw(1.0, losses=carom.KelvinVoigt(restitution=0.8))
     shown = capsys.readouterr().err
-    assert "table of rebounds" in shown
+    assert "tabulating the rebounds" in shown
     assert f"{sum(solved)} impacts" in shown

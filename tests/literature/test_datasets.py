@@ -204,7 +204,7 @@ def test_storing_and_reading_gives_the_dataset_back(tmp_path):
     ("name", "hint"),
     [
         ("kharaz", "did you mean 'kharaz2001'"),
-        ("mueller", "there are foerster1994, kharaz2001, kharaz2001_kr"),
+        ("mueller", "known names are foerster1994, kharaz2001, kharaz2001_kr"),
     ],
 )
 def test_an_unknown_name_is_refused_with_the_nearest(name, hint):

@@ -70,7 +70,8 @@ def cattaneo_mindlin(pair: Pair, normal_force: ArrayLike, tangential_force: Arra
 def loop_energy(pair: Pair, normal_force: ArrayLike, amplitude: ArrayLike) -> Array:
     """Return the energy lost in a cycle of a tangential force between -T and T at constant P.
 
-        W = (18 mu^2 P^2/(5 a G*)) (1 - (1 - t)^(5/3) - (5/6) t (1 + (1 - t)^(2/3))), t = T/(mu P)
+        W = (18 mu^2 P^2/(5 a G*)) (1 - (1 - t)^(5/3) - (5/6) t (1 + (1 - t)^(2/3)))
+        t = T/(mu P)
 
     Here a is the contact radius (Mindlin & Deresiewicz 1953, J. Appl. Mech. 20:327; Johnson 1985,
     section 7.4). With y = (1 - t)^(1/3) the last bracket is (1 - y)^3 (1 + 3 y + y^2)/6.

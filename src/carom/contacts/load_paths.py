@@ -321,6 +321,6 @@ def load_path(
 
 
 def _load_path(pair: Pair, steps: Steps, progress: Progress) -> LoadPath:
-    with advancing("load path", len(steps.target), progress, unit="steps") as advance:
+    with advancing("computing the load path", len(steps.target), progress, unit="steps") as advance:
         scales, columns = followed(pair, steps, advance)
     return LoadPath(pair, penetration=steps.penetration, **columns, scales=scales, _steps=steps)

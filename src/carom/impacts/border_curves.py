@@ -34,7 +34,7 @@ Labels: TypeAlias = NDArray[np.int64]
 Tell: TypeAlias = Callable[[Array, Array], Labels]
 Bracket: TypeAlias = tuple[tuple[float, int], tuple[float, int]]  # places with their labels
 
-SLIVER = 16  # times the tolerance: what is thinner between two others is not told
+FINER = 8.0  # than the tolerance: what is found thinner than that between two others is left out
 FLAT = 3e-4  # of an axis: how far a curve may be from the straight pieces that are its picture
 SHIFT = 0.07  # of new lines, in cells of the grid
 
@@ -178,7 +178,7 @@ class Plane:
 
     def _is_sliver(self, line: Line, low: float, high: float) -> bool:
         """Tell whether what lies between is thin, and no other line shows it."""
-        if high - low > SLIVER * self.tolerance * max(1.0, abs(low)):
+        if high - low > self.tolerance * max(1.0, abs(low)):
             return False
         places = self.places[line]
         within = places[bisect_left(places, low) : bisect_right(places, high)]
@@ -202,7 +202,7 @@ class Plane:
         return self.tell(x, y) if x.size else np.zeros(0, dtype=np.int64)
 
     def _bisect(self, where: set[Edge]) -> None:
-        """Narrow every change of label along edges down to the tolerance."""
+        """Narrow every change of label along edges down to less than the tolerance."""
         brackets = [(edge[0], pair) for edge in sorted(where) for pair in self._brackets(*edge)]
         if not brackets:
             return
@@ -211,7 +211,8 @@ class Plane:
         numbers, pairs = np.arange(len(lines)), np.array([pair for _, pair in brackets])
         ends, sides = pairs[:, :, 0], pairs[:, :, 1].astype(np.int64)
         while numbers.size:
-            wide = ends[:, 1] - ends[:, 0] > self.tolerance * np.maximum(1.0, abs(ends[:, 0]))
+            least = self.tolerance / FINER * np.maximum(1.0, abs(ends[:, 0]))
+            wide = ends[:, 1] - ends[:, 0] > least
             for number, places, labels in zip(
                 numbers[~wide], ends[~wide].tolist(), sides[~wide].tolist(), strict=True
             ):

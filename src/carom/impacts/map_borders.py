@@ -11,8 +11,8 @@ from carom.io.progress import Progress, advancing
 from carom.quantities.arrays import Array
 
 TOLERANCE = 1e-6  # of points of a border
-COARSE = 1e-4  # the same with losses, as such an impact takes a hundred times as long
-MORE, COARSE_MORE = 20.0, 1.0  # impacts to refine borders, to those that find them on the grid
+COARSE = 1e-3  # the same with losses, as such an impact takes a hundred times as long
+MORE, COARSE_MORE = 20.0, 0.5  # impacts to refine borders, to those that find them on the grid
 
 
 def border_variables(

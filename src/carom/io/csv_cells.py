@@ -123,7 +123,7 @@ def _read(file: _File, fewest: int) -> CsvCells:
         raise file.refusal(f"it is not CSV; {allowed}")
     _check_heads(file, heads)
     parts: list[list[Any]] = [[] for _ in heads]
-    with advancing("reading", None, unit="rows") as advance:
+    with advancing("reading the table", None, unit="rows") as advance:
         for block in file.blocks():
             before = len(file.lines)
             columns = _quickly(file, block, separator, len(heads))

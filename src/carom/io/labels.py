@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 CONVENTIONS = "CF-1.11"
 AXES = {"x": {"axis": "X"}, "y": {"axis": "Y"}, "z": {"axis": "Z", "positive": "down"}}
-MARKS = {True: "ok ", False: "NO ", None: " ? "}
+MARKS = {True: "ok   ", False: "FAILS", None: "?    "}  # of an assumption
 
 
 class Finding(NamedTuple):

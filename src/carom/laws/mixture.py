@@ -78,7 +78,7 @@ class MixtureLaw:
             allowed = f"must be a range within 0.5 to {LARGEST_CHI:g}; carom.rebound takes any chi"
             raise refusal("chi", (low, high), allowed)
         whole = (SMALLEST, 3.0, self.low, self.high)
-        with advancing("table of rebounds", None, unit="impacts") as advance:
+        with advancing("tabulating the rebounds", None, unit="impacts") as advance:
 
             def loss(place: Array, chi: Array) -> Array:
                 advance(place.size)

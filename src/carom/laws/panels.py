@@ -39,7 +39,7 @@ def panels(chi: float, restitution: float) -> Panels:
     if restitution < 1.0:
         rebounds, narrowest = partial(_lossy, viscous_loss(restitution)), NARROW
         tolerance = LOSSY_TOLERANCE if chi <= RETURNING else ROUGH
-    with advancing("table of rebounds", None, unit="impacts") as advance:
+    with advancing("tabulating the rebounds", None, unit="impacts") as advance:
 
         def ratio(psi: Array) -> tuple[Array, Branches]:
             outgoing, status, sequence = rebounds(psi, np.full(psi.size, chi))

@@ -24,7 +24,7 @@ from carom.quantities.refusals import InputError, refusal
 MARGIN = 1.08  # around the largest contact
 NARROWEST = 26.0  # mm, of a patch
 USUAL, MOST = 6, 12  # patches beside each other
-BESIDE, PROFILE, FORCE, TEXTS = 20.0, 16.0, 34.0, 36.0  # mm, of what is beside and below them
+BESIDE, PROFILE, FORCE, TEXTS = 20.0, 16.0, 34.0, 42.0  # mm, of what is beside and below them
 BARS = (1.0, 2.0, 5.0)  # lengths of the scale bar, times powers of ten
 BAR = 0.5  # its longest, in radii of the largest contact
 

@@ -25,13 +25,14 @@ OTHER = "Greys"  # of what ends in stick or a slip ring, as few impacts do
 PALEST, DARKEST = 0.08, 0.62  # of the colours of a map of matplotlib
 MANY = 5  # reversals of slip, of which the colour is the darkest at least
 KEY = (
-    "Labels: G gross slip, S stick, s slip in a ring around a stick region, "
-    "with the sign of the slip velocity."
+    "G gross slip, S stick, s slip in a ring around a stick region; "
+    "+ and \u2212: sign of the slip velocity"
 )
 ENDS = "ends in {}, reversals of slip:"
-SHORT = "Colours: the last phase, and how often slip reverses."
+SHORT = "Colours: the last phase, and how often slip reverses. Labels:"
 EDGE: Any = {"ec": "0.2", "lw": 0.4}
 SPACING: Any = {"handlelength": 1.6, "handletextpad": 0.5, "columnspacing": 1.0}
+UNDER = 0.8  # of the way from the middle of a label to its edge: where a leader line ends
 TALL = 0.42  # the map, in widths of the figure
 POINT = 25.4 / 72.0  # in mm
 
@@ -58,10 +59,10 @@ def group_of(name: str) -> Group:
 def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw which phases follow which over psi_1 and chi, with the borders 1, 2 chi, 4 chi - 1.
 
-    The colour of a region tells how the impact ends and how often slip reverses its sense. Its
-    label is the sequence of phases in letters, at the end of a line where it has no room inside.
-    Regions narrower than 0.2 mm are listed below the map. A dataset without borders, of an older
-    version, is drawn by its cells.
+    The colour of a region shows how the impact ends and how often slip reverses. Its label is the
+    sequence of phases in letters, at the end of a line where it has no room inside, or a number
+    that is explained below the map. Regions narrower than 0.2 mm are listed there. A dataset
+    without borders, of an older version, is drawn by its cells.
 
     Parameters
     ----------
@@ -201,8 +202,9 @@ def _write(axis: Axes, label: Placed, size: Array) -> None:
     )
     text.set_in_layout(False)
     if label.line is not None:
-        text.set_bbox({"boxstyle": "square,pad=0.12", "fc": "white", "ec": "none", "alpha": 0.9})
-        ends = label.line / size
+        text.set_bbox({"boxstyle": "square,pad=0.12", "fc": "white", "ec": "none"})
+        under = label.at + UNDER * (label.line[1] - label.at)  # the box, which hides the end
+        ends = np.array([label.line[0], under]) / size
         (line,) = axis.plot(*ends.T, transform=axis.transAxes, color="black", lw=0.5, zorder=4)
         line.set(marker="o", markevery=[0], ms=1.5)
         line.set_in_layout(False)

@@ -1,12 +1,15 @@
 """Rebound curves with their regimes, and the borders of regimes over a map of psi_1 and chi."""
 
-from typing import Any, Unpack
+from typing import TypeAlias, Unpack
 
+import matplotlib
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Patch
+from matplotlib.textpath import TextPath
 
 from carom.plots import style
 from carom.plots.bands import BANDS, STICK, Band, mirrored, shade
@@ -14,6 +17,8 @@ from carom.plots.drawing import Drawable, draws
 from carom.plots.legends import legend_above
 from carom.plots.look import Look
 from carom.quantities.arrays import Array
+
+Named: TypeAlias = tuple[str, tuple[float, float]]  # a name and the place that it is for
 
 MARKERS = "os^Dv"
 REGIMES = {
@@ -112,15 +117,48 @@ def draw_borders(axis: Axes, restitution: float = 1.0) -> None:
     slides = r"$4\chi-1$" if restitution == 1.0 else r"$2\chi(1+e)-e$"
     lines = {r"$1$": 0.0 * chi + 1.0, r"$2\chi$": 2.0 * chi}
     lines[slides] = 2.0 * chi * (1.0 + restitution) - restitution
+    above: list[Named] = []
+    beside: list[Named] = []
     for dash, (name, psi) in zip(style.DASHES, lines.items(), strict=False):
         axis.plot(psi, chi, color="black", ls=dash, lw=1.0)
         inside = psi <= right
         if not inside.any() or not left <= psi[inside][-1]:
             continue
-        last = psi[inside][-1], chi[inside][-1]
-        place: dict[str, Any] = {"xy": (right, last[1]), "xytext": (3, 0), "va": "center"}
-        if inside.all():
-            place = {"xy": last, "xytext": (0, 3), "ha": "center", "va": "bottom"}
-        axis.annotate(rf"$\psi_1 = ${name}", textcoords="offset points", **place)
+        at = (float(psi[inside][-1]), float(chi[inside][-1]))
+        (above if inside.all() else beside).append((rf"$\psi_1 = ${name}", at))
+    _name_above(axis, above)
+    _name_beside(axis, beside)
     if bottom < 0.5:
         axis.plot([1.0, 1.0], [bottom, 0.5], color="black", ls="-", lw=1.0)
+
+
+def _name_above(axis: Axes, named: list[Named]) -> None:
+    """Write names over the ends of lines at the top, higher where one would be in another's way."""
+    size, lines, last = _font_size(), 0, -np.inf
+    for name, at in named:
+        half = 0.5 * TextPath((0, 0), name, size=size).get_extents().width + 0.4 * size
+        place = _points(axis, at)[0]
+        lines = lines + 1 if place - half < last else 0
+        last = place + half
+        offset = (0.0, 3.0 + 1.4 * size * lines)
+        axis.annotate(name, at, offset, textcoords="offset points", ha="center", va="bottom")
+
+
+def _name_beside(axis: Axes, named: list[Named]) -> None:
+    """Write names beside the ends of lines at the right, the lower ones lower if need be."""
+    size, right, last = _font_size(), axis.get_xlim()[1], np.inf
+    for name, at in named:
+        place = _points(axis, at)[1]
+        written = min(place, last - 1.4 * size)
+        last, offset = written, (3.0, written - place)
+        xy = (right, at[1])
+        axis.annotate(name, xy, offset, textcoords="offset points", va="center")
+
+
+def _font_size() -> float:
+    return FontProperties(size=matplotlib.rcParams["font.size"]).get_size_in_points()
+
+
+def _points(axis: Axes, at: tuple[float, float]) -> Array:
+    """Return the place of a point within axes, in points."""
+    return np.asarray(axis.transData.transform(at)) * 72.0 / float(axis.figure.dpi)

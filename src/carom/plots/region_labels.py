@@ -17,8 +17,9 @@ from carom.quantities.arrays import Array
 SMALLEST = 0.2  # width in mm of a region that has a label
 UNSEEN = 0.02  # width in mm of one that is not even listed, if its sequence is elsewhere
 SPOTS = 5000  # places for labels with leader lines that are compared
-PITCH = 1.3  # of lines of text, in sizes of the font
+PITCH = 1.2  # of lines of text, in sizes of the font
 MM = 25.4 / 72.0  # a point
+HINTS = 1.1  # by which text can be wider on a screen than its outlines
 LETTERS = {"gross slip": "G", "stick": "S", "slip": "s"}
 
 
@@ -123,7 +124,7 @@ def _width(text: str) -> float:
     family = str(matplotlib.rcParams["font.family"])
     words = text.split(" ")
     spaces = (len(words) - 1) * _em_width(" ", family)
-    return _small() * (sum(_em_width(word, family) for word in words) + spaces)
+    return HINTS * _small() * (sum(_em_width(word, family) for word in words) + spaces)
 
 
 def _small() -> float:

@@ -88,7 +88,7 @@ GLOSSARY = {
     "restitution": Quantity("$e$", "1", "normal restitution that a law is made for"),
     "stiffness_ratio": Quantity("$k_t/k_n$", "1", "ratio of tangential to normal spring stiffness"),
     "stiffness": Quantity(
-        "$k_t/(2 G^* a)$", "1", "tangential stiffness in units of that of elastic bodies"
+        "$k_t/(2 G^* b)$", "1", "tangential stiffness in units of that of elastic bodies"
     ),
     "tangential_damping": Quantity(
         "$c_t/c_n$", "1", "tangential damping in units of the normal one"

@@ -1,0 +1,186 @@
+"""The map of regimes names every sequence, by labels that are clear of each other."""
+
+import itertools
+import re
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_rgb
+from matplotlib.text import Text
+
+import carom
+from carom.plots import plot_regime_map, save_figure
+from carom.plots.regime_map import group_of
+from carom.plots.region_labels import SMALLEST, find_labels, in_letters, wrapped
+from carom.plots.regions import regions
+
+SPACES = str.maketrans({"\n": " ", "\u00a0": " "})
+WIDTHS = (178.0, 120.0, 86.0)
+
+
+@pytest.fixture(scope="module")
+def maps():
+    """Many regimes, few, those that end in stick or slip on a line, mirror images, no borders."""
+    line = np.linspace
+    many = carom.regime_map(line(0.02, 6.02, 61), line(0.103, 5.003, 50))
+    return {
+        "many": many,
+        "cells": many.drop_vars([name for name in many.variables if name.startswith("border_")]),
+        "few": carom.regime_map(line(0.05, 3.0, 20), line(0.05, 3.0, 20)),
+        "half": carom.regime_map(line(0.0, 2.0, 21), line(0.3, 0.6, 13)),
+        "mirrored": carom.regime_map(line(-6.0, 6.0, 40), line(0.1, 4.0, 30)),
+        "row": carom.regime_map(line(0.0, 6.0, 25), [1.44]),
+    }
+
+
+NAMES = ("many", "cells", "few", "half", "mirrored", "row")
+
+
+def seen(figure):
+    """Return all texts that are seen: not the labels of ticks outside the limits."""
+    hidden = set()
+    for axis in figure.axes:
+        for side, limits in ((axis.xaxis, axis.get_xlim()), (axis.yaxis, axis.get_ylim())):
+            for tick in side.get_major_ticks():
+                if not min(limits) <= tick.get_loc() <= max(limits):
+                    hidden |= {id(tick.label1), id(tick.label2)}
+    texts = [t for t in figure.findobj(Text) if t.get_visible() and t.get_text().strip()]
+    return [t for t in texts if id(t) not in hidden]
+
+
+def words(figure):
+    return [text.get_text().translate(SPACES) for text in figure.findobj(Text) if text.get_text()]
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize("name", NAMES)
+def test_every_sequence_is_named(maps, name, width):
+    """In a label or below the map, those that only borders know too; and numbers are explained."""
+    given = maps[name]
+    figure = plot_regime_map(given, width=width)
+    labels = {text.get_text().translate(SPACES) for text in figure.axes[0].texts}
+    below = figure.get_supxlabel().translate(SPACES)
+    listed = set(re.sub(r"Not marked, [^:]*: ", "; ", below).split("; "))
+    listed = {entry.split(" = ")[-1].split(" (")[0].strip("; ") for entry in listed}
+    for region in regions(given):
+        assert " ".join(in_letters(region.name)) in labels | listed, region.name
+    numbers = sorted({int(label) for label in labels if label.isdigit()})
+    assert numbers == list(range(1, len(numbers) + 1))
+    for number in numbers:
+        assert f"{number} = " in below
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize("name", NAMES)
+def test_text_is_neither_cut_off_nor_overlapping(maps, name, width):
+    """Labels, names of borders, the legend, what is below."""
+    figure = plot_regime_map(maps[name], width=width)
+    FigureCanvasAgg(figure).draw()
+    page = figure.bbox
+    boxes = [(text.get_text(), text.get_window_extent()) for text in seen(figure)]
+    assert len(boxes) > 10
+    for text, box in boxes:
+        inside = box.x0 >= -0.5 and box.y0 >= -0.5 and box.x1 <= page.x1 and box.y1 <= page.y1
+        assert inside, text
+    for (first, box), (second, other) in itertools.combinations(boxes, 2):
+        wide = min(box.x1, other.x1) - max(box.x0, other.x0)
+        high = min(box.y1, other.y1) - max(box.y0, other.y0)
+        assert wide <= 0.5 or high <= 0.5, (first, second)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_leader_lines_run_clear_of_labels_and_begin_in_their_region(maps, name):
+    """Labels without a line lie in their region; to a tenth of a millimetre."""
+    found = regions(maps[name])
+    size, low, high = np.array([120.0, 70.0]), *_limits(maps[name])
+    factor = size / (high - low)
+    placed = find_labels(found, [], np.array([factor, -low * factor]), (120.0, 70.0)).placed
+    assert placed
+    for number, label in placed.items():
+        half = 0.5 * np.array(label.block.size)
+        if label.line is None:
+            corners = [label.at + half * (x, y) for x in (-1, 1) for y in (-1, 1)]
+            assert np.all(found[number].holds(np.array(corners) / factor + low)), number
+        else:
+            assert found[number].holds((label.line[:1]) / factor + low)[0], number
+            assert np.all(np.abs(label.line[1] - label.at) <= half + 1e-9)
+        for other in (label for n, label in placed.items() if n != number):
+            apart = np.abs(label.at - other.at) - half - 0.5 * np.array(other.block.size)
+            assert apart.max() > -0.1
+            if label.line is not None:
+                points = label.line[0] + np.linspace(0.0, 1.0, 400)[:, np.newaxis] * (
+                    label.line[1] - label.line[0]
+                )
+                near = np.abs(points - other.at) - 0.5 * np.array(other.block.size)
+                assert near.max(axis=1).min() > -0.1
+
+
+def _limits(given):
+    lines = [given[name].values for name in ("psi_in", "chi")]
+    room = [0.05 * max(1.0, line[0]) if line.min() == line.max() else 0.0 for line in lines]
+    low = np.array([line.min() - more for line, more in zip(lines, room, strict=True)])
+    return low, np.array([line.max() + more for line, more in zip(lines, room, strict=True)])
+
+
+@pytest.mark.parametrize(
+    ("sequence", "ending", "reversals"),
+    [
+        ("gross slip +", "gross slip +", 0),
+        ("stick", "stick", 0),
+        ("stick, slip -, gross slip -", "gross slip -", 0),
+        ("gross slip +, stick, slip -, gross slip -", "gross slip -", 1),
+        ("stick, slip -, stick, slip +, slip -, gross slip -", "gross slip -", 2),
+        ("gross slip -, stick, slip +, slip -, slip +", "slip +", 3),
+    ],
+)
+def test_regimes_are_grouped_by_their_end_and_the_reversals_of_slip(sequence, ending, reversals):
+    assert group_of(sequence) == (ending, reversals)
+
+
+def test_colours_tell_groups_apart(maps):
+    """One colour a group: blue or orange by the ending, the darker the more often slip reverses."""
+    figure = plot_regime_map(maps["many"])
+    faces = {}
+    for region, patch in zip(regions(maps["many"]), figure.axes[0].patches, strict=True):
+        faces.setdefault(group_of(region.name), set()).add(to_rgb(patch.get_facecolor()))
+    assert all(len(colours) == 1 for colours in faces.values())
+    assert len(set.union(*faces.values())) == len(faces) >= 9
+    for ending, red_over_blue in (("gross slip +", True), ("gross slip -", False)):
+        row = [next(iter(faces[key])) for key in sorted(faces) if key.ending == ending]
+        assert all((red > blue) == red_over_blue for red, _, blue in row)
+        greens = [green for _, green, _ in row]
+        assert greens == sorted(greens, reverse=True)
+    shown = {to_rgb(patch.get_facecolor()) for patch in figure.legends[0].get_patches()}
+    assert set.union(*faces.values()) <= shown
+
+
+def test_edges_are_curves_and_not_pixels(maps, tmp_path):
+    """There is no picture in a vector file; and steps only where a dataset has no borders."""
+    stored = save_figure(plot_regime_map(maps["many"]), tmp_path / "map.svg")
+    assert "<image" not in stored.read_text(encoding="utf-8")
+    slanted = {}
+    for name in ("many", "cells"):
+        rings = [ring for region in regions(maps[name]) for ring in region.rings]
+        steps = np.concatenate([np.diff(ring, axis=0) for ring in rings])
+        slanted[name] = np.mean(np.all(steps != 0.0, axis=1))
+    assert slanted["many"] > 0.5
+    assert slanted["cells"] == 0.0
+
+
+def test_what_is_not_resolved_is_said_to_be(maps):
+    """A region of its own with a hatch, a name, and no colour in the legend."""
+    holed = maps["cells"].copy(deep=True)
+    holed.sequence.values[5:20, 30:50] = -1
+    figure = plot_regime_map(holed)
+    (hatched,) = [patch for patch in figure.axes[0].patches if patch.get_hatch()]
+    assert to_rgb(hatched.get_facecolor()) == (1.0, 1.0, 1.0)
+    assert "not resolved" in words(figure)
+
+
+def test_long_lines_are_broken_where_there_is_room():
+    text = "one two three four five six seven"
+    lines = wrapped(text, 20.0).split("\n")
+    assert len(lines) > 1
+    assert " ".join(lines) == text
+    assert SMALLEST == 0.2, "as the docstring of plot_regime_map and the tests have it"
