@@ -52,11 +52,29 @@ def test_profiles_and_marks_are_the_tractions_and_forces_of_the_impact(hit):
 
 
 def test_one_scale_of_colours_holds_for_all_patches(hit):
-    """Its ends are the largest traction that friction allows in the whole impact."""
-    patches, _, _ = panels(plots.plot_contact(hit, count=4), 4)
-    most = 1e-6 * 0.2 * hit.max_pressure
+    """Its ends are the largest traction that is shown: here in the centre, while the ball sticks."""
+    times = [0.2 * hit.duration, 0.4 * hit.duration, 0.9 * hit.duration]
+    patches, _, _ = panels(plots.plot_contact(hit, [hit.fields(time) for time in times]), 3)
+    most = max(float(hit.fields(t, points=[[0.0, 0.0]]).traction_x[0]) for t in times)
     for axis in patches:
-        assert axis.collections[0].get_clim() == pytest.approx((-most, most))
+        assert axis.collections[0].get_clim() == pytest.approx((-1e-6 * most, 1e-6 * most))
+
+
+def test_tractions_without_bound_at_the_edge_do_not_set_the_scale(hit):
+    """Of viscous bodies while loading; the key to the colours then says that there is more."""
+    losses = carom.KelvinVoigt(restitution=0.3)
+    viscous = carom.impact(hit.pair, speed=2.0, angle="60 deg", losses=losses)
+    fields = viscous.fields(0.1 * viscous.duration)
+    figure = plots.plot_contact(viscous, [fields])
+    distance = np.hypot(fields.y.values[:, None], fields.x.values)
+    inside = distance < 0.9 * float(fields.contact_radius)
+    patch, key = figure.axes[0], figure.axes[-1]
+    low, high = patch.collections[0].get_clim()
+    assert high == -low
+    assert key.get_ylabel() == "$f_x$\u00a0(GPa)"
+    assert high >= 1e-9 * np.abs(fields.traction_x.values[inside]).max()
+    assert high < 0.7e-9 * np.abs(fields.traction_x.values).max()
+    assert key._colorbar.extend == "both"
 
 
 def test_a_stored_impact_is_drawn_from_its_history_and_fields(hit, tmp_path):
@@ -69,10 +87,12 @@ def test_a_stored_impact_is_drawn_from_its_history_and_fields(hit, tmp_path):
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        ({"count": 0}, "count: 0 cannot be used; must be a whole number from 1 to 12"),
+        ({"count": 0}, "count: 0 cannot be used; must be a whole number"),
         ({"count": 2.5}, "count: 2.5 cannot be used"),
-        ({"frames": []}, "frames: 0 cannot be used; must be the fields of 1 to 12 instants"),
-        ({"frames": [3.0]}, "traction_x: a map needs it on a grid"),
+        ({"frames": []}, "frames: 0 cannot be used; must be the fields of 1 to 9 instants"),
+        ({"frames": [3.0]}, "what was given is no dataset but of type float"),
+        ({"frames": 3.0}, "frames: 3.0 cannot be used; must be the fields of 1 to 9 instants"),
+        ({"fontsize": 9}, "fontsize: no keyword of plot_contact; did you mean"),
     ],
 )
 def test_what_cannot_be_shown_is_refused_in_one_line(hit, options, said):

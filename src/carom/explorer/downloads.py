@@ -23,7 +23,7 @@ from carom.io.files import save
 from carom.io.labels import labelled_dataset
 from carom.plots import plot_curve, plot_impact, plot_patch, save_figure
 from carom.plots.legends import legend_above
-from carom.plots.style import DASHES, LINES, MM, VERMILION
+from carom.plots.style import DASHES, LINES, MM, VERMILION, styled
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.texts import Unreadable, read_text
 from carom.verify.errors import losses_of
@@ -99,6 +99,7 @@ def _curve(view: View, _: float, file: Path) -> None:
     save_figure(curve_figure(scene, laws), file)
 
 
+@styled
 def curve_figure(scene: Scene, laws: list[LawCurve]) -> Figure:
     """Return the rebound curve with the present point and the contact laws over it."""
     figure = plot_curve(

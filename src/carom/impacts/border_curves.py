@@ -35,6 +35,8 @@ Tell: TypeAlias = Callable[[Array, Array], Labels]
 Bracket: TypeAlias = tuple[tuple[float, int], tuple[float, int]]  # places with their labels
 
 FINER = 8.0  # than the tolerance: what is found thinner than that between two others is left out
+MOST = 5, 4_000  # points told for each of the grid, and besides: more would not be seen on it
+FINEST = 3, 10_000  # the same to quarter cells
 FLAT = 3e-4  # of an axis: how far a curve may be from the straight pieces that are its picture
 SHIFT = 0.07  # of new lines, in cells of the grid
 
@@ -59,14 +61,15 @@ def border_curves(
     """
     if min(labels.shape) < 2:
         return []
-    plane = Plane(axes, labels, tell, tolerance)
+    plane = Plane(axes, labels, tell, tolerance, most=MOST[0] * labels.size + MOST[1])
     around = labels[:-1, :-1], labels[:-1, 1:], labels[1:, :-1], labels[1:, 1:]
     differ = np.argwhere(np.any([corner != around[0] for corner in around], axis=0))
     cells = {(WHOLE * i, WHOLE * j, WHOLE) for j, i in differ.tolist()}
     plane.look_at(cells)
     quartered: set[Cell] = set()
-    most = (1.0 + more) * plane.told
-    while plane.told <= most:
+    if plane.told < plane.most:
+        plane.most = plane.told + min(more * plane.told, FINEST[0] * labels.size + FINEST[1])
+    while plane.told < plane.most:
         outlines = {cell: plane.outline(cell) for cell in cells if cell[2] > 1}
         coarse = {cell for cell, outline in outlines.items() if not is_plain(outline)}
         coarse |= plane.bent({c: o for c, o in outlines.items() if o and c not in coarse})
@@ -84,10 +87,10 @@ class Plane:
     """Points of a plane with their labels, in order along the lines of a grid."""
 
     def __init__(
-        self, axes: tuple[Array, Array], labels: Labels, tell: Tell, tolerance: float
+        self, axes: tuple[Array, Array], labels: Labels, tell: Tell, tolerance: float, most: float
     ) -> None:
         self.axes, self.labels, self.tell, self.tolerance = axes, labels, tell, tolerance
-        self.told = 0
+        self.told, self.most = 0, most
         self.nodes: dict[Node, int] = {}
         self.places: dict[Line, list[float]] = defaultdict(list)
         self.known: dict[Line, dict[float, int]] = defaultdict(dict)
@@ -212,7 +215,7 @@ class Plane:
         ends, sides = pairs[:, :, 0], pairs[:, :, 1].astype(np.int64)
         while numbers.size:
             least = self.tolerance / FINER * np.maximum(1.0, abs(ends[:, 0]))
-            wide = ends[:, 1] - ends[:, 0] > least
+            wide = (ends[:, 1] - ends[:, 0] > least) & (self.told < self.most)
             for number, places, labels in zip(
                 numbers[~wide], ends[~wide].tolist(), sides[~wide].tolist(), strict=True
             ):

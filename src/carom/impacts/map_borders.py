@@ -30,7 +30,8 @@ def border_variables(
             advance(psis.size)
             return found
 
-        curves = border_curves((x, y), numbers[np.ix_(rows, columns)], tell, tolerance, more)
+        with np.errstate(over="ignore", invalid="ignore"):  # where values are out of all proportion
+            curves = border_curves((x, y), numbers[np.ix_(rows, columns)], tell, tolerance, more)
     points = np.concatenate([np.empty((0, 2)), *(curve.points for curve in curves)])
     names = np.array(sequences.names, dtype=np.str_)
     left, right = np.array([curve[:2] for curve in curves], dtype=np.int64).reshape(-1, 2).T

@@ -39,7 +39,7 @@ def plot_cone(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Parameters
     ----------
-    dataset : xarray.Dataset
+    dataset : xarray.Dataset or result
         What `Impact.history` or `LoadPath.to_dataset` returns.
     **look : width, font_size, style
         Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.

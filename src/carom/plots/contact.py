@@ -13,18 +13,23 @@ from matplotlib.patheffects import withStroke
 
 from carom.plots import style
 from carom.plots.bands import moment, phases
-from carom.plots.drawing import Drawable, checked_dataset
+from carom.plots.drawing import Drawable, check_look, checked_dataset
 from carom.plots.impact import FORCES, HISTORY, RADII, forces_panel, phase_handles
 from carom.plots.legends import legend_outside
 from carom.plots.look import WIDTH, Look, quiet
 from carom.plots.patch import patch_panel
 from carom.plots.profiles import profile_panel
 from carom.quantities.refusals import InputError, refusal
+from carom.quantities.units import counted
 
+RIM, ROOM = 0.95, 1.1  # in contact radii; around the largest traction
 MARGIN = 1.08  # around the largest contact
 NARROWEST = 26.0  # mm, of a patch
-USUAL, MOST = 6, 12  # patches beside each other
+SIDES = (8.0, 60.0)  # of a patch, in mm
+USUAL, MOST = 6, 9  # patches beside each other
 BESIDE, PROFILE, FORCE, TEXTS = 20.0, 16.0, 34.0, 42.0  # mm, of what is beside and below them
+FIELDS = "the fields of a contact on a grid of x and y, what Impact.fields returns"
+ON_PATCH = ("traction_x", "pressure", "zone", "friction", "tangential_force", "time", *RADII[:2])
 BARS = (1.0, 2.0, 5.0)  # lengths of the scale bar, times powers of ten
 BAR = 0.5  # its longest, in radii of the largest contact
 
@@ -47,7 +52,7 @@ def plot_contact(
     history : impact or xarray.Dataset
         The impact, or what `Impact.history` returns; then the frames are needed, too.
     frames : iterable of xarray.Dataset, optional
-        What `Impact.fields` returns, on a grid, at the instants to be shown, from 1 to 12.
+        What `Impact.fields` returns, on a grid, at the instants to be shown, from 1 to 9.
     count : int, optional
         How many instants are chosen, by default six, or as many as the width has room for.
     **look : width, font_size, style
@@ -70,9 +75,10 @@ def plot_contact(
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> figure = carom.plots.plot_contact(hit, count=3)
-    >>> [axis.get_title().split(",")[0] for axis in figure.axes[:2]]
-    ['gross slip +', 'stick']
+    >>> len(figure.axes)  # patches, profiles below them, the force, and the key to the colours
+    8
     """
+    check_look(look, "plot_contact", ("history", "frames", "count"))
     with style.style(**look), quiet():
         course, shown = _read(history, frames, count)
         return _draw(course, shown)
@@ -85,7 +91,9 @@ def _read(given: Any, frames: Any, count: int | None) -> tuple[xr.Dataset, list[
     needed = (*FORCES, *RADII, "max_pressure")
     checked_dataset(course, f"plot_contact draws {HISTORY}", needed, ("time",))
     if frames is not None:
-        shown = list(frames)
+        if count is not None:
+            raise InputError("count: the frames that are given are shown; leave one of both out")
+        shown = _frames(frames)
     elif known:
         shown = [given.fields(time) for time in _instants(course, _checked(count))]
     else:
@@ -93,16 +101,24 @@ def _read(given: Any, frames: Any, count: int | None) -> tuple[xr.Dataset, list[
     if not 1 <= len(shown) <= MOST:
         raise refusal("frames", len(shown), f"must be the fields of 1 to {MOST} instants")
     for fields in shown:
+        checked_dataset(fields, f"plot_contact draws {FIELDS}", ON_PATCH)
         style.check_grid(fields, "traction_x", "y", "x")
     return course, shown
+
+
+def _frames(given: Any) -> list[Any]:
+    """Return frames as a list; a dataset alone is one."""
+    if hasattr(given, "data_vars"):
+        return [given]
+    if not isinstance(given, Iterable) or isinstance(given, str):
+        raise refusal("frames", given, f"must be the fields of 1 to {MOST} instants")
+    return list(given)
 
 
 def _checked(count: int | None) -> int:
     if count is None:
         return int(np.clip(style.room(style.DOUBLE) // NARROWEST, 1, USUAL))
-    if not isinstance(count, int) or not 1 <= count <= MOST:
-        raise refusal("count", count, f"must be a whole number from 1 to {MOST}")
-    return count
+    return counted("count", count, 1, MOST)
 
 
 def _instants(course: xr.Dataset, count: int) -> list[float]:
@@ -116,8 +132,23 @@ def _instants(course: xr.Dataset, count: int) -> list[float]:
     return times
 
 
+def _largest(shown: list[xr.Dataset]) -> tuple[float, bool]:
+    """Return the largest traction in all patches but their rims, and whether rims have more.
+
+    The pressure of viscous bodies, and the limit of friction with it, has no bound at the edge.
+    """
+    inside, everywhere = 0.0, 0.0
+    for fields in shown:
+        traction = np.abs(fields["traction_x"].values)
+        distance = np.hypot(fields["y"].values[:, np.newaxis], fields["x"].values)
+        rim = distance > RIM * float(fields["contact_radius"])
+        inside = max(inside, float(np.where(rim, 0.0, traction).max()))
+        everywhere = max(everywhere, float(traction.max()))
+    return inside or everywhere or 1.0, everywhere > ROOM * inside > 0.0
+
+
 def _draw(course: xr.Dataset, shown: list[xr.Dataset]) -> Figure:
-    side = ((WIDTH.get() or style.DOUBLE) - BESIDE) / len(shown)
+    side = np.clip(((WIDTH.get() or style.DOUBLE) - BESIDE) / len(shown), *SIDES)
     heights = (side, max(PROFILE, 0.5 * side), FORCE)
     figure = style.blank_figure(style.DOUBLE, sum(heights) + TEXTS, keep_height=True)
     grid = figure.add_gridspec(3, len(shown), height_ratios=heights)
@@ -127,7 +158,7 @@ def _draw(course: xr.Dataset, shown: list[xr.Dataset]) -> Figure:
         shared: Any = {"sharey": below[0]} if below else {}
         below.append(figure.add_subplot(grid[1, i], **shared))
     force = figure.add_subplot(grid[2, :])
-    largest = float(course["friction"]) * float(course["max_pressure"])
+    largest, over = _largest(shown)
     scale, unit = style.prefixed(largest, "Pa")
     reach = MARGIN * float(course["contact_radius"].max())
     for i, fields in enumerate(shown):
@@ -136,9 +167,10 @@ def _draw(course: xr.Dataset, shown: list[xr.Dataset]) -> Figure:
         _letter(patches[i], ascii_lowercase[i])
         below[i].tick_params(labelleft=i == 0)
     below[0].set_ylabel(style.label("traction_x", unit))
-    below[0].set_ylim(-1.1 * largest * scale, 1.1 * largest * scale)
+    below[0].set_ylim(-ROOM * largest * scale, ROOM * largest * scale)
     _scale_bar(patches[0], reach)
-    bar = figure.colorbar(shading, ax=patches, aspect=18, pad=0.01, shrink=0.9)
+    more: Any = {"extend": "both" if over else "neither"}
+    bar = figure.colorbar(shading, ax=patches, aspect=18, pad=0.01, shrink=0.9, **more)
     bar.set_label(style.label("traction_x", unit))
     bar.outline.set_linewidth(0.6)
     forces_panel(force, course)

@@ -1,6 +1,6 @@
 """What every function that draws shares: results or datasets as input, refusals, size and style."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import wraps
 from inspect import signature
 from typing import Any, ParamSpec, TypeAlias, TypeVar
@@ -47,10 +47,7 @@ def draws(
         def checked(*args: P.args, **kwargs: P.kwargs) -> T:
             given: dict[str, Any] = parameters.bind(*args, **kwargs).arguments
             look: Any = given.pop("look", {})
-            for word in look:
-                if word not in LOOK:
-                    known = hint(word, [*parameters.parameters, *LOOK])
-                    raise InputError(f"{word}: no keyword of {name}; {known}")
+            check_look(look, name, parameters.parameters)
             with style.style(**look), quiet():
                 try:
                     if several and isinstance(given[first], list | tuple | dict):
@@ -70,9 +67,19 @@ def draws(
     return decorate
 
 
+def check_look(look: Any, name: str, known: Iterable[str]) -> None:
+    """Refuse keywords that a function which draws does not know."""
+    words = [*(word for word in known if word != "look"), *LOOK]
+    for word in look:
+        if word not in LOOK:
+            raise InputError(f"{word}: no keyword of {name}; {hint(word, words)}")
+
+
 def _dataset(given: Any, take: str | Take, at: Any) -> Any:
     """Return a dataset, that of a result if it is one; else what was given."""
     if hasattr(given, "data_vars"):
+        if at is not None:
+            raise InputError("at: this dataset has its instant; leave it out, or give the result")
         return given
     if callable(take):
         return take(given, at)
@@ -85,7 +92,10 @@ def _named(given: Any, name: str) -> Iterator[tuple[str, Any]]:
     if not given:
         raise InputError(f"{name}: there is nothing to draw; give one result or more")
     items = given.items() if isinstance(given, dict) else enumerate(given, 1)
-    yield from ((str(key), one) for key, one in items)
+    names = [str(key) for key, _ in items]
+    if len(set(names)) < len(names):
+        raise InputError(f"{name}: two results have the same name; give each its own")
+    yield from zip(names, given.values() if isinstance(given, dict) else given, strict=True)
 
 
 def checked_dataset(
@@ -111,15 +121,16 @@ def _lacking(given: Any, needed: tuple[str, ...], along: tuple[str, ...]) -> str
     return "" if given[needed[0]].size else f"has no values of {needed[0]}"
 
 
-def at_instant(method: str) -> Take:
+def at_instant(*methods: str) -> Take:
     """Return what takes fields of a result: at an instant of an impact, a step of a load path.
 
-    By default the instant at which the normal force is largest, or the last step.
+    The first of the methods that the result has makes them; by default at the instant at which the
+    normal force is largest, or after the last step.
     """
 
     def take(result: Any, at: Any) -> Any:
-        make = getattr(result, method, None)
-        if not callable(make):
+        make = next((getattr(result, each) for each in methods if hasattr(result, each)), None)
+        if make is None:
             return result
         if at is None and hasattr(result, "history"):
             history = result.history()

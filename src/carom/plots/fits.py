@@ -13,7 +13,7 @@ from carom.plots import style
 from carom.plots.bands import STICK, Band, mirrored, shade
 from carom.plots.drawing import Drawable, draws
 from carom.plots.legends import legend_outside
-from carom.plots.look import Drawing, Look
+from carom.plots.look import Look
 from carom.quantities.glossary import GLOSSARY
 
 ACROSS = 2  # responses side by side
@@ -86,8 +86,9 @@ def plot_corner(samples: Drawable, **look: Unpack[Look]) -> Figure:
     """
     corner = extra("corner", "a corner plot", "fit")
     names = [str(name) for name in samples.data_vars if name != "chi"]  # not beside kappa
-    side = max(style.SINGLE, 45.0 * len(names)) * style.MM
-    figure = Drawing(figsize=(side, side))
+    side = max(style.SINGLE, 45.0 * len(names))
+    figure = style.blank_figure(side, side)
+    figure.set_layout_engine("none")
     values = np.stack([samples[name].values for name in names], axis=1)
     labels = [GLOSSARY[name].symbol if name in GLOSSARY else name for name in names]
     marks: Any = {"color": style.BLUE, "quantiles": (0.025, 0.5, 0.975), "max_n_ticks": 4}

@@ -13,7 +13,7 @@ from carom.plots.bands import BANDS, SIGNS, phases, shade
 from carom.plots.drawing import Drawable, draws
 from carom.plots.legends import legend_above, legend_outside
 from carom.plots.look import Look
-from carom.plots.overlays import COURSES, Course, overlay, stick_line
+from carom.plots.overlays import CURVES, Curve, overlay, stick_line
 from carom.quantities.arrays import Array
 
 ENERGIES = {
@@ -81,7 +81,7 @@ def plot_impact(dataset: Drawable, **look: Unpack[Look]) -> Figure:
         size = {"width": style.SINGLE, "height": 200.0, "keep_height": True}
     figure, axes = style.new_figure(4 // beside, beside, sharex=True, **size)
     if isinstance(dataset, dict):
-        handles = overlay(axes.flat, dataset, COURSES)
+        handles = overlay(axes.flat, dataset, CURVES)
     else:
         panels = (forces_panel, velocities_panel, radii_panel, energies_panel)
         for axis, panel in zip(axes.flat, panels, strict=True):
@@ -124,7 +124,7 @@ def plot_forces(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     >>> len(carom.plots.plot_forces(hit.history(50)).axes)
     1
     """
-    return _single(dataset, forces_panel, COURSES[0])
+    return _single(dataset, forces_panel, CURVES[0])
 
 
 @draws(HISTORY, *RADII, along="time", several=True)
@@ -158,13 +158,13 @@ def plot_radii(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     >>> len(carom.plots.plot_radii(hit.history(50)).axes)
     1
     """
-    return _single(dataset, radii_panel, COURSES[2])
+    return _single(dataset, radii_panel, CURVES[2])
 
 
-def _single(dataset: Any, panel: Any, course: tuple[Course, ...]) -> Figure:
+def _single(dataset: Any, panel: Any, curves: tuple[Curve, ...]) -> Figure:
     figure, axis = style.single_axis()
     if isinstance(dataset, dict):
-        legend_outside(figure, overlay([axis], dataset, [course]), 4)
+        legend_outside(figure, overlay([axis], dataset, [curves]), 4)
         return figure
     panel(axis, dataset)
     lines, _ = axis.get_legend_handles_labels()

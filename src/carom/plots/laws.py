@@ -58,7 +58,7 @@ def plot_laws(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Parameters
     ----------
-    dataset : xarray.Dataset
+    dataset : xarray.Dataset or result
         What `carom.verify.rank(...).to_dataset()` returns.
     **look : width, font_size, style
         Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
@@ -79,7 +79,7 @@ def plot_laws(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     >>> ranking = carom.verify.rank(carom.verify.CATALOGUE[:2], psi=[0.5, 1.0, 3.0])
     >>> axis = carom.plots.plot_laws(ranking.to_dataset()).axes[1]
     >>> [text.get_text() for text in axis.get_yticklabels()]
-    ['linear spring, k_t/k_n = kappa', 'linear spring, k_t/k_n = 2/7']
+    ['linear spring, $k_t/k_n$ = $\\\\kappa$', 'linear spring, $k_t/k_n$ = 2/7']
     """
     kinds = _kinds(dataset["psi_out"].values)
     groups = np.array_split(np.arange(kinds.max() + 1), -(-(kinds.max() + 1) // len(STYLES)))

@@ -10,7 +10,8 @@ from matplotlib.textpath import TextPath
 
 from carom.plots.look import RC
 
-SPACES = ("handlelength", "handletextpad", "columnspacing")  # of a legend
+SPARE = 1.03  # letters on a screen are wider than their outlines
+SPACES = ("handlelength", "handletextpad", "columnspacing", "borderpad")  # of a legend
 MARGIN = 5.0  # beside axes, for their labels, in sizes of the font
 
 
@@ -40,11 +41,13 @@ def fitting_columns(handles: list[Any], most: int, room: float, **options: Any) 
     settings = {n: options.get(n, RC[f"legend.{n}"]) for n in SPACES}
     size = FontProperties(size=options.get("fontsize", RC["legend.fontsize"]))
     em = size.get_size_in_points()
-    widths = [TextPath((0, 0), h.get_label(), prop=size).get_extents().width for h in handles]
+    widths = [
+        TextPath((0, 0), h.get_label() or " ", prop=size).get_extents().width for h in handles
+    ]
     beside = em * (settings["handlelength"] + settings["handletextpad"])
     for columns in range(min(most, len(handles)), 1, -1):
         wide = [part.max() for part in np.array_split(widths, columns)]
-        spaces = em * settings["columnspacing"] * (len(wide) - 1)
-        if sum(wide) + beside * len(wide) + spaces <= room:
+        spaces = em * (settings["columnspacing"] * (len(wide) - 1) + 2.0 * settings["borderpad"])
+        if SPARE * (sum(wide) + beside * len(wide) + spaces) <= room:
             return columns
     return 1

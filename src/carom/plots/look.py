@@ -5,19 +5,21 @@ import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
+from io import BytesIO
 from pathlib import Path
+from threading import RLock
 from typing import Any, TypedDict
 
 import matplotlib
 import matplotlib.style
 import numpy as np
-from matplotlib.colors import to_rgb
+from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
 from carom.quantities.refusals import refusal
 from carom.quantities.units import pure_number
 
-DPI = 300
+DPI, SCREEN = 300, 110  # in files and on screens
 FONT_SIZE = 7.5  # of labels, in points
 SMALLER = 0.5  # by how much ticks and legends are
 
@@ -84,12 +86,16 @@ def carom_settings() -> dict[str, Any]:
     return {**FIXED, **carom_sizes(FONT_SIZE)}
 
 
+LOCK = RLock()
 WIDTH: ContextVar[float | None] = ContextVar("width", default=None)
 SETTINGS: ContextVar[dict[str, Any] | None] = ContextVar("settings", default=None)
 
 
 def settings(look: Look) -> dict[str, Any]:
     """Return the settings of the style that is in use, Carom's by default, with more on top."""
+    for word in look:
+        if word not in Look.__annotations__:
+            raise TypeError(f"style() got an unexpected keyword argument {word!r}")
     size = look.get("font_size")
     wanted: Any = look.get("style")
     chosen = SETTINGS.get() or carom_settings()
@@ -97,17 +103,23 @@ def settings(look: Look) -> dict[str, Any]:
         chosen = chosen | carom_sizes(_read("font_size", size, FONT_SIZES, "points"))
     if wanted is None:
         return chosen
-    with using(chosen):
+    kept = () if isinstance(wanted, Mapping) else (*LABELS, *SMALL)  # a style has its own sizes
+    with using(chosen), quiet():
         before = dict(RC)
         try:
             matplotlib.style.use(dict(wanted) if isinstance(wanted, Mapping) else wanted)
         except (OSError, KeyError, ValueError, TypeError, AttributeError) as error:
             raise refusal("style", wanted, STYLES) from error
-        changed = {n: v for n, v in RC.items() if before[n] != v}
+        changed = {n: v for n, v in RC.items() if before[n] != v and n not in kept}
         grounds = [RC[f"{what}.facecolor"] for what in ("figure", "axes")]
-        if any(np.dot(to_rgb(ground), LUMINANCE) < DARK for ground in grounds):
+        if any(_is_dark(ground) for ground in grounds):
             raise refusal("style", wanted, "its ground is dark, and Carom draws black lines")
     return chosen | changed
+
+
+def _is_dark(ground: Any) -> bool:
+    *color, opacity = to_rgba(ground)
+    return bool(opacity and np.dot(color, LUMINANCE) < DARK)
 
 
 def wanted_width(look: Look) -> float | None:
@@ -118,8 +130,11 @@ def wanted_width(look: Look) -> float | None:
 
 @contextmanager
 def using(chosen: dict[str, Any]) -> Iterator[None]:
-    """Set matplotlib to some settings for a while, its defaults for the rest."""
-    with matplotlib.rc_context():
+    """Set matplotlib to some settings for a while, its defaults for the rest.
+
+    They are the same for all threads, which therefore draw one after the other.
+    """
+    with LOCK, matplotlib.rc_context():
         matplotlib.rcdefaults()
         RC.update(chosen)
         yield
@@ -134,8 +149,20 @@ class Drawing(Figure):
 
     def draw(self, renderer: Any) -> None:
         """Draw in the style of the figure: matplotlib makes ticks only now."""
-        with using(self.settings), quiet():
+        files = {name: value for name, value in RC.items() if name.startswith(("pdf.", "ps."))}
+        with using(self.settings | files), quiet():  # a file is begun and ended by its writer
             super().draw(renderer)
+
+    def savefig(self, *args: Any, **kwargs: Any) -> None:
+        """Store the figure in its style, whatever the user's settings are."""
+        with using(self.settings), quiet():
+            super().savefig(*args, **kwargs)
+
+    def _repr_png_(self) -> bytes:
+        """Return the picture for a notebook that has not loaded matplotlib itself."""
+        stream = BytesIO()
+        self.savefig(stream, format="png", dpi=SCREEN)
+        return stream.getvalue()
 
 
 @contextmanager

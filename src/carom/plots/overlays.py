@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, NamedTuple
 
+import matplotlib
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -14,9 +15,11 @@ from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 
 ENERGY = ("normal_kinetic_energy", "tangential_kinetic_energy", "spin_kinetic_energy")
+SPUN = "normal_spin_kinetic_energy"  # where there is any
+MANY = matplotlib.colormaps["viridis"]  # of more impacts than there are colours of lines
 
 
-class Course(NamedTuple):
+class Curve(NamedTuple):
     """A curve against time: its name in the legend, SI values of a history, dash; None: no unit."""
 
     name: str
@@ -48,31 +51,31 @@ def _stick(history: xr.Dataset) -> Array:
 
 def _lost(history: xr.Dataset) -> Array:
     """Return the work of friction as a share of the energy before the impact."""
-    before = sum(float(history[name][0]) for name in ENERGY)
+    before = sum(float(history[name][0]) for name in (*ENERGY, SPUN) if name in history)
     return np.asarray(history["frictional_work"].values / (before or 1.0))
 
 
 FORCE, DASHED = "tangential_force", style.DASHES[1]
-COURSES: tuple[tuple[Course, ...], ...] = (
+CURVES: tuple[tuple[Curve, ...], ...] = (
     (
-        Course("$F_x$", _variable(FORCE), quantity=FORCE),
-        Course(r"$\pm\mu F_z$", _limit, DASHED, FORCE),
-        Course("", lambda history: -_limit(history), DASHED, FORCE),
+        Curve("$F_x$", _variable(FORCE), quantity=FORCE),
+        Curve(r"$\pm\mu F_z$", _limit, DASHED, FORCE),
+        Curve("", lambda history: -_limit(history), DASHED, FORCE),
     ),
     (
-        Course("$V_x$", _variable("contact_velocity"), quantity="contact_velocity"),
-        Course("$V_z$", _variable("normal_velocity"), DASHED, "contact_velocity"),
+        Curve("$V_x$", _variable("contact_velocity"), quantity="contact_velocity"),
+        Curve("$V_z$", _variable("normal_velocity"), DASHED, "contact_velocity"),
     ),
     (
-        Course("$b$", _variable("contact_radius"), quantity="contact_radius"),
-        Course("$a$", _stick, DASHED, "contact_radius"),
+        Curve("$b$", _variable("contact_radius"), quantity="contact_radius"),
+        Curve("$a$", _stick, DASHED, "contact_radius"),
     ),
-    (Course("lost to friction", _lost),),
+    (Curve("lost to friction", _lost),),
 )
 
 
 def overlay(
-    axes: Iterable[Axes], named: dict[str, xr.Dataset], courses: Sequence[tuple[Course, ...]]
+    axes: Iterable[Axes], named: dict[str, xr.Dataset], courses: Sequence[tuple[Curve, ...]]
 ) -> list[Any]:
     """Draw the curves of several impacts on axes, and return what a legend shows of the impacts."""
     longest = max(float(history["time"].max()) for history in named.values())
@@ -81,23 +84,30 @@ def overlay(
         _draw(axis, named, curves, times)
         style.span(axis, (0.0, longest * times))
         axis.set_xlabel(style.label("time", unit))
-    colors = (style.LINES[i % len(style.LINES)] for i in range(len(named)))
+    colors = _colors(len(named))
     return [Line2D([], [], color=c, label=name) for c, name in zip(colors, named, strict=True)]
 
 
+def _colors(count: int) -> Sequence[Any]:
+    if count <= len(style.LINES):
+        return style.LINES[:count]
+    return [MANY(place) for place in np.linspace(0.0, 0.9, count)]
+
+
 def _draw(
-    axis: Axes, named: dict[str, xr.Dataset], curves: tuple[Course, ...], times: float
+    axis: Axes, named: dict[str, xr.Dataset], curves: tuple[Curve, ...], times: float
 ) -> None:
     quantity = curves[0].quantity
     values = {curve: [curve.values(history) for history in named.values()] for curve in curves}
     every = np.concatenate([line for lines in values.values() for line in lines])
     scale, unit = style.prefixed(every, GLOSSARY[quantity].unit) if quantity else (1.0, "1")
     style.zero_line(axis)
+    colors = _colors(len(named))
     for curve, lines in values.items():
         for i, (history, line) in enumerate(zip(named.values(), lines, strict=True)):
-            look: Any = {"color": style.LINES[i % len(style.LINES)], "ls": curve.dash}
+            stroke: Any = {"color": colors[i], "ls": curve.dash}
             width = 1.2 if curve.dash == style.DASHES[0] else 0.7
-            axis.plot(history["time"] * times, line * scale, lw=width, **look)
+            axis.plot(history["time"] * times, line * scale, lw=width, **stroke)
     symbols = ", ".join(curve.name for curve in curves if curve.name)
     axis.set_ylabel(symbols if unit == "1" else f"{symbols}\u00a0({unit})")
     keys = [Line2D([], [], color=style.BLACK, ls=c.dash, label=c.name) for c in curves if c.name]

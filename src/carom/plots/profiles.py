@@ -23,7 +23,7 @@ NEAR = 1e-9  # relative: a y that is 0 but for rounding
 @draws(
     "fields on the line y = 0 or along the radius, what Impact.fields or Impact.radial returns",
     *("pressure", "traction_x", "contact_radius", "stick_radius", "friction"),
-    take=at_instant("radial"),
+    take=at_instant("radial", "fields"),
 )
 def plot_profiles(dataset: Drawable, *, at: Any = None, **look: Unpack[Look]) -> Figure:
     """Draw the traction f_x between its limits, mu p, along the line y = 0 of the contact.
@@ -85,6 +85,8 @@ def _middle(dataset: xr.Dataset) -> xr.Dataset:
     """Return the fields at the points with y = 0, in order of x."""
     y = np.atleast_1d(dataset["y"].values)
     along = "point" if "point" in dataset.dims else "y"
+    if along == "y" and y.size > 1 and y[0] < 0.0 < y[-1] and not np.any(np.abs(y) <= NEAR * y[-1]):
+        return dataset.interp(y=0.0)  # between the rows of elements
     line = dataset.isel({along: np.flatnonzero(np.abs(y) <= NEAR * np.abs(y).max())})
     if along == "point":
         line = line.sortby("x")

@@ -37,7 +37,7 @@ def plot_score(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Parameters
     ----------
-    dataset : xarray.Dataset
+    dataset : xarray.Dataset or result
         What `carom.verify.score(...).to_dataset()` returns.
     **look : width, font_size, style
         Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.

@@ -11,7 +11,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
 from carom.plots import style
-from carom.plots.bands import moment
+from carom.plots.bands import MINUS, moment
 from carom.plots.drawing import Drawable, at_instant, draws
 from carom.plots.look import Look
 from carom.quantities.arrays import Array
@@ -61,7 +61,7 @@ def plot_stress(
     >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> figure = carom.plots.plot_stress(hit.stress("21 us"), "max_shear")
     >>> figure.axes[0].get_ylabel()
-    'depth below the surface, $z$\\xa0(µm)'
+    '$z$\\xa0(µm)'
     """
     if dataset["von_mises"].ndim == 2:
         style.check_grid(dataset, "von_mises", "z", "x")
@@ -81,7 +81,9 @@ def plot_stress(
     if np.ptp(values) > 0.0:
         contours = _contours(axis, x, z, values, colours["cmap"] == style.SIGNED_MAP)
         bar.add_lines(contours)
-        bar.set_ticks(MaxNLocator(TICKS).tick_values(*shading.get_clim()))
+        low, high = shading.get_clim()
+        ticks = MaxNLocator(TICKS).tick_values(low, high)
+        bar.set_ticks([tick for tick in ticks if low <= tick <= high])
     column, row, largest = _largest(dataset, variable)
     _mark_contact(axis, dataset, length)
     place = column * length, row * length
@@ -90,7 +92,7 @@ def plot_stress(
     axis.set_aspect("equal")
     axis.set(xlim=(x[0], x[-1]), ylim=(z.max(), z.min()))
     axis.set(xlabel=style.symbol("x", unit), ylabel=style.label("z", unit))
-    said = [moment(dataset), f"+: {largest * scale:.3g}\u00a0{stress_unit}"]
+    said = [moment(dataset), f"+: {largest * scale:.3g}\u00a0{stress_unit}".replace("-", MINUS)]
     axis.set_title("; ".join(text for text in said if text), pad=5.0)
     return figure
 
@@ -112,7 +114,7 @@ def _largest(dataset: Drawable, variable: str) -> tuple[float, float, float]:
     if name in dataset and abs(float(dataset[f"{name}_y"])) < NEAR * float(dataset["x"].max()):
         return float(dataset[f"{name}_x"]), float(dataset[f"{name}_z"]), float(dataset[name])
     values = dataset[variable].values
-    row, column = np.unravel_index(np.argmax(values), values.shape)
+    row, column = np.unravel_index(np.argmax(np.abs(values)), values.shape)
     return float(dataset["x"][column]), float(dataset["z"][row]), float(values[row, column])
 
 

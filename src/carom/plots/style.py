@@ -104,7 +104,8 @@ def style(**look: Unpack[Look]) -> Iterator[None]:
     Examples
     --------
     >>> import carom
-    >>>     >>> with carom.plots.style.style(font_size=9.0):
+    >>> import matplotlib
+    >>> with carom.plots.style.style(font_size=9.0):
     ...     matplotlib.rcParams["font.size"]
     9.0
     """
@@ -141,7 +142,7 @@ def new_figure(
 
     Other arguments go to `Figure.subplots`, for instance sharex=True. The size is that of the
     figure as it is stored; draw within `style` to have its fonts and lines. A width that was given
-    to `style` comes first, and the height then changes in proportion.
+    to `style` comes first, and the height then changes in proportion, or with the font.
 
     Parameters
     ----------
@@ -171,9 +172,9 @@ def new_figure(
 
 def blank_figure(width: float, height: float, keep_height: bool = False) -> Figure:
     """Return a figure of a width and height in mm, as `new_figure` does, without axes."""
-    wanted = WIDTH.get()
-    if wanted is not None:
-        width, height = wanted, height if keep_height else height * wanted / width
+    wanted, letters = WIDTH.get() or width, float(RC["font.size"]) / FONT_SIZE
+    height *= max(1.0 if keep_height else wanted / width, letters)
+    width = wanted
     return Drawing(figsize=(width * MM, height * MM), layout="constrained")
 
 

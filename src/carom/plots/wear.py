@@ -12,6 +12,7 @@ from carom.plots import style
 from carom.plots.drawing import Drawable, draws
 from carom.plots.look import Look
 
+CENTRE = 1e-3  # of the contact: nearer than that to it is in it
 MARGIN = 1.05  # of the map around the contact
 WORK, DEPTH = "friction_work", "wear_depth"
 
@@ -27,7 +28,7 @@ def plot_wear(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Parameters
     ----------
-    dataset : xarray.Dataset
+    dataset : xarray.Dataset or result
         What `Impact.wear` returns, or `carom.wear` for impacts on one spot, of which there is no
         map.
     **look : width, font_size, style
@@ -50,7 +51,7 @@ def plot_wear(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> carom.plots.plot_wear(hit.wear()).axes[0].get_ylabel()
-    'work of friction per area, $\\\\bar W_A$\\xa0(kJ/m²)'
+    '$\\\\bar W_A$\\xa0(kJ/m²)'
     """
     name = DEPTH if f"mean_{DEPTH}" in dataset else WORK
     mapped = name in dataset
@@ -73,7 +74,8 @@ def _profile(axis: Axes, dataset: xr.Dataset, name: str) -> None:
     if values.any():
         axis.axvline(most * length, color=style.BLACK, ls=style.DASHES[1], lw=0.8)
         where = f"{style.symbol('max_wear_radius', '1')} = {most * length:.3g}\u00a0{unit}"
-        axis.set_title(f"largest at {where}" if most else "largest in the centre")
+        beside = most > CENTRE * float(dataset["distance"].max())
+        axis.set_title(f"largest at {where}" if beside else "largest in the centre")
     style.span(axis, distance)
     axis.set_ylim(bottom=0.0)
     axis.set_xlabel(style.label("distance", unit))

@@ -90,8 +90,8 @@ def _restitution(cases: Iterable[Any], restitution: Any) -> float:
         return told.pop() if told else 1.0
     if told:
         raise refusal("restitution", restitution, "the case has its own; leave one of them out")
-    one = number("restitution", restitution, "1")
-    return float(KelvinVoigt(restitution=one).restitution)
+    number("restitution", restitution, "1")  # one, and no array of them
+    return float(KelvinVoigt(restitution=restitution).restitution)
 
 
 def _told(case: Any) -> float | None:
