@@ -140,9 +140,9 @@ def test_dataset():
     [
         (HIT, {"points": [[0.0, 0.0]]}, r"points: .*\(1, 2\).*shape \(n, 3\)"),
         (HIT, {"points": [[0.0, 0.0, math.nan]]}, "points: .*nan.*finite"),
-        (HIT, {"points": [[0.0, 0.0, -1e-6]]}, "points: .*-1e-06 m.*depth"),
+        (HIT, {"points": [[0.0, 0.0, -1e-6]]}, "points: .*-1 µm.*depth"),
         (HIT, {"points": "here"}, "points: 'here'"),
-        (HIT, {"z": [0.0, -1e-6]}, "z: .*-1e-06 m.*depth"),
+        (HIT, {"z": [0.0, -1e-6]}, "z: .*-1 µm.*depth"),
         (HIT, {"x": [math.inf]}, "x: .*finite"),
         (HIT, {"x": [0.0], "points": [[0.0, 0.0, 0.0]]}, "points: .*grid by x and z, or points"),
         (HIT, {"body": "secnd"}, "body: 'secnd'.*did you mean 'second'"),

@@ -52,7 +52,7 @@ def test_profiles_and_marks_are_the_tractions_and_forces_of_the_impact(hit):
 
 
 def test_one_scale_of_colours_holds_for_all_patches(hit):
-    """Its ends are the largest traction that is shown: here in the centre, while the ball sticks."""
+    """Its ends are the largest traction shown: here in the centre, while the ball sticks."""
     times = [0.2 * hit.duration, 0.4 * hit.duration, 0.9 * hit.duration]
     patches, _, _ = panels(plots.plot_contact(hit, [hit.fields(time) for time in times]), 3)
     most = max(float(hit.fields(t, points=[[0.0, 0.0]]).traction_x[0]) for t in times)

@@ -35,8 +35,8 @@ Tell: TypeAlias = Callable[[Array, Array], Labels]
 Bracket: TypeAlias = tuple[tuple[float, int], tuple[float, int]]  # places with their labels
 
 FINER = 8.0  # than the tolerance: what is found thinner than that between two others is left out
-MOST = 5, 4_000  # points told for each of the grid, and besides: more would not be seen on it
-FINEST = 3, 10_000  # the same to quarter cells
+MOST = 5, 2_000  # points told for each of the grid, and besides: more would not be seen on it
+FINEST = 3, 15_000  # the same to quarter cells
 FLAT = 3e-4  # of an axis: how far a curve may be from the straight pieces that are its picture
 SHIFT = 0.07  # of new lines, in cells of the grid
 

@@ -120,7 +120,7 @@ def _draw_rebounds(axis: Axes, dataset: xr.Dataset, rows: Any, styles: list[Any]
     for row, stroke in zip(rows, styles, strict=True):
         out = dataset["psi_out"].values[row][order]
         axis.plot(psi, out, lw=0.9, zorder=3, **stroke, **POINT)
-    axis.set_ylabel(style.symbol("psi_out"))
+    axis.set_ylabel(style.label("psi_out"))
 
 
 def _draw_bars(axis: Axes, dataset: xr.Dataset, rows: Any, styles: list[Any], most: int) -> None:

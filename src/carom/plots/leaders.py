@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from carom.plots.placing import APART, Spot
 from carom.quantities.arrays import Array
 
-TRIALS = 12  # of which the best stays
+TRIALS, LABELS = 12, 20  # of which the best stays, for so many labels; fewer for more of them
 SWEEPS, LAST = 100, 5  # times that every label may move, and the last of them without chance
 CHANCE = 15.0  # in mm, by which lines may be longer than the shortest at first
 IN_THE_WAY = 80.0  # cost of two labels or lines that meet, in mm
@@ -28,7 +28,9 @@ def arranged(anchors: list[Array], spots: list[list[Spot]]) -> list[Spot | None]
         meet[own[j], own[i]] = meet[own[i], own[j]].T
     rng = np.random.default_rng(0)
     free = [part for part in own if part.stop > part.start]
-    trials = [_annealed(rng, free, costs, meet) for _ in range(TRIALS)]
+    trials = [
+        _annealed(rng, free, costs, meet) for _ in range(TRIALS * LABELS // max(LABELS, len(free)))
+    ]
     best = min(trials, key=lambda kept: (-len(kept), costs[kept].sum()))
     every = [spot for choice in spots for spot in choice]
     taken = {int(np.searchsorted(ends, k, side="right")) - 1: every[k] for k in best}

@@ -117,7 +117,7 @@ def patch_panel(
     _draw_arrows(axis, arrows(dataset, reach), length)
     axis.set_aspect("equal")
     ends = (-reach * length, reach * length)
-    axis.set(xlim=ends, ylim=ends, xlabel=style.symbol("x", unit), ylabel=style.symbol("y", unit))
+    axis.set(xlim=ends, ylim=ends, xlabel=style.label("x", unit), ylabel=style.label("y", unit))
     return shading
 
 

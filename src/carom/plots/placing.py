@@ -13,7 +13,7 @@ from carom.quantities.arrays import Array
 
 Mask: TypeAlias = NDArray[np.bool_]
 
-PIXEL = 0.25  # mm
+PIXEL, PIXELS = 0.25, 700  # mm, and how many across a large map
 ROOM = (3.0, 2.0, 1.2, 0.7, 0.3)  # around a label in its region, in mm: the widest that there is
 APART = 0.6  # of other labels, in mm
 LEADER = 2.5  # shortest leader line, in mm
@@ -80,19 +80,20 @@ class Sheet:
     """A map in pixels: which region is where, and where labels and their lines are."""
 
     def __init__(self, regions: list[Region], to_mm: Array, size: tuple[float, float]) -> None:
-        self.shape = int(size[1] / PIXEL), int(size[0] / PIXEL)
+        self.pixel = max(PIXEL, size[0] / PIXELS)
+        self.shape = int(size[1] / self.pixel), int(size[0] / self.pixel)
         image = Image.new("I", (self.shape[1], self.shape[0]), -1)
         draw = ImageDraw.Draw(image)
         for number, region in enumerate(regions):  # the largest first: holes are drawn over
-            points = (region.rings[0] * to_mm[0] + to_mm[1]) / PIXEL - 0.5
+            points = (region.rings[0] * to_mm[0] + to_mm[1]) / self.pixel - 0.5
             draw.polygon([tuple(point) for point in points.tolist()], fill=number)
         self.owner = np.asarray(image)
         change = np.zeros(self.shape, dtype=np.bool_)
-        across, up = np.diff(self.owner, axis=1) != 0, np.diff(self.owner, axis=0) != 0
-        for part, places in ((across, np.s_[:, 1:]), (across, np.s_[:, :-1])):
-            change[places] |= part
-        for part, places in ((up, np.s_[1:]), (up, np.s_[:-1])):
-            change[places] |= part
+        across, up = (np.diff(self.owner, axis=axis) != 0 for axis in (1, 0))
+        change[:, 1:] |= across
+        change[:, :-1] |= across
+        change[1:] |= up
+        change[:-1] |= up
         change[[0, -1]] = change[:, [0, -1]] = True
         self.lines, self.busy = change, np.zeros(self.shape, dtype=np.bool_)
 
@@ -113,7 +114,7 @@ class Sheet:
         sums, heart = _sums(free), np.argwhere(own[window]).mean(axis=0)
         for block in blocks:
             for room in ROOM:
-                places = _free(sums, block, room)
+                places = _free(sums, block, room, self.pixel)
                 if len(places):
                     nearest = places[np.sum((places - heart) ** 2, axis=1).argmin()]
                     return self._put(block, nearest + np.array([rows[0], columns[0]]))
@@ -130,12 +131,14 @@ class Sheet:
         others = np.array([*anchors[:number], *anchors[number + 1 :]]).reshape(-1, 2)
         for block in blocks:
             half = 0.5 * np.array(block.size)
-            places = _free(sums, block, APART)
-            centres = (places[np.all(places % STRIDE == 0, axis=1)][:, ::-1] + 0.5) * PIXEL
+            places = _free(sums, block, APART, self.pixel)
+            centres = (places[np.all(places % STRIDE == 0, axis=1)][:, ::-1] + 0.5) * self.pixel
             ends = np.clip(anchor, centres - half, centres + half)
             away = np.hypot(*(ends - anchor).T)
             near = np.argsort(np.where(away < LEADER, np.inf, away))[: 2 * most]
-            near = near[(away[near] >= LEADER) & (away[near] <= LONGEST * PIXEL * self.shape[1])]
+            near = near[
+                (away[near] >= LEADER) & (away[near] <= LONGEST * self.pixel * self.shape[1])
+            ]
             lines = self._along(anchor, ends[near])
             costs = away[near] * (1.0 + ON_BORDER * self.lines[lines].mean(axis=-1))
             costs += BY_OTHER * np.sum(_distances(others, anchor, ends[near]) < CLOSE, axis=-1)
@@ -148,18 +151,18 @@ class Sheet:
         return sorted(found, key=lambda spot: spot.cost)[:most]
 
     def _put(self, block: Block, place: NDArray[np.int64]) -> Placed:
-        wide, high = (int(np.ceil((0.5 * side + 0.5 * APART) / PIXEL)) for side in block.size)
+        wide, high = (int(np.ceil((0.5 * side + 0.5 * APART) / self.pixel)) for side in block.size)
         row, column = place.tolist()
         self.busy[
             max(0, row - high) : row + high + 1, max(0, column - wide) : column + wide + 1
         ] = 1
-        return Placed(block, np.array([column + 0.5, row + 0.5]) * PIXEL)
+        return Placed(block, np.array([column + 0.5, row + 0.5]) * self.pixel)
 
     def _along(self, start: Array, ends: Array) -> tuple[NDArray[np.int64], ...]:
         """Return rows and columns of the pixels of straight lines, to one end or many."""
         length = np.hypot(*np.moveaxis(ends - start, -1, 0)).max(initial=0.0)
-        shares = np.linspace(0.0, 1.0, int(length / (0.7 * PIXEL)) + 2)[:, np.newaxis]
-        lines = (start + shares * (ends[..., np.newaxis, :] - start)) / PIXEL
+        shares = np.linspace(0.0, 1.0, int(length / (0.7 * self.pixel)) + 2)[:, np.newaxis]
+        lines = (start + shares * (ends[..., np.newaxis, :] - start)) / self.pixel
         columns, rows = np.moveaxis(lines.astype(np.int64), -1, 0)
         return np.clip(rows, 0, self.shape[0] - 1), np.clip(columns, 0, self.shape[1] - 1)
 
@@ -179,9 +182,9 @@ def _sums(mask: Mask) -> NDArray[np.int64]:
     return sums
 
 
-def _free(sums: NDArray[np.int64], block: Block, room: float) -> NDArray[np.int64]:
+def _free(sums: NDArray[np.int64], block: Block, room: float, pixel: float) -> NDArray[np.int64]:
     """Return the pixels around which a block fits into a mask, by its sums."""
-    wide, high = (int(np.ceil((side + 2.0 * room) / PIXEL)) for side in block.size)
+    wide, high = (int(np.ceil((side + 2.0 * room) / pixel)) for side in block.size)
     if wide >= sums.shape[1] or high >= sums.shape[0]:
         return np.empty((0, 2), dtype=np.int64)
     inner = sums[high:, wide:] - sums[:-high, wide:] - sums[high:, :-wide] + sums[:-high, :-wide]

@@ -33,6 +33,7 @@ SHORT = "Colours: the last phase, and how often slip reverses. Labels:"
 EDGE: Any = {"ec": "0.2", "lw": 0.4}
 SPACING: Any = {"handlelength": 1.6, "handletextpad": 0.5, "columnspacing": 1.0}
 UNDER = 0.8  # of the way from the middle of a label to its edge: where a leader line ends
+LISTED = 40  # sequences below a map, of those that are not marked
 TALL = 0.42  # the map, in widths of the figure
 POINT = 25.4 / 72.0  # in mm
 
@@ -85,8 +86,8 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     --------
     >>> import carom
     >>> figure = carom.plots.plot_regime_map(carom.regime_map([0.5, 2.0, 6.0], [1.0, 1.44]))
-    >>> sorted(text.get_text() for text in figure.axes[0].texts)[:2]
-    ['$\\\\psi_1 = $$1$', '$\\\\psi_1 = $$4\\\\chi-1$']
+    >>> [text.get_text() for text in figure.axes[0].texts][2:4]
+    ['$\\\\psi_1 = $$4\\\\chi-1$', 'G+']
     """
     figure, axis = style.single_axis(width=style.DOUBLE, height=TALL * style.DOUBLE + 30.0)
     found, frame = regions(dataset), frame_of(dataset)
@@ -96,12 +97,12 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
         hatch = None if region.name else "xxxx"
         axis.add_patch(PathPatch(region.path(), fc=face, hatch=hatch, **EDGE))
     axis.set(xlim=(frame.left, frame.right), ylim=(frame.bottom, frame.top))
-    axis.set(xlabel=style.symbol("psi_in"), ylabel=style.symbol("chi"))
+    axis.set(xlabel=style.label("psi_in"), ylabel=style.label("chi"))
     draw_borders(axis, float(dataset.get("restitution", 1.0)))
     to_mm = _laid_out(figure, axis)[1]
-    wide = {region.name for region in found if middle(region, to_mm).width >= SMALLEST}
-    _add_key(figure, sorted({group_of(name) for name in wide if name}), colours)
-    _label_regions(figure, axis, found, Counter(r.name for r in found if r.name not in wide))
+    wide = [n for n, region in enumerate(found) if middle(region, to_mm).width >= SMALLEST]
+    _add_key(figure, sorted({group_of(found[n].name) for n in wide if found[n].name}), colours)
+    _label_regions(figure, axis, found, wide)
     return figure
 
 
@@ -141,15 +142,17 @@ def _add_key(figure: Figure, groups: list[Group], colours: dict[Group, Any]) -> 
     figure.legend(handles=handles, ncols=columns, title=title, **place, **SPACING)
 
 
-def _label_regions(figure: Figure, axis: Axes, found: list[Region], unmarked: Counter[str]) -> None:
-    """Write the sequence of every region into it or beside it; list the others below the map."""
+def _label_regions(figure: Figure, axis: Axes, found: list[Region], wide: list[int]) -> None:
+    """Write the sequence of every wide region into it or beside it; list others below the map."""
+    seen = {found[n].name for n in wide}
+    unmarked = Counter(region.name for region in found if region.name not in seen)
     lines = [np.asarray(line.get_xydata()) for line in axis.lines]
     _list(figure, [], unmarked, [])
     size, _ = _laid_out(figure, axis)
     target = TALL * 25.4 * figure.get_figwidth()
     figure.set_figheight(figure.get_figheight() + (target - size[1]) / 25.4)
     size, to_mm = _laid_out(figure, axis)
-    labels = find_labels(found, lines, to_mm, size)
+    labels = find_labels(found, wide, lines, to_mm, size)
     _list(figure, labels.numbered, unmarked, labels.lost)
     for label in labels.placed.values():
         _write(axis, label, np.array(size))
@@ -173,7 +176,8 @@ def _list(figure: Figure, numbered: list[str], narrow: Counter[str], lost: list[
     parts = ["; ".join(f"{k}\u00a0=\u00a0{_tied(name)}" for k, name in enumerate(numbered, 1))]
     reasons = f"narrower than {SMALLEST:g} mm", "without room"
     for reason, names in zip(reasons, (narrow, Counter(lost)), strict=True):
-        counted = (_tied(n) + f"\u00a0({k}\u00a0regions)" * (k > 1) for n, k in names.items())
+        counted = [_tied(n) + f"\u00a0({k}\u00a0regions)" * (k > 1) for n, k in names.items()]
+        counted[LISTED:] = [f"and {len(counted) - LISTED} more"] if len(counted) > LISTED else []
         parts.append(f"Not marked, {reason}: {'; '.join(counted)}" if names else "")
     text = "\n".join(wrapped(part, room) for part in parts if part)
     if text:

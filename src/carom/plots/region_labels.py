@@ -15,6 +15,7 @@ from carom.plots.regions import Region
 from carom.quantities.arrays import Array
 
 SMALLEST = 0.2  # width in mm of a region that has a label
+MOST = 60  # labels
 UNSEEN = 0.02  # width in mm of one that is not even listed, if its sequence is elsewhere
 SPOTS = 5000  # places for labels with leader lines that are compared
 PITCH = 1.2  # of lines of text, in sizes of the font
@@ -53,9 +54,13 @@ def wrapped(text: str, room: float) -> str:
 
 
 def find_labels(
-    found: list[Region], lines: list[Array], to_mm: Array, size: tuple[float, float]
+    found: list[Region],
+    wide: list[int],
+    lines: list[Array],
+    to_mm: Array,
+    size: tuple[float, float],
 ) -> Labels:
-    """Return where the labels of regions go on a map of a size in mm, clear of some lines.
+    """Return where the labels of wide regions go on a map of a size in mm, clear of some lines.
 
     Inside their region, else at the end of a leader line. Where there is no room even for that, a
     number takes the place of the sequence.
@@ -64,10 +69,11 @@ def find_labels(
     for line in lines:
         sheet.keep_off(line * to_mm[0] + to_mm[1])
     ways = [_blocks(region.name) for region in found]
-    inside = {n: sheet.inside(n, blocks) for n, blocks in enumerate(ways)}
+    middles = {n: middle(found[n], to_mm) for n in wide}
+    first = sorted(wide, key=lambda n: -middles[n].width)[:MOST]
+    inside = {n: sheet.inside(n, ways[n]) for n in first}
     placed = {n: label for n, label in inside.items() if label}
-    middles = {n: middle(found[n], to_mm) for n in inside.keys() - placed.keys()}
-    marked = sorted(n for n, at in middles.items() if at.width >= SMALLEST)
+    marked = sorted(inside.keys() - placed.keys())
     ways = [[block for block in blocks if not block.turned] for blocks in ways]
     short: list[int] = []
     while True:
@@ -87,7 +93,7 @@ def find_labels(
     for n in set(short) & placed.keys():
         number = _block([str(names.index(found[n].name) + 1)])
         placed[n] = placed[n]._replace(block=number)
-    return Labels(placed, names, [found[n].name for n in marked if n not in placed])
+    return Labels(placed, names, [found[n].name for n in wide if n not in placed])
 
 
 def _beside(

@@ -173,9 +173,9 @@ def _pieces(name: str, rings: list[Array]) -> Iterator[Region]:
     areas = [area(ring) for ring in rings]
     outer = [ring for ring, size in zip(rings, areas, strict=True) if size > 0.0]
     holes: list[list[Array]] = [[] for _ in outer]
-    for ring, size in zip(rings, areas, strict=True):
+    for ring in (ring for ring, size in zip(rings, areas, strict=True) if size < 0.0):
         around = [k for k, one in enumerate(outer) if Path(one).contains_point(ring[0])]
-        if size < 0.0 and around:
+        if around:
             holes[min(around, key=lambda k: area(outer[k]))].append(ring)
     for ring, inside in zip(outer, holes, strict=True):
         yield Region(name, (ring, *inside))

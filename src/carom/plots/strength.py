@@ -90,13 +90,13 @@ def _table(dataset: xr.Dataset, name: str) -> Array:
 def _lines(axis: Axes, dataset: xr.Dataset, name: str) -> None:
     angle, friction = np.degrees(dataset["angle"].values), dataset["friction"].values
     for i, (mu, row) in enumerate(zip(friction, _table(dataset, name), strict=True)):
-        text = f"{style.symbol('friction')} = {mu:g}"
+        text = f"{style.label('friction')} = {mu:g}"
         axis.plot(angle, row, color=style.LINES[i], ls=style.DASHES[i], label=text)
     axis.set_yscale("log")
     axis.yaxis.set_major_locator(LogLocator(subs=SHOWN))
     axis.yaxis.set_major_formatter("{x:g}")
     axis.yaxis.set_minor_formatter("")
-    axis.set_ylabel(style.symbol(name))
+    axis.set_ylabel(style.label(name))
     style.span(axis, angle)
     axis.legend(loc="upper left")
 
@@ -113,6 +113,6 @@ def _map(axis: Axes, dataset: xr.Dataset, name: str) -> None:
     if levels.size:
         curves = axis.contour(angle, friction, values, levels, colors="white", linewidths=0.7)
         axis.clabel(curves, fmt=lambda speed: f"{speed:g}", fontsize="small")
-    axis.set_title(f"{axis.get_title()}: {style.symbol(name)}")
+    axis.set_title(f"{axis.get_title()}: {style.label(name)}")
     axis.set_ylabel(style.label("friction"))
     style.span(axis, angle, friction)

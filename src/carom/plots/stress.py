@@ -91,7 +91,7 @@ def plot_stress(
     mark.set_path_effects([withStroke(linewidth=2.8, foreground="white")])
     axis.set_aspect("equal")
     axis.set(xlim=(x[0], x[-1]), ylim=(z.max(), z.min()))
-    axis.set(xlabel=style.symbol("x", unit), ylabel=style.label("z", unit))
+    axis.set(xlabel=style.label("x", unit), ylabel=style.label("z", unit))
     said = [moment(dataset), f"+: {largest * scale:.3g}\u00a0{stress_unit}".replace("-", MINUS)]
     axis.set_title("; ".join(text for text in said if text), pad=5.0)
     return figure

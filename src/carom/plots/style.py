@@ -234,9 +234,6 @@ def label(name: str, unit: str | None = None) -> str:
     return entry.symbol if unit == "1" else f"{entry.symbol}\u00a0({unit})"
 
 
-symbol = label
-
-
 def with_formulas(text: str) -> str:
     """Return a text whose formulas, written as in a terminal, are set as formulas in figures.
 

@@ -73,7 +73,7 @@ def _profile(axis: Axes, dataset: xr.Dataset, name: str) -> None:
     most = float(dataset["max_wear_radius"])
     if values.any():
         axis.axvline(most * length, color=style.BLACK, ls=style.DASHES[1], lw=0.8)
-        where = f"{style.symbol('max_wear_radius', '1')} = {most * length:.3g}\u00a0{unit}"
+        where = f"{style.label('max_wear_radius', '1')} = {most * length:.3g}\u00a0{unit}"
         beside = most > CENTRE * float(dataset["distance"].max())
         axis.set_title(f"largest at {where}" if beside else "largest in the centre")
     style.span(axis, distance)
@@ -91,7 +91,7 @@ def _map(figure: Figure, axis: Axes, dataset: xr.Dataset, name: str) -> None:
     shading.set_clip_path(Circle((0.0, 0.0), edge, transform=axis.transData))
     axis.add_patch(Circle((0.0, 0.0), edge, fill=False, ec="black", lw=1.0))
     axis.set_aspect("equal")
-    axis.set(xlabel=style.symbol("x", unit), ylabel=style.symbol("y", unit))
+    axis.set(xlabel=style.label("x", unit), ylabel=style.label("y", unit))
     reach = MARGIN * edge
     style.span(axis, np.clip(x, -reach, reach), np.clip(y, -reach, reach))
     label = _label(name, unit_of_values)
