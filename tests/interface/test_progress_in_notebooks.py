@@ -72,7 +72,7 @@ def test_a_bar_that_stopped_says_so(cells):
 
 
 def test_an_impact_by_boundary_elements_shows_one(cells):
-    assert re.search(r"^boundary elements ━{24} 175/175 ", bar(cells[4]))
+    assert re.search(r"^solving by boundary elements ━{24} 175/175 ", bar(cells[4]))
 
 
 def test_no_widgets_are_needed_and_what_is_printed_is_seen(cells):
