@@ -37,56 +37,39 @@ KINDS = {
 class Page:
     """What the browser sends when a control moves, on one connection."""
 
-    def __init__(self, url: str, patience: float = 60.0, known: dict | None = None) -> None:
+    def __init__(self, url: str, patience: float = 60.0) -> None:
         self._line = http.client.HTTPConnection(urlsplit(url).netloc, timeout=patience)
-        self.known = known or self._callbacks()
-
-    def _callbacks(self) -> dict[str, dict]:
-        """Return what the page asks its server for, by what it asks with."""
-        asked = json.loads(self.file("/_dash-dependencies"))
-        return {each["inputs"][0]["id"]: each for each in asked if not each["clientside_function"]}
 
     def answer(self, query: str) -> tuple[int, list[str]]:
         """Return the size of the answer to a view, and the laws that are to follow."""
-        found = self._called("view", query, "")
-        return len(found), json.loads(found)["response"]["late"]["data"]
+        while True:
+            status, found = self._ask("GET", f"/answer?{query}")
+            if status != 503:
+                break
+            time.sleep(json.loads(found)["again"])  # it compiles, once after it was installed
+        assert status == 200, found
+        return len(found), json.loads(found)["late"]
 
-    def follow(self, late: list[str], query: str) -> None:
+    def follow(self, query: str) -> None:
         """Ask for the laws that were not there yet."""
-        self._called("late", late, query)
+        self.file(f"/laws?{query}")
 
     def upload(self, contents: str) -> None:
-        """Ask for the fit of a file."""
-        file = {"contents": contents, "name": "measured.csv"}
-        self._called("data", "", "", file)
+        """Ask for the fit of a file, to the bodies of the page."""
+        file = {"contents": contents, "name": "measured.csv", "bodies": "given=bodies"}
+        status, found = self._ask("POST", "/fit", json.dumps(file))
+        assert status == 200, found
 
     def file(self, path: str) -> bytes:
         """Return what is at an address."""
-        return self._ask("GET", path)
+        status, found = self._ask("GET", path)
+        assert status == 200, found
+        return found
 
-    def _called(self, name: str, value: object, state: str, file: object = None) -> bytes:
-        known = self.known[name]
-        names = known["output"].strip(".").split("...")
-        asked = {
-            "output": known["output"],
-            "outputs": [
-                dict(zip(("id", "property"), name.rsplit(".", 1), strict=True)) for name in names
-            ],
-            "inputs": [
-                {**each, "value": file if each["id"] == "file" else value}
-                for each in known["inputs"]
-            ],
-            "state": [{**each, "value": state} for each in known["state"]],
-            "changedPropIds": [f"{name}.data"],
-        }
-        return self._ask("POST", "/_dash-update-component", json.dumps(asked))
-
-    def _ask(self, method: str, path: str, body: str | None = None) -> bytes:
+    def _ask(self, method: str, path: str, body: str | None = None) -> tuple[int, bytes]:
         self._line.request(method, path, body, {"Content-Type": "application/json"})
         answer = self._line.getresponse()
-        content = answer.read()
-        assert answer.status == 200, content
-        return content
+        return answer.status, answer.read()
 
 
 def moved(start: dict, laws: tuple[str, ...], bodies: bool, random: np.random.Generator) -> str:
@@ -124,7 +107,7 @@ def main() -> None:
                 sizes.append(size)
                 times.append(1e3 * (time.perf_counter() - begin))
                 if late:
-                    page.follow(late, query)
+                    page.follow(query)
                 whole.append(1e3 * (time.perf_counter() - begin))
             middle, most = np.percentile(times, [50, 95])
             last, size = np.median(whole), np.mean(sizes) / 1e3

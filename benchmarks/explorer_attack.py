@@ -32,10 +32,8 @@ COMMAND = [sys.executable, "-c", "from carom.cli import run; run()", "explore"]
 SLOW, NEW = 300, 20  # connections of a thread, and how many of them are new every 0.1 s
 EASY = f"data:text/csv;base64,{b64encode(datasets.path('kharaz2001').read_bytes()).decode()}"
 HEAD = b"GET / HTTP/1.1\r\nHost: localhost\r\n"
-BODY = (
-    b"POST /_dash-update-component HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000000\r\n\r\n"
-)
-LARGE = b"GET /_dash-component-suites/plotly/package_data/plotly.min.js HTTP/1.1\r\n"
+BODY = b"POST /fit HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000000\r\n\r\n"
+LARGE = b"GET /plotly.min.js HTTP/1.1\r\n"
 STARTS = (HEAD, BODY, LARGE + b"Host: localhost\r\n\r\n")
 ROWS = "\n".join(f"{1 + row % 80},{0.2 + row % 7 / 10}" for row in range(2000))
 TABLES = ("9**9**9 deg,0.1\n10,0.2\n20,0.3", ROWS)
@@ -82,7 +80,7 @@ def upload(url: str, row: int) -> None:
     """Upload hostile tables, and ask again soon."""
     table = f"angle [deg],contact_restitution\n{TABLES[row % 2]}\n"
     contents = f"data:text/csv;base64,{b64encode(table.encode()).decode()}"
-    Page(url, patience=1.0, known=KNOWN).upload(contents)
+    Page(url, patience=1.0).upload(contents)
 
 
 def dribble(url: str, row: int) -> None:
@@ -105,13 +103,13 @@ def dribble(url: str, row: int) -> None:
 
 def draw(url: str, row: int) -> None:
     """Download pictures without pause."""
-    Page(url, patience=5.0, known=KNOWN).file(f"/history.png?angle={10 + time.time() % 70}")
+    Page(url, patience=5.0).file(f"/history.png?angle={10 + time.time() % 70}")
 
 
 def follow(url: str, row: int) -> None:
     """Ask for the slowest contact law, at the largest chi."""
     view = {"given": "numbers", "chi": 10 - time.time() % 1, "law": "Walton & Braun"}
-    Page(url, patience=0.5, known=KNOWN).follow(["Walton & Braun"], urlencode(view))
+    Page(url, patience=0.5).follow(urlencode(view))
 
 
 KINDS: dict[str, list[Callable[[str, int], None]]] = {
@@ -129,13 +127,10 @@ def answers(url: str, moves: int, random: np.random.Generator) -> list[float]:
     for _ in range(moves):
         query = moved(BODIES, (), False, random)
         begin = time.perf_counter()
-        Page(url, patience=60.0, known=KNOWN).answer(query)
+        Page(url, patience=60.0).answer(query)
         times.append(1e3 * (time.perf_counter() - begin))
         time.sleep(0.02)
     return times
-
-
-KNOWN: dict[str, dict] = {}  # the callbacks of the page, asked once
 
 
 def main() -> None:
@@ -146,7 +141,6 @@ def main() -> None:
     asked = parser.parse_args()
     if asked.attack:
         kind, url = asked.attack
-        KNOWN.update(Page(url).known)
         attack(url, KINDS[kind])
     else:
         for kind in KINDS:
@@ -157,8 +151,7 @@ def measure(kind: str, moves: int) -> None:
     """Print how a usual visitor is answered before an attack and meanwhile."""
     random = np.random.default_rng(SEED)
     with served() as url:
-        KNOWN.update(Page(url).known)
-        Page(url, known=KNOWN).upload(EASY)  # once the process for uploads is there
+        Page(url).upload(EASY)  # once the process for uploads is there
         before = answers(url, moves, random)
         with attacked(url, kind):
             time.sleep(2.0)

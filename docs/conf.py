@@ -24,6 +24,8 @@ extensions = [
     "commands",
     "contents",
     "diagrams",
+    "explore_links",
+    "explorer_copy",
     "formulas",
     "names",
     "schema",

@@ -1,4 +1,4 @@
-"""Draw docs/figures/explorer.png: the page of `carom explore` as a browser shows it.
+"""Draw the page of `carom explore` as a browser shows it, at four widths: docs/figures/page/.
 
 Needs a browser and Playwright: python docs/make/explorer_figure.py
 """
@@ -13,27 +13,42 @@ from playwright.sync_api import sync_playwright
 
 from carom.explorer import explorer
 
-FIGURE = Path(__file__).parents[1] / "figures" / "explorer.png"
-STATE = "?angle=25&friction=0.25&law=mindlin&time=0.6&theme=light"
-SIZE = {"width": 1280, "height": 920}
+FIGURES = Path(__file__).parents[1] / "figures" / "page"
+LAWS = "law=mindlin&law=YADE+Mindlin&law=Walton+%26+Braun"
+STATE = f"?angle=25&friction=0.25&{LAWS}&time=0.6&theme=light&data=kharaz2001"
+SIZES = {400: 800, 1024: 768, 1440: 900, 1920: 1080}
+PICTURES = {  # state, width
+    **{f"{width}": (STATE, width) for width in SIZES},
+    "dark": (STATE.replace("light", "dark"), 1440),
+    "two": ("?angle=25&friction=0.25&time=0.6&theme=light&beside=angle%3D60%26friction%3D0.25", 1440),
+    "fit": (STATE + "&tab=Measurements", 1440),
+}
+COLORS = 128  # of a picture, which is small for it
 
 
 def main() -> None:
-    """Serve the page, open a state of it, and store what is seen."""
+    """Serve the page, open its states, and store what is seen."""
     page = explorer(port=0)
     Thread(target=page.serve, daemon=True).start()
+    FIGURES.mkdir(exist_ok=True)
     with sync_playwright() as play:
         browser = play.chromium.launch(
             executable_path=shutil.which("chromium"), args=["--no-sandbox"]
         )
-        tab = browser.new_page(viewport=SIZE)
-        tab.goto(page.url + STATE)
-        tab.wait_for_selector("#forces .main-svg")
-        tab.wait_for_timeout(2000)
-        seen = BytesIO(tab.screenshot())
+        for name, (state, width) in PICTURES.items():
+            tab = browser.new_page(viewport={"width": width, "height": SIZES[width]})
+            tab.goto(page.url + state)
+            tab.wait_for_selector(".main-svg", state="attached")
+            tab.wait_for_timeout(5000)  # laws, fits and charts are all there
+            _store(tab.screenshot(), FIGURES / f"{name}.png")
+            tab.close()
         browser.close()
     page.stop()
-    Image.open(seen).convert("RGB").save(FIGURE, optimize=True)
+
+
+def _store(picture: bytes, file: Path) -> None:
+    image = Image.open(BytesIO(picture)).convert("RGB")
+    image.quantize(COLORS, dither=Image.Dither.NONE).save(file, optimize=True)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """The page in a real browser: one server and one Chromium for all tests, mostly one tab.
 
-Loading the page takes seconds, nearly all of them in plotly and dash. So a visit opens its link in
+Loading the page takes a while, nearly all of it in plotly. So a visit opens its link in
 a tab that another visit has left, as the browser's buttons for back and forward do, unless it asks
 to load the page. Every visit ends with the console free of errors and warnings and no other host
 asked.
@@ -20,12 +20,13 @@ import pytest
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 COMMAND = [sys.executable, "-c", "from carom.cli import run; run()", "explore"]
 PATIENCE = 30.0  # s, on a machine that does other things too
-READY = "document.querySelector('#results table') && window.Carom && Carom.scene.data()"
+PREPARED = 300.0  # s; without its library Carom compiles first
+READY = "document.querySelector('#results table') && window.Carom && Carom.page.answers()[0]"
 BETWEEN = "?angle=1.5&friction=0.05"  # no test begins here
 TRAVEL = """query => {
   document.activeElement.blur();
   scrollTo(0, 0);
-  window.left = Carom.scene.data();
+  window.left = Carom.page.answers()[0];
   history.pushState({}, "", query);
   dispatchEvent(new Event("popstate"));
 }"""
@@ -46,24 +47,20 @@ class Visit:
         """Load the page."""
         self.page.goto(f"{self.address}{query}")
         if ready:
-            self.page.wait_for_function(READY, timeout=30_000)
+            self.until(lambda: self.page.evaluate(f"Boolean({READY})"), PREPARED)
             self.until(lambda: self.traces("rebounds"))
 
     def travel(self, query):
         """Go to a link within the page, by way of another, and wait for its charts."""
         for where in (BETWEEN, query or "?"):
             self.page.evaluate(TRAVEL, where)
-            self.page.wait_for_function("Carom.scene.data() !== window.left", timeout=10_000)
+            self.until(lambda: self.page.evaluate("Carom.page.answers()[0] !== window.left"))
         self.until(self._drawn)
 
     def _drawn(self):
         """Tell whether the chart shows the impact of the table."""
-        told = [text.replace("\N{MINUS SIGN}", "-") for text in self.cells()]
-        return f"{self.traces('rebounds')['this impact', 'markers']['x'][0]:.6g}" in told
-
-    def cells(self):
-        """Return the words of the results."""
-        return self.page.locator("#results td").all_inner_texts()
+        point = self.traces("rebounds")["this impact", "markers"]
+        return point["x"] == [self.page.evaluate("Carom.page.answers()[0].curve.at[0]")]
 
     def _heard(self, message):
         if message.type in ("error", "warning"):
@@ -74,9 +71,12 @@ class Visit:
         if parts.scheme not in ("data", "blob") and parts.netloc != urlsplit(self.address).netloc:
             self.trouble.append(f"another host was asked: {request.url}")
 
-    def until(self, check):
-        """Return what check returns once it is true and raises nothing, or fail with why not."""
-        end = time.monotonic() + PATIENCE
+    def until(self, check, seconds=PATIENCE):
+        """Return what check returns once it is true and raises nothing, or fail with why not.
+
+        `wait_for_function` of playwright makes a function of a text, which the page forbids.
+        """
+        end = time.monotonic() + seconds
         while True:
             try:
                 found = check()
@@ -99,7 +99,7 @@ class Visit:
     def result(self, name):
         """Return the words of a row of the results."""
         row = self.page.locator("#results tr").filter(has=self.page.get_by_text(name, exact=True))
-        return row.locator("td").inner_text()
+        return row.locator("td").first.inner_text()
 
     def number(self, name):
         """Return the number that a row of the results begins with."""
@@ -107,13 +107,12 @@ class Visit:
 
     def notice(self):
         """Return what the page complains of, empty if of nothing."""
-        lines = self.page.locator(".carom-head [role=alert]").all_inner_texts()
-        return "; ".join(filter(None, lines))
+        return self.page.inner_text("#notice")
 
     def traces(self, chart):
         """Return the traces of a chart by their names, as plotly drew them."""
         words = (
-            "id => { const plot = document.querySelector(`#${id} .js-plotly-plot`);"
+            "id => { const plot = document.querySelector(`#${id}.js-plotly-plot, #${id} .js-plotly-plot`);"
             " return plot && plot._fullData && plot.querySelector('.main-svg')"
             " ? plot._fullData.map(t => ({name: t.name, mode: t.mode,"
             " x: Array.from(t.x), y: Array.from(t.y)})) : []; }"
@@ -130,13 +129,8 @@ class Visit:
         return self.until(found)
 
     def choose(self, name, option):
-        """Choose from a list as a mouse does."""
-        control = self.page.locator(f"#{name}")
-        if control.evaluate("element => element.tagName") == "SELECT":
-            control.select_option(label=option)
-            return
-        control.click()
-        self.page.get_by_role("option", name=option, exact=True).locator("visible=true").click()
+        """Choose from a list."""
+        self.page.locator(f"#{name}").select_option(label=option)
 
     def pixels(self, canvas):
         """Return the picture of a canvas as text."""
@@ -146,7 +140,7 @@ class Visit:
 @pytest.fixture(scope="session")
 def address():
     """The address of `carom explore`."""
-    pytest.importorskip("dash", reason="the explorer needs dash: pip install 'carom[explore]'")
+    pytest.importorskip("flask", reason="the explorer needs flask: pip install 'carom[explore]'")
     arguments = [*COMMAND, "--no-open", "--port", "0", "--json"]
     with subprocess.Popen(arguments, stdout=subprocess.PIPE, text=True) as server:
         try:

@@ -7,7 +7,7 @@ from contextlib import suppress
 
 import pytest
 
-pytest.importorskip("dash")
+pytest.importorskip("flask")
 
 from flask import Flask, request
 

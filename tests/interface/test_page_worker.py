@@ -1,42 +1,39 @@
-"""Uploads are fitted in a process that is killed at its time limit; the page goes on meanwhile."""
+"""Fits and files are made in processes that are killed at their limits; the page goes on."""
 
 import os
 import threading
 import time
-from base64 import b64encode
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-import carom
-
-pytest.importorskip("dash")
+pytest.importorskip("flask")
 
 from carom.explorer import worker as workers
 from carom.explorer.limits import WAITING, Busy
-from carom.explorer.worker import Worker
+from carom.explorer.refused import Refused
+from carom.explorer.worker import Desk, Worker
 
 ECHO = """\
 import json, os, sys
 print(json.dumps({"ready": True}), flush=True)
 for line in sys.stdin:
-    asked = json.loads(line)["contents"]
+    asked = json.loads(line)["what"]
     if asked == "hang":
         9 ** 9 ** 9  # no other thread gets a turn, and no signal of Python is heard
     if asked == "die":
         os._exit(1)
-    answer = {"words": asked, "process": os.getpid()}
-    print(json.dumps({"refused": "file: no"} if asked == "refuse" else answer), flush=True)
+    told = {"refuse": {"refused": "no", "field": "angle"}, "busy": {"busy": True}}
+    print(json.dumps(told.get(asked, {"told": asked, "process": os.getpid()})), flush=True)
 """
 PATIENCE = 20.0  # s
 
 
 @pytest.fixture
-def worker(monkeypatch):
-    """A worker that echoes, and has a second for each answer."""
+def desk(monkeypatch):
+    """A process that echoes, and has a second for each answer."""
     monkeypatch.setattr(workers, "PROGRAM", ECHO)
-    monkeypatch.setattr(workers, "FIT_SECONDS", 1.0)
-    found = Worker()
+    found = Desk("fit", 1.0)
     yield found
     found.close()
 
@@ -53,99 +50,88 @@ def gone(process):
     return False
 
 
-def test_what_never_ends_is_killed_and_the_next_is_answered(worker):
-    first = worker.fit("", "what", "a.csv")
-    assert first["words"] == "what"
+def test_what_never_ends_is_killed_and_the_next_is_answered(desk):
+    first = desk.ask(what="one")
+    assert first["told"] == "one"
     begin = time.monotonic()
-    with pytest.raises(carom.InputError, match=r"^file: fitting it takes longer than 1 s; "):
-        worker.fit("", "hang", "a.csv")
+    with pytest.raises(Refused, match=r"^file: fitting it takes longer than 1 s; "):
+        desk.ask(what="hang")
     assert time.monotonic() - begin < PATIENCE
     assert gone(first["process"])
-    assert worker.fit("", "again", "a.csv")["words"] == "again"
+    assert desk.ask(what="again")["told"] == "again"
 
 
-def test_refusals_and_failures_are_told_apart(worker):
-    with pytest.raises(carom.InputError, match=r"^file: no$"):
-        worker.fit("", "refuse", "a.csv")
+def test_refusals_failures_and_crashes_are_told_apart(desk):
+    with pytest.raises(Refused, match=r"^no$") as refused:
+        desk.ask(what="refuse")
+    assert refused.value.field == "angle"
+    with pytest.raises(Busy):
+        desk.ask(what="busy")
     with pytest.raises(RuntimeError, match="has ended"):
-        worker.fit("", "die", "a.csv")
-    assert worker.fit("", "again", "a.csv")["words"] == "again"
+        desk.ask(what="die")
+    assert desk.ask(what="again")["told"] == "again"
 
 
-def test_a_few_wait_and_the_rest_is_told_that_the_page_is_busy(worker):
-    worker.fit("", "what", "a.csv")
+def test_a_few_wait_and_the_rest_is_told_that_the_page_is_busy(desk):
+    desk.ask(what="one")
     with ThreadPoolExecutor(WAITING + 4) as visitors:
-        asked = [visitors.submit(worker.fit, "", "hang", "a.csv")]
+        asked = [visitors.submit(desk.ask, what="hang")]
         time.sleep(0.3)
-        asked += [visitors.submit(worker.fit, "", str(row), "a.csv") for row in range(WAITING + 3)]
+        asked += [visitors.submit(desk.ask, what=str(row)) for row in range(WAITING + 3)]
         found = [each.exception(PATIENCE) for each in asked]
-    assert isinstance(found[0], carom.InputError)
+    assert isinstance(found[0], Refused)
     assert sum(each is None for each in found) == WAITING
     assert sum(isinstance(each, Busy) for each in found) == 3
     assert str(Busy()) == "the page is busy; try again"
 
 
-def test_closed_it_leaves_nothing_behind(worker):
-    process = worker.fit("", "what", "a.csv")["process"]
-    folder = worker._folder.name
-    asking = threading.Thread(target=pytest.raises, args=(Busy, worker.fit, "", "hang", "a.csv"))
+def test_closed_it_leaves_nothing_behind(desk):
+    process = desk.ask(what="one")["process"]
+    folder = desk._folder.name
+    asking = threading.Thread(target=pytest.raises, args=(Busy, desk.ask), kwargs={"what": "hang"})
     asking.start()
     time.sleep(0.3)
-    worker.close()
+    desk.close()
     asking.join(PATIENCE)
     assert not asking.is_alive()
     assert gone(process)
     assert not os.path.exists(folder)
     with pytest.raises(Busy):
-        worker.fit("", "what", "a.csv")
+        desk.ask(what="one")
 
 
-def sent(content):
-    return f"data:text/csv;base64,{b64encode(content).decode()}"
-
-
-@pytest.fixture(scope="module")
-def fitting():
-    found = Worker()
-    yield found
-    found.close()
-
-
-def test_a_file_is_fitted_as_the_library_does(fitting):
-    file = carom.datasets.path("kharaz2001")
-    found = fitting.fit("", sent(file.read_bytes()), "measured.csv")
-    assert found["words"] == str(carom.fit(file))
-    assert len(found["figures"]) == 3
-
-
-@pytest.mark.parametrize(
-    ("contents", "words"),
-    [
-        (sent(b"what"), "'me.csv' cannot be used"),
-        (sent(b"a" * 1_000_001), "must be at most 1000000 bytes"),
-        (sent(b"angle [deg],contact_restitution\n" + b"10,0.2\n" * 2001), "at most 2000 rows"),
-        ("data:text/csv;base64,a", "file: it did not arrive whole"),
-        ("data:text/csv;base64,é", "file: it did not arrive whole"),
-        ("", "me.csv"),
-    ],
-)
-def test_files_that_are_none_are_refused_by_their_name(fitting, contents, words):
-    with pytest.raises(carom.InputError) as error:
-        fitting.fit("", contents, "folder/me.csv")
-    assert words in str(error.value)
-    assert "\n" not in str(error.value)
-    assert fitting._folder.name not in str(error.value)
+def test_a_fit_that_never_ends_holds_up_no_file(monkeypatch):
+    content = '{"told": asked, "content": "b2s="}'
+    echo = ECHO.replace('["what"]', '.get("contents")')
+    echo = echo.replace('{"told": asked, "process": os.getpid()}', content)
+    monkeypatch.setattr(workers, "PROGRAM", echo)
+    found = Worker(fit_seconds=3.0)
+    try:
+        found.file("curve.png", "", 0.5)
+        asking = threading.Thread(
+            target=pytest.raises, args=(Refused, found.fit), kwargs={"contents": "hang"}
+        )
+        asking.start()
+        time.sleep(0.3)
+        begin = time.monotonic()
+        assert found.file("curve.png", "", 0.5) == b"ok"
+        assert time.monotonic() - begin < 1.0
+        assert asking.is_alive()
+        asking.join(PATIENCE)
+    finally:
+        found.close()
 
 
 def test_memory_is_limited_where_the_system_can(monkeypatch):
     pytest.importorskip("resource")
-    hungry = "from carom.explorer import uploads; uploads.fit_of_upload = lambda *_: bytes(1 << 31)"
-    monkeypatch.setattr(
-        workers, "PROGRAM", workers.PROGRAM.replace("from carom", f"{hungry}\nfrom carom")
+    hungry = "from carom.explorer import tasks; tasks._fitting = lambda: lambda _: bytes(1 << 31)"
+    program = workers.PROGRAM.replace(
+        "from carom.explorer.tasks", f"{hungry}\nfrom carom.explorer.tasks"
     )
-    found = Worker()
+    monkeypatch.setattr(workers, "PROGRAM", program)
+    found = Desk("fit", 20.0)
     try:
-        with pytest.raises(carom.InputError, match=r"^file: fitting it takes more than 1024 MB"):
-            found.fit("", "", "a.csv")
+        with pytest.raises(Refused, match=r"^file: it takes more than 1024 MB of memory$"):
+            found.ask(contents="")
     finally:
         found.close()

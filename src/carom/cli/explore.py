@@ -24,8 +24,19 @@ def explore_command(
             "--open/--no-open", help="Open the page in a browser, or only print its address."
         ),
     ] = True,
+    export: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FOLDER",
+            help="Write a copy of the page that runs in the browser alone, e.g. for a course.",
+        ),
+    ] = None,
     as_json: Annotated[
-        bool, typer.Option("--json", help="Print the address of the page as JSON.")
+        bool,
+        typer.Option(
+            "--json",
+            help="Print the address of the page, or with --export where the copy is, as JSON.",
+        ),
     ] = False,
 ) -> None:
     """Explore impacts on a page in the browser.
@@ -36,7 +47,11 @@ def explore_command(
     \b
     Example: carom explore
     A machine without a screen: carom explore --no-open --port 0
+    A copy for a web site: carom explore --export impact-page
     """
+    if export is not None:
+        _export(export, as_json)
+        return
     from carom.explorer import explorer
 
     page = explorer(host=host, port=whole("port", port, 0, 65535))
@@ -51,3 +66,14 @@ def explore_command(
             webbrowser.open(page.url)
         page.serve()
     os._exit(0)  # without waiting for threads that are at work
+
+
+def _export(folder: str, as_json: bool) -> None:
+    """Write a copy of the page, and tell where it is."""
+    from carom.explorer.export import export
+
+    copy = export(folder)
+    size = f"{copy.bytes / 1e6:.1f} MB in {copy.files} files"
+    typer.echo(
+        json.dumps(copy._asdict()) if as_json else f"{copy.folder}/index.html  ({size}, no server)"
+    )

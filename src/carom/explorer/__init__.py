@@ -2,7 +2,7 @@
 
 from carom.io.extras import extra
 
-extra("dash", "the explorer", "explore")  # in one line what else the imports below would say
+extra("flask", "the explorer", "explore")  # in one line what else the imports below would say
 
 from carom.explorer.serving import Explorer, explorer  # noqa: E402
 

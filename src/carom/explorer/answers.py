@@ -1,121 +1,102 @@
-"""What a change of the view comes to on the page: pictures, charts, numbers."""
+"""What the page asks of a view: its pictures, histories, curves, numbers; contact laws that follow.
+
+All is as JSON holds it, null for what is no finite number.
+"""
 
 from math import isfinite
+from time import monotonic
 from typing import Any
 
-from dash import ClientsideFunction, Dash, Input, Output, State, html, no_update
-from dash.exceptions import PreventUpdate
+import numpy as np
 
-from carom.explorer import charts
+from carom.dimensionless.rebounds import regime_borders
 from carom.explorer.limits import LAW_SECONDS
 from carom.explorer.overlays import LawCurve, exact_curve, followers, law_curves
 from carom.explorer.scenes import Scene, scene_of
 from carom.explorer.views import View
-from carom.io.labels import MARKS
-from carom.quantities.refusals import InputError
+from carom.quantities.arrays import Array
 
-EQUAL = 1e-6  # laws are solved to 1e-8
-PROMPT = 0.03  # s that an answer waits for the contact laws; what is not solved then follows
-CHARTS = ("forces", "rebounds", "energies")
-WITH_LAWS = (("figures", "data"), ("results", "children"))
-DRAWN = (*WITH_LAWS, ("scene", "data"), ("query", "data"), ("late", "data"))
+PROMPT = 0.06  # s from the question on, until which an answer waits for contact laws
+DIGITS = 6  # of what is carried over from bodies to numbers
+FINE = 7  # decimals of a curve, in which one may zoom
 
-
-def connect_answers(app: Dash) -> None:
-    """Solve the impact of the view and draw it: the moving pictures first, then the charts."""
-
-    @app.callback(
-        [Output(*part) for part in DRAWN],
-        Output("notice", "children"),
-        Output("link-notice", "children", allow_duplicate=True),
-        Input("view", "data"),
-        State("restored", "data"),
-        prevent_initial_call=True,
-    )
-    def answer(query: str | None, restored: list[str] | None) -> list[Any]:
-        try:
-            view = View.of(query or "")
-            return [*_drawn(view), "", no_update if [view.query()] == restored else ""]
-        except InputError as error:
-            return [*[no_update for _ in DRAWN], str(error), no_update]
-
-    @app.callback(
-        [Output(*part, allow_duplicate=True) for part in WITH_LAWS],
-        Input("late", "data"),
-        State("query", "data"),
-        prevent_initial_call=True,
-    )
-    def follow(late: list[str], query: str) -> list[Any]:
-        if not late:  # what an earlier view still waits for is dropped all the same
-            raise PreventUpdate
-        view = View.of(query)
-        scene = scene_of(view)
-        laws = law_curves(scene, view.laid_over, LAW_SECONDS, followers.joined())
-        figures, results = _with_laws(view, scene, laws)
-        slow = [label for label, law in zip(view.laid_over, laws, strict=True) if law is None]
-        if slow:
-            told = f"{', '.join(slow)}: not solved within {LAW_SECONDS:g} s; choose fewer at a time"
-            results.append(html.P(told, className="carom-caution"))
-        return [figures, results]
-
-    for name, shown in (("show", "scene"), ("link", "query"), ("attach", "view")):
-        app.clientside_callback(
-            ClientsideFunction("carom", name), Input(shown, "data"), prevent_initial_call=True
-        )
-    app.clientside_callback(
-        ClientsideFunction("carom", "chart"),
-        [Output(name, "figure") for name in CHARTS],
-        Input("figures", "data"),
-        prevent_initial_call=True,
-    )
+Answer = dict[str, Any]
 
 
-def _drawn(view: View) -> list[Any]:
-    """Return what goes into `DRAWN`."""
+def answer(view: View) -> Answer:
+    """Return what there is to see of a view, or raise Refused."""
+    end = monotonic() + PROMPT
     scene = scene_of(view)
-    laws = law_curves(scene, view.laid_over, PROMPT)
-    late = [label for label, law in zip(view.laid_over, laws, strict=True) if law is None]
-    return [*_with_laws(view, scene, laws), scene.moving(), view.query(), late]
+    told: Answer = {
+        "query": view.query(),
+        "carried": _carried(view, scene),
+        "scene": scene.moving(),
+        "history": _history(scene),
+        "curve": _curve(scene),
+        "undamped": list(view.undamped),
+        "results": scene.results,
+        "findings": scene.findings,
+    }
+    laws = law_curves(scene, view.laid_over, max(0.0, end - monotonic()))
+    return told | _laws(view, scene, laws, "late")
 
 
-def _with_laws(view: View, scene: Scene, laws: list[LawCurve | None]) -> list[Any]:
-    """Return what goes into `WITH_LAWS`."""
-    figures = (
-        charts.forces(scene, laws),
-        charts.rebounds(scene, exact_curve(scene), laws),
-        charts.energies(scene),
-    )
-    results = _table(scene, laws)
-    if view.undamped:
-        told = f"{', '.join(view.undamped)}: has no damping, and is not laid over losses"
-        results.append(html.P(told, className="carom-caution"))
-    return [figures, results]
+def laws(view: View) -> Answer:
+    """Return the contact laws of a view once they are solved, "slow" those that are not."""
+    scene = scene_of(view)
+    found = law_curves(scene, view.laid_over, LAW_SECONDS, followers.joined())
+    return _laws(view, scene, found, "slow")
 
 
-def _table(scene: Scene, laws: list[LawCurve | None]) -> list[Any]:
-    rows = [_row(name, text) for name, text in scene.results.items()]
-    for law, (color, dash) in charts.styles(laws):
-        if isfinite(law.at):
-            key = html.Span(className=f"carom-key carom-{dash}", style={"borderColor": color})
-            text = f"{law.at + 0.0:.6g}, {_off(law.at - scene.psi_out)}"
-            rows.append(_row([key, f"ψ₂ by {law.label}"], text))
-    return [html.Table(html.Tbody(rows), className="carom-table"), *_findings(scene)]
+def _laws(view: View, scene: Scene, found: list[LawCurve | None], left: str) -> Answer:
+    missing = [label for label, law in zip(view.laid_over, found, strict=True) if law is None]
+    return {"laws": [_law(scene, law) for law in found if law is not None], left: missing}
 
 
-def _row(name: Any, text: str) -> html.Tr:
-    return html.Tr([html.Th(name, scope="row"), html.Td(text)])
+def _law(scene: Scene, law: LawCurve) -> Answer:
+    return {
+        "label": law.label,
+        "psi": _fine(law.psi_in),
+        "out": _fine(law.psi_out),
+        "at": _number(law.at),
+        "off": _number(law.at - scene.psi_out),
+        "share": _fine(law.share),
+        "force": _fine(law.force),
+    }
 
 
-def _findings(scene: Scene) -> list[Any]:
-    """Return the findings, those first and marked in which the theory does not hold."""
-    lines = scene.findings.splitlines()
-    wrong = [line for line in lines if line.startswith(MARKS[False])]
-    right = [line for line in lines if line not in wrong]
-    return [
-        html.P("\n".join(wrong), className="carom-caution") if wrong else None,
-        html.Pre("\n".join(right)),
-    ]
+def _carried(view: View, scene: Scene) -> Answer | None:
+    """Return the numbers of an impact of bodies, with which it goes on as such."""
+    if view.in_numbers or not scene.rubs:
+        return None
+    numbers = {"psi": scene.psi_in, "chi": scene.chi}
+    return {name: float(f"{number:.{DIGITS}g}") for name, number in numbers.items()}
 
 
-def _off(error: float) -> str:
-    return f"off by {error:+.3g}" if abs(error) > EQUAL else "exact"
+def _history(scene: Scene) -> Answer:
+    return {
+        "share": _fine(scene.share),
+        "force": _fine(scene.force),
+        "limit": _fine(scene.limit),
+        "unit": scene.force_unit,
+        "energies": {name: _fine(part) for name, part in scene.energies.items()},
+    }
+
+
+def _curve(scene: Scene) -> Answer:
+    psi, out = exact_curve(scene)
+    return {
+        "psi": _fine(psi),
+        "out": _fine(out),
+        "borders": regime_borders(scene.chi, scene.restitution).tolist(),
+        "at": [scene.psi_in, scene.psi_out] if scene.rubs else None,
+    }
+
+
+def _number(value: float) -> float | None:
+    return value if isfinite(value) else None
+
+
+def _fine(values: Array) -> list[float | None]:
+    found: list[float | None] = np.round(values, FINE).tolist()
+    return found if np.isfinite(values).all() else [_number(value) for value in found]  # type: ignore[arg-type]

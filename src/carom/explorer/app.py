@@ -1,120 +1,159 @@
 """The page as a web application: one server, no other host, never a traceback."""
 
+import json
 import logging
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
-from dash import Dash, set_props as set_on_page
-from flask import Flask, Response, abort, request
+from flask import Flask, Response, abort, request, send_file
 from werkzeug.exceptions import HTTPException
 
-from carom.explorer.answers import connect_answers
-from carom.explorer.controls import connect_controls
-from carom.explorer.downloads import add_downloads
-from carom.explorer.layout import page
+from carom.explorer import answers
+from carom.explorer.downloads import add_files
+from carom.explorer.fits import add_fits
+from carom.explorer.knobs import WORDS
 from carom.explorer.limits import LARGEST_REQUEST, Busy
-from carom.explorer.measures import connect_measures
+from carom.explorer.page import page
+from carom.explorer.refused import Refused
+from carom.explorer.views import View
+from carom.explorer.warming import Preparing, Warming
 from carom.explorer.worker import Worker
 from carom.quantities.refusals import InputError
 
 OWN_HOST_ONLY = (
-    "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval'; "
-    "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
-    "object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
-)
+    "default-src 'self'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data: blob:; font-src 'self' data:; object-src 'none'; base-uri 'none'; "
+    "form-action 'self'; frame-ancestors 'none'"
+)  # plotly writes styles
 HEADERS = {
     "Content-Security-Policy": OWN_HOST_ONLY,
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
 }
-
-UPDATES, PARTS, ANY_OTHER = (  # of dash
-    "/_dash-update-component",
-    "/_dash-component-suites/",
-    "/<path:path>",
-)
-
+ASSETS = Path(__file__).with_name("assets")
+FOR_THE_PAGE = ("/answer", "/laws", "/fit")  # told of errors as JSON, others as text
+WEEK = 7 * 86400  # s
+AGAIN = 1  # s after which to ask again for what is being compiled
 LOGGED = 300  # characters of what went wrong
 
 log = logging.getLogger(__name__)
 
 
-def new_app(worker: Worker, hosts: list[str] | None = None) -> Dash:
+def new_app(worker: Worker, warming: Warming, hosts: list[str] | None = None) -> Flask:
     """Return the application, which answers to these names of hosts only, None for all."""
-    server: Any = Flask(__name__)
+    server = Flask(__name__, static_folder=None)
     server.config["MAX_CONTENT_LENGTH"] = LARGEST_REQUEST
     server.config["TRUSTED_HOSTS"] = hosts
-    app = Dash(
-        __name__,
-        server=server,
-        title="Carom explorer",
-        update_title="",
-        on_error=_told_on_page,
-        enable_mcp=False,
-        meta_tags=[{"name": "viewport", "content": "width=device-width, initial-scale=1"}],
-        index_string=INDEX,
-    )
-    app.layout = page
-    connect_controls(app)
-    connect_answers(app)
-    connect_measures(app, worker)
-    add_downloads(server)
+    _add_parts(server)
+    _add_answers(server, warming)
+    add_files(server, worker)
+    add_fits(server, worker)
     server.register_error_handler(Exception, _one_line)
-    server.before_request(_refuse_unknown)
     server.after_request(_guarded)
-    return app
+    return server
 
 
-def _told_on_page(error: Exception) -> None:
-    if isinstance(error, InputError | Busy):
-        set_on_page("notice", {"children": str(error)})
-        return
-    log.error("%s: %s", type(error).__name__, error)
-    set_on_page("notice", {"children": f"failed, {type(error).__name__}"})
+def _add_parts(server: Flask) -> None:
+    """Add the page, and what it is made of."""
+
+    @server.get("/")
+    def home() -> Response:
+        return Response(_page(), content_type="text/html; charset=utf-8")
+
+    @server.get("/assets/<name>")
+    def asset(name: str) -> Response:
+        file = ASSETS / name
+        if not file.is_file():
+            abort(404)
+        return _kept(file)
+
+    @server.get("/plotly.min.js")
+    def plotly() -> Response:
+        return _kept(plotly_file())
 
 
-def _refuse_unknown() -> None:
-    """Refuse addresses that dash would answer with the page."""
-    if request.url_rule is not None and request.url_rule.rule == ANY_OTHER:
-        abort(404)
+def _add_answers(server: Flask, warming: Warming) -> None:
+    """Add what is asked of a view."""
+
+    @server.get("/answer")
+    def answer() -> Response:
+        view = View.of(_query())
+        warming.check(view)
+        return _json(answers.answer(view))
+
+    @server.get("/laws")
+    def laws() -> Response:
+        view = View.of(_query())
+        warming.check(view, laws=True)
+        return _json(answers.laws(view))
+
+
+@cache
+def _page() -> str:
+    return page()
+
+
+def plotly_file() -> Path:
+    """Return the file of plotly's JavaScript, without its package, which takes long to load."""
+    found = find_spec("plotly")
+    if found is None or found.origin is None:
+        raise InputError("the explorer needs the package plotly; pip install 'carom[explore]'")
+    return Path(found.origin).with_name("package_data") / "plotly.min.js"
+
+
+def _query() -> str:
+    return request.query_string.decode("ascii", "replace")
+
+
+def _kept(file: Path) -> Response:
+    """Return a file, which a browser keeps as long as it has not changed.
+
+    For a week without asking if the address tells its version.
+    """
+    return send_file(file, max_age=WEEK if "v" in request.args else None)
+
+
+def _json(told: Any, status: int = 200) -> Response:
+    content = json.dumps(told, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    return Response(content.encode("utf-8", "replace"), status, content_type="application/json")
 
 
 def _one_line(error: Exception) -> Response:
-    """Return an error of a request as one line of text."""
+    """Return an error of a request in a line, with the field that it is about."""
+    if isinstance(error, Preparing):
+        parts = {"done": error.done, "parts": error.parts}
+        found = _told("", str(error), 503, {"again": AGAIN} | parts)
+        found.headers["Retry-After"] = str(AGAIN)
+        return found
+    if isinstance(error, Refused):
+        return _told(error.field, error.message, 400)
     if isinstance(error, InputError):
-        return _text(str(error), 400)
+        return _told(*_parted(str(error)), 400)
     if isinstance(error, Busy):
-        return _text(str(error), 503)
+        return _told("", str(error), 503)
     if isinstance(error, HTTPException):
-        return _text(f"{error.code}: {error.name}", error.code or 500)
-    if request.path.startswith(PARTS):
-        return _text("404: Not Found", 404)
+        return _told("", f"{error.code}: {error.name}", error.code or 500)
     log.error("%s: %s", type(error).__name__, " ".join(str(error).split())[:LOGGED])
-    if request.path == UPDATES:  # what callbacks raise is told on the page
-        return _text("400: this is no request of the page", 400)
-    return _text(f"failed, {type(error).__name__}", 500)
+    return _told("", f"failed, {type(error).__name__}", 500)
 
 
-def _text(line: str, status: int) -> Response:
-    return Response(f"carom: {line}\n", status, content_type="text/plain; charset=utf-8")
+def _parted(told: str) -> tuple[str, str]:
+    """Return the field that a refusal of the library begins with, and the rest of it."""
+    name, colon, rest = told.partition(": ")
+    return (name, rest) if colon and name in WORDS else ("", told)
+
+
+def _told(field: str, message: str, status: int, more: dict[str, Any] | None = None) -> Response:
+    if request.path in FOR_THE_PAGE:
+        return _json({"field": field, "message": message} | (more or {}), status)
+    words = WORDS.get(field)
+    line = f"{words.label}: {message}" if words else message
+    content = f"carom: {line}\n".encode("utf-8", "replace")
+    return Response(content, status, content_type="text/plain; charset=utf-8")
 
 
 def _guarded(response: Response) -> Response:
     response.headers.update(HEADERS)
     return response
-
-
-INDEX = """<!DOCTYPE html>
-<html lang="en">
-  <head>
-    {%metas%}
-    <title>{%title%}</title>
-    {%favicon%}
-    {%css%}
-  </head>
-  <body>
-    {%app_entry%}
-    <noscript>This page computes and draws with JavaScript; switch it on.</noscript>
-    <footer>{%config%}{%scripts%}{%renderer%}</footer>
-  </body>
-</html>
-"""

@@ -1,79 +1,33 @@
-"""What the page shows of a fit: its words, and a chart of every response."""
+"""Fits that the page asks for: of data sets that come along, and of a user's file."""
 
-from functools import cache
 from typing import Any
 
-import numpy as np
-import xarray as xr
+from flask import Flask, Response, jsonify, request
 
-from carom import datasets
-from carom.explorer.charts import BLUE, GREY, VERMILION, Figure, axes_of, line
-from carom.explorer.stages import short
-from carom.fitting import Fit, fit
-from carom.quantities.arrays import Array
-from carom.quantities.glossary import GLOSSARY
-from carom.quantities.prefixes import prefixed
+from carom.datasets.shipped import names
+from carom.explorer.refused import Refused
+from carom.explorer.worker import Worker
 
-LINES = {
-    "exact": (BLUE, "solid", 2.2),
-    "Walton": ("#009e73", "dot", 1.4),
-    "rigid Coulomb": (GREY, "dash", 1.4),
-}
+SENT = ("contents", "name", "bodies")
 
 
-@cache
-def fit_of(name: str) -> dict[str, Any]:
-    """Return the fit of measured rebounds that come along."""
-    return shown_fit(fit(datasets.path(name)))
+def add_fits(server: Flask, worker: Worker) -> None:
+    """Let the server answer with a fit at /fit: of ?data=NAME, or of a file that is sent there."""
+    known: dict[str, dict[str, Any]] = {}
 
+    def shipped() -> Response:
+        name = request.args.get("data", "")
+        if name not in names():
+            raise Refused("data", f"must be one of {', '.join(names())}")
+        if name not in known:
+            known[name] = worker.fit(data=name)
+        return jsonify(known[name])
 
-def shown_fit(found: Fit) -> dict[str, Any]:
-    """Return the words and charts of a fit, as JSON can hold them."""
-    dataset = found.to_dataset()
-    if found.losses is not None and found.best.model.problem.is_normal:
-        return {"words": str(found), "figures": [_drops(dataset)]}
-    figures = [_chart(dataset.sel(response=n), str(n)) for n in dataset["response"].values]
-    return {"words": str(found), "figures": figures}
+    def sent() -> Response:
+        given = request.get_json(silent=True)
+        if not isinstance(given, dict) or not all(isinstance(given.get(n), str) for n in SENT):
+            raise Refused("", "file: it did not arrive; choose it again")
+        return jsonify(worker.fit(**{name: given[name] for name in SENT}))
 
-
-def _chart(one: xr.Dataset, name: str) -> Figure:
-    scale, unit = _scale(name, one["measured"].values)
-    along = np.degrees(one["curve_incidence"].values)
-    traces: list[Figure] = [
-        line(along, scale * one["curve_expected"].sel(law=law).values, str(law), *LINES[str(law)])
-        for law in one["law"].values
-    ]
-    values, errors = (scale * one[key].values for key in ("measured", "error"))
-    traces.append(_measured(np.degrees(one["incidence"].values), values, errors))
-    text = name.replace("_", " ") + (f" ({unit})" if unit != "1" else "")
-    return axes_of(traces, "incidence of the contact point (deg)", text)
-
-
-def _drops(dataset: xr.Dataset) -> Figure:
-    """Return restitution against speed, measured and by laws of losses."""
-    speeds = dataset["loss_speed"].values
-    traces: list[Figure] = [
-        line(speeds, dataset["loss_restitution"].sel(loss_law=law).values, str(law), *style)
-        for law, style in zip(dataset["loss_law"].values, LINES.values(), strict=True)
-    ]
-    columns = ("normal_speed", "restitution", "restitution_error")
-    traces.append(_measured(*(dataset[name].values for name in columns)))
-    return axes_of(traces, "normal speed before (m/s)", "restitution")
-
-
-def _measured(x: Array, y: Array, errors: Array) -> Figure:
-    return {
-        "type": "scatter",
-        "mode": "markers",
-        "name": "measured",
-        "x": short(x),
-        "y": short(y),
-        "error_y": {"type": "data", "array": short(errors), "thickness": 1},
-        "marker": {"color": VERMILION, "size": 6},
-        "hovertemplate": "%{y:.4g}",
-    }
-
-
-def _scale(name: str, values: Any) -> tuple[float, str]:
-    unit = GLOSSARY[name].unit if name in GLOSSARY else "1"
-    return (float(np.degrees(1.0)), "deg") if unit == "rad" else prefixed(values, unit)
+    server.add_url_rule("/fit", "fit_of_data", shipped)
+    server.add_url_rule("/fit", "fit_of_file", sent, methods=["POST"])

@@ -9,8 +9,9 @@ MOST_ROWS = 2000  # of an upload
 LARGEST_REQUEST = 2 * LARGEST_UPLOAD  # a file travels in more characters than it has
 
 FIT_SECONDS = 20.0  # that an upload may be read and fitted; 2000 rows take two
-FIT_MEMORY = 1 << 30  # bytes, besides what the process has before
-START_SECONDS = 300.0  # until that process is ready; it may have to compile
+FILE_SECONDS = 30.0  # that a file of a view may take, contact laws in it among them
+WORK_MEMORY = 1 << 30  # bytes, besides what a process that fits or writes has before
+START_SECONDS = 300.0  # until such a process is ready; it may have to compile
 
 LAW_SECONDS = 20.0  # that contact laws are waited for; the slowest takes five, at chi = 10
 FOLLOWERS = 16  # requests that wait for contact laws; the latest count

@@ -9,6 +9,8 @@ from time import monotonic
 
 import numpy as np
 
+from carom.dimensionless.lossy.law import scale_free
+from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.threads import available_cores
 from carom.dimensionless.rebounds import rebound
 from carom.explorer.limits import FOLLOWERS, LAW_SECONDS
@@ -18,7 +20,8 @@ from carom.quantities.arrays import Array
 from carom.verify.catalogue import named
 from carom.verify.errors import damped, losses_of
 
-POINTS, POINTS_WITH_LOSSES, POINTS_OF_LAWS = 241, 121, 61
+POINTS, POINTS_WITH_LOSSES, POINTS_OF_LAWS = 241, 101, 61
+DRAWN = 1e-6  # tolerance of a curve with losses, of which a point takes 0.4 ms
 BEYOND = 1.15  # of the present psi_1, that is shown
 STEPS = 400  # of a law's force in time
 EVERY = 2  # of these that is drawn
@@ -26,7 +29,7 @@ KEPT = 256  # curves that are remembered
 GLANCE = 0.1  # s
 DIGITS = 12  # of what a curve is remembered by
 
-_solvers = ThreadPoolExecutor(available_cores(), "carom-law")
+_solvers = ThreadPoolExecutor(max(1, available_cores() - 1), "carom-law")  # answers go first
 _at_work: dict[tuple[Scene, str], Future["LawCurve"]] = {}
 
 
@@ -103,8 +106,13 @@ def _begun(scene: Scene, label: str) -> Future[LawCurve]:
 
 @lru_cache(maxsize=KEPT)
 def _exact(chi: float, restitution: float, low: float, high: float) -> tuple[Array, Array]:
-    psi = np.linspace(low, high, POINTS if restitution == 1.0 else POINTS_WITH_LOSSES)
-    return psi, rebound(psi, chi, losses=losses_of(restitution))
+    losses = losses_of(restitution)
+    if losses is None:
+        psi = np.linspace(low, high, POINTS)
+        return psi, rebound(psi, chi)
+    psi = np.linspace(low, high, POINTS_WITH_LOSSES)
+    given = psi, np.full(psi.size, chi), scale_free(losses)
+    return psi, lossy_rebounds(*given, tolerance=DRAWN).psi_out
 
 
 @lru_cache(maxsize=KEPT)
@@ -119,7 +127,7 @@ def _of_law(scene: Scene, label: str) -> LawCurve:
     shown = (psi >= low) & (psi <= high)
     at, share, force = float("nan"), np.array([]), np.array([])
     if np.isfinite(scene.psi_in):
-        at = float(law.rebound(scene.psi_in, scene.chi, kappa=scene.kappa, threads=1))
+        at = float(_rebound(law, scene.psi_in, scene.chi, scene.kappa))
         share, force = _in_time(law, scene)
     return LawCurve(label, psi[shown], out[shown], at, share, force)
 
@@ -137,7 +145,13 @@ def _in_time(law: Law, scene: Scene) -> tuple[Array, Array]:
 def _half(law: Law, chi: float, kappa: float) -> Array:
     """Return psi_2 of a law over the regimes; beyond them every law slides."""
     grid = np.linspace(0.0, _regimes(chi), POINTS_OF_LAWS)
-    return np.asarray(law.rebound(grid, chi, kappa=kappa, threads=1))
+    return _rebound(law, grid, chi, kappa)
+
+
+def _rebound(law: Law, psi: float | Array, chi: float, kappa: float) -> Array:
+    """Return psi_2 of a law, NaN without a word where it leaves an impact unsolved."""
+    found, _ = law.rebound(psi, chi, kappa=kappa, threads=1, return_status=True)
+    return np.asarray(found)
 
 
 def _regimes(chi: float) -> float:

@@ -1,54 +1,53 @@
 """What a view comes to: an impact solved, in the units in which the page draws it."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import isinf, isnan
+from math import isfinite
 from typing import Any
 
 import numpy as np
 
+from carom.bodies.kinematics import Tangential
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution, solve
 from carom.dimensionless.states import Phase
+from carom.explorer.knobs import refused
+from carom.explorer.refused import Refused
+from carom.explorer.results import Row, findings_of, rows_of
 from carom.explorer.stages import MovingBodies, short, stage_of_bodies, stage_of_numbers
 from carom.explorer.views import View
 from carom.impacts.exact import Impact
-from carom.impacts.report import OF_LOSSES
+from carom.impacts.history import history_columns
 from carom.impacts.solve import impact
 from carom.laws.dem.base import SOLID
-from carom.plots.impact import ENERGIES, LOST
 from carom.quantities.arrays import Array
-from carom.quantities.glossary import GLOSSARY
-from carom.quantities.prefixes import prefixed, text
+from carom.quantities.prefixes import prefixed
+from carom.quantities.refusals import InputError
 
 TIMES = 201  # of the histories
 KEPT = 16  # scenes that are remembered
 RADII, INSTANTS = 33, 61  # at which tractions are drawn
 FEWER = 31  # instants with losses, of which one takes 2 ms
 HIGHEST = 9.0  # traction that is drawn: at the edge it is infinite where viscous bodies are loaded
-OF_BODIES = (
-    "chi",
-    "kappa",
-    "psi_in",
-    "psi_out",
-    "rebound_angle",
-    "rebound_speed",
-    "spin_out",
-    "contact_restitution",
-    "tangential_restitution",
-    "dissipated_energy",
-    "duration",
-    "max_force",
-    "max_radius",
-)
-LETTERS = {"chi": "χ", "kappa": "κ", "psi_in": "ψ₁", "psi_out": "ψ₂"}
-OF_CONTACT = {  # energies of the tangential motion alone
+ENERGIES = {  # by their columns in a history, from the bottom of a stack to its top
+    "normal_kinetic_energy": "normal motion",
+    "tangential_kinetic_energy": "tangential motion",
+    "spin_kinetic_energy": "spin",
+    "normal_elastic_energy": "elastic, normal",
+    "tangential_elastic_energy": "elastic, tangential",
+    "frictional_work": "lost to friction",
+    "normal_loss": "normal losses",
+    "shear_loss": "losses in shear",
+}
+OF_CONTACT = {  # of the tangential motion alone
     "contact_kinetic_energy": "motion of the contact point",
     "tangential_elastic_energy": "elastic, tangential",
     "frictional_work": "lost to friction",
     "shear_loss": "losses in shear",
 }
+TOO_LARGE = "with the other numbers it leads to some that a computer cannot hold"
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +64,7 @@ class Scene:
     time_unit: str
     phases: tuple[Phase, ...]  # times as shares of the duration
     share: Array
+    psi: Array
     force: Array
     limit: Array
     force_scale: float  # mu times the largest force without losses
@@ -75,8 +75,13 @@ class Scene:
     rim: Array  # of the pressure, its density at the edge
     tractions: Array
     stage: MovingBodies
-    results: Mapping[str, str]
-    findings: str
+    results: tuple[Row, ...]
+    findings: tuple[Row, ...]
+
+    @property
+    def rubs(self) -> bool:
+        """Whether there is a psi_1: without friction it is infinite."""
+        return isfinite(self.psi_in)
 
     def moving(self) -> dict[str, Any]:
         """Return what the page animates, as JSON can hold it."""
@@ -89,9 +94,10 @@ class Scene:
             "time": short(self.share),
             "contact": short(self.contact),
             "stick": short(self.stick),
+            "psi": short(self.psi) if self.rubs else None,
             "force": short(self.force / (self.limit.max() or 1.0)),
             "rim": short(self.rim),
-            "tractions": [short(line) for line in self.tractions],
+            "tractions": short(self.tractions),
             "stage": self.stage.moving(),
         }
 
@@ -103,25 +109,37 @@ def scene_of(view: View) -> Scene:
 
 @lru_cache(maxsize=KEPT)
 def _solved(view: View) -> Scene:
-    return _of_numbers(view) if view.in_numbers else _of_bodies(view)
+    with refusals("psi" if view.in_numbers else "friction"):
+        return _of_numbers(view) if view.in_numbers else _of_bodies(view)
 
 
 def impact_of(view: View) -> Impact:
-    """Return the impact of the bodies of a view, or raise InputError."""
-    found: Impact = impact(view.pair, losses=view.losses, **view.motion)
-    return found
+    """Return the impact of the bodies of a view, or raise Refused."""
+    with refusals("speed"):
+        found: Impact = impact(view.pair, losses=view.losses, **view.motion)
+        return found
+
+
+@contextmanager
+def refusals(field: str) -> Iterator[None]:
+    """Tell of what the library refuses as of a field of the page: each is right by itself."""
+    try:
+        yield
+    except Refused:
+        raise
+    except (InputError, ArithmeticError):
+        raise refused(field, TOO_LARGE) from None
 
 
 def _of_bodies(view: View) -> Scene:
     hit = impact_of(view)
-    history = hit.history(TIMES)
-    column = {str(name): line.values for name, line in history.variables.items()}
+    before = Tangential(hit.tangential_speed, hit.spin, hit.spin2)
+    column = history_columns(hit.pair, hit.normal_speed, before, hit.solution, TIMES)
     seconds, unit = prefixed(hit.duration, "s")
     newtons, force_unit = prefixed(hit.pair.friction * hit.max_force or hit.max_force, "N")
-    energies = {name: column[name] for name in (*ENERGIES, *LOST)}
+    energies = {name: column[name] for name in ENERGIES}
     whole = sum(energies.values())
-    scalars = hit.scalars()
-    told = OF_BODIES if hit.losses is None else (*OF_BODIES, *OF_LOSSES)
+    scales = hit.pair.scales(hit.normal_speed)
     return Scene(
         psi_in=hit.psi_in,
         psi_out=hit.psi_out,
@@ -132,10 +150,11 @@ def _of_bodies(view: View) -> Scene:
         duration=hit.duration * seconds,
         time_unit=unit,
         phases=_shares(hit.phases, hit.duration),
-        share=history["time"].values / hit.duration,
+        share=column["time"] / hit.duration,
+        psi=column["contact_velocity"] / (scales.tangential_speed or np.inf),
         force=column["tangential_force"] * newtons,
         limit=hit.pair.friction * column["normal_force"] * newtons,
-        force_scale=hit.pair.friction * hit.pair.scales(hit.normal_speed).force * newtons,
+        force_scale=hit.pair.friction * scales.force * newtons,
         force_unit=force_unit,
         energies={name: part / whole for name, part in energies.items()},
         contact=column["contact_radius"] / hit.max_radius,
@@ -143,8 +162,8 @@ def _of_bodies(view: View) -> Scene:
         rim=_rim(hit.solution, column["normal_velocity"] / hit.normal_speed),
         tractions=_tractions(hit.solution),
         stage=stage_of_bodies(hit, column),
-        results={_named(name): _text(name, scalars[name]) for name in told},
-        findings=str(hit.validity),
+        results=rows_of(hit.scalars(), lossy=hit.losses is not None),
+        findings=findings_of(hit.validity.findings),
     )
 
 
@@ -164,6 +183,7 @@ def _of_numbers(view: View) -> Scene:
         time_unit="d_max/V₁",
         phases=_shares(solution.phases, solution.duration),
         share=history.time / solution.duration,
+        psi=history.psi,
         force=1.5 * history.force,  # Q = (2/3) F_x/(mu P_max)
         limit=history.normal_force,
         force_scale=1.0,
@@ -174,21 +194,15 @@ def _of_numbers(view: View) -> Scene:
         rim=_rim(solution, history.speed),
         tractions=_tractions(solution),
         stage=stage_of_numbers(solution, history, view.friction),
-        results=_numbers(solution),
-        findings="",
+        results=rows_of(_numbers(solution)),
+        findings=(),
     )
 
 
-def _numbers(solution: Solution | LossySolution) -> dict[str, str]:
+def _numbers(solution: Solution | LossySolution) -> dict[str, float]:
     psi, out = solution.psi_in, solution.psi_out
-    rows = {
-        _named("psi_in"): text(psi, "1"),
-        _named("psi_out"): text(out, "1"),
-        _named("chi"): text(solution.chi, "1"),
-    }
-    if psi:
-        rows[_named("contact_restitution")] = text(out / psi, "1")
-    return rows
+    numbers = {"psi_in": psi, "psi_out": out, "chi": solution.chi}
+    return numbers | ({"contact_restitution": out / psi} if psi else {})
 
 
 def _tractions(solution: Solution | LossySolution) -> Array:
@@ -213,19 +227,3 @@ def _rim(solution: Solution | LossySolution, speed: Array) -> Array:
 
 def _shares(phases: tuple[Phase, ...], duration: float) -> tuple[Phase, ...]:
     return tuple(p._replace(start=p.start / duration, end=p.end / duration) for p in phases)
-
-
-def _named(name: str) -> str:
-    """Return what a number is called, after its letter if the page speaks of it by that."""
-    letter = LETTERS.get(name)
-    return f"{letter}, {GLOSSARY[name].meaning}" if letter else GLOSSARY[name].meaning
-
-
-def _text(name: str, value: float) -> str:
-    """Return a value of the glossary with its unit, which no line break parts."""
-    if isinf(value):
-        return "none: it slides freely"
-    if isnan(value):
-        return "none: it was zero before"
-    unbroken = GLOSSARY[name].text(value).replace(" ", "\N{NO-BREAK SPACE}")
-    return unbroken.replace("\N{NO-BREAK SPACE}(", " (")  # radians may begin a line

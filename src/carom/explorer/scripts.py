@@ -1,5 +1,6 @@
 """The lines of Python that give what the page shows."""
 
+from carom.explorer.knobs import OF_MATERIAL, OWN, SECOND
 from carom.explorer.views import View
 
 IMPORTS = """\
@@ -84,9 +85,18 @@ def script(view: View, time: float) -> str:
 
 def _bodies(view: View, time: float, losses: str) -> str:
     kinds = {"half-space": "HalfSpace", "sphere": "Sphere", "cup": "Cup"}
-    first = f'carom.Sphere(radius="{view.radius!r} mm", material={view.material!r})'
+    first = f'carom.Sphere(radius="{view.radius!r} mm", material={_stuff(view)})'
     sized = f'radius="{view.second_radius!r} mm", ' if view.against != "half-space" else ""
-    second = f"carom.{kinds[view.against]}({sized}material={view.second_material!r})"
+    second = f"carom.{kinds[view.against]}({sized}material={_stuff(view, SECOND)})"
     bodies = {"first": first, "second": second, "friction": view.friction}
     motion = {"speed": view.speed, "angle": view.angle, "spin": view.spin}
     return BODIES.format(**bodies, **motion, time=min(max(time, 0.0), 1.0), losses=losses)
+
+
+def _stuff(view: View, which: str = "") -> str:
+    """Return the material of the ball, or with "second_" that of the second body."""
+    name = getattr(view, f"{which}material")
+    if name != OWN:
+        return repr(name)
+    young, poisson, density = (getattr(view, which + part) for part in OF_MATERIAL)
+    return f'carom.Material(young="{young!r} GPa", poisson={poisson!r}, density={density!r})'

@@ -4,15 +4,11 @@ import socket
 from dataclasses import dataclass, field
 from errno import EADDRNOTAVAIL
 
-from carom import datasets
-from carom.dimensionless.numerics import shared_library
-from carom.explorer.app import new_app
+from carom.explorer.app import new_app, plotly_file
 from carom.explorer.connections import Server
-from carom.explorer.fits import fit_of
 from carom.explorer.limits import QUEUED
-from carom.explorer.overlays import exact_curve, followers, law_curves
-from carom.explorer.scenes import impact_of, scene_of
-from carom.explorer.views import LAWS, NUMBERS, View
+from carom.explorer.overlays import followers
+from carom.explorer.warming import Warming
 from carom.explorer.worker import Worker
 from carom.quantities.refusals import InputError, refusal
 
@@ -29,6 +25,7 @@ class Explorer:
     url: str
     _server: Server = field(repr=False)
     _worker: Worker = field(repr=False)
+    _warming: Warming = field(repr=False)
 
     def serve(self) -> None:
         """Answer until `stop`, or an interrupt."""
@@ -45,6 +42,7 @@ class Explorer:
         """Give the port back, of a page that is not served."""
         self._server.server_close()
         self._worker.close()
+        self._warming.stop()
         followers.dismiss()
 
 
@@ -61,8 +59,8 @@ def explorer(*, host: str = LOOPBACK, port: int = PORT) -> Explorer:
     Raises
     ------
     InputError
-        If dash is not installed, the port is no port or taken, or the address is not one of this
-        machine.
+        If flask or plotly is not installed, the port is no port or taken, or the address is not one
+        of this machine.
 
     Examples
     --------
@@ -77,15 +75,15 @@ def explorer(*, host: str = LOOPBACK, port: int = PORT) -> Explorer:
         raise refusal("port", port, allowed)
     if not host:
         raise refusal("host", host, "must be an address, e.g. 127.0.0.1; 0.0.0.0 is every one")
+    plotly_file()
     with _bound(host, port) as listening:
-        if shared_library.reason():
-            warm_up()
-        worker = Worker()
-        app = new_app(worker, OWN_NAMES if host in OWN_NAMES else None).server
+        worker, warming = Worker(), Warming()
+        app = new_app(worker, warming, OWN_NAMES if host in OWN_NAMES else None)
         server = Server(host, listening.getsockname()[1], app, listening.fileno())
+        warming.start()
         worker.start()
     shown = {"0.0.0.0": LOOPBACK, "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)
-    return Explorer(f"http://{shown}:{server.port}/", server, worker)
+    return Explorer(f"http://{shown}:{server.port}/", server, worker, warming)
 
 
 def _bound(host: str, port: int) -> socket.socket:
@@ -107,14 +105,3 @@ def _bound(host: str, port: int) -> socket.socket:
             "take another, or 0 for any that is free"
         ) from None
     return found
-
-
-def warm_up() -> None:
-    """Answer once what can be asked, which compiles it: bodies, numbers, laws, fields, a fit."""
-    for view in (View(law=LAWS), View(given=NUMBERS)):
-        scene = scene_of(view)
-        exact_curve(scene)
-        law_curves(scene, view.law)
-    hit = impact_of(View())
-    hit.fields(0.5 * hit.duration)
-    fit_of(datasets.names()[0])

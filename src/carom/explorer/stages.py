@@ -153,6 +153,7 @@ def _continued(time: Array, path: Array, before: float, after: float, duration: 
     return np.concatenate([path[0] + ahead, path, path[-1] + behind])
 
 
-def short(values: Array) -> list[float]:
+def short(values: Array) -> list[Any]:
     """Return numbers for the page, to what a picture shows."""
-    return [float(value) for value in np.round(values, 5)]
+    found: list[Any] = np.round(values, 5).tolist()
+    return found

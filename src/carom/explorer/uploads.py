@@ -1,79 +1,50 @@
-"""Uploaded tables of measured rebounds, fitted in a process of their own: what it does there."""
+"""Tables of measured rebounds as they arrive: read, checked, fitted; or the bodies asked for."""
 
-import faulthandler
-import json
-import os
-import sys
 from base64 import b64decode
 from binascii import Error as NotBase64
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from carom import datasets
-from carom.explorer.fits import fit_of, shown_fit
-from carom.explorer.limits import FIT_MEMORY, FIT_SECONDS, LARGEST_UPLOAD, MOST_ROWS
+from carom.bodies.pairs import Pair
+from carom.datasets.observables import OBSERVABLES
+from carom.explorer.columns import KINDS, Given, taken
+from carom.explorer.fitted import shown_fit
+from carom.explorer.limits import LARGEST_UPLOAD, MOST_ROWS
+from carom.explorer.refused import Refused
 from carom.explorer.views import View
-from carom.explorer.worker import READY
-from carom.fitting import Fit, fit
-from carom.io.tables import read_table
+from carom.fitting import fit
+from carom.fitting.reading import read_problem
+from carom.io.columns import in_units, others, with_errors
+from carom.io.csv_cells import read_csv
+from carom.io.tables import Cells, read_table
 from carom.quantities.refusals import InputError, refusal
 
-try:
-    import resource
-except ImportError:  # not on Windows
-    resource = None  # type: ignore[assignment]
-
 LONGEST_NAME = 80
-PAGES = Path("/proc/self/statm")  # of memory; Linux has it
-ORPHAN = 1.25  # times the limit: only where nobody is left to kill
+ASKED = (
+    "{name} does not say which bodies struck each other. The fit needs their radius, their "
+    "density and their elastic constants."
+)
+WORDS = {"data": "file", "results": "file", "pair": "bodies"}  # of Python, and of the page
 
 
-def answer_lines() -> None:
-    """Answer uploads, each a line of JSON on standard input, until that ends."""
-    answers = os.fdopen(os.dup(sys.stdout.fileno()), "w", encoding="utf-8")
-    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # nobody else writes among the answers
-    fit_of(datasets.names()[0])
-    _limit_memory()
-    print(json.dumps(READY), file=answers, flush=True)
-    for line in sys.stdin:
-        faulthandler.dump_traceback_later(ORPHAN * FIT_SECONDS, exit=True)
-        answer = json.dumps(_answer(json.loads(line)))
-        faulthandler.cancel_dump_traceback_later()
-        print(answer, file=answers, flush=True)
+def answer(asked: dict[str, str]) -> dict[str, Any]:
+    """Return the fit of a data set that comes along, by its name, or of a file that was sent.
 
-
-def _limit_memory() -> None:
-    if resource is None or not PAGES.exists():
-        return
-    now = int(PAGES.read_text().split()[0]) * resource.getpagesize()
-    with suppress(OSError, ValueError):  # a stricter limit may be there already
-        resource.setrlimit(resource.RLIMIT_AS, (now + FIT_MEMORY, resource.RLIM_INFINITY))
-
-
-def _answer(asked: dict[str, str]) -> dict[str, Any]:
-    try:
-        return fit_of_upload(View.of(asked["query"]), asked["contents"], asked["name"])
-    except InputError as error:
-        return {"refused": str(error)}
-    except MemoryError:
-        return {"refused": f"file: fitting it takes more than {FIT_MEMORY >> 20} MB; use carom fit"}
-    except Exception as error:
-        return {"failed": f"{type(error).__name__}: {' '.join(str(error).split())}"}
-
-
-def fit_of_upload(view: View, contents: str, name: str) -> dict[str, Any]:
-    """Return the fit of a file as the browser sends it; bodies of the view unless it tells them.
-
-    It is written into the working directory meanwhile, which `Worker` has made for it. Raises
-    InputError if it is too large, no table, or cannot be fitted.
+    A file is written into the working directory meanwhile, which `worker.Desk` has made for it.
+    Raises InputError if it is too large, no table, or cannot be fitted.
     """
-    file = Path.cwd() / "upload.csv"
-    file.write_bytes(_decoded(contents))
+    if "data" in asked:
+        file = datasets.path(asked["data"])
+        return _fitted(file, asked["data"], None)
+    file, name = Path.cwd() / "upload.csv", shown_name(asked["name"])
+    file.write_bytes(_decoded(asked["contents"]))
     try:
-        return shown_fit(_fitted(view, file))
+        return _fitted(file, name, View.of(asked["bodies"]) if asked["bodies"] else None)
+    except Refused:  # of the bodies that the page sent
+        raise
     except InputError as error:
-        raise InputError(str(error).replace(str(file), shown_name(name))) from None
+        raise InputError(_in_words_of_the_page(str(error), str(file), name)) from None
     finally:
         file.unlink()
 
@@ -82,6 +53,12 @@ def shown_name(name: str) -> str:
     """Return the name of a user's file, fit to be shown."""
     last = str(name).replace("\\", "/").rpartition("/")[2]
     return "".join(letter for letter in last if letter.isprintable())[:LONGEST_NAME] or "file"
+
+
+def _in_words_of_the_page(message: str, path: str, name: str) -> str:
+    subject, colon, rest = message.replace(path, name).partition(": ")
+    rest = rest.replace(", or fix some, e.g. fixed={'restitution': 0.98}", "")
+    return WORDS.get(subject, subject) + colon + rest
 
 
 def _decoded(contents: str) -> bytes:
@@ -95,11 +72,28 @@ def _decoded(contents: str) -> bytes:
     return found
 
 
-def _fitted(view: View, file: Path) -> Fit:
-    table = read_table(file)
+def _check(table: Cells) -> None:
+    """Raise InputError for what no bodies make right: cells, units, names of columns."""
+    known = with_errors(KINDS)
+    others(table, known)
+    present = [name for name in known if name in table.names]
+    in_units(table, present, gaps=(*OBSERVABLES, "rebound_height"))
+
+
+def _fitted(file: Path, name: str, view: View | None) -> dict[str, Any]:
+    table = read_table(file, what="file")
     if len(table.rows) > MOST_ROWS:
         allowed = f"must be at most {MOST_ROWS} rows; use carom fit for more"
         raise refusal("file", f"{len(table.rows)} rows", allowed)
-    if table.case is None and view.in_numbers:
-        raise InputError("bodies: the file does not tell them; choose bodies on the left")
-    return fit(file, pair=view.pair if table.case is None else None)
+    heads = read_csv("file", file, 2).heads
+    pairs = zip(heads, table.columns.items(), strict=True)
+    given = [Given(head, own, str(column.unit)) for head, (own, column) in pairs]
+    if table.case is None and (view is None or view.in_numbers):
+        _check(table)
+        if not any(column.is_result for column in given):
+            read_problem(file, View().pair)  # no bodies make a fit of it: say why
+        asked = ASKED.format(name=name)
+        return {"asks": "bodies", "name": name, "message": asked, "columns": taken(given)}
+    pair: Pair | None = view.pair if table.case is None and view is not None else None
+    found = fit(file, pair=pair)
+    return shown_fit(found, name, "page" if pair else "file", taken(given, found))

@@ -1,76 +1,46 @@
 """What the page shows, as the words of a link: every state has one, and every link a state."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass, fields
 from functools import cached_property
-from typing import Any, NamedTuple, Self
+from typing import Any, Self
 from urllib.parse import parse_qs, urlencode
 
 from carom.bodies.losses import KelvinVoigt
-from carom.bodies.materials import materials
+from carom.bodies.materials import Material, material
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
-from carom.datasets.shipped import names as dataset_names
+from carom.explorer.knobs import (
+    BODIES,
+    CHOICES,
+    CUP,
+    KNOBS,
+    LONGEST_NAME,
+    NUMBERS,
+    OF_MATERIAL,
+    OWN,
+    PLANE,
+    RIGID,
+    SECOND,
+    SPHERE,
+    one_of,
+    refused,
+)
 from carom.explorer.limits import LONGEST_LINK
-from carom.quantities.refusals import InputError, nearest, refusal
-from carom.quantities.texts import Unreadable, read_text
+from carom.explorer.refused import Refused
+from carom.quantities.refusals import nearest
 from carom.verify.catalogue import CATALOGUE
 from carom.verify.errors import losses_of
 
-BODIES, NUMBERS = "bodies", "numbers"
-OF_BODIES = ("radius", "material", "against", "second_radius", "second_material")
 OF_MOTION = ("speed", "angle", "spin")
 OF_NUMBERS = ("psi", "chi")
 OF_BOTH = ("friction", "restitution")
-AGAINST = ("half-space", "sphere", "cup")
+OF_BODIES = (
+    *("radius", "material", *OF_MATERIAL, "against", "second_radius", "second_material"),
+    *(SECOND + name for name in OF_MATERIAL),
+)
 LAWS = tuple(entry.label for entry in CATALOGUE)
 UNDAMPED = tuple(each.label for each in CATALOGUE if not hasattr(each.law, "restitution"))
-LONGEST_NAME = 80  # characters of an unknown name that are shown
-PAGE_ONLY = ("time", "pace", "theme")  # what the page alone keeps of a link
-
-
-class Knob(NamedTuple):
-    """A number on the page: its unit there, what is allowed, and what its slider spans."""
-
-    unit: str
-    least: float
-    most: float
-    slider: tuple[float, float, float] | None  # from, to, step
-
-    def read(self, name: str, text: Any) -> float:
-        """Return the number in a text, or raise InputError."""
-        unit = f" {self.unit}" if self.unit else ""
-        allowed = f"must be a number from {self.least:g} to {self.most:g}{unit}"
-        if not text:
-            raise InputError(f"{name}: missing; {allowed}")
-        try:
-            value = read_text(str(text), self.unit or "1")
-        except Unreadable as error:
-            reason = f"{error}; " if str(error) else ""
-            raise refusal(name, text, f"{reason}{allowed}") from None
-        if not self.least <= value <= self.most:
-            raise refusal(name, text, allowed)
-        return value
-
-
-KNOBS = {
-    "radius": Knob("mm", 1e-3, 1e4, None),
-    "second_radius": Knob("mm", 1e-3, 1e4, None),
-    "friction": Knob("", 0.0, 10.0, (0.0, 1.0, 0.005)),
-    "restitution": Knob("", 0.05, 1.0, (0.3, 1.0, 0.01)),
-    "speed": Knob("m/s", 1e-4, 1e3, (0.05, 10.0, 0.05)),
-    "angle": Knob("deg", 0.0, 89.9, (0.0, 89.0, 0.25)),
-    "spin": Knob("rad/s", -1e6, 1e6, (-1000.0, 1000.0, 5.0)),
-    "psi": Knob("", -1e6, 1e6, (0.0, 10.0, 0.01)),
-    "chi": Knob("", 0.05, 10.0, (0.5, 3.0, 0.005)),
-}
-CHOICES: dict[str, tuple[str, ...]] = {
-    "given": (BODIES, NUMBERS),
-    "material": tuple(materials()),
-    "against": AGAINST,
-    "second_material": tuple(materials()),
-    "data": ("", *dataset_names()),
-}
+PAGE_ONLY = ("time", "pace", "theme", "slow", "tab", "preset", "beside")  # the page alone has them
 
 
 @dataclass(frozen=True)
@@ -80,9 +50,15 @@ class View:
     given: str = BODIES
     radius: float = 5.0
     material: str = "bearing-steel"
-    against: str = "half-space"
+    young: float = 210.0
+    poisson: float = 0.3
+    density: float = 7850.0
+    against: str = PLANE
     second_radius: float = 10.0
     second_material: str = "bearing-steel"
+    second_young: float = 70.0
+    second_poisson: float = 0.23
+    second_density: float = 2500.0
     friction: float = 0.2
     restitution: float = 1.0
     speed: float = 0.6
@@ -95,7 +71,7 @@ class View:
 
     @classmethod
     def of(cls, query: str) -> Self:
-        """Return the view of a link's query, or raise InputError for the first thing wrong."""
+        """Return the view of a link's query, or raise Refused for the first thing wrong."""
         view, wrong = cls.with_complaints(query)
         for name, error in wrong.items():
             if name not in view.unused:
@@ -103,22 +79,21 @@ class View:
         return view
 
     @classmethod
-    def with_complaints(cls, query: str) -> tuple[Self, dict[str, InputError]]:
+    def with_complaints(cls, query: str) -> tuple[Self, dict[str, Refused]]:
         """Return the view of a link, defaults in place of what cannot be used, and why by name."""
         if not isinstance(query, str):
-            return cls(), {"link": refusal("link", query, "must be text")}
+            return cls(), {"link": Refused("", "a link must be text")}
         if len(query) > LONGEST_LINK:
-            long = f"link: {len(query)} characters, at most {LONGEST_LINK} are read"
-            return cls(), {"link": InputError(long)}
+            long = f"the link has {len(query)} characters; at most {LONGEST_LINK} are read"
+            return cls(), {"link": Refused("", long)}
         found: dict[str, Any] = {}
-        wrong: dict[str, InputError] = {}
-        given = parse_qs(query.lstrip("?"), keep_blank_values=True)
-        for name, texts in given.items():
+        wrong: dict[str, Refused] = {}
+        for name, texts in parse_qs(query.lstrip("?"), keep_blank_values=True).items():
             if name in PAGE_ONLY:
                 continue
             try:
                 found[name] = _read(name, texts)
-            except InputError as error:
+            except Refused as error:
                 wrong[name] = error
         return cls(**found), wrong
 
@@ -138,19 +113,43 @@ class View:
         """What does not matter in this view, and may be anything."""
         if self.in_numbers:
             return (*OF_BODIES, *OF_MOTION)
-        return OF_NUMBERS if self.against != "half-space" else (*OF_NUMBERS, "second_radius")
+        found = list(OF_NUMBERS)
+        if self.against == PLANE:
+            found.append("second_radius")
+        if self.material != OWN:
+            found += OF_MATERIAL
+        if self.second_material != OWN:
+            found += (SECOND + name for name in OF_MATERIAL)
+        elif self.against != SPHERE:
+            found.append(f"{SECOND}density")  # it does not move
+        return tuple(found)
 
     @cached_property
     def pair(self) -> Pair:
-        """The bodies; InputError if they do not fit."""
-        first = Sphere(radius=self.radius * 1e-3, material=self.material)
+        """The bodies; Refused if they do not fit."""
+        if self.against == CUP and not self.second_radius > self.radius:
+            told = f"must be above {self.radius:g} mm: the ball has to fit into the cup"
+            raise refused("second_radius", told)
+        if self.against == SPHERE and self.second_material == RIGID:
+            told = "a ball that moves must have a density, which a rigid one has not; take another"
+            raise refused("second_material", told)
+        first = Sphere(radius=self.radius * 1e-3, material=self.stuff())
         return Pair(first, self._second(), self.friction)
 
+    def stuff(self, which: str = "") -> Material:
+        """Return the material of the ball, or with "second_" that of the second body."""
+        name = getattr(self, f"{which}material")
+        if name != OWN:
+            return material(name)
+        young, poisson, density = (getattr(self, which + part) for part in OF_MATERIAL)
+        return Material(young=young * 1e9, poisson=poisson, density=density, name=OWN)
+
     def _second(self) -> Counterbody:
-        if self.against == "half-space":
-            return HalfSpace(material=self.second_material)
-        body = Sphere if self.against == "sphere" else Cup
-        return body(radius=self.second_radius * 1e-3, material=self.second_material)
+        stuff = self.stuff(SECOND)
+        if self.against == PLANE:
+            return HalfSpace(material=stuff)
+        shape = Sphere if self.against == SPHERE else Cup
+        return shape(radius=self.second_radius * 1e-3, material=stuff)
 
     @property
     def losses(self) -> KelvinVoigt | None:
@@ -174,23 +173,17 @@ class View:
 
 
 def _read(name: str, texts: list[str]) -> Any:
-    """Return what the words of a link say of one thing, or raise InputError."""
+    """Return what the words of a link say of one thing, or raise Refused."""
     known = tuple(field.name for field in fields(View))
     if name not in known:
         shown = " ".join(name.split())[:LONGEST_NAME]
-        raise InputError(f"{shown}: unknown in a link; {nearest(name, known) or 'leave it out'}")
+        hint = nearest(name, known) or "leave it out"
+        raise Refused("", f"the link says '{shown}', which is unknown; {hint}")
     if name == "law":
-        return tuple(dict.fromkeys(_one_of(name, text, LAWS) for text in texts if text))
+        return tuple(dict.fromkeys(one_of(name, text, LAWS) for text in texts if text))
     if name in KNOBS:
         return KNOBS[name].read(name, texts[-1])
-    return _one_of(name, texts[-1], CHOICES[name])
-
-
-def _one_of(name: str, text: str, known: Iterable[str]) -> str:
-    if text not in known:
-        hint = nearest(text, known) or f"must be one of: {'; '.join(filter(None, known))}"
-        raise refusal(name, text, hint)
-    return text
+    return one_of(name, texts[-1], CHOICES[name])
 
 
 def _text(value: Any) -> Any:

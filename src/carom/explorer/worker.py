@@ -1,8 +1,9 @@
-"""A process of its own for work that might never end, killed at its time limit."""
+"""Processes of their own for heavy work that might never end, killed at its time limit."""
 
 import json
 import subprocess
 import sys
+from base64 import b64decode
 from contextlib import suppress
 from os.path import abspath
 from tempfile import TemporaryDirectory
@@ -10,28 +11,36 @@ from threading import Lock, Timer
 from time import monotonic
 from typing import Any
 
-from carom.explorer.limits import FIT_SECONDS, START_SECONDS, Busy, Turns
-from carom.quantities.refusals import InputError
+from carom.explorer.limits import FILE_SECONDS, FIT_SECONDS, START_SECONDS, Busy, Turns
+from carom.explorer.refused import Refused
 
 PROGRAM = """\
 import json, os, sys
 if hasattr(os, "nice"):
     os.nice(10)  # answers of the page go first
 sys.path[:] = json.loads(sys.argv[1])
-from carom.explorer.uploads import answer_lines
-answer_lines()
+from carom.explorer.tasks import answer_lines
+answer_lines(sys.argv[2], float(sys.argv[3]))
 """
 READY = {"ready": True}
+LATE = {
+    "fit": "file: fitting it takes longer than {:g} s; leave out what is not needed, or use "
+    "carom fit",
+    "file": "file: it takes longer than {:g} s to write; choose fewer contact laws",
+}
 
 
-class Worker:
-    """A process that fits uploads one at a time; it ends with this one, even if that is killed.
+class Desk:
+    """A process that does one kind of work, one piece at a time.
 
     Python code that holds the interpreter cannot be ended from within, and holds up every thread
-    of its process; the time limit is sure as the whole process is killed, and started anew.
+    of its process; the time limit is sure as the whole process is killed, and started anew. It ends
+    with this one, even if that is killed.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, task: str, seconds: float) -> None:
+        self._task = task
+        self._seconds = seconds
         self._turns = Turns()
         self._guard = Lock()
         self._process: subprocess.Popen[str] | None = None
@@ -45,8 +54,9 @@ class Worker:
                 return
             if self._folder is None:
                 self._folder = TemporaryDirectory(prefix="carom-")
+            paths = json.dumps([abspath(path) for path in sys.path])
             self._process = subprocess.Popen(
-                [sys.executable, "-c", PROGRAM, json.dumps([abspath(path) for path in sys.path])],
+                [sys.executable, "-c", PROGRAM, paths, self._task, str(self._seconds)],
                 cwd=self._folder.name,
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
@@ -66,19 +76,20 @@ class Worker:
             if self._folder is not None:
                 self._folder.cleanup()
 
-    def fit(self, query: str, contents: str, name: str) -> dict[str, Any]:
-        """Return what `uploads.fit_of_upload` returns.
+    def ask(self, **asked: Any) -> dict[str, Any]:
+        """Return what the process answers.
 
-        Raises InputError, for what takes too long as well, Busy if others wait already, and
+        Raises Refused, for what takes too long as well, Busy if others wait already, and
         RuntimeError if it fails.
         """
-        asked = {"query": query, "contents": contents, "name": name}
         with self._turns:
             answer = self._answer(json.dumps(asked) + "\n")
         if "failed" in answer:
             raise RuntimeError(answer["failed"])
+        if "busy" in answer:
+            raise Busy
         if "refused" in answer:
-            raise InputError(answer["refused"])
+            raise Refused(answer.get("field", ""), answer["refused"])
         return answer
 
     def _answer(self, question: str) -> dict[str, Any]:
@@ -90,13 +101,41 @@ class Worker:
                 raise Busy
             if not self._ready:
                 self._ready = _exchanged(process, START_SECONDS) == READY
-            return _exchanged(process, FIT_SECONDS, question)
-        except (InputError, RuntimeError):
+            return _exchanged(process, self._seconds, question)
+        except (TimeoutError, RuntimeError) as error:
             if self._closed or process is None:
                 raise Busy from None
             _end(process)
             self.start()
+            if isinstance(error, TimeoutError):
+                raise Refused("", LATE[self._task].format(self._seconds)) from None
             raise
+
+
+class Worker:
+    """What the page leaves to others: fits in one process, files in another."""
+
+    def __init__(self, fit_seconds: float = FIT_SECONDS, file_seconds: float = FILE_SECONDS):
+        self._fits = Desk("fit", fit_seconds)
+        self._files = Desk("file", file_seconds)
+
+    def start(self) -> None:
+        """Let both processes start, without waiting until they are ready."""
+        self._files.start()
+        self._fits.start()
+
+    def close(self) -> None:
+        """End both processes; none is started any more."""
+        self._files.close()
+        self._fits.close()
+
+    def fit(self, **asked: str) -> dict[str, Any]:
+        """Return a fit as `uploads.answer` does; raises as `Desk.ask`."""
+        return self._fits.ask(**asked)
+
+    def file(self, name: str, query: str, time: float) -> bytes:
+        """Return a file of the view of a query; raises as `Desk.ask`."""
+        return b64decode(self._files.ask(name=name, query=query, time=time)["content"])
 
 
 def _exchanged(
@@ -104,12 +143,13 @@ def _exchanged(
 ) -> dict[str, Any]:
     """Return what the process writes next.
 
-    Raises InputError if it was killed after that time, RuntimeError if it ended.
+    Raises TimeoutError if it was killed after that time, RuntimeError if it ended.
     """
     assert process.stdin is not None
     assert process.stdout is not None
     end = monotonic() + seconds
     limit = Timer(seconds, process.kill)
+    limit.daemon = True
     limit.start()
     try:
         process.stdin.write(question)
@@ -117,9 +157,8 @@ def _exchanged(
         found: dict[str, Any] = json.loads(process.stdout.readline())
     except (OSError, ValueError):
         if monotonic() < end:
-            raise RuntimeError("the process that fits has ended") from None
-        allowed = "leave out what is not needed, or use carom fit"
-        raise InputError(f"file: fitting it takes longer than {seconds:g} s; {allowed}") from None
+            raise RuntimeError("the process that works for the page has ended") from None
+        raise TimeoutError from None
     finally:
         limit.cancel()
     return found

@@ -159,7 +159,7 @@ def _draw(course: xr.Dataset, shown: list[xr.Dataset]) -> Figure:
         below.append(figure.add_subplot(grid[1, i], **shared))
     force = figure.add_subplot(grid[2, :])
     largest, over = _largest(shown)
-    scale, unit = style.prefixed(largest, "Pa")
+    scale, unit = style.prefixed(largest, style.unit_of(shown[0], "traction_x"))
     reach = MARGIN * float(course["contact_radius"].max())
     for i, fields in enumerate(shown):
         shading = _patch(patches[i], fields, course, scale, reach, largest)
@@ -168,7 +168,7 @@ def _draw(course: xr.Dataset, shown: list[xr.Dataset]) -> Figure:
         below[i].tick_params(labelleft=i == 0)
     below[0].set_ylabel(style.label("traction_x", unit))
     below[0].set_ylim(-ROOM * largest * scale, ROOM * largest * scale)
-    _scale_bar(patches[0], reach)
+    _scale_bar(patches[0], reach, style.unit_of(shown[0], "x"))
     more: Any = {"extend": "both" if over else "neither"}
     bar = figure.colorbar(shading, ax=patches, aspect=18, pad=0.01, shrink=0.9, **more)
     bar.set_label(style.label("traction_x", unit))
@@ -195,9 +195,9 @@ def _letter(axis: Axes, letter: str) -> None:
     axis.text(0.0, 1.0, letter, transform=axis.transAxes, va="top", weight="bold")
 
 
-def _scale_bar(axis: Axes, reach: float) -> None:
+def _scale_bar(axis: Axes, reach: float, unit: str) -> None:
     """Draw a length of one significant digit below the first patch."""
-    length, unit = style.prefixed(reach, "m")
+    length, unit = style.prefixed(reach, unit)
     most = BAR * reach * length
     power = 10.0 ** np.floor(np.log10(most))
     bar = max(power * step for step in BARS if power * step <= most)
@@ -214,7 +214,7 @@ def _mark(axis: Axes, course: xr.Dataset, shown: list[xr.Dataset]) -> None:
     """Mark the instants of the patches in the course of the force."""
     scale = style.scaled(course, "time").scale
     limit = float(course["friction"]) * course["normal_force"].values
-    force = style.prefixed(limit, "N")[0]
+    force = style.scaled(course, "tangential_force", like=limit).scale
     for letter, fields in zip(ascii_lowercase, shown, strict=False):
         place = float(fields["time"]) * scale, float(fields["tangential_force"]) * force
         axis.plot(*place, "o", color=style.BLACK, ms=4.0, zorder=5)

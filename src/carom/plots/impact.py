@@ -206,10 +206,13 @@ def velocities_panel(axis: Axes, dataset: xr.Dataset) -> None:
     names = {"contact_velocity": "$V_x$, contact point", "normal_velocity": "$V_z$, approach"}
     largest = [np.abs(dataset[name].values).max() for name in names]
     style.zero_line(axis)
+    units = {name: style.scaled(dataset, name, like=largest).unit for name in names}
+    alike = len(set(units.values())) == 1  # those of a dimensionless impact differ
     for name, color, dash in zip(names, (style.BLUE, style.VERMILION), style.DASHES, strict=False):
         values, unit, _ = style.scaled(dataset, name, like=largest)
-        axis.plot(time, values, color=color, ls=dash, label=names[name])
-    axis.set_ylabel(f"$V_x$, $V_z$\u00a0({unit})")
+        label = names[name] if alike else f"{names[name]}\u00a0({unit})"
+        axis.plot(time, values, color=color, ls=dash, label=label)
+    axis.set_ylabel(f"$V_x$, $V_z$\u00a0({unit})" if alike else "$V_x$, $V_z$")
     legend_above(axis, 2)
 
 
@@ -231,16 +234,19 @@ def _taken(energy: Array) -> Array:
     return np.asarray(energy - energy[-1])
 
 
-def energies_panel(axis: Axes, dataset: xr.Dataset) -> None:
+def energies_panel(
+    axis: Axes, dataset: xr.Dataset, energies: dict[str, tuple[str, str, str]] = ENERGIES
+) -> None:
     """Draw how the energy is shared between motion, deformation, friction and other losses."""
     time = time_axis(axis, dataset)
-    lossy = any(name in dataset and np.any(dataset[name].values) for name in LOST)
-    drawn = ENERGIES | LOST if lossy else ENERGIES
+    lost = {name: look for name, look in LOST.items() if name in dataset}
+    lossy = any(np.any(dataset[name].values) for name in lost)
+    drawn = energies | lost if lossy else energies
     parts = np.array([dataset[name].values for name in drawn])
     if all(name in dataset for name in SPUN):
         drawn = drawn | SPUN
         parts = np.vstack([parts, *(_taken(dataset[name].values) for name in SPUN)])
-    total = float(parts[:, 0].sum())
+    total = float(parts[:, 0].sum()) or 1.0
     shares = axis.stackplot(time, parts / total, colors=[face for _, face, _ in drawn.values()])
     for area, (name, _, hatch) in zip(shares, drawn.values(), strict=True):
         area.set(label=name, hatch=hatch, edgecolor="0.35", linewidth=0.4)

@@ -79,7 +79,7 @@ def plot_patch(
     figure, axis = style.single_axis(
         height=64.0 + 4.0 * len(title.splitlines())
     )  # the map is square
-    scale, unit = style.prefixed(dataset[variable].values, "Pa")
+    scale, unit = style.prefixed(dataset[variable].values, style.unit_of(dataset, variable))
     colours = style.colours(variable, dataset[variable].values * scale)
     shading = patch_panel(axis, dataset, variable, scale, **colours)
     bar = figure.colorbar(shading, ax=axis, label=style.label(variable, unit), pad=0.02, aspect=28)

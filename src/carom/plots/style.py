@@ -257,8 +257,13 @@ class Scaled(NamedTuple):
 def scaled(dataset: Any, name: str, like: ArrayLike | None = None) -> Scaled:
     """Return the values of a variable in a unit whose prefix suits them, or those of `like`."""
     values = np.asarray(dataset[name].values, dtype=np.float64)
-    scale, unit = prefixed(values if like is None else like, GLOSSARY[name].unit)
+    scale, unit = prefixed(values if like is None else like, unit_of(dataset, name))
     return Scaled(values * scale, unit, scale)
+
+
+def unit_of(dataset: Any, name: str) -> str:
+    """Return the unit of a variable, as its dataset tells it or else the glossary."""
+    return str(dataset[name].attrs.get("units", GLOSSARY[name].unit))
 
 
 def colours(name: str, values: ArrayLike) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-// The time of the animation, as a share of the contact's duration: 0 first touch, 1 separation.
+// The time of the film, as a share of the contact's duration: 0 first touch, 1 separation.
 window.Carom = window.Carom || {};
 
 Carom.clock = (() => {
@@ -9,11 +9,17 @@ Carom.clock = (() => {
   const PACE = 5; // seconds that the whole takes, until chosen
   const REST = 0.7; // seconds at the end before it starts anew
   const LONGEST = 0.1; // seconds that one frame may take: no leap after a pause of the browser
+  const SLOWEST = 1 / 6; // of the usual rate, at a change of phase
+  const AROUND = 0.05; // the share before and after a change in which the film is slower
+  const SUBSTEP = 0.004; // seconds in which the rate hardly changes
+  const SAME = 1e-6; // shares that are one instant
 
   let time = START;
   let playing = false;
   let last = 0; // of the frame before, in ms
   let rested = 0; // seconds at the end so far
+  let changes = []; // of phase, in order
+  let slower = false;
   const heard = [];
 
   const limited = (value) => Math.min(LAST, Math.max(FIRST, value));
@@ -24,12 +30,29 @@ Carom.clock = (() => {
     return Math.max(0.1, Number(select && select.value) || PACE);
   }
 
+  // How fast the film runs at an instant, 1 far from any change of phase; smooth.
+  function rateAt(share) {
+    if (!slower) return 1;
+    const nearest = changes.reduce((least, at) => Math.min(least, Math.abs(share - at)), AROUND);
+    const near = Math.cos((0.5 * Math.PI * nearest) / AROUND) ** 2;
+    return 1 - (1 - SLOWEST) * near;
+  }
+
+  // The instant that is reached after some seconds.
+  function after(share, seconds) {
+    const usual = (LAST - FIRST) / pace();
+    const steps = slower ? Math.max(1, Math.ceil(seconds / SUBSTEP)) : 1;
+    let reached = share;
+    for (let i = 0; i < steps; i++) reached += (rateAt(reached) * usual * seconds) / steps;
+    return limited(reached);
+  }
+
   function frame(now) {
     if (!playing) return;
-    const passed = Math.min((now - last) / 1000, LONGEST);
+    const passed = Math.max(0, Math.min((now - last) / 1000, LONGEST));
     last = now;
     if (time < LAST) {
-      time = limited(time + (passed * (LAST - FIRST)) / pace());
+      time = after(time, passed);
       rested = 0;
       tell();
     } else {
@@ -62,6 +85,20 @@ Carom.clock = (() => {
     tell();
   }
 
+  function jump(to) {
+    pause();
+    set(to);
+  }
+
+  // The changes of phase of all impacts that are shown, as shares of the duration.
+  function borders(shares) {
+    const sorted = shares.map(Number).filter(Number.isFinite).sort((a, b) => a - b);
+    changes = sorted.filter((at, i) => !i || at - sorted[i - 1] > SAME);
+  }
+
+  const later = () => changes.find((at) => at > time + SAME);
+  const earlier = () => changes.filter((at) => at < time - SAME).pop();
+
   return {
     FIRST,
     LAST,
@@ -76,5 +113,12 @@ Carom.clock = (() => {
     play,
     pause,
     set,
+    borders,
+    slow: (on) => (slower = Boolean(on)),
+    isSlow: () => slower,
+    rateAt,
+    after,
+    next: () => jump(later() ?? LAST),
+    previous: () => jump(earlier() ?? FIRST),
   };
 })();

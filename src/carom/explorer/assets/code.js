@@ -1,34 +1,34 @@
-// The lines of Python of what the page shows: the server's file of them, soon after a change.
+// The lines of Python of what the page shows, once one looks at them.
 window.Carom = window.Carom || {};
 
 Carom.code = (() => {
   const WAIT = 200; // ms without a change
+  const place = document.getElementById("code");
+  let wanted = "";
+  let shown = null;
   let waiting = 0;
-  let shown = null; // the query whose lines are there
   let asking = null;
 
-  async function ask(query) {
+  async function ask() {
     if (asking) asking.abort();
     asking = new AbortController();
+    const query = wanted;
     try {
-      const answer = await fetch(`view.py?${query}`, { signal: asking.signal });
-      const text = await answer.text();
-      const place = document.getElementById("code");
-      if (!place || !answer.ok) return;
-      place.textContent = text;
+      place.textContent = await Carom.source.code(query, asking.signal);
       shown = query;
-    } catch {
-      // the server is gone or a newer question is on its way: the lines stay
+    } catch (error) {
+      if (error.name !== "AbortError") place.textContent = error.message;
     }
   }
 
-  function show(query) {
-    if (!document.getElementById("code")) return;
+  function show(query = wanted) {
+    wanted = query;
+    if (!Carom.source.can.code) place.textContent = Carom.source.why;
+    const seen = Carom.source.can.code && Carom.tabs.chosen() === "Python";
     window.clearTimeout(waiting);
-    if (asking) asking.abort();
-    if (query === shown) return;
-    waiting = window.setTimeout(() => ask(query), WAIT);
+    if (seen && wanted !== shown) waiting = window.setTimeout(ask, WAIT);
   }
 
+  Carom.tabs.hear(() => show());
   return { show };
 })();

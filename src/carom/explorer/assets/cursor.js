@@ -2,74 +2,66 @@
 window.Carom = window.Carom || {};
 
 Carom.cursor = (() => {
-  const CHARTS = ".carom-history, :not(.carom-history) > :is(#forces, #energies)";
-  const watched = new WeakSet();
+  const CHARTS = { forces: "forcesAt", energies: "energiesAt" };
+  const box = (name) => document.getElementById(name);
 
-  // What plotly knows of a chart: its axis of time and the box it draws in; null if not there yet.
-  function plotted(chart) {
-    const plot = chart.querySelector(".js-plotly-plot");
-    const layout = plot && plot._fullLayout;
-    const axis = layout && layout.xaxis;
-    if (!axis || !axis._length || !layout._size) return null;
-    return { plot, axis, size: layout._size };
-  }
+  // How long the contact is on the axis of time: of two impacts, both are 1.
+  const whole = ([first, second]) => (second ? 1 : first.scene.duration);
 
-  function lineOf(chart) {
-    const found = chart.querySelector(":scope > .carom-cursor");
+  function lineOf({ plot }) {
+    const found = plot.querySelector(":scope > .carom-cursor");
     if (found) return found;
     const line = document.createElement("div");
     line.className = "carom-cursor";
     line.setAttribute("aria-hidden", "true");
-    chart.append(line);
+    plot.append(line);
     return line;
   }
 
-  function place(chart, time) {
-    const line = lineOf(chart);
-    const seen = plotted(chart);
-    const data = Carom.scene.data();
-    const along = seen && data ? seen.axis.l2p(time * data.duration) : NaN;
-    const shown = along >= -0.5 && along <= (seen ? seen.axis._length : 0) + 0.5;
-    line.hidden = !shown || time < 0 || time > 1;
+  // The line over a chart, the name of a narrow phase under it, and the values in the keys.
+  function place(name, time) {
+    const chart = box(name);
+    const seen = Carom.plotting.frame(chart);
+    if (!seen) return;
+    const line = lineOf(chart.carom);
+    const answers = Carom.charts.answers();
+    const at = time * whole(answers);
+    const along = seen.pixel(at);
+    line.hidden = time < 0 || time > 1 || along < -0.5 || along > seen.width + 0.5;
+    Carom.bands.point(chart, line.hidden ? null : at);
+    Carom.keys.tell(chart.carom.keys, Carom.histories[CHARTS[name]](answers, time));
     if (line.hidden) return;
-    const { plot, axis, size } = seen;
-    line.style.transform = `translateX(${plot.offsetLeft + axis._offset + along}px)`;
-    line.style.top = `${plot.offsetTop + size.t}px`;
-    line.style.height = `${size.h}px`;
+    line.style.transform = `translateX(${seen.left + along}px)`;
+    const { room } = chart.carom; // of the names, which it would cross
+    line.style.top = `${seen.top + room}px`;
+    line.style.height = `${seen.height - room}px`;
   }
 
   function draw(time) {
-    document.querySelectorAll(CHARTS).forEach((chart) => place(chart, time));
-  }
-
-  // Plotly draws later than we, and again after a zoom: follow whatever changes in the chart.
-  function watch() {
-    document.querySelectorAll(CHARTS).forEach((chart) => {
-      if (watched.has(chart)) return;
-      watched.add(chart);
-      const again = () => place(chart, Carom.clock.now());
-      new MutationObserver(again).observe(chart, { childList: true, subtree: true });
-      new ResizeObserver(again).observe(chart);
-    });
+    Object.keys(CHARTS).forEach((name) => place(name, time));
   }
 
   function point(event) {
-    if (!(event.target instanceof Element)) return;
-    const chart = event.target.closest(CHARTS);
-    if (!chart || (event.pointerType === "mouse" && event.buttons)) return; // a zoom
-    const seen = plotted(chart);
-    const data = Carom.scene.data();
-    if (!seen || !data) return;
-    const box = seen.plot.getBoundingClientRect();
-    const x = event.clientX - box.left - seen.axis._offset;
-    const y = event.clientY - box.top - seen.size.t;
-    if (x < 0 || x > seen.axis._length || y < 0 || y > seen.size.h) return;
+    if (event.pointerType === "mouse" && event.buttons) return; // a zoom
+    const chart = event.currentTarget;
+    const seen = Carom.plotting.frame(chart);
+    if (!seen) return;
+    const corner = chart.carom.plot.getBoundingClientRect();
+    const x = event.clientX - corner.left - seen.left;
+    const y = event.clientY - corner.top - seen.top;
+    if (x < 0 || x > seen.width || y < 0 || y > seen.height) return;
     Carom.clock.pause();
-    Carom.clock.set(Math.max(0, Math.min(1, seen.axis.p2l(x) / data.duration)));
+    Carom.clock.set(Math.max(0, Math.min(1, seen.value(x) / whole(Carom.charts.answers()))));
   }
 
-  document.addEventListener("pointermove", point, { capture: true, passive: true });
-  document.addEventListener("pointerdown", point, { capture: true, passive: true });
+  function watch() {
+    for (const name of Object.keys(CHARTS)) {
+      for (const kind of ["pointermove", "pointerdown"]) {
+        box(name).addEventListener(kind, point, { capture: true, passive: true });
+      }
+      box(name).addEventListener("plotly_afterplot", () => place(name, Carom.clock.now()));
+    }
+  }
 
   return { draw, watch };
 })();

@@ -1,45 +1,63 @@
-// The address bar, the link to copy and the downloads: all say what the page shows.
+// The address bar, the link to copy and the files: all say what the page shows.
 window.Carom = window.Carom || {};
 
 Carom.link = (() => {
-  const DOWNLOADS = "a.carom-download, .carom-downloads a";
+  const FILES = "a.carom-download";
   const WAIT = 300; // ms between two changes: browsers refuse floods
+  const LONGEST = 4000; // characters that are read
+  const OWN = ["time", "pace", "theme", "slow", "tab", "preset", "beside"]; // words of the page alone
   let opened = new URLSearchParams(window.location.search);
-  let query = null; // what Dash says; null until it has
+  let query = ""; // of the impact
   let paused = Carom.clock.START; // where the time last stood still
   let waiting = 0;
 
-  // A part of the link that was opened, by loading the page or by going back and forward.
+  // A word of the link that was opened, by loading the page or by going back and forward.
   const part = (name) => opened.get(name);
 
-  function asked(name) {
+  function number(name) {
     const text = part(name);
     return text === null || text.trim() === "" ? NaN : Number(text);
   }
 
+  // The link that was opened without the words of the page alone; one too long says nothing.
+  function asked() {
+    if (opened.toString().length > LONGEST) return new URLSearchParams();
+    const found = new URLSearchParams(opened);
+    OWN.forEach((name) => found.delete(name));
+    return found;
+  }
+
   function whole() {
-    const parts = [query];
+    const found = new URLSearchParams(query);
     if (!Carom.clock.isPlaying()) paused = Carom.clock.now();
     const time = Number(paused.toFixed(3));
-    if (time !== Carom.clock.START) parts.push(`time=${time}`);
-    if (Carom.clock.pace() !== Carom.clock.PACE) parts.push(`pace=${Carom.clock.pace()}`);
-    if (Carom.theme.choice() !== "auto") parts.push(`theme=${Carom.theme.choice()}`);
-    return parts.filter(Boolean).join("&");
+    const words = {
+      time: time === Carom.clock.START ? "" : time,
+      pace: Carom.clock.pace() === Carom.clock.PACE ? "" : Carom.clock.pace(),
+      slow: Carom.clock.isSlow() ? 1 : "",
+      theme: Carom.theme.choice() === "auto" ? "" : Carom.theme.choice(),
+      tab: Carom.tabs.chosen() === Carom.tabs.first ? "" : Carom.tabs.chosen(),
+      preset: Carom.presets.chosen(),
+      beside: Carom.beside.query() ?? "",
+    };
+    if (Carom.beside.query() === "") words.beside = "given=bodies";
+    Object.entries(words).forEach(([name, word]) => word !== "" && found.set(name, word));
+    return found.toString();
   }
 
   function write() {
     window.clearTimeout(waiting);
     waiting = 0;
-    if (query === null) return;
     const words = whole();
-    const { origin, pathname, search } = window.location;
-    if (search !== `?${words}`) window.history.replaceState(null, "", `${pathname}?${words}`);
-    const field = document.getElementById("link");
-    if (field) field.value = `${origin}${pathname}?${words}`;
-    Carom.code.show(words);
-    document.querySelectorAll(DOWNLOADS).forEach((anchor) => {
-      const path = (anchor.dataset.path || anchor.getAttribute("href") || "").split("?")[0];
-      if (path) anchor.setAttribute("href", `${path}?${words}`);
+    const { href, search } = window.location;
+    const address = href.split(/[?#]/)[0];
+    if (search.slice(1) !== words) window.history.replaceState(null, "", words ? `?${words}` : address);
+    document.getElementById("link").value = words ? `${address}?${words}` : address;
+    const of = new URLSearchParams(query);
+    of.set("time", Number(paused.toFixed(3)));
+    Carom.code.show(of.toString());
+    document.querySelectorAll(FILES).forEach((anchor) => {
+      if (anchor.dataset.path) anchor.href = `${anchor.dataset.path}?${of}`;
     });
   }
 
@@ -49,7 +67,7 @@ Carom.link = (() => {
   }
 
   function put(given) {
-    query = String(given || "").replace(/^\?/, "");
+    query = given;
     write();
   }
 
@@ -70,12 +88,13 @@ Carom.link = (() => {
 
   function tell(text) {
     const place = document.getElementById("copied");
-    if (!place) return;
     place.textContent = text;
     window.setTimeout(() => place.textContent === text && (place.textContent = ""), 4000);
   }
 
   window.addEventListener("popstate", () => (opened = new URLSearchParams(window.location.search)));
+  document.addEventListener("click", (event) => event.target.closest?.(FILES) && write(), true);
+  document.getElementById("copy").addEventListener("click", copy);
 
-  return { whole, DOWNLOADS, part, asked, put, refresh, write, copy };
+  return { part, number, asked, put, refresh, query: () => query };
 })();

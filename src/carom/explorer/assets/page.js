@@ -1,87 +1,95 @@
-// Brings the parts together: what Dash calls, what the reader does, what is drawn when.
+// Brings the parts together: one question at a time to the source, the newest wins; what is drawn when.
 window.Carom = window.Carom || {};
 
 Carom.page = (() => {
-  const WORDS = "input:not([type=range]), textarea, select, button, summary, a, [contenteditable]";
-  const NARROW = "(max-width: 760px)";
-  const sizes = new ResizeObserver(() => draw());
-  const sized = new WeakSet();
-  const CHARTS = 3;
-  let latest = null;
-  let due = false;
-  let folded = false;
-  let paced = false;
-
+  const WORDS = "input:not([type=range]), textarea, select, button, summary, a, [contenteditable], [role=tab]";
+  const WIDE = window.matchMedia("(min-width: 1280px)");
+  const PACES = [2, 5, 10, 30]; // seconds that a film takes
+  const VIEWS = { stage: ["stage", "stage-beside"], patch: ["patch", "patch-beside"] };
   const byId = (id) => document.getElementById(id);
+  let answers = [null, null];
+  let scenes = [null, null];
+  let asking = false;
+  let again = false;
+  let due = false;
+  let linked = ""; // what was wrong with the link that was opened
+  let following = new AbortController();
 
-  function make(tag, box, properties) {
-    const element = document.createElement(tag);
-    Object.assign(element, properties);
-    box.append(element);
-    return element;
-  }
-
-  // Parts that React would set back if it owned them.
-  function build() {
-    const times = byId("time-box");
-    if (times && !byId("time")) {
-      const { FIRST: min, LAST: max, STEP: step } = Carom.clock;
-      const slider = make("input", times, { type: "range", id: "time", min, max, step });
-      slider.setAttribute("aria-label", "time");
+  // Ask for what the controls say; while an answer is on its way, only the last question waits.
+  async function ask() {
+    again = true;
+    if (asking) return;
+    asking = true;
+    while (again) {
+      again = false;
+      await once(Carom.fields.query());
     }
-    const links = byId("link-box");
-    if (links && !byId("link")) {
-      const field = make("input", links, { id: "link", type: "text", readOnly: true });
-      field.setAttribute("aria-label", "link to this view");
-      make("button", links, { id: "copy", type: "button", textContent: "Copy link" });
-      make("span", links, { id: "copied", role: "status", className: "carom-copied" });
+    asking = false;
+  }
+
+  async function once(query) {
+    following.abort();
+    try {
+      const found = await Promise.all([Carom.source.answer(query.toString()), Carom.beside.answered()]);
+      if (!again) show(found);
+    } catch (refusal) {
+      if (!again) refuse(refusal);
     }
   }
 
-  // On a small screen the pictures come first; the controls open at a touch.
-  function fold() {
-    const details = document.querySelector(".carom-controls details");
-    if (!details || folded) return;
-    folded = true;
-    if (window.matchMedia(NARROW).matches) details.open = false;
+  function refuse({ field, message }) {
+    const label = Carom.fields.label(field);
+    if (opening && label) return mend(field, `${label}: ${message}`);
+    Carom.fields.complain(field, message);
+    notice(label ? `${label}: ${message}` : message || "The page has failed; load it again.");
+    document.body.classList.add("carom-stale");
   }
 
-  // Dash makes the page late and may make parts of it again: look each time.
-  function attach() {
-    build();
-    fold();
-    Carom.theme.label();
-    Carom.access.name();
-    Carom.cursor.watch();
-    for (const id of ["stage", "patch"]) {
-      const canvas = byId(id);
-      if (!canvas || sized.has(canvas)) continue;
-      sized.add(canvas);
-      canvas.setAttribute("role", "img");
-      sizes.observe(canvas);
+  // A link that says one thing wrong is right in the others.
+  let opening = true;
+  function mend(field, told) {
+    linked = [linked, told].filter(Boolean).join("; ");
+    Carom.fields.reset(field);
+    again = true;
+  }
+
+  const notice = (text) => (byId("notice").textContent = [linked, text].filter(Boolean).join("; "));
+
+  function show(found) {
+    answers = found;
+    opening = false;
+    scenes = answers.map((answer) => answer && Carom.scene.of(answer.scene));
+    document.body.classList.remove("carom-stale");
+    Carom.fields.complain("", "");
+    notice("");
+    Carom.clock.borders(answers[0].scene.phases.flatMap(({ start, end }) => [start, end]));
+    Carom.link.put(answers[0].query);
+    draw();
+    Carom.results.show(answers);
+    Carom.laws.show(answers[0]);
+    soon(() => Carom.charts.show(answers));
+    if (answers[0].late.length) follow(answers[0]);
+  }
+
+  // The charts, which take longest, once the moving pictures are there; none that is outdated.
+  let latest = null;
+  function soon(work) {
+    latest = work;
+    requestAnimationFrame(() => setTimeout(() => work === latest && work()));
+  }
+
+  // Contact laws that take longer than the answer.
+  async function follow(answer) {
+    following = new AbortController();
+    try {
+      const { laws, slow } = await Carom.source.laws(Carom.fields.query().toString(), following.signal);
+      if (answers[0] !== answer) return;
+      answers = [{ ...answer, laws, late: [], slow }, answers[1]];
+      Carom.laws.show(answers[0]);
+      Carom.charts.show(answers);
+    } catch (error) {
+      if (error.name !== "AbortError") notice(error.message);
     }
-    if (byId("pace") && !paced) {
-      setPace();
-      paced = true;
-    }
-    const output = byId("clock");
-    if (output) output.setAttribute("aria-live", "off"); // it would talk without end
-  }
-
-  function setPace() {
-    const select = byId("pace");
-    if (!select) return; // Dash has not made it yet
-    select.value = String(Carom.link.asked("pace"));
-    if (!select.value) select.value = String(Carom.clock.PACE);
-  }
-
-  // What a link that is gone back to says of the film and the theme; Dash restores all else.
-  function restore() {
-    const time = Carom.link.asked("time");
-    Carom.clock.pause();
-    Carom.clock.set(Number.isNaN(time) ? Carom.clock.START : time);
-    setPace();
-    Carom.theme.choose(Carom.link.part("theme"));
   }
 
   function draw() {
@@ -94,90 +102,136 @@ Carom.page = (() => {
   }
 
   function drawNow(time) {
-    Carom.stage.draw(time);
-    Carom.patch.draw(time);
+    if (!scenes[0]) return;
+    for (const [name, canvases] of Object.entries(VIEWS)) {
+      canvases.forEach((id, row) => scenes[row] && Carom[name].draw(byId(id), scenes[row], time));
+    }
     Carom.cursor.draw(time);
     showTime(time);
   }
 
   function showTime(time) {
-    const told = Carom.scene.told(time);
-    const [output, slider, button] = ["clock", "time", "play"].map(byId);
-    if (output && output.textContent !== told) output.textContent = told;
-    if (slider) slider.value = time;
-    const verb = Carom.clock.isPlaying() ? "Pause" : "Play";
-    if (button && button.textContent !== verb) button.textContent = verb;
-    if (!Carom.clock.isPlaying()) describe(told, slider);
+    const told = scenes[0].told(time);
+    write(byId("clock"), told);
+    byId("time").value = time;
+    write(byId("play"), Carom.clock.isPlaying() ? "Pause" : "Play");
+    const [sentence, other] = scenes.map((scene) => scene && Carom.told.of(scene, time));
+    const both = sentence === other ? `Both: ${sentence}` : `This impact: ${sentence} Beside it: ${other}`;
+    write(byId("told"), other ? both : sentence);
+    if (!Carom.clock.isPlaying()) describe(told, sentence);
+  }
+
+  function write(element, text) {
+    if (element.textContent !== text) element.textContent = text;
   }
 
   // Pictures in words, for those who hear the page.
-  function describe(told, slider) {
-    if (slider) slider.setAttribute("aria-valuetext", told);
-    const [stage, patch] = ["stage", "patch"].map(byId);
-    if (stage) stage.setAttribute("aria-label", `The bodies at ${told}`);
-    if (patch) patch.setAttribute("aria-label", `The contact from above at ${told}`);
+  function describe(told, sentence) {
+    byId("time").setAttribute("aria-valuetext", told);
+    byId("stage").setAttribute("aria-label", `The bodies at ${told}. ${sentence}`);
+    byId("patch").setAttribute("aria-label", `The contact from above at ${told}`);
+  }
+
+  // The results stand beside the pictures where there is room, else among the charts.
+  function place() {
+    const card = byId("results-card");
+    const home = WIDE.matches ? byId("results-wide") : document.querySelector(".carom-charts");
+    if (card.parentElement !== home) home.prepend(card);
+  }
+
+  function open() {
+    const asked = Carom.link.asked();
+    const preset = Carom.presets.choose(Carom.link.part("preset") ?? "");
+    linked = Carom.fields.set(asked.size ? asked : preset).join("; ");
+    opening = true;
+    Carom.beside.put(Carom.link.part("beside"));
+    Carom.fit.choose(Carom.link.part("data") ?? "");
+    Carom.tabs.choose(Carom.link.part("tab") ?? Carom.tabs.first);
+    const time = Carom.link.number("time");
+    Carom.clock.pause();
+    Carom.clock.set(Number.isNaN(time) ? Carom.clock.START : time);
+    byId("pace").value = String(Carom.link.number("pace"));
+    if (!byId("pace").value) byId("pace").value = String(Carom.clock.PACE);
+    byId("slow").checked = Carom.link.number("slow") === 1;
+    Carom.clock.slow(byId("slow").checked);
+    Carom.theme.choose(Carom.link.part("theme"));
+    ask();
+  }
+
+  // Going over from bodies to numbers keeps the impact.
+  function changed(name) {
+    const carried = name === "given" && answers[0] && answers[0].carried;
+    if (carried && Carom.fields.value("given") === "numbers") {
+      Carom.fields.put("psi", String(carried.psi));
+      Carom.fields.put("chi", String(carried.chi));
+    }
+    linked = "";
+    opening = false;
+    ask();
   }
 
   function onInput(event) {
-    if (event.target.id === "pace") Carom.link.refresh();
     if (event.target.id !== "time") return;
     Carom.clock.pause();
     Carom.clock.set(event.target.value);
   }
 
-  function onClick(event) {
-    if (!(event.target instanceof Element)) return;
-    if (event.target.closest(Carom.link.DOWNLOADS)) Carom.link.write();
-    const button = event.target.closest("button");
-    if (!button) return;
-    if (button.id === "play") Carom.clock.toggle();
-    if (button.id === "theme") Carom.theme.next();
-    if (button.id === "copy") Carom.link.copy();
+  function onChange(event) {
+    if (event.target.id === "slow") Carom.clock.slow(event.target.checked);
+    if (["pace", "slow"].includes(event.target.id)) Carom.link.refresh();
   }
 
   function onKey(event) {
     const busy = event.ctrlKey || event.altKey || event.metaKey || event.repeat;
-    if (event.key !== " " || busy || !byId("play")) return;
+    if (event.key !== " " || busy) return;
     if (event.target instanceof Element && event.target.closest(WORDS)) return;
     event.preventDefault();
     Carom.clock.toggle();
   }
 
-  function show(scene) {
-    attach();
-    Carom.scene.put(scene);
-    draw();
-    return window.dash_clientside.no_update;
-  }
-
-  function link(query) {
-    attach();
-    Carom.link.put(query);
-    return window.dash_clientside.no_update;
-  }
-
-  // The charts, which take longest, once the moving pictures are there; none that is outdated.
-  async function chart(figures) {
-    const same = window.dash_clientside.no_update;
-    latest = figures;
-    await new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
-    return figures && figures === latest ? figures : Array(CHARTS).fill(same);
+  function build() {
+    const { FIRST: min, LAST: max, STEP: step } = Carom.clock;
+    Object.assign(byId("time"), { min, max, step });
+    PACES.forEach((pace) => byId("pace").append(new Option(`${pace} s film`, pace)));
+    Carom.laws.build();
+    Carom.fields.build();
+    Carom.presets.build();
+    Carom.files.build();
+    Carom.fit.build();
+    Carom.cursor.watch();
+    place();
   }
 
   function listen() {
+    Carom.fields.hear(changed);
+    byId("laws").addEventListener("change", () => changed("law"));
+    byId("fit-panel").addEventListener("change", ({ target }) => target.id === "data" && changed("data"));
+    Carom.presets.hear((query) => (Carom.fields.set(query), changed("")));
+    Carom.beside.build(() => changed(""));
+    byId("play").addEventListener("click", Carom.clock.toggle);
+    byId("back").addEventListener("click", Carom.clock.previous);
+    byId("forth").addEventListener("click", Carom.clock.next);
+    byId("theme").addEventListener("click", Carom.theme.next);
     document.addEventListener("input", onInput);
-    document.addEventListener("click", onClick, true);
+    document.addEventListener("change", onChange);
     document.addEventListener("keydown", onKey);
     Carom.clock.hear(draw);
     Carom.clock.hear(() => Carom.link.refresh());
-    Carom.theme.hear(() => (draw(), Carom.link.refresh()));
-    window.addEventListener("popstate", restore);
-    Carom.clock.set(Carom.link.asked("time"));
+    Carom.tabs.hear(() => Carom.link.refresh());
+    Carom.theme.hear(() => (draw(), Carom.charts.again(), Carom.link.refresh()));
+    WIDE.addEventListener("change", place);
+    window.addEventListener("popstate", open);
+    const sizes = new ResizeObserver(draw);
+    Object.values(VIEWS).flat().forEach((id) => sizes.observe(byId(id)));
   }
 
-  document.addEventListener("DOMContentLoaded", listen);
-  return { show, link, chart, attach: () => (attach(), window.dash_clientside.no_update) };
+  function start() {
+    build();
+    listen();
+    open();
+  }
+
+  return { start, answers: () => answers, duration: () => (scenes[0] ? scenes[0].data.duration : 0), get scenes() { return scenes; } };
 })();
 
-window.dash_clientside = window.dash_clientside || {};
-window.dash_clientside.carom = Carom.page; // what Dash calls by name
+Carom.page.start();

@@ -1,14 +1,26 @@
-// The contact from above: traction as shading, stick and slip, and both along a line below.
+// The contact from above: traction as shading, stick and slip; and the traction along the middle.
 window.Carom = window.Carom || {};
 
 Carom.patch = (() => {
-  const { canvas } = Carom;
-  const BAR = 74; // pixels that the colour bar and its words take
-  const SPACING = 0.25; // of slip arrows, in radii of the largest contact
-  const NAME = [52, 12]; // pixels around the name of the slip, without arrows
+  const { canvas, profile } = Carom;
+  const BARS = { full: 74, slim: 42, none: 0 }; // pixels that the colour bar and its words take
+  const ENOUGH = 150; // pixels of a map that leaves room for the bar
+  const LINE = 17; // pixels of a line of words below
+  const TICKS = 17; // pixels of the numbers below a profile
+  const BESIDE = 32; // pixels for the names of the lines of a profile
+  const TOP = 7;
+  const EDGE = 8;
+  const ROOMY = 250; // pixels of height from which on the note has a line of its own
+  const NOTES = {
+    slip: ["arrows: the first body slides on the second", "arrows: slip of the first body"],
+    rim: ["viscous bodies being loaded: p is unbounded at the edge", "p is unbounded at the edge"],
+  };
+  const BROAD = 1.4; // times the height
+  const SMALL = 11;
+  const SPACING = 0.25; // of slip arrows, in radii of the largest contact,
+  const FEWER = 18; // and at least, in pixels
   const THIN = 0.05; // ring without arrows
-  const ARROWS = "arrows: the first body slides on the second";
-  const UNBOUNDED = "viscous bodies being loaded: p is unbounded at the edge";
+  const NAME = 13;
   const color = (name) => Carom.theme.color(name);
   let map = { text: "", stops: [] };
 
@@ -27,188 +39,181 @@ Carom.patch = (() => {
     return `rgb(${mixed.join(",")})`;
   }
 
-  function layout(width, height) {
-    const profile = Math.max(76, Math.min(120, 0.27 * height));
-    const top = 8;
-    const side = Math.max(60, Math.min(width - BAR - 24, height - profile - top - 44));
-    const x = Math.max(12, (width - BAR - side) / 2);
-    const map = { x: x + side / 2, y: top + side / 2, unit: (side / 2) * 0.97 };
-    const line = { top: top + side + 8, height: profile, middle: top + side + 8 + profile / 2 };
-    return { width, height, side, left: x, top, map, line };
+  // The notes that fit, the longest of each, and the lines that the words below take.
+  function footOf(pen, scene, width, height) {
+    const takes = (text) => canvas.widthOf(pen, text, SMALL);
+    const beside = width - canvas.keyWidth(pen, scene) - 4 * EDGE;
+    const longest = (texts, room) => texts.find((text) => takes(text) <= room) || "";
+    const needed = scene.facts.viscous ? ["slip", "rim"] : ["slip"];
+    const inLine = needed.every((name) => longest(NOTES[name], beside));
+    const fits = longest(NOTES.slip, width - 2 * EDGE);
+    const lines = inLine || !fits || height < ROOMY ? 1 : 2;
+    const room = inLine ? beside : lines === 2 ? width - 2 * EDGE : 0;
+    const [slip, rim] = [NOTES.slip, NOTES.rim].map((texts) => longest(texts, room));
+    return { lines, slip, rim };
   }
 
-  function circle(pen, map, radius) {
+  // The map above its profile, or beside it.
+  function layout(width, height, foot) {
+    const low = height - LINE * foot.lines - 4;
+    const [above, beside] = [stacked(width, low), sideways(width, low)];
+    const worse = width > BROAD * low ? 0.85 : 1.1; // a broad box is filled by what is side by side
+    const box = beside.side > worse * above.side ? beside : above;
+    return { ...box, width, height, low, foot };
+  }
+
+  // The widest bar beside which the map stays large.
+  function barred(sideWith) {
+    const most = sideWith(BARS.none);
+    const wide = Object.keys(BARS).find((name) => {
+      const side = sideWith(BARS[name]);
+      return side >= 0.92 * most || side >= ENOUGH;
+    });
+    return { bar: wide, side: Math.max(40, sideWith(BARS[wide])) };
+  }
+
+  function stacked(width, low) {
+    const tall = Math.max(50, Math.min(120, 0.29 * low));
+    const { bar, side } = barred((taken) => {
+      const right = Math.max(taken, BESIDE);
+      return Math.min(width - right - EDGE - 4, low - TOP - tall - TICKS - 10);
+    });
+    const left = Math.max(EDGE, (width - side - Math.max(BARS[bar], BESIDE)) / 2);
+    const disc = { x: left + side / 2, y: TOP + side / 2, unit: 0.48 * side };
+    const top = TOP + side + 8;
+    const line = { x: disc.x, unit: disc.unit, top, height: low - TICKS - top, named: true };
+    return { bar, side, left, map: disc, line, tied: true };
+  }
+
+  function sideways(width, low) {
+    const named = width > 290;
+    const taken = (named ? BESIDE : 0) + 4 * EDGE;
+    const { bar, side } = barred((wide) => Math.min(low - TOP - 4, 0.55 * (width - taken - wide)));
+    const disc = { x: EDGE + side / 2, y: (low + TOP - 4) / 2, unit: 0.48 * side };
+    const start = EDGE + side + BARS[bar] + 14;
+    const unit = (width - start - EDGE - (named ? BESIDE : 0)) / 2;
+    const height = Math.min(low - TICKS - TOP, Math.max(side, 1.5 * unit + 30));
+    const top = TOP + (low - TICKS - TOP - height) / 2;
+    return { bar, side, left: EDGE, map: disc, line: { x: start + unit, unit, top, height, named } };
+  }
+
+  function circle(pen, { x, y, unit }, radius) {
     pen.beginPath();
-    pen.arc(map.x, map.y, radius * map.unit, 0, 2 * Math.PI);
+    pen.arc(x, y, radius * unit, 0, 2 * Math.PI);
   }
 
-  function ring(pen, map, from, to) {
-    pen.beginPath();
-    pen.arc(map.x, map.y, to * map.unit, 0, 2 * Math.PI);
-    if (from > 0) pen.arc(map.x, map.y, from * map.unit, 0, 2 * Math.PI, true);
-  }
-
-  function drawShading(pen, map, now) {
-    const fill = pen.createRadialGradient(map.x, map.y, 0, map.x, map.y, now.contact * map.unit);
+  function drawShading(pen, disc, now) {
+    const fill = pen.createRadialGradient(disc.x, disc.y, 0, disc.x, disc.y, now.contact * disc.unit);
     const last = now.traction.length - 1;
     now.traction.forEach((value, i) => fill.addColorStop(i / last, shade(value)));
-    circle(pen, map, now.contact);
+    circle(pen, disc, now.contact);
     pen.fillStyle = fill;
     pen.fill();
   }
 
-  function drawSlip(pen, map, now) {
+  // The ring that slips: lines that tell its sign, arrows along which the first body slides.
+  function drawSlip(pen, disc, now, name) {
     if (!now.sign || now.contact <= now.stick) return;
+    const { x, y, unit } = disc;
     pen.save();
-    ring(pen, map, now.stick, now.contact);
+    circle(pen, disc, now.contact);
+    if (now.stick > 0) pen.arc(x, y, now.stick * unit, 0, 2 * Math.PI, true);
     pen.clip("evenodd");
     pen.strokeStyle = color("hatch");
     pen.lineWidth = 1;
-    canvas.hatch(pen, map.x - map.unit, map.y - map.unit, 2 * map.unit, now.sign);
+    const reach = now.contact * unit;
+    canvas.hatch(pen, x - reach, y - reach, 2 * reach, 2 * reach, now.sign, 9);
     pen.restore();
-    const rings = Math.max(1, Math.floor((now.contact - now.stick) / SPACING));
+    const spacing = Math.max(SPACING, FEWER / unit);
+    const rings = Math.max(1, Math.floor((now.contact - now.stick) / spacing));
     const width = (now.contact - now.stick) / rings;
-    if (width < THIN) return;
-    for (let i = 0; i < rings; i++) drawArrows(pen, map, now, now.stick + (i + 0.5) * width, width);
+    if (width < THIN || width * unit < 5) return;
+    const places = Array.from({ length: rings }, (_, i) => now.stick + (i + 0.5) * width);
+    const all = places.flatMap((radius) => arrowsOn(disc, now, radius, spacing, width, name));
+    canvas.arrows(pen, all, color("ink"), 1.6, color("panel"));
   }
 
-  // Where the first body slides on the second, evenly around a circle.
-  function drawArrows(pen, map, now, radius, width) {
-    const count = Math.max(6, 2 * Math.round((Math.PI * radius) / SPACING));
-    const name = nameOfSlip(map, now) || [-1e3, -1e3];
-    const half = 0.5 * Math.min(0.16, Math.max(0.09, 0.75 * width)) * map.unit * now.sign;
+  function arrowsOn({ x, y, unit }, now, radius, spacing, width, name) {
+    const count = Math.max(6, 2 * Math.round((Math.PI * radius) / spacing));
+    const half = 0.5 * Math.max(8, Math.min(0.64 * spacing, 0.75 * width) * unit) * now.sign;
+    const all = [];
     for (let i = 0; i < count; i++) {
       const angle = ((i + 0.5) / count) * 2 * Math.PI;
-      const x = map.x + radius * map.unit * Math.cos(angle);
-      const y = map.y - radius * map.unit * Math.sin(angle);
-      if (Math.abs(x - name[0]) < NAME[0] && Math.abs(y - name[1]) < NAME[1]) continue;
-      canvas.arrow(pen, x - half, y, x + half, y, color("ink"), 1.6);
+      const [ax, ay] = [x + radius * unit * Math.cos(angle), y - radius * unit * Math.sin(angle)];
+      const box = { left: ax - Math.abs(half), top: ay - 4, wide: 2 * Math.abs(half), high: 8 };
+      if (!(name && canvas.meet(box, name))) all.push([ax - half, ay, ax + half, ay]);
     }
+    return all;
   }
 
-  function drawBorders(pen, map, now) {
-    circle(pen, map, now.contact);
-    pen.lineWidth = 1.5;
-    pen.strokeStyle = color("ink");
-    pen.stroke();
-    if (now.stick <= 0) return;
-    circle(pen, map, now.stick);
-    pen.lineWidth = 4.5;
-    pen.strokeStyle = color("panel");
-    pen.stroke();
-    pen.lineWidth = 2.5;
-    pen.strokeStyle = color("stick");
-    pen.stroke();
+  // The edge in the colour of what it does, the stick zone in its own.
+  function drawBorders(pen, disc, now) {
+    const line = (radius, shade, width) => {
+      circle(pen, disc, radius);
+      pen.lineWidth = width;
+      pen.strokeStyle = shade;
+      pen.stroke();
+    };
+    line(now.contact, canvas.phaseColor(now.kind), 2.5);
+    if (now.stick <= 0 || now.stick >= now.contact) return;
+    line(now.stick, color("panel"), 4.5);
+    line(now.stick, color("stick"), 2.5);
   }
 
-  // Where the name of the slip is written, null where there is no room for it.
-  function nameOfSlip(map, now) {
-    const room = (now.contact - now.stick) * map.unit;
-    if (!now.sign || room < 20) return null;
-    return [map.x, map.y + map.unit * (now.stick > 0 ? 0.5 * (now.stick + now.contact) : 0)];
+  // The box of the name of what slips, null where there is no room for it.
+  function nameOfSlip(pen, { x, y, unit }, now) {
+    if (!now.sign) return null;
+    const [wide, high] = [canvas.widthOf(pen, now.phase, NAME), NAME + 3];
+    const [edge, inner] = [now.contact * unit, now.stick * unit];
+    const down = inner > 0 ? 0.5 * (inner + edge) : 0;
+    const inside = Math.hypot(wide / 2, down + high / 2) < edge - 2;
+    if (!inside || (inner > 0 && edge - inner < high + 6)) return null;
+    return { left: x - wide / 2, top: y + down - high / 2, wide, high };
   }
 
-  function drawNames(pen, map, now) {
-    const middle = { align: "center", base: "middle", size: 13 };
-    if (now.stick > 0.25) canvas.haloed(pen, "stick", map.x, map.y, middle);
-    const place = nameOfSlip(map, now);
-    if (place) canvas.haloed(pen, now.phase, ...place, middle);
+  function drawNames(pen, disc, now, name) {
+    const middle = { align: "center", base: "middle", size: NAME };
+    const room = 1.6 * now.stick * disc.unit;
+    if (room > canvas.widthOf(pen, "stick", NAME)) canvas.haloed(pen, "stick", disc.x, disc.y, middle);
+    if (name) canvas.haloed(pen, now.phase, disc.x, name.top + name.high / 2, middle);
   }
 
-  function drawBar(pen, box) {
-    const x = box.left + box.side + 14;
-    const [top, height] = [box.top + 22, box.side - 44];
-    const fill = pen.createLinearGradient(0, top, 0, top + height);
+  function drawBar(pen, { bar, left, side, map: disc }) {
+    if (bar === "none") return;
+    const [x, thick] = [left + side + 10, bar === "full" ? 12 : 8];
+    const top = disc.y - side / 2 + 24;
+    const tall = side - 32;
+    const fill = pen.createLinearGradient(0, top, 0, top + tall);
     for (let i = 0; i <= 16; i++) fill.addColorStop(i / 16, shade(1 - i / 8));
     pen.fillStyle = fill;
-    pen.fillRect(x, top, 12, height);
+    pen.fillRect(x, top, thick, tall);
     pen.strokeStyle = color("muted");
     pen.lineWidth = 1;
-    pen.strokeRect(x + 0.5, top + 0.5, 12, height);
-    ["1", "0.5", "0", "−0.5", "−1"].forEach((text, i) => {
-      canvas.word(pen, text, x + 18, top + (i / 4) * height, { base: "middle", size: 11 });
+    pen.strokeRect(x, top, thick, tall);
+    const levels = tall > 76 && bar === "full" ? ["1", "0.5", "0", "−0.5", "−1"] : ["1", "0", "−1"];
+    levels.forEach((text, i) => {
+      const y = top + (i / (levels.length - 1)) * tall;
+      canvas.word(pen, text, x + thick + 5, y, { base: "middle", size: SMALL });
     });
-    canvas.word(pen, "fₓ / (µ p₀)", x, top - 11, { size: 11 });
+    const name = bar === "full" ? "fₓ / (µ p₀)" : "fₓ/µp₀";
+    canvas.word(pen, name, x - 4, top - 14, { size: SMALL, base: "middle" });
   }
 
-  // Traction along y = 0, between the limits of friction, below the map and on its scale.
-  function drawLine(pen, box, now) {
-    const { map, line } = box;
-    const half = line.height / 2 - 4;
-    const at = (x, f) => [map.x + x * map.unit, line.middle - f * half];
-    drawAxes(pen, box, half);
-    if (now.apart || now.contact <= 0) return;
-    pen.save(); // above the scale it goes on: viscous bodies press without bound at the edge
-    pen.beginPath();
-    pen.rect(0, line.top, box.width, line.height);
-    pen.clip();
-    const limit = (x) => Carom.scene.pressureAt(x, now.contact, now.rim);
-    const along = Array.from({ length: 65 }, (_, i) => now.contact * Math.sin(((i - 32) / 64) * Math.PI));
-    for (const side of [1, -1]) {
-      path(pen, along.map((x) => at(x, side * limit(x))));
-      pen.setLineDash([5, 3]);
-      pen.lineWidth = 1.2;
-      pen.strokeStyle = color("muted");
-      pen.stroke();
-      pen.setLineDash([]);
-    }
-    const step = now.contact / (now.traction.length - 1);
-    const right = now.traction.map((f, i) => at(i * step, f));
-    const left = now.traction.map((f, i) => at(-i * step, f)).reverse();
-    path(pen, [...left, ...right]);
-    pen.lineWidth = 2.2;
-    pen.lineJoin = "round";
-    pen.strokeStyle = color("accent");
-    pen.stroke();
-    pen.restore();
-    if (now.stick > 0) drawTies(pen, box, now);
-  }
-
-  function drawAxes(pen, box, half) {
-    const { map, line } = box;
-    pen.strokeStyle = color("grid");
-    pen.lineWidth = 1;
-    for (const level of [-1, 0, 1]) {
-      const y = Math.round(line.middle - level * half) + 0.5;
-      path(pen, [[map.x - map.unit, y], [map.x + map.unit, y]]);
-      pen.stroke();
-    }
-    const words = { size: 11, base: "middle", color: color("ink") };
-    const beside = map.x + map.unit + 8;
-    canvas.word(pen, "± µ p", beside, line.middle - half + 4, { ...words, color: color("muted") });
-    canvas.word(pen, "fₓ", beside, line.middle, { ...words, color: color("accent") });
-    const y = line.top + line.height + 9;
-    ["−1", "0", "1"].forEach((text, i) => {
-      canvas.word(pen, text, map.x + (i - 1) * map.unit, y, { ...words, align: "center" });
-    });
-    canvas.word(pen, "x / a max →", map.x + 0.5 * map.unit, y, { ...words, align: "center" });
-  }
-
-  // The border of the stick zone, from the map down to the line.
-  function drawTies(pen, box, now) {
+  // The border of the stick zone, from the map down to the profile.
+  function drawTies(pen, { map: disc, line, tied }, now) {
+    if (!tied || now.stick <= 0) return;
     pen.setLineDash([2, 3]);
     pen.strokeStyle = color("stick");
     pen.lineWidth = 1.2;
     for (const side of [-1, 1]) {
-      const x = box.map.x + side * now.stick * box.map.unit;
-      path(pen, [[x, box.map.y], [x, box.line.top + box.line.height]]);
-      pen.stroke();
+      const x = disc.x + side * now.stick * disc.unit;
+      canvas.trace(pen, [[x, disc.y], [x, line.top]]);
     }
     pen.setLineDash([]);
   }
 
-  function path(pen, points) {
-    pen.beginPath();
-    points.forEach(([x, y], i) => (i ? pen.lineTo(x, y) : pen.moveTo(x, y)));
-  }
-
-  function draw(share) {
-    const element = document.getElementById("patch");
-    const sheet = element && canvas.ready(element);
-    if (!sheet || !Carom.scene.data()) return;
-    const { pen } = sheet;
-    const box = layout(sheet.width, sheet.height);
-    const now = Carom.scene.at(share);
+  // What no instant changes: the largest contact, scales and numbers.
+  function drawFrame(pen, box) {
     circle(pen, box.map, 1);
     pen.setLineDash([4, 4]);
     pen.strokeStyle = color("muted");
@@ -216,17 +221,40 @@ Carom.patch = (() => {
     pen.stroke();
     pen.setLineDash([]);
     drawBar(pen, box);
-    const foot = { align: "center", size: 11, color: color("muted") };
-    canvas.word(pen, now.rim > 0 ? UNBOUNDED : ARROWS, sheet.width / 2, sheet.height - 4, foot);
-    if (now.apart) {
-      canvas.word(pen, "apart", box.map.x, box.map.y, { align: "center", size: 14, color: color("muted") });
-    } else if (now.contact > 0) {
+    profile.axes(pen, box.line);
+  }
+
+  function drawFoot(pen, { foot, width, height, low }, now) {
+    const note = now.rim > 0 ? foot.rim : foot.slip;
+    const y = height - LINE / 2 - 2;
+    const place = foot.lines === 1 ? [width - EDGE, y] : [EDGE, y];
+    const align = foot.lines === 1 ? "right" : "left";
+    canvas.word(pen, note, ...place, { align, base: "middle", size: SMALL, shade: color("muted") });
+    canvas.drawKey(pen, now, EDGE, low + 4 + LINE / 2 - 2);
+  }
+
+  function draw(element, scene, share) {
+    const sheet = element && canvas.ready(element);
+    if (!sheet || !scene) return;
+    const { pen, width, height } = sheet;
+    const box = layout(width, height, footOf(pen, scene, width, height));
+    const now = scene.at(share);
+    const touching = !now.apart && now.contact > 0;
+    if (touching) profile.zones(pen, box.line, now);
+    canvas.layer(element, "frame", sheet, [scene], (own) => drawFrame(own, box));
+    if (touching) {
+      const name = nameOfSlip(pen, box.map, now);
       drawShading(pen, box.map, now);
-      drawSlip(pen, box.map, now);
+      drawSlip(pen, box.map, now, name);
       drawBorders(pen, box.map, now);
+      drawTies(pen, box, now);
+      drawNames(pen, box.map, now, name);
+      profile.draw(pen, scene, box.line, now);
+    } else if (now.apart) {
+      const middle = { align: "center", base: "middle", size: NAME, shade: color("muted") };
+      canvas.word(pen, "apart", box.map.x, box.map.y, middle);
     }
-    drawLine(pen, box, now);
-    if (!now.apart) drawNames(pen, box.map, now);
+    drawFoot(pen, box, now);
   }
 
   return { draw };

@@ -1,12 +1,11 @@
-// What Dash sent last: the impact in time, and what it is at an instant.
+// An impact in time, and what it is at an instant.
 window.Carom = window.Carom || {};
 
 Carom.scene = (() => {
   const ROUNDING = 1e-9;
   const HIGHEST = 9; // pressure that is drawn: at the edge it is infinite while viscous bodies load
   const SIGNS = { 1: " +", 0: "", "-1": " −" };
-  let data = null;
-  let rubs = false; // whether there is friction
+  const nameOf = ({ kind, sign }) => kind + SIGNS[sign];
 
   // The value of a series, evenly spaced between two ends, between its points.
   function between(series, first, last, at) {
@@ -16,95 +15,116 @@ Carom.scene = (() => {
     return series[low] * (1 - part) + series[low + 1] * part;
   }
 
-  function phaseAt(share) {
-    if (share < 0 || share > 1) return null;
-    const found = data.phases.find((phase) => share < phase.end);
-    return found || data.phases[data.phases.length - 1];
-  }
-
-  // The stick zone within its phase: it may appear at once where the contact stops sliding.
-  function stickAt(share, phase, contact) {
-    if (phase.kind === "stick") return contact;
-    if (phase.kind === "gross slip") return 0;
-    const step = 1 / (data.stick.length - 1);
-    const low = Math.floor(share / step);
-    const inside = [low, low + 1].filter((row) => {
-      const at = row * step;
-      return at >= phase.start - ROUNDING && at <= phase.end + ROUNDING && row < data.stick.length;
-    });
-    const rows = inside.length ? inside : [low];
-    const found = rows.length === 2 ? between(data.stick, 0, 1, share) : data.stick[rows[0]];
-    return Math.min(found, contact);
-  }
-
   // The pressure at a radius: Hertz's, and what loading adds towards the edge of viscous bodies.
   function pressureAt(radius, contact, rim) {
     const root = Math.sqrt(Math.max(0, contact ** 2 - radius ** 2));
     return Math.min(root + (rim > 0 ? (0.5 * rim) / root : 0), HIGHEST);
   }
 
-  // Traction from the centre to the edge; where it slips it is friction times the pressure.
-  function tractionAt(share, contact, rim, stick, sign) {
-    const rows = data.tractions;
-    const place = share * (rows.length - 1);
-    const low = Math.min(rows.length - 2, Math.floor(place));
-    const part = place - low;
-    const count = rows[0].length;
-    return Array.from({ length: count }, (_, i) => {
-      const radius = (contact * i) / (count - 1);
-      if (rubs && sign && radius >= stick) return sign * pressureAt(radius, contact, rim);
-      return (rows[low][i] || 0) * (1 - part) + (rows[low + 1][i] || 0) * part;
-    });
-  }
-
-  function at(share) {
-    const phase = phaseAt(share);
-    if (!phase) return { apart: true, phase: share < 0 ? "before" : "after" };
-    const contact = between(data.contact, 0, 1, share);
-    const stick = stickAt(share, phase, contact);
-    const rim = between(data.rim, 0, 1, share);
+  // What holds at all times.
+  function factsOf(data) {
+    const highest = data.contact.reduce((best, value, i) => (value > data.contact[best] ? i : best), 0);
     return {
-      apart: false,
-      kind: phase.kind,
-      sign: phase.sign,
-      phase: phase.kind + SIGNS[phase.sign],
-      contact,
-      stick,
-      rim,
-      traction: tractionAt(share, contact, rim, stick, phase.sign),
-      force: between(data.force, 0, 1, share), // over friction times the largest normal force
+      rubs: data.tractions.some((row) => row.some(Boolean)), // whether friction ever acts
+      viscous: data.rim.some((value) => value > 0),
+      peak: highest / (data.contact.length - 1), // largest compression
+      strongest: data.force.reduce((most, value) => Math.max(most, Math.abs(value)), 0),
     };
   }
 
-  // The bodies at an instant, in radii of the first.
-  function bodiesAt(share) {
-    const { time, bodies } = data.stage;
-    const ends = [time[0], time[time.length - 1]];
-    return bodies.map((body) => ({
-      kind: body.kind,
-      radius: body.radius,
-      x: between(body.x, ...ends, share),
-      y: between(body.y, ...ends, share),
-      turn: between(body.turn, ...ends, share),
-    }));
+  // The scene of what the source sent, null if it sent none.
+  function of(data) {
+    if (!data || !data.phases || !data.phases.length) return null;
+    const facts = factsOf(data);
+    let latest = null; // both canvases ask for the same instant
+
+    function phaseAt(share) {
+      if (share < 0 || share > 1) return null;
+      const found = data.phases.find((phase) => share < phase.end);
+      return found || data.phases[data.phases.length - 1];
+    }
+
+    // The stick zone within its phase: it may appear at once where the contact stops sliding.
+    function stickAt(share, phase, contact) {
+      if (phase.kind === "stick") return contact;
+      if (phase.kind === "gross slip") return 0;
+      const step = 1 / (data.stick.length - 1);
+      const low = Math.floor(share / step);
+      const inside = [low, low + 1].filter((row) => {
+        const at = row * step;
+        return at >= phase.start - ROUNDING && at <= phase.end + ROUNDING && row < data.stick.length;
+      });
+      const rows = inside.length ? inside : [low];
+      const found = rows.length === 2 ? between(data.stick, 0, 1, share) : data.stick[rows[0]];
+      return Math.min(found, contact);
+    }
+
+    // Traction from the centre to the edge; where it slips it is friction times the pressure.
+    function tractionAt(share, contact, rim, stick, sign) {
+      const rows = data.tractions;
+      const place = share * (rows.length - 1);
+      const low = Math.min(rows.length - 2, Math.floor(place));
+      const part = place - low;
+      const count = rows[0].length;
+      return Array.from({ length: count }, (_, i) => {
+        const radius = (contact * i) / (count - 1);
+        if (facts.rubs && sign && radius >= stick) return sign * pressureAt(radius, contact, rim);
+        return (rows[low][i] || 0) * (1 - part) + (rows[low + 1][i] || 0) * part;
+      });
+    }
+
+    function found(share) {
+      const phase = phaseAt(share);
+      if (!phase) return { share, apart: true, phase: share < 0 ? "before" : "after" };
+      const contact = between(data.contact, 0, 1, share);
+      const stick = stickAt(share, phase, contact);
+      const rim = between(data.rim, 0, 1, share);
+      return {
+        share,
+        apart: false,
+        kind: phase.kind,
+        sign: phase.sign,
+        phase: nameOf(phase),
+        contact,
+        stick,
+        rim,
+        traction: tractionAt(share, contact, rim, stick, phase.sign),
+        force: forceAt(share),
+      };
+    }
+
+    function at(share) {
+      if (!latest || latest.share !== share) latest = found(share);
+      return latest;
+    }
+
+    // Over friction times the largest normal force.
+    const forceAt = (share) => between(data.force, 0, 1, share);
+
+    // The velocity of the contact point, null where it is not known.
+    function psiAt(share) {
+      const known = data.psi && data.psi.length > 1 && data.psi.every(Number.isFinite);
+      return known ? between(data.psi, 0, 1, Math.max(0, Math.min(1, share))) : null;
+    }
+
+    // The bodies at an instant, in radii of the first.
+    function bodiesAt(share) {
+      const { time, bodies } = data.stage;
+      const ends = [time[0], time[time.length - 1]];
+      return bodies.map(({ kind, radius, x, y, turn }) => {
+        const place = (series) => between(series, ...ends, share);
+        return { kind, radius, x: place(x), y: place(y), turn: place(turn) };
+      });
+    }
+
+    function told(share) {
+      const digits = Math.max(0, 2 - Math.floor(Math.log10(data.duration || 1)));
+      const value = (share * data.duration).toFixed(Math.min(digits, 12)).replace("-", "−");
+      return `${value} ${data.unit} · ${at(share).phase}`;
+    }
+
+    return { data, facts, at, phaseAt, forceAt, psiAt, bodiesAt, told, pressureAt };
   }
 
-  function told(share) {
-    if (!data) return "";
-    const digits = Math.max(0, 2 - Math.floor(Math.log10(data.duration || 1)));
-    const value = (share * data.duration).toFixed(Math.min(digits, 12)).replace("-", "−");
-    return `${value} ${data.unit} · ${at(share).phase}`;
-  }
-
-  return {
-    put: (given) => {
-      data = given && given.phases && given.phases.length ? given : null;
-      rubs = Boolean(data) && data.tractions.some((row) => row.some(Boolean));
-    },
-    data: () => data,
-    pressureAt,
-    at,
-    bodiesAt,
-    told,
-  };
+  return { of, nameOf };
 })();

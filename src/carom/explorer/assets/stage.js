@@ -3,10 +3,12 @@ window.Carom = window.Carom || {};
 
 Carom.stage = (() => {
   const { canvas, contact } = Carom;
-  const NEAR = 0.4; // tips of arrows, too near for two names
-  const SHORT = 0.08; // arrows that are not drawn
+  const SHORT = 0.08; // arrows that are not drawn, in radii
   const FORCE = 1.1; // the largest tangential force, likewise
-  const FOOT = 24; // pixels for the words below
+  const EDGE = 8; // pixels beside the words below
+  const LINE = 17; // pixels of a line of them
+  const NOTE = 11.5;
+  const ROOMY = 220; // pixels of height from which on a long note has a line more
   const color = (name) => Carom.theme.color(name);
 
   function enter(pen, seen) {
@@ -45,10 +47,10 @@ Carom.stage = (() => {
   }
 
   // A plane or a block with a hollow: all that is below its surface.
-  function drawGround(pen, seen, body, width, height) {
+  function drawGround(pen, seen, body) {
     const left = -seen.x / seen.unit;
-    const right = (width - seen.x) / seen.unit;
-    const low = (seen.y - (height - FOOT)) / seen.unit;
+    const right = (seen.width - seen.x) / seen.unit;
+    const low = (seen.y - seen.height) / seen.unit;
     enter(pen, seen);
     pen.beginPath();
     if (body.kind === "cup") {
@@ -74,9 +76,13 @@ Carom.stage = (() => {
     pen.restore();
   }
 
-  function drawPath(pen, seen, stage, share) {
-    const [ball] = stage.bodies;
-    const now = Carom.scene.bodiesAt(share)[0];
+  // The whole path of the ball, and the velocities at its ends, that of the nearer end strong.
+  // Returns the boxes of their names.
+  function drawMotion(pen, seen, [ball], strong) {
+    pen.save();
+    pen.beginPath();
+    pen.rect(0, 0, seen.width, seen.height);
+    pen.clip();
     pen.beginPath();
     ball.x.forEach((x, i) => pen[i ? "lineTo" : "moveTo"](...seen.at([x, ball.y[i]])));
     pen.setLineDash([3, 4]);
@@ -84,108 +90,127 @@ Carom.stage = (() => {
     pen.strokeStyle = color("accent");
     pen.stroke();
     pen.setLineDash([]);
+    const shown = seen.arrows.filter(({ length }) => length >= SHORT);
+    const later = shown.filter(({ when }) => when !== strong);
+    const all = [...later, ...shown.filter(({ when }) => when === strong)];
+    for (const { when, from, to } of all) {
+      pen.globalAlpha = when === strong ? 1 : 0.45;
+      canvas.arrows(pen, [[...seen.at(from), ...seen.at(to)]], color(when), 3);
+    }
+    const boxes = [];
+    pen.restore();
+    for (const { when, tip, first } of all.reverse()) {
+      if (first) canvas.name(pen, when, seen.at(tip), boxes, seen);
+    }
+    return boxes;
+  }
+
+  // The part of the path that the ball has gone.
+  function drawGone(pen, seen, { time, bodies: [ball] }, now, share) {
     pen.beginPath();
-    ball.x.forEach((x, i) => {
-      if (stage.time[i] <= share) pen[i ? "lineTo" : "moveTo"](...seen.at([x, ball.y[i]]));
-    });
-    pen.lineTo(...seen.at([now.x, now.y]));
+    pen.moveTo(...seen.at([ball.x[0], ball.y[0]]));
+    for (let i = 1; i < time.length && time[i] <= share; i++) {
+      pen.lineTo(...seen.at([ball.x[i], ball.y[i]]));
+    }
+    const centre = seen.at([now.x, now.y]);
+    pen.lineTo(...centre);
     pen.lineWidth = 2.5;
+    pen.strokeStyle = pen.fillStyle = color("accent");
     pen.stroke();
     pen.beginPath();
-    pen.arc(...seen.at([now.x, now.y]), 4, 0, 2 * Math.PI);
-    pen.fillStyle = color("accent");
+    pen.arc(...centre, 4, 0, 2 * Math.PI);
     pen.fill();
   }
 
-  // Velocities, the one of the nearer end strong, the other faint.
-  function drawSpeeds(pen, seen, stage, share) {
-    const all = Carom.view.arrows(stage);
-    const apart = all.length && Math.hypot(all[0].tip[0] - all[1].tip[0], all[0].tip[1] - all[1].tip[1]);
-    for (const { when, from, to, tip, length, first } of all) {
-      if (length < SHORT) continue;
-      const strong = (when === "before") === share <= 0.5;
-      pen.globalAlpha = strong ? 1 : 0.45;
-      canvas.arrow(pen, ...seen.at(from), ...seen.at(to), color(when), 3);
-      const [x, y] = seen.at(tip);
-      if (first && (strong || apart > NEAR)) canvas.haloed(pen, when, x, y - 7, { align: "center" });
-      pen.globalAlpha = 1;
-    }
-  }
-
+  // The line of contact: what sticks in the middle, what slips at both ends.
   function drawContact(pen, seen, touch, now) {
     const share = now.contact > 0 ? now.stick / now.contact : 0;
-    const stretch = (from, to, shade, width) => {
+    const stretch = (from, to, kind, width) => {
       if (to <= from) return;
       pen.beginPath();
       for (let i = 0; i <= 12; i++) {
         pen[i ? "lineTo" : "moveTo"](...seen.at(touch.at(from + ((to - from) * i) / 12)));
       }
-      pen.strokeStyle = shade;
+      pen.strokeStyle = canvas.phaseColor(kind);
       pen.lineWidth = width;
       pen.lineCap = "butt";
       pen.stroke();
     };
-    stretch(-1, -share, canvas.phaseColor(now.kind, now.sign), 5);
-    stretch(share, 1, canvas.phaseColor(now.kind, now.sign), 5);
-    stretch(-share, share, color("stick"), 8);
+    if (now.sign) stretch(-1, -share, now.kind, 5);
+    if (now.sign) stretch(share, 1, now.kind, 5);
+    stretch(-share, share, "stick", 8);
   }
 
   // Friction on the first body, against the traction on the second.
-  function drawForce(pen, seen, touch, now) {
+  function drawForce(pen, seen, touch, now, boxes) {
     const length = -now.force * FORCE;
     if (Math.abs(length) < SHORT) return;
     const [x, y] = touch.at(0);
     const [dx, dy] = touch.along;
-    const lift = 0.2;
+    const lift = Math.max(0.2, 9 / seen.unit);
     const from = [x - dy * lift, y + dx * lift];
     const to = [from[0] + dx * length, from[1] + dy * length];
-    canvas.arrow(pen, ...seen.at(from), ...seen.at(to), color("force"), 3);
-    const side = length < 0 ? "right" : "left";
-    const [px, py] = seen.at(to);
-    canvas.haloed(pen, "friction", px + (length < 0 ? -4 : 4), py - 4, { align: side });
+    canvas.arrows(pen, [[...seen.at(from), ...seen.at(to)]], color("force"), 3, color("panel"));
+    const order = length < 0 ? "left" : "right";
+    canvas.name(pen, "friction", seen.at(to), [...boxes], seen, { order });
   }
 
-  function drawLegend(pen, width, height, caption, now) {
-    const y = height - 8;
-    canvas.word(pen, caption, width - 8, y, { align: "right", size: 11.5, color: color("muted") });
-    if (now.apart) return;
-    const parts = [["stick", color("stick"), 8, now.stick > 0]];
-    const slips = now.sign !== 0 && now.stick < now.contact;
-    parts.push([now.phase, canvas.phaseColor(now.kind, now.sign), 5, slips]);
-    let x = 8;
-    for (const [text, shade, thick, shown] of parts) {
-      if (!shown) continue;
-      pen.fillStyle = shade;
-      pen.fillRect(x, y - 4 - thick / 2, 18, thick);
-      canvas.word(pen, text, x + 23, y, { size: 11.5 });
-      x += 36 + pen.measureText(text).width;
-    }
+  // How the words below are set: key and note side by side, or one above the other.
+  function footOf(pen, scene, width, height) {
+    const note = scene.data.stage.caption || "";
+    const key = canvas.keyWidth(pen, scene);
+    const fits = (text, room) => canvas.widthOf(pen, text, NOTE) <= room;
+    const whole = width - 2 * EDGE;
+    if (fits(note, whole - key - 2 * EDGE)) return { lines: 1, notes: [note] };
+    const [main, more] = note.split(", ");
+    const short = [main, main.replace(/^motion /, "")].filter((text) => fits(text, whole)).slice(0, 1);
+    const parts = height < ROOMY || !more ? short : [...short, more];
+    const notes = fits(note, whole) ? [note] : parts;
+    return { lines: 1 + notes.length, notes };
   }
 
-  function draw(share) {
-    const element = document.getElementById("stage");
+  function drawNotes(pen, { lines, notes }, width, height) {
+    const words = { base: "middle", size: NOTE, shade: color("muted") };
+    notes.forEach((text, i) => {
+      const y = height - LINE * (notes.length - i - 0.5) - 2;
+      if (lines === 1) canvas.word(pen, text, width - EDGE, y, { ...words, align: "right" });
+      else canvas.word(pen, text, EDGE, y, words);
+    });
+  }
+
+  function drawBodies(pen, seen, bodies, touch) {
+    const [ball, other] = bodies;
+    if (other.kind === "sphere") drawBall(pen, seen, other, contact.outline(other, touch, 1), "second");
+    else drawGround(pen, seen, other);
+    drawBall(pen, seen, ball, contact.outline(ball, touch, 0), "first");
+  }
+
+  function draw(element, scene, share) {
     const sheet = element && canvas.ready(element);
-    const data = Carom.scene.data();
-    if (!sheet || !data) return;
+    if (!sheet || !scene) return;
     const { pen, width, height } = sheet;
-    const { stage } = data;
-    const seen = Carom.view.of(stage, width, height, FOOT);
-    const now = Carom.scene.at(share);
-    const [ball, other] = Carom.scene.bodiesAt(share);
-    const touch = contact.between(ball, other);
+    const { stage } = scene.data;
+    const foot = footOf(pen, scene, width, height);
+    const low = height - LINE * foot.lines - 5;
+    const seen = Carom.view.of(stage, width, low);
+    const now = scene.at(share);
+    const bodies = scene.bodiesAt(share);
+    const touch = contact.between(...bodies);
+    const strong = share <= 0.5 ? "before" : "after";
     pen.save();
     pen.beginPath();
-    pen.rect(0, 0, width, height - FOOT);
+    pen.rect(0, 0, width, low);
     pen.clip();
-    if (other.kind === "sphere") drawBall(pen, seen, other, contact.outline(other, touch, 1), "second");
-    else drawGround(pen, seen, other, width, height);
-    drawBall(pen, seen, ball, contact.outline(ball, touch, 0), "first");
+    drawBodies(pen, seen, bodies, touch);
     if (touch && !now.apart) drawContact(pen, seen, touch, now);
-    drawPath(pen, seen, stage, share);
-    drawSpeeds(pen, seen, stage, share);
-    if (touch && !now.apart) drawForce(pen, seen, touch, now);
     pen.restore();
-    drawLegend(pen, width, height, stage.caption || "", now);
+    const boxes = canvas.layer(element, "motion", sheet, [scene, strong], (own) => {
+      drawNotes(own, foot, width, height);
+      return drawMotion(own, seen, stage.bodies, strong);
+    });
+    drawGone(pen, seen, stage, bodies[0], share);
+    if (touch && !now.apart) drawForce(pen, seen, touch, now, boxes);
+    canvas.drawKey(pen, now, EDGE, low + 5 + LINE / 2 - 2);
   }
 
   return { draw };

@@ -6,8 +6,9 @@ Carom.view = (() => {
   const WHOLE = 2.5; // larger second spheres are shown in part
   const PART = 1.2;
   const ARROW = 0.9; // the longest, in radii
-  const MARGIN = 0.3; // around the tip of an arrow, for its name
-  const SMALLEST = 18; // pixels of a radius
+  const NAMED = [26, 21]; // pixels beside and above the tip of an arrow, for its name
+  const EASY = 24; // pixels of a radius that are seen well
+  const known = new WeakMap();
 
   const least = (values) => values.reduce((a, b) => Math.min(a, b));
   const most = (values) => values.reduce((a, b) => Math.max(a, b));
@@ -39,7 +40,8 @@ Carom.view = (() => {
     });
   }
 
-  function bounds(stage) {
+  // The box that must be seen, in radii, with so much room around the tips of arrows.
+  function bounds(stage, whole, room) {
     const [ball, other] = stage.bodies;
     const box = {
       left: least(ball.x) - ball.radius,
@@ -48,31 +50,56 @@ Carom.view = (() => {
       bottom: least(ball.y) - ball.radius - DEPTH,
     };
     if (other.kind === "sphere") {
-      const whole = other.radius <= WHOLE;
       const side = whole ? other.radius : 0;
       box.left = Math.min(box.left, least(other.x) - side);
       box.right = Math.max(box.right, most(other.x) + side);
-      const deep = whole ? least(other.y) - other.radius : most(other.y) + other.radius - PART;
+      const part = Math.min(PART, 2 * other.radius);
+      const deep = whole ? least(other.y) - other.radius : most(other.y) + other.radius - part;
       box.bottom = Math.min(box.bottom, deep);
     } else {
       box.bottom = (other.kind === "cup" ? other.y[0] - other.radius : other.y[0]) - DEPTH;
     }
     for (const { tip } of arrows(stage)) {
-      box.left = Math.min(box.left, tip[0] - MARGIN);
-      box.right = Math.max(box.right, tip[0] + MARGIN);
-      box.top = Math.max(box.top, tip[1] + MARGIN);
+      box.left = Math.min(box.left, tip[0] - room[0]);
+      box.right = Math.max(box.right, tip[0] + room[0]);
+      box.top = Math.max(box.top, tip[1] + room[1]);
+      if (whole) box.bottom = Math.min(box.bottom, tip[1] - 0.5 * room[1]);
     }
     return box;
   }
 
-  function of(stage, width, height, foot) {
-    const box = bounds(stage);
-    const room = [width - 16, height - foot - 12];
-    const fit = Math.min(room[0] / (box.right - box.left), room[1] / (box.top - box.bottom));
-    const unit = Math.max(SMALLEST, fit);
+  function fitted(stage, whole, width, height) {
+    let unit = EASY;
+    let box = null;
+    for (let i = 0; i < 4; i++) {
+      box = bounds(stage, whole, NAMED.map((pixels) => pixels / unit));
+      unit = Math.min((width - 12) / (box.right - box.left), (height - 8) / (box.top - box.bottom));
+    }
+    return { unit, box };
+  }
+
+  // A small second sphere is shown whole where there is room.
+  function chosen(stage, width, height) {
+    const part = fitted(stage, false, width, height);
+    if (stage.bodies[1].kind !== "sphere" || stage.bodies[1].radius > WHOLE) return part;
+    const whole = fitted(stage, true, width, height);
+    return whole.unit >= Math.min(EASY, part.unit) ? whole : part;
+  }
+
+  function made(stage, width, height) {
+    const { unit, box } = chosen(stage, width, height);
     const x = width / 2 - 0.5 * (box.left + box.right) * unit;
-    const y = 6 + room[1] / 2 + 0.5 * (box.top + box.bottom) * unit;
-    return { unit, x, y, at: (point) => [x + point[0] * unit, y - point[1] * unit] };
+    const y = height / 2 + 0.5 * (box.top + box.bottom) * unit;
+    const at = (point) => [x + point[0] * unit, y - point[1] * unit];
+    return { unit, x, y, at, arrows: arrows(stage), width, height };
+  }
+
+  function of(stage, width, height) {
+    const old = known.get(stage);
+    if (old && old.width === width && old.height === height) return old;
+    const view = made(stage, width, height);
+    known.set(stage, view);
+    return view;
   }
 
   return { of, arrows };

@@ -1,0 +1,137 @@
+// Answers of the copy of the page that runs without a server: from tables and springs, in the browser.
+window.Carom = window.Carom || {};
+
+Carom.source = (() => {
+  const MORE = "The installed program does: pip install \"carom[explore]\", then carom explore.";
+  const WHY = `This copy of the page runs in the browser alone and cannot do this. ${MORE}`;
+  const NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?/i;
+  const LONGEST = 40; // characters of a wrong number that are shown
+  const PARTS = ["young", "poisson", "density"];
+  const GIGA = 1e9;
+  const KEPT = 16; // answers that are remembered
+  const { fields, materials } = Carom.config;
+  const kept = new Map();
+
+  function refuse(field, message) {
+    throw { field, message };
+  }
+
+  // One word of a link as the field of the page takes it.
+  function word(name, text) {
+    const { least, most, unit, choices } = fields[name];
+    if (least === null) {
+      if (choices && !choices.some(([value]) => String(value) === text)) refuse(name, `there is no '${text.slice(0, LONGEST)}'`);
+      return text;
+    }
+    const allowed = `must be a number from ${least} to ${most}${unit && ` ${unit}`}`;
+    const trimmed = text.trim();
+    if (!trimmed) refuse(name, `${allowed}; it is empty`);
+    const [digits] = NUMBER.exec(trimmed) || [""];
+    const rest = trimmed.slice(digits.length).trim();
+    const value = Number(digits);
+    const right = digits && (rest === "" || rest === unit) && value >= least && value <= most;
+    if (!right) refuse(name, `${allowed}, not '${text.slice(0, LONGEST)}'`);
+    return value;
+  }
+
+  // What does not matter in a view, and may be anything.
+  function unused(given) {
+    if (given("given") === "numbers") {
+      const bodies = ["radius", "against", ...["", "second_"].flatMap((which) => ["material", ...PARTS].map((part) => which + part))];
+      return [...bodies, "second_radius", "speed", "angle", "spin"];
+    }
+    const found = ["psi", "chi"];
+    if (given("against") === "half-space") found.push("second_radius");
+    for (const which of ["", "second_"]) if (given(`${which}material`) !== "own") found.push(...PARTS.map((part) => which + part));
+    if (given("against") !== "sphere") found.push("second_density");
+    return found;
+  }
+
+  // The view of a query: a value for every field.
+  function viewOf(query) {
+    const given = new URLSearchParams(query);
+    const of = (name) => given.get(name) ?? String(fields[name].default);
+    const idle = unused(of);
+    const view = {};
+    for (const name of Object.keys(fields)) {
+      if (name === "law" || name === "data") continue;
+      try {
+        view[name] = word(name, of(name));
+      } catch (refusal) {
+        if (!idle.includes(name)) throw refusal;
+        view[name] = fields[name].default;
+      }
+    }
+    covered(view);
+    return view;
+  }
+
+  function covered({ restitution, given, chi }) {
+    const known = Object.keys(Carom.tables.losses).map(Number).sort((a, b) => b - a);
+    if (!known.includes(restitution)) refuse("restitution", `this copy has ${known.join(", ")} only. ${MORE}`);
+    const [least, most] = Carom.tables.chi;
+    if (given === "numbers" && !(chi >= least && chi <= most)) refuse("chi", `this copy has ${least} to ${most} only. ${MORE}`);
+  }
+
+  // The query of what differs from the page as it opens.
+  function canonical(view, query) {
+    const found = new URLSearchParams();
+    for (const [name, value] of Object.entries(view)) {
+      if (String(value) !== String(fields[name].default)) found.set(name, value);
+    }
+    new URLSearchParams(query).getAll("law").forEach((label) => label && found.append("law", label));
+    return found.toString();
+  }
+
+  function materialOf(view, which) {
+    const name = view[`${which}material`];
+    if (name === "own") {
+      const [young, poisson, density] = PARTS.map((part) => view[which + part]);
+      return { young: young * GIGA, poisson, density };
+    }
+    const { young, poisson, density } = materials[name] || { young: null, poisson: 0, density: null };
+    return { young: young ?? Infinity, poisson, density };
+  }
+
+  function pairOf(view) {
+    const { against, radius, second_radius: other, friction } = view;
+    if (against === "cup" && !(other > radius)) refuse("second_radius", `must be above ${radius} mm: the ball has to fit into the cup`);
+    if (against === "sphere" && view.second_material === "rigid") {
+      refuse("second_material", "a ball that moves must have a density, which a rigid one has not; take another");
+    }
+    const [material, otherMaterial] = [materialOf(view, ""), materialOf(view, "second_")];
+    const pair = Carom.pair.of({ against, radius: radius * 1e-3, material, otherRadius: other * 1e-3, otherMaterial, friction });
+    const [least, most] = Carom.tables.chi;
+    if (!(pair.chi >= least && pair.chi <= most)) {
+      refuse("", `For these bodies χ = ${Carom.quantities.plain(pair.chi, 4)}; this copy has ${least} to ${most} only. ${MORE}`);
+    }
+    return pair;
+  }
+
+  function answered(query) {
+    const view = viewOf(query);
+    const answer = view.given === "numbers" ? Carom.answer.ofNumbers(view) : Carom.answer.ofBodies(view, pairOf(view));
+    return { query: canonical(view, query), ...answer, laws: [], late: [], undamped: [] };
+  }
+
+  async function answer(query) {
+    const words = new URLSearchParams(query);
+    words.sort();
+    const key = words.toString();
+    if (!kept.has(key)) kept.set(key, answered(query));
+    if (kept.size > KEPT) kept.delete(kept.keys().next().value);
+    return kept.get(key);
+  }
+
+  const cannot = async () => refuse("", WHY);
+
+  return {
+    can: { laws: false, fit: false, files: false, code: false },
+    why: WHY,
+    answer,
+    laws: async () => ({ laws: [], slow: [] }),
+    fit: cannot,
+    code: cannot,
+    file: () => null,
+  };
+})();

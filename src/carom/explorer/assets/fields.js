@@ -1,0 +1,171 @@
+// What the reader sets: numbers with sliders, choices; together they are the query of a link.
+window.Carom = window.Carom || {};
+
+Carom.fields = (() => {
+  const { fields: known, materials } = Carom.config;
+  const OF_MATERIAL = ["young", "poisson", "density"];
+  const material = (which) => [`${which}material`, ...OF_MATERIAL.map((name) => which + name)];
+  const GROUPS = {
+    given: ["given"],
+    numbers: ["psi", "chi"],
+    motion: ["angle", "speed", "spin", "friction", "restitution"],
+    bodies: ["radius", ...material(""), "against", "second_radius", ...material("second_")],
+  };
+  const PLAIN = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i; // what a slider can follow
+  const OWN = "own";
+  const heard = [];
+  const box = (name) => document.getElementById(name);
+
+  function make(tag, properties, ...children) {
+    const element = document.createElement(tag);
+    Object.assign(element, properties);
+    element.append(...children);
+    return element;
+  }
+
+  function labelOf(name) {
+    const { label, symbol } = known[name];
+    const found = make("label", { htmlFor: name }, label);
+    if (symbol) found.append(" ", Carom.tips.symbol(symbol));
+    if (known[name].hint) found.title = known[name].hint;
+    return found;
+  }
+
+  function number(name) {
+    const { slider, label, unit } = known[name];
+    // of type "number" a browser drops what it does not know, and 1,5 becomes 15
+    const typed = make("input", { id: name, type: "text", autocomplete: "off" });
+    const parts = [labelOf(name), typed, make("span", { className: "carom-unit", textContent: unit })];
+    if (slider) {
+      const [min, max, step] = slider;
+      const along = make("input", { id: `${name}-slider`, type: "range", min, max, step });
+      along.ariaLabel = `${label}, slider`;
+      parts.push(along);
+    }
+    return parts;
+  }
+
+  function choice(name) {
+    const options = known[name].choices.map((each) => {
+      const [value, text] = Array.isArray(each) ? each : [each, each];
+      return make("option", { value, textContent: text });
+    });
+    return [labelOf(name), make("select", { id: name }, ...options)];
+  }
+
+  function build() {
+    for (const [group, names] of Object.entries(GROUPS)) {
+      const parts = names.filter((name) => known[name]).map((name) => {
+        const wrong = make("p", { id: `${name}-wrong`, className: "carom-wrong", hidden: true });
+        const control = known[name].choices ? choice(name) : number(name);
+        return make("div", { id: `${name}-field`, className: "carom-field" }, ...control, wrong);
+      });
+      box("fields").append(make("div", { id: `${group}-fields`, className: "carom-group" }, ...parts));
+    }
+    box("fields").addEventListener("input", (event) => moved(event.target));
+    set(new URLSearchParams());
+  }
+
+  function moved(element) {
+    const name = element.id.replace(/-slider$/, "");
+    if (element.id !== name) box(name).value = element.value;
+    follow(name);
+    hide();
+    heard.forEach((hear) => hear(name));
+  }
+
+  // A number moves its slider, as far as that goes.
+  function follow(name) {
+    const slider = box(`${name}-slider`);
+    const text = box(name).value.trim();
+    if (slider && document.activeElement !== slider && PLAIN.test(text)) slider.value = text;
+  }
+
+  // What is not given, or not there, is not asked for.
+  function hide() {
+    const numbers = value("given") === "numbers";
+    for (const name of ["speed", "angle", "spin"]) box(`${name}-field`).hidden = numbers;
+    box("numbers-fields").hidden = !numbers;
+    box("bodies-fields").hidden = numbers;
+    box("second_radius-field").hidden = value("against") === "half-space";
+    for (const which of ["", "second_"]) {
+      const own = value(`${which}material`) === OWN;
+      for (const name of OF_MATERIAL) box(`${which}${name}-field`).hidden = !own;
+    }
+  }
+
+  const names = () => Object.values(GROUPS).flat().filter((name) => known[name]);
+  const value = (name) => box(name).value;
+
+  function put(name, text) {
+    box(name).value = text;
+    follow(name);
+  }
+
+  // The query of what differs from the page as it opens.
+  function query() {
+    const found = new URLSearchParams();
+    for (const name of names()) {
+      if (value(name) !== String(known[name].default)) found.set(name, value(name));
+    }
+    Carom.laws.chosen().forEach((label) => found.append("law", label));
+    if (Carom.fit.chosen()) found.set("data", Carom.fit.chosen());
+    return found;
+  }
+
+  // Set all to what a query says; return what of it the page does not know, each in a line.
+  function set(given) {
+    const odd = [];
+    for (const name of new Set(given.keys())) {
+      if (!known[name] && !["law", "data"].includes(name)) odd.push(`${name}: no word of a link`);
+    }
+    for (const name of names()) {
+      const first = String(known[name].default);
+      put(name, given.get(name) ?? first);
+      if (given.has(name) && value(name) !== given.get(name)) {
+        odd.push(`${known[name].label}: there is no ${given.get(name)}`);
+        put(name, first);
+      }
+    }
+    const laws = given.getAll("law");
+    const there = laws.filter((label) => Carom.config.laws.some((law) => law.label === label));
+    laws.filter((label) => !there.includes(label)).forEach((label) => odd.push(`Contact law: there is no ${label}`));
+    Carom.laws.choose(there);
+    hide();
+    complain("", "");
+    return odd;
+  }
+
+  // Say of a field what is wrong with it; of all others that nothing is.
+  function complain(field, message) {
+    for (const name of names()) {
+      const wrong = box(`${name}-wrong`);
+      wrong.textContent = name === field ? message : "";
+      wrong.hidden = name !== field;
+      box(name).setAttribute("aria-invalid", name === field);
+      if (name === field) box(name).setAttribute("aria-describedby", wrong.id);
+      else box(name).removeAttribute("aria-describedby");
+    }
+  }
+
+  // The bodies and their motion in words, to tell two impacts apart.
+  function words(given) {
+    const of = (name) => given.get(name) ?? String(known[name].default);
+    if (of("given") === "numbers") return `ψ₁ = ${of("psi")}, χ = ${of("chi")}`;
+    return `${of("material")} on ${of("second_material")}, ${of("angle")} deg, µ = ${of("friction")}`;
+  }
+
+  return {
+    build,
+    query,
+    set,
+    put,
+    value,
+    complain,
+    words,
+    label: (name) => (known[name] ? known[name].label : ""),
+    reset: (name) => put(name, String(known[name].default)),
+    hear: (listener) => heard.push(listener),
+    materials,
+  };
+})();

@@ -1,0 +1,84 @@
+// Files of what the page shows, by what they show; each a button that says what it is doing.
+window.Carom = window.Carom || {};
+
+Carom.files = (() => {
+  const PICTURE = [["png", "PNG"], ["svg", "SVG"], ["pdf", "PDF"]];
+  const TABLE = [["csv", "CSV"], ["nc", "NetCDF"]];
+  const GROUPS = [
+    ["curve", "Rebound curve", "ψ₂ against ψ₁ with its regimes, this impact and the contact laws that are chosen.", PICTURE],
+    ["history", "History", "Forces, velocities, radii and energies from the first touch to the last.", [...PICTURE, ...TABLE]],
+    ["contact", "Contact at this instant", "Traction, stick and slip at the time that the film shows.", PICTURE],
+    ["course", "Contact through the impact", "The contact at several instants, its traction across, and the force.", PICTURE],
+    ["view", "Python", "The lines that compute all this with the library.", [["py", "Python"]]],
+  ];
+  const place = document.getElementById("files");
+  let told = null;
+
+  function make(tag, properties, ...children) {
+    const element = Object.assign(document.createElement(tag), properties);
+    element.append(...children);
+    return element;
+  }
+
+  function anchor(name, text, what) {
+    const file = Carom.source.file(name);
+    const found = make("a", { id: name.replace(".", "-"), className: "carom-download carom-button", download: name, href: file }, text);
+    found.dataset.path = file;
+    found.ariaLabel = `${what}, ${text}`;
+    return found;
+  }
+
+  function group([stem, title, words, kinds]) {
+    const buttons = kinds.map(([ending, text]) => anchor(`${stem}.${ending}`, text, title));
+    const text = make("div", {}, make("h3", {}, title), make("p", { className: "carom-note" }, words));
+    return make("li", {}, text, make("div", { className: "carom-kinds" }, ...buttons));
+  }
+
+  function build() {
+    const { can, why } = Carom.source;
+    if (!can.files) return place.replaceChildren(make("p", { className: "carom-note" }, why));
+    told = make("p", { id: "files-notice", className: "carom-note", role: "status" });
+    place.replaceChildren(make("ul", { className: "carom-files" }, ...GROUPS.map(group)), told);
+    place.addEventListener("click", taken);
+  }
+
+  // A picture takes a second or more, and may be refused: the page says so, and stays.
+  async function taken(event) {
+    const found = event.target.closest("a.carom-download");
+    if (!found || event.ctrlKey || event.metaKey || event.shiftKey) return;
+    event.preventDefault();
+    tell(`Writing ${found.download} …`);
+    try {
+      const answer = await fetch(found.href);
+      if (!answer.ok) throw await refusal(answer);
+      save(await answer.blob(), found.download);
+      tell(`${found.download} is written.`);
+    } catch (error) {
+      tell(error.message, true);
+    }
+  }
+
+  async function refusal(answer) {
+    const text = await answer.text();
+    try {
+      const { field, message } = JSON.parse(text);
+      const label = field && Carom.fields.label(field);
+      return { message: label ? `${label}: ${message}` : message };
+    } catch {
+      return { message: text.trim() };
+    }
+  }
+
+  function save(blob, name) {
+    const link = make("a", { href: URL.createObjectURL(blob), download: name });
+    link.click();
+    window.setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  }
+
+  function tell(text, wrong = false) {
+    told.textContent = text;
+    told.classList.toggle("carom-wrong", wrong);
+  }
+
+  return { build };
+})();

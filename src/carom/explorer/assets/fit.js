@@ -1,0 +1,231 @@
+// Measured rebounds: a data set that comes along or a file of the reader's, and its fit.
+window.Carom = window.Carom || {};
+
+Carom.fit = (() => {
+  const LARGEST = 1e6; // bytes of a file
+  const BODIES = ["material", "young", "poisson", "density"].flatMap((name) => [name, `second_${name}`])
+    .concat("radius", "against", "second_radius");
+  const { make } = Carom.fitTables;
+  const panel = document.getElementById("fit-panel");
+  const parts = {};
+  let file = null; // {name, contents} of the reader's file
+  let used = null; // the bodies of the page that a file was fitted with
+  let shown = null; // the fit
+  let scaled = false; // whether residuals are in standard deviations
+  let asking = null;
+  let ticking = 0;
+
+  function build() {
+    const { can, why } = Carom.source;
+    if (!can.fit) return panel.replaceChildren(make("p", { className: "carom-note" }, why));
+    parts.data = make("select", { id: "data" }, new Option("none", ""));
+    for (const { name, title } of Carom.config.datasets) {
+      const option = new Option(name, name);
+      option.title = title;
+      parts.data.append(option);
+    }
+    parts.input = make("input", { id: "upload", type: "file", accept: ".csv,text/csv,text/plain", tabIndex: -1 });
+    parts.input.ariaLabel = "table of measured rebounds";
+    parts.button = make("button", { id: "upload-button", type: "button" }, "Choose or drop a CSV file");
+    parts.drop = make("div", { id: "drop", className: "carom-drop" }, parts.button, parts.input);
+    const template = make("a", { id: "template", className: "carom-download carom-button", download: "template.csv", href: Carom.source.file("template.csv") }, "Empty table to fill in");
+    template.dataset.path = Carom.source.file("template.csv");
+    parts.progress = make("p", { id: "fit-progress", role: "status" });
+    parts.notice = make("p", { id: "fit-notice", className: "carom-notice", role: "alert" });
+    parts.told = make("div", { id: "fit-ask", hidden: true });
+    parts.fit = make("div", { id: "fit" });
+    const label = make("label", { htmlFor: "data" }, "Published measurements");
+    const words = make("p", { className: "carom-note" }, "Friction, stiffness ratio and restitution from a table of measured rebounds, one impact a row.");
+    const row = make("div", { className: "carom-fit-source" }, label, parts.data, make("span", { className: "carom-note" }, "or your own"), parts.drop, template, parts.progress);
+    panel.replaceChildren(words, row, parts.notice, parts.told, parts.fit);
+    listen();
+  }
+
+  function listen() {
+    parts.data.addEventListener("change", () => parts.data.value !== "" || !file ? ask() : null);
+    parts.button.addEventListener("click", () => parts.input.click());
+    parts.input.addEventListener("change", () => {
+      take(parts.input.files[0]);
+      parts.input.value = ""; // so that the same file can be taken again
+    });
+    for (const kind of ["dragover", "dragleave", "drop"]) {
+      parts.drop.addEventListener(kind, (event) => {
+        event.preventDefault();
+        parts.drop.classList.toggle("carom-over", kind === "dragover");
+        if (kind === "drop") take(event.dataTransfer.files[0]);
+      });
+    }
+    Carom.fields.hear(changed);
+    Carom.theme.hear(draw);
+    new ResizeObserver(draw).observe(parts.fit);
+  }
+
+  async function take(given) {
+    if (!given) return;
+    if (given.size > LARGEST) {
+      clear();
+      return complain({ message: `${given.name} has ${given.size} bytes; it must have at most ${LARGEST}. Leave out what is not needed.` });
+    }
+    const contents = await new Promise((done, fail) => {
+      const reader = new FileReader();
+      reader.onload = () => done(reader.result);
+      reader.onerror = () => fail(reader.error);
+      reader.readAsDataURL(given);
+    }).catch(() => null);
+    if (contents === null) return complain({ message: `${given.name} could not be read; choose it again.` });
+    file = { name: given.name, contents };
+    if (parts.data.value) {
+      parts.data.value = "";
+      parts.data.dispatchEvent(new Event("change", { bubbles: true })); // the link forgets the data set
+    }
+    ask();
+  }
+
+  // The bodies of the page as words of a link, null if psi_1 and chi are given instead.
+  function bodies() {
+    if (Carom.fields.value("given") === "numbers") return null;
+    const now = Carom.fields.query();
+    const found = new URLSearchParams({ given: "bodies" });
+    BODIES.filter((name) => now.has(name)).forEach((name) => found.set(name, now.get(name)));
+    return found.toString();
+  }
+
+  function inWords() {
+    const value = Carom.fields.value;
+    const of = (name) => (value(name) === "own" ? "your own material" : value(name));
+    const sized = value("against") === "half-space" ? "" : ` of ${value("second_radius")} mm radius`;
+    return `ball of ${value("radius")} mm radius, ${of("material")}; on a ${value("against")}${sized}, ${of("second_material")}`;
+  }
+
+  // Fit the data set that is chosen, else the file; with the bodies of the page if these are said.
+  async function ask(said = null) {
+    const name = parts.data.value;
+    if (name) file = null;
+    clear();
+    if (!name && !file) return;
+    const request = name ? { data: name } : { ...file, bodies: said ?? "" };
+    asking = new AbortController();
+    const mine = asking;
+    progress();
+    try {
+      const found = await Carom.source.fit(request, mine.signal);
+      if (mine !== asking) return;
+      if (found.asks) askBodies(found);
+      else show(found, name ? null : said);
+    } catch (error) {
+      if (mine === asking && error.name !== "AbortError") complain(error);
+    } finally {
+      if (mine === asking) rest();
+    }
+  }
+
+  function clear() {
+    asking?.abort();
+    asking = null;
+    rest();
+    shown = used = null;
+    parts.notice.textContent = "";
+    parts.told.hidden = true;
+    parts.fit.replaceChildren();
+  }
+
+  function progress() {
+    const begin = performance.now();
+    const tell = () => {
+      const seconds = Math.floor((performance.now() - begin) / 1000);
+      parts.progress.textContent = seconds ? `Fitting … ${seconds} s` : "Fitting …";
+    };
+    tell();
+    ticking = window.setInterval(tell, 1000);
+  }
+
+  function rest() {
+    window.clearInterval(ticking);
+    parts.progress.textContent = "";
+  }
+
+  function complain({ field, message }) {
+    const label = field && Carom.fields.label(field);
+    parts.notice.textContent = label ? `${label}: ${message}` : message;
+  }
+
+  function askBodies({ message, columns }) {
+    const own = bodies();
+    const use = make("button", { id: "fit-bodies", type: "button" }, `Use the bodies of the page: ${own ? inWords() : ""}`);
+    use.addEventListener("click", () => ask(bodies()));
+    const other = make("p", { className: "carom-note" }, own
+      ? "Or choose others in the controls first, or write them into the file as the empty table shows."
+      : "Choose bodies in the controls first, instead of ψ₁ and χ, or write them into the file as the empty table shows.");
+    parts.told.replaceChildren(make("p", {}, message), ...(own ? [use] : []), other, Carom.fitTables.columns(columns));
+    parts.told.hidden = false;
+    parts.told.waits = true;
+  }
+
+  // A fit stays as it is when the bodies change, until the reader wants another.
+  function changed() {
+    if (!parts.told.hidden && parts.told.waits) return rewrite();
+    const now = bodies();
+    const differs = used !== null && now !== null && now !== used;
+    parts.told.hidden = !differs;
+    if (!differs || document.getElementById("fit-again")) return;
+    const again = make("button", { id: "fit-again", type: "button" }, "Fit again");
+    again.addEventListener("click", () => ask(bodies()));
+    parts.told.replaceChildren(make("p", {}, "The bodies have changed: "), again);
+    parts.told.waits = false;
+  }
+
+  function rewrite() {
+    const columns = parts.told.querySelector("table");
+    const message = parts.told.querySelector("p").textContent;
+    askBodies({ message, columns: [] });
+    parts.told.querySelector("table").replaceWith(columns);
+  }
+
+  function show(found, said) {
+    shown = found;
+    used = found.bodies.from === "page" ? said : null;
+    const words = (name, children) => make("div", { className: `carom-fit-words ${name}` }, ...children);
+    parts.keys = make("div", { className: "carom-keys" });
+    const key = make("div", { className: "carom-fit-key" }, parts.keys, residualChoice());
+    const charts = make("div", { className: "carom-fit-right" }, key, make("div", { className: "carom-fit-charts" }, ...found.charts.map(cell)));
+    const view = [words("carom-beside", Carom.fitTables.beside(found)), charts, words("carom-below", Carom.fitTables.below(found))];
+    parts.fit.replaceChildren(Carom.fitTables.head(found), make("div", { className: "carom-fit-view" }, ...view));
+    draw();
+  }
+
+  function residualChoice() {
+    const select = make("select", { id: "fit-residuals" }, new Option("in the unit of the response", ""), new Option("in standard deviations", "1"));
+    select.value = scaled ? "1" : "";
+    select.addEventListener("change", () => ((scaled = select.value === "1"), draw()));
+    return make("p", { className: "carom-residuals" }, make("label", { htmlFor: select.id }, "Residuals "), select);
+  }
+
+  function cell(chart) {
+    const title = make("h3", {}, chart.response[0].toUpperCase() + chart.response.slice(1));
+    title.title = chart.meaning;
+    return make("section", { className: "carom-cell" }, title, make("div", { className: "carom-chart carom-fit-curve" }), make("div", { className: "carom-chart carom-fit-residual" }));
+  }
+
+  async function draw() {
+    if (!shown || !parts.fit.clientWidth) return; // in a tab that is not shown
+    const mine = shown;
+    await Carom.charts.load();
+    if (mine !== shown) return;
+    Carom.keys.show(parts.keys, Carom.fitCharts.keys(shown.charts[0]));
+    parts.fit.querySelectorAll(".carom-cell").forEach((box, row) => {
+      const [curve, residual] = box.querySelectorAll(".carom-chart");
+      Carom.plotting.draw(curve, Carom.fitCharts.curve(shown.charts[row]));
+      Carom.plotting.draw(residual, Carom.fitCharts.residuals(shown.charts[row], scaled));
+    });
+  }
+
+  // Choose a data set as a link says; one that is not there is none.
+  function choose(name) {
+    if (!parts.data || parts.data.value === name) return;
+    parts.data.value = name;
+    if (parts.data.selectedIndex < 0) parts.data.value = "";
+    ask();
+  }
+
+  return { build, choose, chosen: () => parts.data?.value ?? "", show };
+})();

@@ -1,0 +1,151 @@
+// An impact in plain numbers: springs that remember their slip follow it in small steps, and the
+// table says how it ends. Units are those of the elastic impact: d_max, V_1, d_max/V_1.
+window.Carom = window.Carom || {};
+
+Carom.law = (() => {
+  const SMALLEST = { elastic: 1e-6, viscous: 1e-3 }; // |psi_1| below which all is proportional to it
+  const TIMES = 200; // intervals of histories
+  const INSTANTS = { elastic: 60, viscous: 30 }; // intervals at which tractions are told
+  const RADII = 33;
+  const HIGHEST = 9; // of a traction: at the edge it is infinite while viscous bodies load
+  const RETRACES = 1e-9; // of chi = 1/2: load and unload are the same path, and nothing slips
+
+  function rows(count) {
+    const ofContact = ["psi", "force", "stick", "contact", "stored", "dissipated", "shear"];
+    const ofNormal = ["speed", "limit", "depth", "normalStored", "normalLost"];
+    return Object.fromEntries([...ofContact, ...ofNormal].map((name) => [name, new Float64Array(count)]));
+  }
+
+  // Follow an impact; psi_1 > 0.
+  function followed(psi, chi, normal) {
+    const { alpha, time, speed, edge, penetration, depth } = normal;
+    const viscous = alpha > 0;
+    const every = normal.even.length - 1;
+    const kept = new Map(normal.even.map((step, i) => [step, i]));
+    const [perTime, perTraction] = [every / TIMES, every / (viscous ? INSTANTS.viscous : INSTANTS.elastic)];
+    const found = { ...rows(TIMES + 1), tractions: [], states: [] };
+    const springs = Carom.springs.create(viscous);
+    let [now, force, lost, rubbed] = [psi, 0, 0, 0];
+
+    const tension = (value) => (viscous ? alpha * value : 0);
+    const line = Array.from({ length: RADII }, (_, i) => i / (RADII - 1));
+    function keep(i, state) {
+      const row = kept.get(i);
+      if (row === undefined) return;
+      if (row % perTime === 0) write(found, row / perTime, i, state);
+      if (row % perTraction) return;
+      const touches = i > 0 && i < time.length - 1;
+      const loads = springs.loads(depth[i], tension(now));
+      const traction = (part) => Carom.springs.traction(loads, part * Math.sqrt(edge[i]), edge[i]);
+      found.tractions.push(line.map((part) => (touches ? traction(part) : 0)));
+    }
+
+    function write(into, row, i, { kind, front }) {
+      const contact = Math.sqrt(edge[i]);
+      into.psi[row] = now;
+      into.force[row] = force;
+      into.contact[row] = contact;
+      into.stick[row] = kind === "stick" ? contact : Math.min(contact, Math.sqrt(front));
+      into.stored[row] = 1.875 * chi * springs.squared();
+      into.dissipated[row] = 3.75 * chi * lost;
+      into.speed[row] = speed[i];
+      into.limit[row] = normal.force[i];
+      into.depth[row] = penetration[i];
+      into.normalStored[row] = normal.stored[i];
+      into.normalLost[row] = viscous ? Math.max(0, 1 - speed[i] ** 2 - normal.stored[i]) : 0;
+    }
+
+    let state = slidesAtFirst(psi, chi) ? { kind: "gross slip", sign: 1, front: 0, first: 0 } : { kind: "stick", sign: 0, front: Infinity, first: 0 };
+    found.states.push({ ...state, excess: psi - 1 });
+    keep(0, state);
+    for (let i = 1; i < time.length; i++) {
+      const dt = time[i] - time[i - 1];
+      const shift = now * dt - 1.875 * chi * force * dt * dt;
+      const left = viscous ? Math.exp(-dt / alpha) : 0;
+      springs.move(shift, penetration[i - 1], penetration[i], edge[i], left);
+      const ahead = now - 3.75 * chi * force * dt;
+      const pulled = springs.pull(depth[i], tension(ahead));
+      now -= 1.875 * chi * (force + pulled) * dt;
+      force = pulled;
+      if (viscous) {
+        const rubs = springs.rubbing(depth[i], tension(now)) / alpha;
+        lost += 0.5 * dt * (rubbed + rubs);
+        rubbed = rubs;
+      }
+      state = springs.state(depth[i], tension(now), speed[i] > 0);
+      found.states.push({ ...state, excess: Math.abs(now) - speed[i] });
+      keep(i, state);
+    }
+    found.reached = now;
+    return found;
+  }
+
+  const slidesAtFirst = (psi, chi) => psi > 1 || (psi === 1 && chi < 0.5);
+
+  // When the contact changes what it does, between two steps.
+  function phases(states, time) {
+    const found = [];
+    states.forEach(({ kind, sign }, i) => {
+      const last = found[found.length - 1];
+      if (last && last.kind === kind && last.sign === sign) return;
+      const start = i ? time[i - 1] + part(states[i - 1], states[i]) * (time[i] - time[i - 1]) : 0;
+      if (last) last.end = start;
+      found.push({ kind, sign, start, end: time[time.length - 1] });
+    });
+    return found;
+  }
+
+  function part(before, after) {
+    const centre = after.kind === "gross slip" || (before.kind === "gross slip" && after.kind === "slip" && after.sign === before.sign);
+    const [from, till] = centre ? [before.first, after.first] : [before.excess, after.excess];
+    return from * till < 0 ? from / (from - till) : 0.5;
+  }
+
+  // The whole impact: histories at even times as arrays, tractions, phases as shares of the duration.
+  function solve(psi, chi, restitution) {
+    const { alpha } = Carom.tables.losses[restitution];
+    const normal = Carom.normal.of(alpha);
+    const size = Math.abs(psi);
+    const smallest = alpha > 0 ? SMALLEST.viscous : SMALLEST.elastic;
+    const given = Math.max(size, smallest);
+    const found = followed(given, chi, normal);
+    const scale = (psi < 0 ? -1 : 1) * Math.min(1, size / smallest);
+    const sticks = size === 0 || (Math.abs(chi - 0.5) < RETRACES && size <= 1);
+    const told = sticks ? [{ kind: "stick", sign: 0, start: 0, end: normal.duration }] : phases(found.states, normal.time);
+    const out = Carom.rebound.of(psi, chi, restitution);
+    settle(found, given, chi, normal, Math.abs(out) <= size ? out : null, scale);
+    if (sticks) found.stick.set(found.contact);
+    return {
+      psi, chi, restitution, out,
+      normal,
+      duration: normal.duration,
+      radius: normal.radius,
+      phases: told.map((phase) => ({
+        kind: phase.kind,
+        sign: phase.sign * (psi < 0 ? -1 : 1),
+        start: phase.start / normal.duration,
+        end: phase.end / normal.duration,
+      })),
+      ...found,
+    };
+  }
+
+  // Scale an impact to its psi_1, and let it end where the table says.
+  function settle(found, psi, chi, normal, out, scale) {
+    const off = out === null || !scale ? 0 : out / scale - found.reached;
+    const energy = scale * scale;
+    for (let row = 0; row <= TIMES; row++) {
+      const now = found.psi[row] + (off * row) / TIMES;
+      const spent = Math.max(0, 0.5 * (psi - now) * (psi + now) - found.stored[row]);
+      const rubbed = normal.alpha > 0 ? Math.min(found.dissipated[row], spent) : spent;
+      found.psi[row] = scale * now;
+      found.force[row] *= scale;
+      found.stored[row] *= energy;
+      found.dissipated[row] = energy * rubbed;
+      found.shear[row] = energy * (spent - rubbed);
+    }
+    found.tractions.forEach((line) => line.forEach((value, i) => (line[i] = Math.max(-HIGHEST, Math.min(HIGHEST, (scale * value) / normal.radius)))));
+  }
+
+  return { solve, TIMES, RADII, HIGHEST };
+})();

@@ -1,0 +1,141 @@
+// Contact laws to choose from; the same strip is the key to their lines in the charts.
+window.Carom = window.Carom || {};
+
+Carom.laws = (() => {
+  const { laws: known } = Carom.config;
+  const DASHES = ["7px,3px", "2px,2.5px", "9px,3px,2px,3px", "14px,4px"];
+  const COLORS = 6; // of the theme: law-1 and so on
+  const EQUAL = 1e-6; // laws are solved to 1e-8
+  const chips = new Map();
+  let strip = null;
+  let more = null;
+  let clear = null;
+  let answer = null;
+
+  function make(tag, className, ...children) {
+    const element = document.createElement(tag);
+    if (className) element.className = className;
+    element.append(...children);
+    return element;
+  }
+
+  // Colour and dash by the place in the list: no two of 24 have both alike.
+  function style(label) {
+    const row = Math.max(0, known.findIndex((law) => law.label === label));
+    const turn = Math.floor(row / COLORS);
+    return { color: Carom.theme.color(`law-${(row % COLORS) + 1}`), dash: DASHES[(row + turn) % DASHES.length] };
+  }
+
+  function chip({ label, used_by: users }, row) {
+    const input = Object.assign(make("input"), { type: "checkbox", name: "law", value: label, id: `law-${row}` });
+    const sample = make("span", "carom-line");
+    const called = Object.assign(make("span", "carom-called"), { innerHTML: written(label) });
+    const told = make("span", "carom-told");
+    told.id = `law-${row}-told`;
+    called.id = `law-${row}-called`;
+    input.setAttribute("aria-labelledby", called.id);
+    input.setAttribute("aria-describedby", told.id);
+    const found = make("label", "carom-chip", input, sample, called, told);
+    found.title = `${label}: used by ${users}`;
+    found.addEventListener("pointerenter", () => input.checked && Carom.charts.stress(label));
+    found.addEventListener("pointerleave", () => Carom.charts.stress(null));
+    input.addEventListener("focus", () => input.checked && Carom.charts.stress(label));
+    input.addEventListener("blur", () => Carom.charts.stress(null));
+    chips.set(label, { input, sample, told, users, found });
+    return found;
+  }
+
+  function button(className, press) {
+    const made = Object.assign(make("button", className), { type: "button" });
+    made.addEventListener("click", press);
+    return made;
+  }
+
+  function build() {
+    const { can, why } = Carom.source;
+    const title = make("span", "carom-strip-title", "Contact laws");
+    strip = make("fieldset", "carom-laws carom-folded", title, ...known.map(chip));
+    strip.ariaLabel = title.textContent;
+    more = button("carom-more", () => fold(!strip.classList.contains("carom-folded")));
+    clear = button("carom-clear", () => (choose([]), changed(), more.focus()));
+    clear.textContent = "Remove all";
+    const buttons = make("div", "carom-law-buttons", more, clear);
+    strip.append(buttons);
+    strip.disabled = !can.laws;
+    if (!can.laws) strip.append(make("p", "carom-note", why));
+    strip.addEventListener("change", kept);
+    document.getElementById("laws").replaceChildren(strip);
+    update();
+  }
+
+  // Letters as they are written in formulas.
+  function written(text) {
+    const greek = text.replace(/\bkappa\b/g, "κ").replace(/\bbeta_/g, "β_");
+    return greek.replace(/(?<![^\s/])([kKβ])_(\w)\b/g, "$1<sub>$2</sub>");
+  }
+
+  const changed = () => strip.dispatchEvent(new Event("change", { bubbles: true }));
+
+  // A chip that is taken off a folded strip goes; who used the keyboard stays in the strip.
+  function kept(event) {
+    const gone = event.target.name === "law" && !event.target.checked && strip.classList.contains("carom-folded");
+    if (gone) more.focus();
+    update();
+  }
+
+  function fold(folded) {
+    strip.classList.toggle("carom-folded", folded);
+    update();
+  }
+
+  const chosen = () => [...chips].filter(([, { input }]) => input.checked).map(([label]) => label);
+
+  function choose(labels) {
+    for (const [label, { input }] of chips) input.checked = labels.includes(label);
+    update();
+  }
+
+  // What a chip says of its law: psi_2 and how far off, or why there is none.
+  function words(label) {
+    const { users } = chips.get(label);
+    if (!answer || !chips.get(label).input.checked) return `used by: ${users}`;
+    if (strip.disabled) return "not solved in this copy";
+    const law = answer.laws.find((each) => each.label === label);
+    if (law && law.at !== null) return `ψ₂ ${number(law.at)}, ${off(law.off)}`;
+    if (law) return "no ψ₂: without friction";
+    if (answer.undamped.includes(label)) return "no damping: left out with losses";
+    if ((answer.slow || []).includes(label)) return "not solved in time: choose fewer";
+    return "solving …";
+  }
+
+  const number = (value) => value.toFixed(4).replace("-", "−");
+
+  function off(error) {
+    if (error === null || Math.abs(error) <= EQUAL) return "exact";
+    return `off by ${error < 0 ? "−" : "+"}${Math.abs(error).toPrecision(2)}`;
+  }
+
+  function update() {
+    if (!strip) return;
+    const folded = strip.classList.contains("carom-folded");
+    const taken = chosen().length;
+    for (const [label, { input, sample, told, found }] of chips) {
+      found.classList.toggle("carom-chosen", input.checked);
+      sample.innerHTML = Carom.keys.line({ ...style(label), width: 2.2 }, 32);
+      told.innerHTML = written(words(label));
+    }
+    const rest = known.length - taken;
+    more.textContent = folded ? `${taken ? "More laws" : "Choose laws"} (${rest})` : "Show chosen laws only";
+    more.hidden = strip.disabled || (folded && !rest);
+    more.setAttribute("aria-expanded", !folded);
+    clear.hidden = strip.disabled || !taken;
+  }
+
+  function show(given) {
+    answer = given;
+    update();
+  }
+
+  Carom.theme.hear(update);
+  return { build, chosen, choose, show, style };
+})();

@@ -1,0 +1,105 @@
+// The balls on their way: where they are and how far they have turned, before, during and after.
+// Lengths are in radii of the first, and motion is magnified so that it can be seen.
+window.Carom = window.Carom || {};
+
+Carom.paths = (() => {
+  const BEYOND = 0.6; // of the contact's duration that is shown before and after
+  const [DEEPEST, WIDEST] = [0.3, 6]; // radii that the bodies may approach, and travel sideways
+  const STEEPEST = 0.7; // angle by which a body may travel around another
+  const ROLLS = 2 / 7; // of the impulse on the contact point of a solid sphere, the centre's part
+  const SOLID = 4 / 7; // kappa/chi of a solid sphere
+
+  const short = (values) => Array.from(values, (value) => Math.round(value * 1e5) / 1e5 || 0);
+  const most = (values) => values.reduce((a, b) => Math.max(a, b));
+
+  // A path with what lies before and after the contact at constant speed.
+  function continued(path, before, after, duration) {
+    const steps = path.length - 1;
+    const more = Math.round(BEYOND * steps);
+    const last = path[steps];
+    const ahead = Array.from({ length: more }, (_, i) => path[0] + ((i - more) / steps) * duration * before);
+    const behind = Array.from({ length: more }, (_, i) => last + ((i + 1) / steps) * duration * after);
+    return [...ahead, ...path, ...behind];
+  }
+
+  // The integral of a speed over even times.
+  function travelled(speed, duration) {
+    const step = duration / (speed.length - 1);
+    const path = [0];
+    for (let i = 1; i < speed.length; i++) path.push(path[i - 1] + 0.5 * step * (speed[i - 1] + speed[i]));
+    return continued(path, speed[0], speed[speed.length - 1], duration);
+  }
+
+  function times(steps) {
+    const more = Math.round(BEYOND * steps);
+    return Array.from({ length: steps + 1 + 2 * more }, (_, i) => (i - more) / steps);
+  }
+
+  function magnification(kind, size, closer, along) {
+    const depth = most(closer);
+    const travel = most(along.map(Math.abs));
+    let [deep, wide] = [DEEPEST, 0.5 * WIDEST];
+    if (kind === "sphere") [deep, wide] = [DEEPEST * Math.min(1, size), STEEPEST * (1 + size)];
+    if (kind === "cup") {
+      const lifted = most(closer.map((value) => -value)) / depth;
+      [deep, wide] = [Math.min(DEEPEST, (0.5 * (size - 1)) / lifted), STEEPEST * (size - 1)];
+    }
+    return Math.min(deep / depth, travel ? wide / travel : Infinity);
+  }
+
+  // Where the first centre is as seen from the second body's, whose surface its path follows.
+  function placed(kind, size, along, closer) {
+    if (kind === "plane") return [along, 1 - closer];
+    const reach = kind === "sphere" ? 1 + size - closer : size - 1 + closer;
+    const angle = along / (kind === "sphere" ? 1 + size : size - 1);
+    return [reach * Math.sin(angle), reach * (kind === "sphere" ? 1 : -1) * Math.cos(angle)];
+  }
+
+  function body(kind, radius, points, turn) {
+    return { kind, radius, x: short(points.map((p) => p[0])), y: short(points.map((p) => p[1])), turn: short(turn) };
+  }
+
+  const digits = (value) => Carom.quantities.plain(value, 3);
+
+  // Bodies from how they move in time: speeds in m/s, spins in rad/s, penetration in m.
+  function ofBodies(pair, { along, spins, speed, penetration, duration }) {
+    const radius = pair.moving[0].radius;
+    const kind = pair.against === "half-space" ? "plane" : pair.against;
+    const size = kind === "plane" ? 1 : pair.otherRadius / radius;
+    const last = speed.length - 1;
+    const way = travelled(along, duration).map((value) => value / radius);
+    const ends = [penetration, speed[0], speed[last], duration];
+    const closer = continued(...ends).map((value) => value / radius);
+    const large = magnification(kind, size, closer, way);
+    const turns = spins.map((spin) => travelled(spin, duration).map((value) => large * value));
+    const share = pair.normalMass / pair.moving[0].mass; // of the relative motion, the first body's
+    const height = { plane: 0, sphere: -size, cup: size }[kind];
+    const places = way.map((value, i) => placed(kind, size, large * value, large * closer[i]));
+    const rests = places.map(([x, y]) => [(1 - share) * x, (1 - share) * (y - 1 + height)]);
+    const first = places.map(([x, y], i) => [x - rests[i][0], y - rests[i][1] + height]);
+    const second = rests.map(([x, y]) => [-x, height - y]);
+    return {
+      time: short(times(last)),
+      caption: `motion magnified ${digits(large)} times${kind === "plane" ? "" : ", paths bent"}`,
+      bodies: [body("sphere", 1, first, turns[0]), body(kind, size, second, turns[1])],
+    };
+  }
+
+  // A solid sphere without spin on a plane, as psi and chi move it.
+  function ofNumbers({ psi, chi, friction, velocity, speed, penetration, duration }) {
+    const last = speed.length - 1;
+    const slope = friction / (SOLID * chi);
+    const lost = Array.from(velocity, (value) => psi - value);
+    const way = travelled(lost.map((value) => slope * (psi - ROLLS * value)), duration);
+    const turn = travelled(lost.map((value) => -slope * (1 - ROLLS) * value), duration);
+    const closer = continued(penetration, 1, speed[last], duration);
+    const large = magnification("plane", 1, closer, way);
+    const points = way.map((value, i) => [large * value, 1 - large * closer[i]]);
+    const still = points.map(() => [0, 0]);
+    const bodies = [body("sphere", 1, points, turn.map((value) => large * value)), body("plane", 1, still, way.map(() => 0))];
+    const caption = `drawn as a solid sphere, friction ${Carom.quantities.plain(friction, 6)}`;
+    return { time: short(times(last)), caption, bodies };
+  }
+
+  return { ofBodies, ofNumbers, short };
+})();

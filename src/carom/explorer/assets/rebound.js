@@ -1,0 +1,65 @@
+// psi_2 from the table: Chebyshev series on patches of chi and of psi_1, scaled so that the borders
+// between the regimes lie at 1, 2 and 3.
+window.Carom = window.Carom || {};
+
+Carom.rebound = (() => {
+  const read = new Map(); // tables by restitution, as numbers
+
+  function numbers(text, Kind) {
+    const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+    return new Kind(bytes.buffer);
+  }
+
+  function table(restitution) {
+    if (!read.has(restitution)) {
+      const told = Carom.tables.rebounds[restitution];
+      const found = { terms: told.terms, smallest: told.smallest };
+      for (const name of ["cuts", "corners", "series"]) found[name] = numbers(told[name], Float64Array);
+      for (const name of ["children", "leaf"]) found[name] = numbers(told[name], Int16Array);
+      read.set(restitution, found);
+    }
+    return read.get(restitution);
+  }
+
+  // The |psi_1| at which the regime changes.
+  function borders(chi, e) {
+    return [1, 2 * chi, 2 * chi * (1 + e) - e].map((border) => Math.max(border, 1));
+  }
+
+  function place(psi, chi, e) {
+    if (psi <= 1) return psi;
+    const width = 2 * chi - 1;
+    return psi <= 2 * chi ? 1 + (psi - 1) / width : 2 + (psi - 2 * chi) / (e * width);
+  }
+
+  function clenshaw(series, from, terms, at) {
+    let [last, one] = [0, 0];
+    for (let i = terms - 1; i > 0; i--) [last, one] = [one, series[from + i] + 2 * at * one - last];
+    return series[from] + at * one - last;
+  }
+
+  function valueAt({ cuts, children, corners, series, leaf, terms }, x, y) {
+    let node = 0;
+    while (cuts[2 * node] >= 0) {
+      const beyond = (cuts[2 * node] === 0 ? x : y) >= cuts[2 * node + 1];
+      node = children[2 * node + (beyond ? 1 : 0)];
+    }
+    const [left, right, low, high] = corners.subarray(4 * node, 4 * node + 4);
+    const across = (2 * y - low - high) / (high - low);
+    const first = leaf[node] * terms * terms;
+    const along = Array.from({ length: terms }, (_, i) => clenshaw(series, first + i * terms, terms, across));
+    return clenshaw(along, 0, terms, (2 * x - left - right) / (right - left));
+  }
+
+  // psi_2; beyond the last border the contact slides throughout.
+  function of(psi, chi, e) {
+    const size = Math.abs(psi);
+    const sign = psi < 0 ? -1 : 1;
+    if (size >= borders(chi, e)[2] && size > 1) return sign * (size - 2 * chi * (1 + e));
+    const patches = table(e);
+    const lost = valueAt(patches, Math.max(place(size, chi, e), patches.smallest), chi) / (1 + size);
+    return psi * Math.min(1, Math.max(-1, 1 - lost));
+  }
+
+  return { of, borders };
+})();

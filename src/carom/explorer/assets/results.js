@@ -1,0 +1,107 @@
+// The numbers of an impact, and whether the theory holds for it.
+window.Carom = window.Carom || {};
+
+Carom.results = (() => {
+  const MARKS = { // sign, class, what a reader of the screen says; in the order in which they are shown
+    FAILS: ["✗ FAILS", "fails", "does not hold"],
+    "?": ["?", "unknown", "not known"],
+    ok: ["✓", "ok", "holds"],
+  };
+  const SHORT = { // what a line has room for; the whole meaning where one points
+    psi_in: "velocity before",
+    psi_out: "velocity after",
+    chi: "inertia/stiffness",
+    kappa: "stiffness ratio",
+    rebound_angle: "rebound angle",
+    rebound_speed: "rebound speed",
+    spin_out: "spin after",
+    contact_restitution: "slip, after/before",
+    tangential_restitution: "path, after/before",
+    dissipated_energy: "lost to friction",
+    duration: "contact time",
+    max_force: "largest force",
+    max_radius: "contact radius",
+    normal_restitution: "normal restitution",
+    lost_energy: "normal losses",
+    shear_lost_energy: "losses in shear",
+  };
+  const box = (id) => document.getElementById(id);
+
+  function make(tag, className, ...children) {
+    const element = document.createElement(tag);
+    if (className) element.className = className;
+    element.append(...children);
+    return element;
+  }
+
+  // The rows of both impacts, those of the first in front.
+  function rows([first, second]) {
+    const other = new Map((second ? second.results : []).map((row) => [row.name, row]));
+    const found = first.results.map((row) => [row, other.get(row.name)]);
+    const known = new Set(first.results.map(({ name }) => name));
+    return [...found, ...[...other.values()].filter(({ name }) => !known.has(name)).map((row) => [null, row])];
+  }
+
+  function value(row) {
+    if (!row) return make("td", "carom-none", "–");
+    const unit = row.unit ? make("span", "carom-unit", `\u00a0${row.unit}`) : "";
+    const [number, why] = row.value.split(": "); // where there is none
+    const cell = make("td", "", number.replace(/^-/, "−"), unit);
+    if (why) cell.title = why;
+    return cell;
+  }
+
+  function line([first, second], both) {
+    const { name, symbol, meaning } = first || second;
+    const sign = Carom.tips.symbol(symbol, Carom.plotting.lowered(symbol));
+    const told = make("span", "", SHORT[name] || meaning);
+    told.title = meaning;
+    const cells = [value(first), ...(both ? [value(second)] : [])];
+    const head = make("th", "carom-sign", sign);
+    head.scope = "row";
+    return make("tr", "", head, make("td", "carom-meaning", told), ...cells);
+  }
+
+  function head() {
+    const column = (text) => Object.assign(make("th", "", text), { scope: "col" });
+    return make("thead", "", make("tr", "", make("td"), make("td", "carom-meaning"), column("this"), column("beside")));
+  }
+
+  function table(answers) {
+    const both = Boolean(answers[1]);
+    const body = make("tbody", "", ...rows(answers).map((row) => line(row, both)));
+    return make("table", `carom-results${both ? " carom-both" : ""}`, ...(both ? [head()] : []), body);
+  }
+
+  function finding({ mark, text }) {
+    const [sign, look, told] = MARKS[mark];
+    const icon = make("span", "carom-mark", sign);
+    icon.setAttribute("role", "img");
+    icon.ariaLabel = `${told}: `;
+    return make("li", `carom-${look}`, icon, make("span", "", text));
+  }
+
+  // How far the theory holds, in a line; what it is judged by opens, at once where it fails.
+  function findings({ findings: found }, title) {
+    if (!found.length) return [];
+    const order = Object.keys(MARKS);
+    const sorted = [...found].sort((a, b) => order.indexOf(a.mark) - order.indexOf(b.mark));
+    const worst = sorted[0].mark;
+    const count = sorted.filter(({ mark }) => mark === worst).length;
+    const holds = worst === "ok" ? "the theory holds" : `the theory ${MARKS[worst][2]} in ${count} of ${found.length}`;
+    const sign = make("span", `carom-mark carom-${MARKS[worst][1]}`, MARKS[worst][0]);
+    const fold = make("details", "", make("summary", "", sign, ` ${title}${holds}`));
+    fold.open = worst === "FAILS";
+    fold.append(make("ul", "carom-findings", ...sorted.map(finding)));
+    return [fold];
+  }
+
+  function show(answers) {
+    const [first, second] = answers;
+    box("results").replaceChildren(table(answers));
+    const titles = second ? ["This: ", "Beside: "] : ["", ""];
+    box("findings").replaceChildren(...findings(first, titles[0]), ...(second ? findings(second, titles[1]) : []));
+  }
+
+  return { show };
+})();

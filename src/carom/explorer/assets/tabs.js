@@ -1,0 +1,51 @@
+// Charts, measurements, files, Python: one panel at a time.
+window.Carom = window.Carom || {};
+
+Carom.tabs = (() => {
+  const list = document.getElementById("tabs");
+  const panels = [...document.querySelectorAll("[data-tab]")];
+  const heard = [];
+  let chosen = panels[0].dataset.tab;
+
+  function build() {
+    panels.forEach((panel) => {
+      const tab = document.createElement("button");
+      Object.assign(tab, { type: "button", id: `tab-${panel.id}`, textContent: panel.dataset.tab });
+      tab.setAttribute("role", "tab");
+      tab.setAttribute("aria-controls", panel.id);
+      panel.setAttribute("role", "tabpanel");
+      panel.setAttribute("aria-labelledby", tab.id);
+      tab.addEventListener("click", () => choose(panel.dataset.tab));
+      list.append(tab);
+    });
+    list.addEventListener("keydown", step);
+    show();
+  }
+
+  function step(event) {
+    const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (!by) return;
+    const row = panels.findIndex((panel) => panel.dataset.tab === chosen);
+    choose(panels[(row + by + panels.length) % panels.length].dataset.tab);
+    list.children[(row + by + panels.length) % panels.length].focus();
+  }
+
+  function show() {
+    panels.forEach((panel, row) => {
+      const is = panel.dataset.tab === chosen;
+      panel.hidden = !is;
+      list.children[row].setAttribute("aria-selected", is);
+      list.children[row].tabIndex = is ? 0 : -1;
+    });
+  }
+
+  function choose(name) {
+    if (!panels.some((panel) => panel.dataset.tab === name) || name === chosen) return;
+    chosen = name;
+    show();
+    heard.forEach((hear) => hear(name));
+  }
+
+  build();
+  return { choose, chosen: () => chosen, first: panels[0].dataset.tab, hear: (listener) => heard.push(listener) };
+})();

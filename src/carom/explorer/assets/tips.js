@@ -1,0 +1,48 @@
+// Symbols explained where one points at them, by mouse, key or finger.
+window.Carom = window.Carom || {};
+
+Carom.tips = (() => {
+  const GAP = 6; // pixels between a symbol and what is said of it
+  const box = document.getElementById("tip");
+
+  // A symbol of the page's text, null for one that is not explained.
+  function symbol(name, inner = name) {
+    const element = document.createElement("abbr");
+    element.dataset.symbol = name;
+    element.innerHTML = inner;
+    return ready(element);
+  }
+
+  function ready(element) {
+    if (Carom.config.symbols[element.dataset.symbol]) element.tabIndex = 0;
+    return element;
+  }
+
+  function show(element) {
+    const words = Carom.config.symbols[element.dataset.symbol];
+    if (!words) return;
+    box.textContent = words;
+    box.hidden = false;
+    element.setAttribute("aria-describedby", "tip");
+    const at = element.getBoundingClientRect();
+    const { width, height } = box.getBoundingClientRect();
+    const below = at.bottom + GAP + height < window.innerHeight;
+    box.style.left = `${Math.max(GAP, Math.min(at.left, window.innerWidth - width - GAP))}px`;
+    box.style.top = `${below ? at.bottom + GAP : at.top - height - GAP}px`;
+  }
+
+  const hide = () => (box.hidden = true);
+
+  function of(event) {
+    return event.target instanceof Element && event.target.closest("[data-symbol]");
+  }
+
+  for (const kind of ["pointerover", "focusin", "pointerdown"]) {
+    document.addEventListener(kind, (event) => (of(event) ? show(of(event)) : hide()));
+  }
+  document.addEventListener("keydown", (event) => event.key === "Escape" && hide());
+  document.addEventListener("scroll", hide, { capture: true, passive: true });
+  document.querySelectorAll("[data-symbol]").forEach(ready);
+
+  return { symbol };
+})();

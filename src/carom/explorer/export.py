@@ -1,0 +1,98 @@
+"""A copy of the page as a folder of files, which needs neither this program nor a network."""
+
+import os
+import shutil
+import tempfile
+from importlib.resources import files
+from pathlib import Path
+from typing import NamedTuple
+
+from carom.explorer.page import asset, assets_of, page
+from carom.explorer.tables import IMPACTS, tables
+from carom.io.paths import checked_path
+from carom.io.progress import Progress, advancing
+from carom.quantities.refusals import InputError, refusal
+
+PAGE, PLOTLY, ASSETS = "index.html", "plotly.min.js", "assets"
+MADE = {PAGE, PLOTLY, ASSETS}  # what a copy holds
+MARK = 'id="config"'  # in its page
+
+
+class Copy(NamedTuple):
+    """A copy of the page: where it is, its size, and of how many files it is made."""
+
+    folder: str
+    bytes: int
+    files: int
+
+
+def export(folder: str | Path, progress: Progress = None) -> Copy:
+    """Write a copy of the page into a new or empty folder, or in the place of an older copy.
+
+    The copy appears whole or not at all. InputError if the folder holds anything else, or cannot be
+    written.
+    """
+    target = checked_path("folder", folder, "folder")
+    real = Path(os.path.realpath(target))
+    try:
+        _check(target, real)
+        parts = _parts(progress)
+        _replace(real, parts)
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise InputError(f"folder: {str(target)!r} cannot be written; {reason}") from None
+    return Copy(str(target), sum(map(len, parts.values())), len(parts))
+
+
+def _check(target: Path, real: Path) -> None:
+    """Raise InputError if a copy cannot take this place, before any work is done for it."""
+    if real.exists() and not real.is_dir():
+        raise refusal("folder", str(target), "it is a file; give the name of a folder")
+    if not real.parent.is_dir():
+        raise refusal("folder", str(target), "the folder around it must exist; make it first")
+    if not os.access(real.parent, os.W_OK):
+        raise refusal("folder", str(target), "the folder around it is not to be written to")
+    if real.exists() and not _is_ours(real):
+        raise refusal("folder", str(target), "it holds other files; give a new or empty folder")
+
+
+def _is_ours(folder: Path) -> bool:
+    """Tell whether a folder is empty, or holds a copy and nothing else."""
+    held = {each.name for each in folder.iterdir()}
+    if not held:
+        return True
+    return (
+        held == MADE
+        and not any(each.is_symlink() for each in folder.iterdir())
+        and MARK in (folder / PAGE).read_text(encoding="utf-8", errors="replace")
+    )
+
+
+def _parts(progress: Progress) -> dict[str, bytes]:
+    """Return the content of all files by their places."""
+    found = {PAGE: page(static=True).encode()}
+    with advancing("tabulating the rebounds", IMPACTS, progress, unit="impacts") as advance:
+        script = tables(advance)
+    for name in assets_of(static=True):
+        found[f"{ASSETS}/{name}"] = script.encode() if name == "tables.js" else asset(name)
+    found[PLOTLY] = files("plotly").joinpath("package_data", PLOTLY).read_bytes()
+    return found
+
+
+def _replace(real: Path, parts: dict[str, bytes]) -> None:
+    """Write all beside the folder, then put it in its place."""
+    with tempfile.TemporaryDirectory(prefix=".carom-", dir=real.parent) as room:
+        made, old = Path(room, "new"), Path(room, "old")
+        for name, content in parts.items():
+            place = made / name
+            place.parent.mkdir(parents=True, exist_ok=True)
+            place.write_bytes(content)
+        if real.exists():
+            shutil.copymode(real, made)
+            real.replace(old)
+        try:
+            made.replace(real)
+        except OSError:
+            if old.exists():
+                old.replace(real)
+            raise

@@ -1,0 +1,79 @@
+"""What has to be compiled before the first answers, where Carom came without its library."""
+
+from collections.abc import Callable
+from threading import Condition, Thread
+from typing import Any
+
+from carom.dimensionless.numerics import shared_library
+from carom.explorer.knobs import NUMBERS
+from carom.explorer.overlays import exact_curve, law_curves
+from carom.explorer.scenes import scene_of
+from carom.explorer.views import LAWS, View
+from carom.io.progress import advancing
+
+PATIENCE = 2.0  # s that a question waits for a part that is not there yet
+ELASTIC, LOSSY = View(), View(restitution=0.8)
+STEPS: tuple[Callable[[], Any], ...] = (
+    lambda: scene_of(ELASTIC),
+    lambda: exact_curve(scene_of(ELASTIC)),
+    lambda: scene_of(View(given=NUMBERS)),
+    lambda: scene_of(LOSSY),
+    lambda: exact_curve(scene_of(LOSSY)),
+    *(lambda label=label: law_curves(scene_of(ELASTIC), [label]) for label in LAWS),
+)
+OF_ELASTIC, OF_LOSSES = 3, 5  # how many of the steps answers without contact laws need
+
+
+class Preparing(RuntimeError):
+    """What is asked for is still being compiled; `done` of `parts` are there."""
+
+    def __init__(self, done: int, parts: int) -> None:
+        super().__init__(
+            "Carom compiles its solver, which happens once after it was installed without a C "
+            f"compiler: {done} of {parts} parts are ready."
+        )
+        self.done, self.parts = done, parts
+
+
+class Warming:
+    """Compiles the solver while the page is served; with the library there is nothing to do."""
+
+    def __init__(self) -> None:
+        self._steps = STEPS if shared_library.reason() else ()
+        self._done = 0
+        self._stopped = False
+        self._news = Condition()
+
+    def start(self) -> None:
+        """Compile one part after the other, in a thread."""
+        if self._steps:
+            Thread(target=self._run, name="carom-warming", daemon=True).start()
+
+    def stop(self) -> None:
+        """Leave out what has not begun."""
+        self._stopped = True
+
+    def check(self, view: View, *, laws: bool = False) -> None:
+        """Return once a view can be answered; raise Preparing if that takes long."""
+        needed = len(STEPS) if laws else OF_LOSSES if view.losses else OF_ELASTIC
+        needed = min(needed, len(self._steps))
+        with self._news:
+            if not self._news.wait_for(lambda: self._done >= needed, PATIENCE):
+                raise Preparing(self._done, needed)
+
+    def _run(self) -> None:
+        try:
+            with advancing("compiling the solver", len(self._steps)) as advance:
+                for step in self._steps:
+                    if self._stopped:
+                        return
+                    step()
+                    self._told(self._done + 1)
+                    advance(1)
+        finally:  # if one has failed, each question tells by itself
+            self._told(len(self._steps))
+
+    def _told(self, done: int) -> None:
+        with self._news:
+            self._done = done
+            self._news.notify_all()

@@ -1,0 +1,282 @@
+"""The film's pictures and sentences: words that fit, zones in their colours, what is told is so."""
+
+import re
+
+import numpy as np
+import pytest
+
+import carom
+
+WORDS = """async ([query, part, width, height, shares]) => {
+  const { scene } = await Carom.source.answer(query);
+  const made = Carom.scene.of(scene);
+  const canvas = document.createElement("canvas");
+  canvas.style.cssText = `display: block; width: ${width}px; height: ${height}px`;
+  document.body.append(canvas);
+  const kind = CanvasRenderingContext2D.prototype;
+  const fillText = kind.fillText;
+  let found = [];
+  kind.fillText = function (text, x, y) {
+    const box = this.measureText(text);
+    const size = parseFloat(this.font);
+    const sides = [x - box.actualBoundingBoxLeft, y - box.actualBoundingBoxAscent,
+      x + box.actualBoundingBoxRight, y + box.actualBoundingBoxDescent];
+    if (text) found.push([text, size, ...sides]);
+    return fillText.apply(this, arguments);
+  };
+  const all = shares.map(share => {
+    found = [];
+    Carom.canvas.forget(canvas);
+    Carom[part].draw(canvas, made, share);
+    return found;
+  });
+  kind.fillText = fillText;
+  canvas.remove();
+  return all;
+}"""
+BOXES = [(170, 140), (170, 300), (250, 200), (330, 390), (420, 360), (560, 240), (700, 500)]
+SHARES = [-0.4, 0.05, 0.3, 0.5, 0.62, 0.8, 0.95, 1.4]
+PICTURE = """([part, share, width, height, colors]) => {
+  const canvas = document.createElement("canvas");
+  canvas.style.cssText = `display: block; width: ${width}px; height: ${height}px`;
+  document.body.append(canvas);
+  Carom[part].draw(canvas, Carom.page.scenes[0], share);
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  const size = [canvas.height, canvas.width];
+  canvas.remove();
+  return { size, data: Array.from(data), colors: colors.map(name => Carom.theme.color(name)) };
+}"""
+TOLD = """async ([query, shares]) => {
+  const { scene } = await Carom.source.answer(query);
+  const made = Carom.scene.of(scene);
+  return shares.map(share => Carom.told.of(made, share));
+}"""
+TIMES = [round(float(share), 3) for share in np.linspace(0.02, 0.98, 49)]
+
+
+def faults(words, width, height):
+    """Yield what is wrong with the words of one picture."""
+    for row, (text, size, left, top, right, bottom) in enumerate(words):
+        if size < 11.0:
+            yield f"{text}: {size} px"
+        if left < 0.0 or top < 0.0 or right > width or bottom > height:
+            yield f"{text}: cut"
+        for other, _, start, high, end, low in words[:row]:
+            if left < end and start < right and top < low and high < bottom:
+                yield f"{text}: over {other}"
+
+
+@pytest.mark.parametrize(
+    "query",
+    [
+        "",
+        "angle=2",
+        "angle=0",
+        "friction=0",
+        "restitution=0.7&angle=15",
+        "against=sphere&second_radius=5&angle=20",
+        "against=cup&second_radius=7&angle=20",
+        "given=numbers&psi=-1.5&chi=1.9",
+    ],
+)
+def test_no_word_is_cut_small_or_over_another(visit, query):
+    page = visit().page
+    wrong = []
+    for part in ("stage", "patch"):
+        for width, height in BOXES:
+            pictures = page.evaluate(WORDS, [query, part, width, height, SHARES])
+            assert all(pictures)
+            for share, words in zip(SHARES, pictures, strict=True):
+                where = f"{part} {width} x {height} at {share}: "
+                wrong += [where + fault for fault in faults(words, width, height)]
+    assert wrong == []
+
+
+def test_the_key_stays_in_the_smallest_box(visit):
+    page = visit().page
+    for part in ("stage", "patch"):
+        (words,) = page.evaluate(WORDS, ["", part, 170, 140, [0.75]])
+        assert {"stick", "slip \N{MINUS SIGN}"} <= {text for text, *_ in words}
+
+
+def picture(page, part, share, colors, width=420, height=360):
+    """Return where each colour is drawn, as masks of pixels."""
+    found = page.evaluate(PICTURE, [part, share, width, height, colors])
+    pixels = np.array(found["data"]).reshape(*found["size"], 4)
+    masks = {}
+    for name, color in zip(colors, found["colors"], strict=True):
+        rgb = [int(pair, 16) for pair in re.findall("..", color.lstrip("#"))]
+        masks[name] = (np.abs(pixels[..., :3] - rgb).max(axis=-1) < 8) & (pixels[..., 3] > 200)
+    return masks
+
+
+def test_zones_on_the_map_in_their_colours(visit):
+    """The blue circle against the orange edge is the stick radius against the contact's."""
+    page = visit("?theme=light").page
+    pair = carom.Pair(
+        carom.Sphere(radius="5 mm", material="bearing-steel"),
+        carom.HalfSpace(material="bearing-steel"),
+        0.2,
+    )
+    history = carom.impact(pair, speed=0.6, angle="30 deg").history(201)
+    for row in (120, 150, 160):
+        masks = picture(page, "patch", row / 200, ["stick", "slip"])
+        spans = {}
+        for name, mask in masks.items():
+            columns = np.nonzero(mask[: int(0.55 * mask.shape[0])].any(axis=0))[0]
+            spans[name] = columns.max() - columns.min() + 1 - 2.5
+        at = history.isel(time=row)
+        expected = float(at["stick_radius"] / at["contact_radius"])
+        assert spans["stick"] / spans["slip"] == pytest.approx(expected, abs=0.03)
+
+
+def test_gross_slip_is_grey_on_both_pictures(visit):
+    page = visit("?angle=80&theme=light").page
+    for part in ("stage", "patch"):
+        masks = picture(page, part, 0.5, ["gross", "slip", "stick"])
+        assert masks["gross"].sum() > 100
+        assert not masks["slip"].any()
+        assert not masks["stick"].any()
+
+
+def test_hatches_tell_the_sign(visit):
+    words = """sign => {
+      const canvas = document.createElement("canvas");
+      canvas.width = canvas.height = 60;
+      const pen = canvas.getContext("2d");
+      Carom.canvas.band(pen, 0, 0, 60, 60, { kind: "slip", sign });
+      return Array.from(pen.getImageData(0, 0, 60, 60).data);
+    }"""
+    page = visit().page
+    for sign in (1, -1):
+        level = np.array(page.evaluate(words, sign)).reshape(60, 60, 4)[..., 2].astype(float)
+        rising = np.abs(level[1:, :-1] - level[:-1, 1:]).mean()
+        falling = np.abs(level[:-1, :-1] - level[1:, 1:]).mean()
+        assert (rising < 0.2 * falling) if sign > 0 else (falling < 0.2 * rising)
+
+
+@pytest.mark.parametrize(
+    ("query", "share", "sentence"),
+    [
+        ("angle=5", -0.3, "The ball approaches: .* its contact point moves forwards"),
+        ("angle=5", 0.1, "the whole contact sticks: .* stretches the tangential spring"),
+        ("angle=5", 0.42, "the whole contact sticks: the ball springs back tangentially"),
+        ("angle=5", 0.5, "rim slips backwards while the centre still sticks: .* springs back"),
+        ("angle=30", 0.2, "the whole contact slips forwards: .* too fast to stick"),
+        ("angle=30", 0.8, "the rim slips backwards .*: friction has reversed and brakes"),
+        ("angle=30", 0.95, "the whole contact slips backwards: friction has reversed"),
+        ("angle=30", 1.3, "The ball has left: its contact point now moves backwards, at 4\\d"),
+        ("angle=80", 0.8, "slips forwards: .* less and less as the pressure falls"),
+        ("angle=80", 1.3, "its contact point still moves forwards"),
+        ("angle=0", 0.3, "no tangential velocity and sticks: only the normal force acts"),
+        ("friction=0", 0.3, "the surfaces slide freely: without friction"),
+        ("friction=0", 1.3, "no friction acted"),
+        ("angle=15&restitution=0.7", 1.3, "viscosity has taken part of its energy"),
+        ("angle=20&spin=-300&speed=0.5", -0.3, "it spins so fast that .* moves backwards"),
+    ],
+)
+def test_sentences(visit, query, share, sentence):
+    (told,) = visit().page.evaluate(TOLD, [query, [share]])
+    assert re.search(sentence, told)
+    assert told[0].isupper()
+    assert told.endswith(".")
+    assert told.count(".") == 1
+
+
+def test_what_is_told_is_so(visit):
+    """Random impacts: where the spring is said to drive the ball, it does work on it, and so on."""
+    page = visit().page
+    generator = np.random.default_rng(29)
+    for _ in range(24):
+        psi = float(generator.choice([-1.0, 1.0]) * generator.uniform(0.05, 6.0))
+        chi, e = float(generator.uniform(0.5, 3.0)), float(generator.choice([1.0, 0.8]))
+        query = f"given=numbers&psi={psi:.4f}&chi={chi:.4f}&restitution={e}"
+        losses = None if e == 1.0 else carom.KelvinVoigt(restitution=e)
+        solved = carom.solve(round(psi, 4), round(chi, 4), losses=losses)
+        for share, told in zip(TIMES, page.evaluate(TOLD, [query, TIMES]), strict=True):
+            check(solved, share, told, query)
+
+
+def check(solved, share, told, query):
+    """Compare one sentence with the state that the library knows."""
+    edges = [phase.end / solved.duration for phase in solved.phases]
+    if min(abs(share - edge) for edge in edges) < 0.005:
+        return
+    phase = solved.phase_at(share * solved.duration)
+    near = solved.at((share + np.array([-2e-4, 0.0, 2e-4])) * solved.duration)
+    where = f"{query} at {share}: {told}"
+    zone = {"stick": "whole contact sticks", "slip": "rim slips", "gross slip": "contact slips"}
+    assert zone[phase.kind] in told, where
+    way = "forwards" if phase.sign * solved.psi_in > 0.0 else "backwards"
+    assert phase.kind == "stick" or f"slips {way}" in told, where
+    gains = np.diff(near.psi[[0, 2]] ** 2)[0]
+    instant = "for an instant" in told or "friction reverses" in told
+    if "springs back" in told or "spring drives" in told or "still drives" in told:
+        assert gains > 0.0, where
+    elif not instant:
+        assert gains < 0.0, where
+    if "springs back" in told:
+        assert near.psi[1] * solved.psi_in < 0.0, where
+    if "has reversed" in told:
+        assert near.force[1] * solved.psi_in < 0.0, where
+    if "pressed in" in told:
+        assert near.speed[1] > -0.05, where
+    if "pushed away" in told:
+        assert near.speed[1] < 0.05, where
+
+
+def test_slow_motion_is_smooth(visit):
+    words = """() => {
+      const clock = Carom.clock;
+      clock.borders([0.4, 0.8]);
+      const run = slow => {
+        clock.slow(slow);
+        const times = [clock.FIRST];
+        while (times.at(-1) < clock.LAST) times.push(clock.after(times.at(-1), 1 / 60));
+        return times;
+      };
+      const found = { usual: run(false), slow: run(true) };
+      clock.slow(false);
+      return found;
+    }"""
+    page = visit().page
+    pace = page.evaluate("Carom.clock.pace()")
+    found = page.evaluate(words)
+    usual, slow = (np.diff(found[name])[:-1] for name in ("usual", "slow"))
+    step = 2.2 / pace / 60.0
+    assert usual == pytest.approx(step)
+    assert slow.max() == pytest.approx(step)
+    assert slow.min() == pytest.approx(step / 6.0, rel=0.05)
+    assert np.abs(np.diff(slow)).max() < 0.25 * step
+    middles = np.array(found["slow"])[:-2]
+    far = np.min(np.abs(middles[:, np.newaxis] - [0.4, 0.8]), axis=1) > 0.06
+    assert slow[far] == pytest.approx(step)
+
+
+def test_jumps_to_changes_of_phase(visit):
+    seen = visit("?time=-0.6")
+    words = "name => { Carom.clock[name](); return [Carom.clock.now(), Carom.clock.isPlaying()]; }"
+    ends = "Carom.page.scenes[0].data.phases.map(phase => phase.end)"
+    borders = [0.0, *seen.page.evaluate(ends), 1.6]
+    seen.page.evaluate("Carom.clock.play()")
+    for border in borders:
+        assert seen.page.evaluate(words, "next") == [pytest.approx(border), False]
+    for border in [*borders[-2::-1], -0.6]:
+        assert seen.page.evaluate(words, "previous") == [pytest.approx(border), False]
+
+
+def test_a_frame_costs_less_than_4_ms(visit):
+    words = """async () => {
+      const costs = [];
+      const canvases = ["stage", "patch"].map(id => document.getElementById(id));
+      for (let i = 0; i < 80; i++) {
+        await new Promise(requestAnimationFrame);
+        const start = performance.now();
+        Carom.stage.draw(canvases[0], Carom.page.scenes[0], i / 80);
+        Carom.patch.draw(canvases[1], Carom.page.scenes[0], i / 80);
+        costs.push(performance.now() - start);
+      }
+      return costs;
+    }"""
+    costs = visit(width=1440).page.evaluate(words)
+    assert float(np.median(costs)) < 4.0

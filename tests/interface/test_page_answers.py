@@ -1,0 +1,147 @@
+"""What the server of the page says: answers as JSON, refusals by field, files; no browser."""
+
+import json
+import logging
+import threading
+import time
+
+import pytest
+
+pytest.importorskip("flask")
+
+from carom.explorer import answers, warming
+from carom.explorer.app import new_app, plotly_file
+from carom.explorer.views import LAWS, View
+from carom.explorer.warming import Preparing, Warming
+from carom.quantities.refusals import InputError
+
+PATIENCE = 60.0  # s
+
+
+class Idle:
+    """A worker that has nothing to do here."""
+
+    def fit(self, **_):
+        raise InputError("file: it holds no rows")
+
+    def file(self, *_):
+        raise RuntimeError("the process that works for the page has ended")
+
+
+@pytest.fixture(scope="module")
+def client():
+    found = Warming()
+    found.start()
+    end = time.monotonic() + 5 * PATIENCE  # it may compile
+    while time.monotonic() < end:
+        try:
+            found.check(View(law=LAWS, restitution=0.8), laws=True)
+            break
+        except Preparing:
+            continue
+    return new_app(Idle(), found, ["localhost"]).test_client()
+
+
+def test_the_page_asks_only_what_is_here(client):
+    html = client.get("/")
+    assert html.status_code == 200
+    told = html.get_data(as_text=True)
+    for part in told.split('src="')[1:] + told.split('href="')[1:]:
+        address = part.partition('"')[0]
+        if not address.startswith("data:"):
+            with client.get(address) as found:
+                assert found.status_code == 200, address
+    policy = html.headers["Content-Security-Policy"]
+    assert "script-src 'self';" in policy
+    assert "unsafe-eval" not in policy
+    config = json.loads(told.partition('id="config">')[2].partition("</script>")[0])
+    assert config["static"] is False
+
+
+def test_parts_are_kept_by_the_browser_as_long_as_they_are_the_same(client):
+    for path in ("/assets/theme.js", "/plotly.min.js"):
+        with client.get(path) as first:
+            assert first.data
+        assert first.headers["Cache-Control"] == "no-cache"
+        tag = {"If-None-Match": first.headers["ETag"]}
+        with client.get(path, headers=tag) as same:
+            assert same.status_code == 304
+        with client.get(f"{path}?v=1") as again:
+            assert "max-age=604800" in again.headers["Cache-Control"]
+    assert plotly_file().stat().st_size > 1_000_000
+
+
+def test_an_answer_and_its_laws(client):
+    query = "given=numbers&psi=2&chi=1.5&law=mindlin"
+    answer = client.get(f"/answer?{query}&time=0.3&tab=Files").get_json()
+    assert answer["query"] == View.of(query).query()
+    laws = client.get(f"/laws?{query}").get_json()
+    assert [law["label"] for law in laws["laws"]] == ["mindlin"]
+
+
+@pytest.mark.parametrize(
+    ("path", "status", "field", "message"),
+    [
+        ("answer?angle=95", 400, "angle", "must be a number from 0 to 89.9 deg, not '95'"),
+        ("answer?friction=", 400, "friction", "must be a number from 0 to 10; it is empty"),
+        ("answer?frction=1", 400, "", "the link says 'frction', which is unknown; did you mean"),
+        ("laws?law=mindlinn", 400, "law", "there is no 'mindlinn'; did you mean 'mindlin'"),
+        ("answer?against=cup&second_radius=3", 400, "second_radius", "must be above 5 mm"),
+        ("fit?data=none", 400, "data", "must be one of foerster1994"),
+    ],
+)
+def test_refusals_name_the_field(client, path, status, field, message):
+    found = client.get(f"/{path}")
+    assert found.status_code == status
+    told = found.get_json()
+    assert set(told) == {"field", "message"}
+    assert told["field"] == field
+    assert told["message"].startswith(message)
+    assert "\n" not in told["message"]
+
+
+def test_files_are_refused_in_a_line_of_text(client, caplog):
+    caplog.set_level(logging.CRITICAL)
+    assert client.get("/view.py?angle=95").data.startswith(b"carom: Incidence: must be a number")
+    assert client.get("/nowhere").data == b"carom: 404: Not Found\n"
+    assert client.get("/assets/../app.py").status_code == 404
+    assert client.get("/history.png").data == b"carom: failed, RuntimeError\n"
+    assert client.post("/answer").get_json()["message"] == "405: Method Not Allowed"
+    assert client.get("/", headers={"Host": "elsewhere"}).status_code == 400
+
+
+def test_a_failure_is_a_line(client, monkeypatch, caplog):
+    def fail(_):
+        raise ZeroDivisionError("a secret\nof the program")
+
+    caplog.set_level(logging.ERROR)
+    monkeypatch.setattr(answers, "answer", fail)
+    found = client.get("/answer")
+    assert found.status_code == 500
+    assert found.get_json() == {"field": "", "message": "failed, ZeroDivisionError"}
+    assert "Traceback" not in caplog.text
+
+
+def test_what_is_compiled_is_told_with_how_far_it_is(monkeypatch):
+    go = threading.Event()
+    steps = [lambda: None, *[lambda: go.wait(PATIENCE)] * 4]
+    monkeypatch.setattr(warming, "STEPS", steps)
+    monkeypatch.setattr(warming, "PATIENCE", 0.2)
+    monkeypatch.setattr(warming.shared_library, "reason", lambda: "there is none")
+    busy = Warming()
+    client = new_app(Idle(), busy, ["localhost"]).test_client()
+    busy.start()
+    found = client.get("/answer")
+    assert found.status_code == 503
+    assert found.headers["Retry-After"] == "1"
+    told = found.get_json()
+    assert (told["done"], told["parts"], told["again"]) == (1, 3, 1)
+    assert "1 of 3 parts" in told["message"]
+    go.set()
+    for query in ("angle=3", "restitution=0.9"):
+        assert client.get(f"/answer?{query}").status_code == 200
+
+
+def test_with_the_library_nothing_is_waited_for(monkeypatch):
+    monkeypatch.setattr(warming.shared_library, "reason", lambda: "")
+    Warming().check(View(law=LAWS), laws=True)

@@ -1,0 +1,160 @@
+"""Files of a view are what the library says, with bodies and with psi_1 and chi alike."""
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import carom
+
+pytest.importorskip("flask")
+
+from carom.explorer import files
+from carom.explorer.downloads import PICTURES, WRITTEN
+from carom.explorer.figures import NumbersImpact, contact_figure, curve_figure, history_figure
+from carom.explorer.overlays import law_curves
+from carom.explorer.scenes import impact_of, scene_of
+from carom.explorer.views import LAWS, NUMBERS, View
+
+BODIES = View(angle=41.5)
+STATES = {
+    "bodies": BODIES,
+    "losses": View(restitution=0.7, angle=55.0),
+    "numbers": View(given=NUMBERS, psi=2.2, chi=1.3),
+    "numbers with losses": View(given=NUMBERS, psi=-1.5, chi=1.44, restitution=0.6),
+}
+BEGIN = {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF"}
+
+
+def losses(view):
+    return None if view.restitution == 1.0 else carom.KelvinVoigt(restitution=view.restitution)
+
+
+@pytest.mark.parametrize("name", STATES)
+def test_every_picture_is_written_in_both_modes(name, tmp_path):
+    for picture in PICTURES:
+        for ending, begin in BEGIN.items():
+            file = files.write(f"{picture}{ending}", STATES[name], 0.6, tmp_path)
+            assert file.read_bytes().startswith(begin)
+        with Image.open(tmp_path / f"{picture}.png") as image:
+            assert min(image.size) >= 400
+            assert len(image.convert("RGB").getcolors(2**24)) > 50  # not an empty sheet
+
+
+@pytest.mark.parametrize(
+    "view",
+    [View(given=NUMBERS, psi=0.0), View(friction=0.0), View(angle=0.0), View(angle=89.9)],
+    ids=str,
+)
+def test_pictures_of_odd_states(view, tmp_path):
+    for picture in PICTURES:
+        for time in (0.0, 1.0):
+            assert files.write(f"{picture}.svg", view, time, tmp_path).stat().st_size > 10_000
+
+
+@pytest.mark.parametrize("name", ["numbers", "numbers with losses"])
+def test_figures_of_numbers_are_those_of_bodies_in_units_of_the_theory(name):
+    """The same psi_1, chi and e as of bodies: the lines differ by a factor each."""
+    given = STATES[name]
+    shown = {"friction": 0.2, "angle": 41.5, "restitution": given.restitution}
+    hit = impact_of(View(**shown))
+    numbers = NumbersImpact(carom.solve(hit.psi_in, hit.pair.chi, losses=losses(given)))
+    history, theirs, scales = numbers.history(201), hit.history(201), hit.scales
+    units = {
+        "time": scales.time,
+        "normal_force": scales.force,
+        "tangential_force": hit.pair.friction * scales.force,
+        "contact_velocity": scales.tangential_speed,
+        "normal_velocity": hit.normal_speed,
+        "contact_radius": scales.radius,
+        "stick_radius": scales.radius,
+    }
+    for column, unit in units.items():
+        expected = theirs[column].values / unit
+        np.testing.assert_allclose(history[column], expected, rtol=1e-9, atol=1e-9, err_msg=column)
+    share = 0.6
+    line = np.linspace(0.0, float(history["contact_radius"][120]), 20)[:-1]
+    points = np.column_stack([line, 0.0 * line])
+    ours = numbers.fields(share * float(history["time"][-1]))
+    fields = hit.fields(share * hit.duration, points=points * scales.radius)
+    along = ours["traction_x"].sel(y=0.0, method="nearest").interp(x=line[:-4])
+    expected = fields["traction_x"].values[:-4] / (hit.pair.friction * scales.pressure)
+    np.testing.assert_allclose(along, expected, atol=0.02)
+
+
+def test_axes_of_numbers_tell_units_of_the_theory():
+    view = STATES["numbers"]
+    for figure in (history_figure(view), contact_figure(view, 0.6)):
+        for axis in figure.axes:
+            for text in (axis.get_xlabel(), axis.get_ylabel()):
+                assert not any(unit in text for unit in ("(N)", "(s)", "(m)", "µ", "Pa", "m/s"))
+    labels = [axis.get_ylabel() for axis in history_figure(view).axes]
+    assert labels[0] == "$F_x$\xa0($\\mu F_{max}$)"
+    assert labels[3] == "share of tangential energy"
+
+
+@pytest.mark.parametrize("name", STATES)
+def test_histories_are_those_of_the_library(name, tmp_path):
+    view = STATES[name]
+    if view.in_numbers:
+        solution = carom.solve(view.psi, view.chi, losses=losses(view))
+        columns = ("psi", "stored", "shear_lost")
+        expected = {column: getattr(solution.history(201), column) for column in columns}
+    else:
+        history = impact_of(view).history(201)
+        expected = {column: history[column].values for column in ("contact_velocity", "shear_loss")}
+    for file in ("history.csv", "history.nc"):
+        found = carom.read(files.write(file, view, 0.5, tmp_path))
+        for column, values in expected.items():
+            bound = 1e-9 * np.ptp(values) + 1e-300
+            np.testing.assert_allclose(np.asarray(found[column]), values, atol=bound)
+
+
+def test_the_figure_of_the_curve_holds_laws_and_the_impact():
+    view = View(law=LAWS[:3])
+    scene = scene_of(view)
+    axis = curve_figure(view).axes[0]
+    lines = {line.get_label(): line.get_xydata() for line in axis.get_lines()}
+    for law in law_curves(scene, LAWS[:3]):
+        np.testing.assert_array_equal(lines[law.label], np.stack([law.psi_in, law.psi_out], 1))
+    np.testing.assert_array_equal(lines["this impact"], [[scene.psi_in, scene.psi_out]])
+    told = [text.get_text() for text in axis.get_legend().get_texts()]
+    assert told[-4:] == [*LAWS[:3], "this impact"]
+
+
+def test_the_template_is_that_of_the_command_line(tmp_path):
+    from carom.fitting.template import TEMPLATE
+
+    assert files.write("template.csv", View(), 0.5, tmp_path).read_text() == TEMPLATE
+
+
+class Told:
+    """A worker that says what it was asked."""
+
+    def file(self, name, query, time):
+        return f"{name} {query} {time}".encode()
+
+
+@pytest.fixture
+def client():
+    from flask import Flask
+
+    from carom.explorer.downloads import add_files
+
+    server = Flask(__name__)
+    add_files(server, Told())
+    server.register_error_handler(carom.InputError, lambda error: (str(error), 400))
+    return server.test_client()
+
+
+def test_addresses_of_files(client):
+    for name in WRITTEN:
+        answered = client.get(f"/{name}?angle=50&time=0.25")
+        assert answered.text == f"{name} angle=50 0.25"
+        assert answered.headers["Content-Disposition"] == f"attachment; filename={name}"
+    assert 'angle="50.0 deg"' in client.get("/view.py?angle=50&time=0.3").text
+    assert client.get("/curve.png?time=7").text.endswith(" 1.0")
+    for wrong in ("curve.png?angle=x", "view.py?angle=x", "history.nc?time=soon"):
+        answered = client.get(f"/{wrong}")
+        assert answered.status_code == 400
+        assert "\n" not in answered.text
+    assert client.get("/curve.exe").status_code == 404

@@ -1,0 +1,228 @@
+"""Fits on the page are the library's; columns are explained, and bodies asked for."""
+
+import csv
+import io
+import json
+import sys
+from base64 import b64encode
+
+import numpy as np
+import pytest
+
+import carom
+
+pytest.importorskip("flask")
+
+from carom.explorer.uploads import answer
+from carom.explorer.views import View
+from carom.explorer.worker import Worker
+
+PAIR = View().pair
+ANGLES = range(4, 76, 4)
+
+
+def sent(content):
+    return f"data:text/csv;base64,{b64encode(content).decode()}"
+
+
+def asked(content, bodies="", name="folder/me.csv"):
+    text = content if isinstance(content, bytes) else content.encode()
+    return answer({"contents": sent(text), "name": name, "bodies": bodies})
+
+
+def measured(heads=("angle [deg]", "contact_beta", "run"), friction=0.123):
+    """A table of rebounds of known friction."""
+    pair = carom.Pair(PAIR.first, PAIR.second, friction)
+    lines, random = io.StringIO(), np.random.default_rng(20261121)
+    writer = csv.writer(lines)
+    writer.writerow(heads)
+    for row, angle in enumerate(ANGLES):
+        hit = carom.impact(pair, speed=0.6, angle=f"{angle} deg")
+        writer.writerow([angle, -hit.contact_restitution + random.normal(0.0, 0.004), row])
+    return lines.getvalue()
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    yield tmp_path
+    assert not list(tmp_path.iterdir())  # nothing of the user's is left
+
+
+@pytest.mark.parametrize("name", carom.datasets.names())
+def test_a_fit_is_the_librarys(name):
+    told, found = answer({"data": name}), carom.fit(carom.datasets.path(name))
+    assert told == json.loads(json.dumps(told, allow_nan=False))
+    assert told["words"] == str(found)
+    assert told["bodies"]["from"] == "file"
+    values = {row["name"]: row["value"] for row in told["parameters"]}
+    assert float(values["friction"]) == pytest.approx(found.friction.value, rel=0.01)
+    dataset = found.to_dataset()
+    for chart, response in zip(told["charts"], dataset["response"].values, strict=True):
+        one = dataset.sel(response=response)
+        scale = np.nanmax(np.abs(one["measured"])) / np.nanmax(
+            np.abs(np.array(chart["measured"], float))
+        )
+        for ours, theirs in (
+            ("measured", "measured"),
+            ("residual", "residual"),
+            ("error", "error"),
+        ):
+            expected = one[theirs].values / scale
+            np.testing.assert_allclose(
+                np.array(chart[ours], float), expected, rtol=1e-5, atol=1e-12
+            )
+        scaled = one["residual"].values / one["error"].values
+        np.testing.assert_allclose(np.array(chart["scaled"], float), scaled, rtol=1e-5)
+        np.testing.assert_allclose(
+            chart["x"], np.degrees(dataset["incidence"]), rtol=1e-5, atol=1e-9
+        )
+        assert [line["law"] for line in chart["lines"]] == list(dataset["law"].values)
+        assert chart["lines"][0]["law"] == "exact"
+
+
+def test_bodies_are_asked_for_where_the_file_does_not_tell_them():
+    for bodies in ("", "given=numbers&psi=2"):
+        told = asked(measured(), bodies)
+        assert told["asks"] == "bodies"
+        assert told["message"].startswith("me.csv does not say which bodies")
+        assert [row["head"] for row in told["columns"]] == ["angle [deg]", "contact_beta", "run"]
+    told = asked(measured(), "given=bodies&radius=5")
+    assert told["bodies"]["from"] == "page"
+    assert "ball of 5 mm radius, bearing-steel" in told["bodies"]["text"]
+    friction = next(row for row in told["parameters"] if row["name"] == "friction")
+    low, high = map(float, friction["interval"].split(" to "))
+    assert low < 0.123 < high
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        ("angle [deg],contact_beta\nten,half\n", "not a number in line 2"),
+        ("angel [deg],contact_beta\n10,0.5\n", "did you mean"),
+        ("colour,size\n1,2\n", "no measured response"),
+        ("angle,contact_beta\n10,0.5\n", "for degrees write"),
+    ],
+)
+def test_bodies_are_not_asked_for_in_vain(content, words):
+    with pytest.raises(carom.InputError, match=words):
+        asked(content)
+
+
+def test_bodies_of_the_file_are_not_those_of_the_page():
+    file = carom.datasets.path("kharaz2001")
+    told = asked(file.read_bytes(), "given=bodies&radius=9")
+    assert told["bodies"]["from"] == "file"
+    assert "2.5 mm" in told["bodies"]["text"]
+    assert told["words"] == str(carom.fit(file))
+
+
+def test_columns_say_what_they_were_taken_for():
+    columns = asked(measured(), "given=bodies")["columns"]
+    assert [row["kind"] for row in columns] == ["before the impact", "after the impact", "not used"]
+    assert columns[0]["meaning"] == "angle of incidence from the normal"
+    assert [row["unit"] for row in columns] == ["deg", "", ""]
+    text = (
+        "speed,angle [deg],spin_out,spin_out_error\n1,10,-3,1\n1,20,-9,1\n1,30,-20,1\n1,60,-30,1\n"
+    )
+    columns = asked(text)["columns"]
+    assert columns[0]["unit"] == "m/s (the head names no unit)"
+    assert columns[3]["kind"] == "standard deviation"
+
+
+def test_drops_are_told_as_restitution_against_speed():
+    drops = "drop_height [mm],rebound_height [mm]\n100,60\n200,100\n400,170\n800,290\n"
+    told = asked(drops, "given=bodies")
+    (chart,) = told["charts"]
+    assert chart["along_unit"] == "m/s"
+    np.testing.assert_allclose(chart["measured"], np.sqrt([0.6, 0.5, 0.425, 0.3625]), rtol=1e-5)
+    assert {law["law"] for law in told["laws"]} == {"ElasticPlastic", "KelvinVoigt", "constant"}
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"what", "me.csv"),
+        (b"a" * 1_000_001, "must be at most 1000000 bytes"),
+        (b"angle [deg],contact_restitution\n" + b"10,0.2\n" * 2001, "at most 2000 rows"),
+        (b"", "me.csv"),
+        (b"colour,size\n1,2\n3,4\n", "no measured response"),
+        (b"angle [deg],contact_beta\nten,half\n", "not a number in line 2"),
+        (b"angle [deg],contact_beta\n10,0.5\n", "cannot determine"),
+        (b"angle,contact_beta\n10,0.5\n20,0.4\n", "angle"),
+    ],
+)
+def test_what_cannot_be_fitted_is_refused_in_the_words_of_the_page(content, words, folder):
+    with pytest.raises(carom.InputError) as error:
+        asked(content, "given=bodies")
+    told = str(error.value)
+    assert words in told
+    for odd in ("\n", str(folder), "pair=", "fixed=", "--", "data: ", "results: "):
+        assert odd not in told, told
+
+
+@pytest.mark.parametrize("contents", ["data:text/csv;base64,a", "data:text/csv;base64,é"])
+def test_what_did_not_arrive_whole_is_refused(contents):
+    with pytest.raises(carom.InputError, match=r"^file: it did not arrive whole"):
+        answer({"contents": contents, "name": "a.csv", "bodies": ""})
+
+
+class Told:
+    """A worker that says what it was asked."""
+
+    def __init__(self):
+        self.asked = []
+
+    def fit(self, **asked):
+        self.asked.append(asked)
+        return {"words": "fitted"}
+
+
+@pytest.fixture
+def page():
+    from flask import Flask
+
+    from carom.explorer.fits import add_fits
+
+    server, worker = Flask(__name__), Told()
+    add_fits(server, worker)
+    server.register_error_handler(carom.InputError, lambda error: (str(error), 400))
+    return server.test_client(), worker
+
+
+def test_addresses_of_fits(page):
+    client, worker = page
+    for _ in range(2):  # a data set is fitted once
+        assert client.get("/fit?data=kharaz2001").json == {"words": "fitted"}
+    assert worker.asked == [{"data": "kharaz2001"}]
+    assert client.get("/fit?data=nothing").status_code == 400
+    file = {"contents": sent(b"x"), "name": "a.csv", "bodies": ""}
+    assert client.post("/fit", json=file).status_code == 200
+    assert worker.asked[1:] == [file]
+    for wrong in ({}, [], {**file, "bodies": 1}, "x"):
+        answered = client.post("/fit", json=wrong)
+        assert (answered.status_code, answered.text) == (
+            400,
+            "file: it did not arrive; choose it again",
+        )
+    assert client.post("/fit", data=json.dumps(file)).status_code == 400  # from a form elsewhere
+
+
+def test_the_server_itself_loads_none_of_what_fits_and_draws():
+    import subprocess
+
+    line = "import sys, carom.explorer.fits, carom.explorer.downloads; print(*sys.modules)"
+    ran = subprocess.run([sys.executable, "-c", line], capture_output=True, text=True, check=True)
+    heavy = {"lmfit", "matplotlib", "xarray", "pandas", "carom.fitting"}
+    assert heavy.isdisjoint(ran.stdout.split())
+
+
+def test_the_process_that_fits():
+    worker = Worker()
+    try:
+        found = worker.fit(contents=sent(measured().encode()), name="a.csv", bodies="")
+        assert found["asks"] == "bodies"
+        with pytest.raises(carom.InputError, match=r"^file: "):
+            worker.fit(contents=sent(b"what"), name="a.csv", bodies="")
+    finally:
+        worker.close()

@@ -1,0 +1,165 @@
+"""The page's examples: links that hold, stories whose numbers are computed, warnings where due."""
+
+import re
+from dataclasses import replace
+from urllib.parse import parse_qsl
+
+import numpy as np
+import pytest
+
+from carom.explorer.knobs import WORDS
+from carom.explorer.presets import PRESETS
+from carom.explorer.results import OF_LOSSES, SIGNS
+from carom.explorer.scenes import impact_of
+from carom.explorer.symbols import SYMBOLS
+from carom.explorer.views import View
+from carom.quantities.glossary import GLOSSARY
+
+NAMED = {preset.id: preset for preset in PRESETS}
+IDS = [preset.id for preset in PRESETS]
+RESTITUTIONS = (1.0, 0.9, 0.7)  # for which a static copy has tables
+MEASURED = {  # what stories quote of their sources
+    "superball": ("98.4", "0.59"),
+    "golf": ("59.2",),
+    "steel": ("1.00", "0.54", "0.05"),
+    "glass": ("3.18", "0.44", "0.07"),
+    "alumina": ("0.597", "5"),
+}
+TRIED = {"throw": ("10",), "golf": ("0.15",), "glass": ("40",), "no-spin": ("100", "150")}
+
+
+@pytest.fixture(scope="module", params=IDS)
+def preset(request):
+    return NAMED[request.param]
+
+
+def solved(name, **changes):
+    return impact_of(replace(View.of(NAMED[name].query), **changes))
+
+
+def thrown(hit):
+    """Return the angle by which the object ball leaves off the line of centres."""
+    along = 2 * hit.pair.normal_mass * hit.normal_speed
+    return np.degrees(np.arctan(hit.tangential_impulse / along))
+
+
+def rolling(hit):
+    """Return the spin with which a rigid ball that comes to roll would leave."""
+    return 5 / 7 * hit.tangential_speed / hit.pair.first.radius
+
+
+def back(hit):
+    return -np.degrees(hit.rebound_angle)
+
+
+COMPUTED = {  # what each story tells, as it tells it
+    "throw": lambda: (
+        f"{thrown(solved('throw')):.2f}",
+        f"{-solved('throw').spin_out:.2f}",
+        f"{thrown(solved('throw', angle=10.0)):.2f}",
+    ),
+    "gearing": lambda: (f"{-thrown(solved('gearing', spin=2 * -17.4978)):.2f}", "17.5"),
+    "superball": lambda: (
+        f"{rolling(solved('superball')):.1f}",
+        f"{-solved('superball').spin_out:.1f}",
+        f"{solved('superball').tangential_restitution:.3f}",
+    ),
+    "superball-back": lambda: (
+        f"{back(solved('superball-back')):.1f}",
+        f"{-solved('superball-back').spin_out:.1f}",
+    ),
+    "golf": lambda: (
+        f"{-solved('golf').spin_out:.1f}",
+        f"{-solved('golf', friction=0.15).spin_out:.1f}",
+    ),
+    "steel": lambda: (f"{-solved('steel').contact_restitution:.3f}",),
+    "glass": lambda: (f"{-solved('glass').contact_restitution:.3f}",),
+    "alumina": lambda: (f"{solved('alumina').tangential_restitution:.3f}",),
+    "no-spin": lambda: (
+        "112.8",
+        f"{back(solved('no-spin')):.2f}",
+        f"{-solved('no-spin', spin=100.0).spin_out:.1f}",
+        f"{solved('no-spin', spin=150.0).spin_out:.1f}",
+    ),
+}
+FAILED = {  # a finding that fails, and the words that a caution has for it
+    "a_max/R*": r"contact radius is ({value:.2f})",
+    "contact time/wave transit": "elastic waves matter",
+    "Dundurs beta": "couple",
+    "error of psi_2": r"off by up to {value:.2g}",
+}
+
+
+def test_examples_are_told_apart():
+    assert len(set(IDS)) == len(IDS) == len({preset.title for preset in PRESETS})
+    assert set(COMPUTED) == set(IDS)
+
+
+def test_a_link_is_a_state_of_the_page(preset):
+    view = View.of(preset.query)
+    assert sorted(parse_qsl(view.query())) != []
+    assert View.of(view.query()) == view
+    given = dict(parse_qsl(preset.query))
+    assert {name: str(getattr(view, name)).removesuffix(".0") for name in given} == given
+
+
+def test_a_static_copy_can_show_it(preset):
+    view = View.of(preset.query)
+    hit = impact_of(view)
+    assert view.restitution in RESTITUTIONS
+    assert abs(hit.psi_in) <= 10.0
+    assert 0.5 <= hit.pair.chi <= 3.0
+
+
+def test_a_story_tells_what_is_computed(preset):
+    told = re.findall(r"\d+(?:\.\d+)?", preset.story)
+    computed = COMPUTED[preset.id]()
+    assert [number for number in computed if number not in told] == []
+    given = dict(parse_qsl(preset.query)).values()
+    known = {*computed, *given, *MEASURED.get(preset.id, ()), *TRIED.get(preset.id, ())}
+    assert [number for number in told if number not in known] == []
+
+
+def test_a_story_has_two_to_five_sentences_and_sources(preset):
+    assert 2 <= len(re.findall(r"[.?!](?= |$)", preset.story)) <= 5
+    assert len(preset.sources) >= 2
+    assert any(re.search(r"\b(19|20)\d\d\b|Alciatore", source) for source in preset.sources)
+    assert any(source.startswith("Assumed: ") for source in preset.sources)
+
+
+def test_a_caution_says_where_the_theory_fails(preset):
+    findings = impact_of(View.of(preset.query)).validity.findings
+    failed = [finding for finding in findings if finding.holds is False]
+    missing = [
+        finding.name
+        for finding in failed
+        if not re.search(FAILED[finding.name].format(value=finding.value), preset.caution)
+    ]
+    assert missing == []
+
+
+def test_the_steel_balls_yield_where_the_caution_says():
+    def yields(speed):
+        findings = solved("steel", speed=speed).validity.findings
+        return any(f.name == "von Mises stress/Y" and f.holds is False for f in findings)
+
+    assert "about 0.45 m/s" in NAMED["steel"].caution
+    assert (yields(0.43), yields(0.47)) == (False, True)
+
+
+def test_gearing_neither_rubs_nor_throws():
+    hit = solved("gearing")
+    assert abs(thrown(hit)) < 1e-3
+    assert hit.dissipated_energy < 1e-9 * 0.5 * hit.pair.normal_mass
+
+
+def test_symbols_are_sentences_in_letters_of_the_page():
+    assert [symbol for symbol, text in SYMBOLS.items() if not text.endswith(".")] == []
+    assert [text for text in SYMBOLS.values() if not text[0].isupper()] == []
+    assert not any("\u03bc" in f"{symbol}{text}" for symbol, text in SYMBOLS.items())
+    assert SYMBOLS["V₁"].lower().startswith(GLOSSARY["normal_speed"].meaning)
+
+
+def test_every_symbol_of_fields_and_results_is_explained():
+    shown = {words.symbol for words in WORDS.values()} | {*SIGNS.values(), *OF_LOSSES.values()}
+    assert shown - {""} - set(SYMBOLS) == set()

@@ -1,0 +1,87 @@
+"""The worksheet: its links open states of the page, and what its answers say of laws is so."""
+
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import carom
+from carom.explorer.scenes import impact_of
+from carom.explorer.views import View
+
+DOCS = Path(__file__).parents[2] / "docs"
+sys.path.append(str(DOCS / "_ext"))
+
+explore_links = pytest.importorskip("explore_links")  # of the manual, which needs sphinx
+
+TEXT = (DOCS / "how-to/worksheet.md").read_text(encoding="utf-8")
+LINKS = [explore_links.opened(query) for query in re.findall(r"{explore}`[^<`]*<([^>]*)>`", TEXT)]
+LIVE = [query for query in LINKS if explore_links.is_live(query)]
+COPY = [query for query in LINKS if query not in LIVE]
+
+
+def state(view):
+    """Return psi_1 and chi of a view."""
+    if view.in_numbers:
+        return view.psi, view.chi
+    hit = impact_of(view)
+    return hit.psi_in, hit.pair.chi
+
+
+def test_ten_questions_each_with_a_link_and_a_folded_answer():
+    questions = re.split(r"^## ", TEXT, flags=re.MULTILINE)[1:]
+    assert [question.split(".")[0] for question in questions] == [str(n) for n in range(1, 11)]
+    for question in questions:
+        asked, answered = question.split("<details><summary>Answer</summary>")
+        assert "{explore}`Open: " in asked
+        assert asked.count("?") >= 2
+        assert "```python" in answered
+        assert answered.rstrip().endswith("</details>")
+
+
+def test_the_copy_can_show_what_links_to_it_open():
+    assert len(COPY) == 11
+    for query in COPY:
+        view = View.of(query)
+        psi, chi = state(view)
+        assert abs(psi) <= 10.0
+        assert 0.5 <= chi <= 3.0
+        assert view.restitution in (1.0, 0.9, 0.7)
+
+
+def test_laws_and_data_need_the_live_page():
+    assert [(view.law, view.data) for view in map(View.of, LIVE)] == [
+        (("mindlin", "mindlin_rescale/force"), ""),
+        ((), "kharaz2001"),
+    ]
+
+
+def test_an_example_is_a_link_of_its_own():
+    assert "example" not in "".join(LINKS)
+    assert [query.rpartition("=")[2] for query in LINKS if "preset=" in query] == [
+        "superball",
+        "superball-back",
+        "alumina",
+    ]
+
+
+def test_forces_of_laws_are_as_the_answer_says():
+    """Two fifths too large while the contact grows, then twice as far back."""
+    pair = carom.Pair(
+        carom.Sphere(radius="5 mm", material="bearing-steel"),
+        carom.HalfSpace(material="bearing-steel"),
+        friction=0.2,
+    )
+    hit = carom.impact(pair, speed=0.6, angle="10 deg")
+    exact = carom.solve(hit.psi_in, pair.chi)
+    share = np.array([0.2, 0.8]) * exact.duration
+
+    def ratio(name):
+        told = carom.LammpsMindlin(name).history(hit.psi_in, pair.chi, steps=4000)
+        force = np.interp(share, told["time"], told["tangential_force"])
+        return force / (1.5 * exact.at(share).force)
+
+    assert ratio("mindlin") == pytest.approx([1.4, 2.0], abs=0.05)
+    assert ratio("mindlin_rescale/force") == pytest.approx([1.0, 1.5], abs=0.05)
