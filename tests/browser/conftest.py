@@ -48,7 +48,7 @@ class Visit:
         self.page.goto(f"{self.address}{query}")
         if ready:
             self.until(lambda: self.page.evaluate(f"Boolean({READY})"), PREPARED)
-            self.until(lambda: self.traces("rebounds"))
+            self.until(self._drawn)
 
     def travel(self, query):
         """Go to a link within the page, by way of another, and wait for its charts."""
@@ -58,9 +58,12 @@ class Visit:
         self.until(self._drawn)
 
     def _drawn(self):
-        """Tell whether the chart shows the impact of the table."""
-        point = self.traces("rebounds")["this impact", "markers"]
-        return point["x"] == [self.page.evaluate("Carom.page.answers()[0].curve.at[0]")]
+        """Tell whether the chart shows the impact, if it is to be seen."""
+        if self.page.evaluate("Carom.tabs.chosen()") != "Charts":
+            return True
+        at = self.page.evaluate("Carom.page.answers()[0].curve.at")
+        traces = self.traces("rebounds")
+        return traces if at is None else traces["this impact", "markers"]["x"] == at[:1]
 
     def _heard(self, message):
         if message.type in ("error", "warning"):
@@ -97,9 +100,9 @@ class Visit:
         self.until(lambda: (word in self.link()) == wanted)
 
     def result(self, name):
-        """Return the words of a row of the results."""
-        row = self.page.locator("#results tr").filter(has=self.page.get_by_text(name, exact=True))
-        return row.locator("td").first.inner_text()
+        """Return the words of a row of the results, by its name in the glossary."""
+        row = self.page.locator(f"#results tr[data-name={name}]")
+        return row.locator("td:not(.carom-meaning)").first.inner_text()
 
     def number(self, name):
         """Return the number that a row of the results begins with."""

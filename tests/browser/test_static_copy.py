@@ -24,14 +24,12 @@ HARDLY = 1e-3  # of the energy: what takes less is judged as if it took so much
 SHORT = 2 * STEP  # phases that the copy may pass over
 NEAR_FRONT = 0.03  # of the contact radius: there viscous tractions rise like a root
 SOLVE = """states => states.map(([psi, chi, e]) => {
-  const began = performance.now();
   const found = Carom.law.solve(psi, chi, e);
   const names = ["psi", "force", "stick", "contact", "stored", "dissipated", "shear"];
-  const ms = performance.now() - began;
   const lines = names.map(name => [name, Array.from(found[name])]);
   const tractions = found.tractions.map(line => line.map(value => Math.round(value * 1e7) / 1e7));
   const {out, phases} = found;
-  return JSON.stringify({...Object.fromEntries(lines), out, phases, tractions, ms});
+  return JSON.stringify({...Object.fromEntries(lines), out, phases, tractions});
 })"""
 ANSWER = """async queries => Promise.all(queries.map(query => Carom.source.answer(query)
   .then(answer => ({answer}), refusal => ({refusal}))))"""
@@ -166,10 +164,6 @@ def test_tractions(states, told, solved):
             kept[:, -1] = False  # where it is infinite
         wanted = np.clip(wanted / exact.max_radius, -9.0, 9.0)
         assert off(given[kept], wanted[kept]) <= CLOSE, state
-
-
-def test_an_answer_takes_no_time(told):
-    assert np.median([found["ms"] for found in told]) < 50.0
 
 
 def random_pairs():

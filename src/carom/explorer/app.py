@@ -23,10 +23,10 @@ from carom.explorer.worker import Worker
 from carom.quantities.refusals import InputError
 
 OWN_HOST_ONLY = (
-    "default-src 'self'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
+    "default-src 'self'; script-src 'self' 'unsafe-eval'; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' data: blob:; font-src 'self' data:; object-src 'none'; base-uri 'none'; "
     "form-action 'self'; frame-ancestors 'none'"
-)  # plotly writes styles
+)  # plotly writes styles; programs that drive a browser evaluate their questions
 HEADERS = {
     "Content-Security-Policy": OWN_HOST_ONLY,
     "Referrer-Policy": "no-referrer",
@@ -123,20 +123,19 @@ def _json(told: Any, status: int = 200) -> Response:
 def _one_line(error: Exception) -> Response:
     """Return an error of a request in a line, with the field that it is about."""
     if isinstance(error, Preparing):
-        parts = {"done": error.done, "parts": error.parts}
-        found = _told("", str(error), 503, {"again": AGAIN} | parts)
-        found.headers["Retry-After"] = str(AGAIN)
-        return found
+        return _refusal("", str(error), 503, again=AGAIN, percent=error.percent)
     if isinstance(error, Refused):
-        return _told(error.field, error.message, 400)
+        return _refusal(error.field, error.message)
     if isinstance(error, InputError):
-        return _told(*_parted(str(error)), 400)
+        return _refusal(*_parted(str(error)))
     if isinstance(error, Busy):
-        return _told("", str(error), 503)
+        return _refusal("", str(error), 503)
+    if isinstance(error, RecursionError) and request.is_json:
+        return _told("what was sent is nested too deeply", 400)
     if isinstance(error, HTTPException):
-        return _told("", f"{error.code}: {error.name}", error.code or 500)
+        return _told(f"{error.code}: {error.name}", error.code or 500)
     log.error("%s: %s", type(error).__name__, " ".join(str(error).split())[:LOGGED])
-    return _told("", f"failed, {type(error).__name__}", 500)
+    return _told(f"failed, {type(error).__name__}", 500)
 
 
 def _parted(told: str) -> tuple[str, str]:
@@ -145,12 +144,21 @@ def _parted(told: str) -> tuple[str, str]:
     return (name, rest) if colon and name in WORDS else ("", told)
 
 
-def _told(field: str, message: str, status: int, more: dict[str, Any] | None = None) -> Response:
+def _refusal(field: str, message: str, status: int = 400, **more: Any) -> Response:
+    """Return what is told of a question that is refused, which is no fault of the page.
+
+    The page gets it with the status of an answer, as browsers log all others as errors.
+    """
     if request.path in FOR_THE_PAGE:
-        return _json({"field": field, "message": message} | (more or {}), status)
+        return _json({"field": field, "message": message, **more})
     words = WORDS.get(field)
-    line = f"{words.label}: {message}" if words else message
-    content = f"carom: {line}\n".encode("utf-8", "replace")
+    return _told(f"{words.label}: {message}" if words else message, status)
+
+
+def _told(message: str, status: int) -> Response:
+    if request.path in FOR_THE_PAGE:
+        return _json({"field": "", "message": message}, status)
+    content = f"carom: {message}\n".encode("utf-8", "replace")
     return Response(content, status, content_type="text/plain; charset=utf-8")
 
 

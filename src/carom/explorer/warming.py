@@ -1,8 +1,9 @@
 """What has to be compiled before the first answers, where Carom came without its library."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from threading import Condition, Thread
-from typing import Any
+from typing import Any, NamedTuple
 
 from carom.dimensionless.numerics import shared_library
 from carom.explorer.knobs import NUMBERS
@@ -11,7 +12,7 @@ from carom.explorer.scenes import scene_of
 from carom.explorer.views import LAWS, View
 from carom.io.progress import advancing
 
-PATIENCE = 2.0  # s that a question waits for a part that is not there yet
+PATIENCE = 2.0  # s that a question waits for what is not there yet
 ELASTIC, LOSSY = View(), View(restitution=0.8)
 STEPS: tuple[Callable[[], Any], ...] = (
     lambda: scene_of(ELASTIC),
@@ -21,18 +22,27 @@ STEPS: tuple[Callable[[], Any], ...] = (
     lambda: exact_curve(scene_of(LOSSY)),
     *(lambda label=label: law_curves(scene_of(ELASTIC), [label]) for label in LAWS),
 )
-OF_ELASTIC, OF_LOSSES = 3, 5  # how many of the steps answers without contact laws need
+
+
+class Need(NamedTuple):
+    """What answers need: how many of the steps, and of kernels about, by which time is told."""
+
+    steps: int
+    kernels: int
+
+
+OF_ELASTIC, OF_LOSSES, OF_LAWS = Need(3, 126), Need(5, 260), Need(len(STEPS), 310)
 
 
 class Preparing(RuntimeError):
-    """What is asked for is still being compiled; `done` of `parts` are there."""
+    """What is asked for is still being compiled; so many percent of it are there."""
 
-    def __init__(self, done: int, parts: int) -> None:
+    def __init__(self, percent: int) -> None:
         super().__init__(
-            "Carom compiles its solver, which happens once after it was installed without a C "
-            f"compiler: {done} of {parts} parts are ready."
+            "Carom compiles its solver. This happens once, after it was installed without a C "
+            f"compiler, and takes up to a minute; {percent} % of what this answer needs is ready."
         )
-        self.done, self.parts = done, parts
+        self.percent = percent
 
 
 class Warming:
@@ -40,7 +50,7 @@ class Warming:
 
     def __init__(self) -> None:
         self._steps = STEPS if shared_library.reason() else ()
-        self._done = 0
+        self._done = self._kernels = 0
         self._stopped = False
         self._news = Condition()
 
@@ -55,23 +65,49 @@ class Warming:
 
     def check(self, view: View, *, laws: bool = False) -> None:
         """Return once a view can be answered; raise Preparing if that takes long."""
-        needed = len(STEPS) if laws else OF_LOSSES if view.losses else OF_ELASTIC
-        needed = min(needed, len(self._steps))
+        need = OF_LAWS if laws else OF_LOSSES if view.losses else OF_ELASTIC
+        steps = min(need.steps, len(self._steps))
         with self._news:
-            if not self._news.wait_for(lambda: self._done >= needed, PATIENCE):
-                raise Preparing(self._done, needed)
+            if not self._news.wait_for(lambda: self._done >= steps, PATIENCE):
+                raise Preparing(min(99, 100 * self._kernels // need.kernels))
 
     def _run(self) -> None:
         try:
-            with advancing("compiling the solver", len(self._steps)) as advance:
+            with (
+                advancing("compiling the solver", OF_LAWS.kernels) as advance,
+                self._heard(advance),
+            ):
                 for step in self._steps:
                     if self._stopped:
                         return
                     step()
                     self._told(self._done + 1)
-                    advance(1)
         finally:  # if one has failed, each question tells by itself
             self._told(len(self._steps))
+
+    @contextmanager
+    def _heard(self, advance: Callable[[int], object]) -> Iterator[None]:
+        """Count kernels as they are compiled."""
+        from numba.core import event  # which takes long, and is not needed with the library
+
+        def count() -> None:
+            self._kernels += 1
+            advance(1)
+
+        class Counter(event.Listener):  # type: ignore[misc]
+            def on_start(self, _: Any) -> None:
+                """Say nothing yet."""
+
+            def on_end(self, _: Any) -> None:
+                """Count it."""
+                count()
+
+        counter = Counter()
+        event.register("numba:compile", counter)
+        try:
+            yield
+        finally:
+            event.unregister("numba:compile", counter)
 
     def _told(self, done: int) -> None:
         with self._news:

@@ -23,8 +23,7 @@ Carom.canvas = (() => {
     if (canvas.width !== across || canvas.height !== down) {
       Object.assign(canvas, { width: across, height: down }); // slow: all its memory is new
     }
-    pen.setTransform(1, 0, 0, 1, 0, 0);
-    pen.clearRect(0, 0, across, down);
+    pen.reset(); // forgets how the pen was left, too
     pen.scale(dense, dense);
     return { pen, width, height, dense };
   }

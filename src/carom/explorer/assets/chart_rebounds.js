@@ -62,6 +62,7 @@ Carom.rebounds = (() => {
     return {
       type: "scatter",
       mode: "markers",
+      name: "contact laws",
       x: found.map(() => psi),
       y: found.map(({ at }) => at),
       text: found.map(({ label }) => label),

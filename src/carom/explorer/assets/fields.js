@@ -131,6 +131,10 @@ Carom.fields = (() => {
     const there = laws.filter((label) => Carom.config.laws.some((law) => law.label === label));
     laws.filter((label) => !there.includes(label)).forEach((label) => odd.push(`Contact law: there is no ${label}`));
     Carom.laws.choose(there);
+    const data = given.get("data") ?? "";
+    const has = !data || Carom.config.datasets.some(({ name }) => name === data);
+    if (!has) odd.push(`${known.data.label}: there is no ${data}`);
+    Carom.fit.choose(has ? data : "");
     hide();
     complain("", "");
     return odd;

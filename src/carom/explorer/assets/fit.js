@@ -28,8 +28,7 @@ Carom.fit = (() => {
     parts.input.ariaLabel = "table of measured rebounds";
     parts.button = make("button", { id: "upload-button", type: "button" }, "Choose or drop a CSV file");
     parts.drop = make("div", { id: "drop", className: "carom-drop" }, parts.button, parts.input);
-    const template = make("a", { id: "template", className: "carom-download carom-button", download: "template.csv", href: Carom.source.file("template.csv") }, "Empty table to fill in");
-    template.dataset.path = Carom.source.file("template.csv");
+    const template = make("a", { id: "template", className: "carom-button", download: "template.csv", href: Carom.source.file("template.csv") }, "Empty table to fill in");
     parts.progress = make("p", { id: "fit-progress", role: "status" });
     parts.notice = make("p", { id: "fit-notice", className: "carom-notice", role: "alert" });
     parts.told = make("div", { id: "fit-ask", hidden: true });

@@ -7,7 +7,7 @@ Carom.link = (() => {
   const LONGEST = 4000; // characters that are read
   const OWN = ["time", "pace", "theme", "slow", "tab", "preset", "beside"]; // words of the page alone
   let opened = new URLSearchParams(window.location.search);
-  let query = ""; // of the impact
+  let query = null; // of the impact; null until there is one
   let paused = Carom.clock.START; // where the time last stood still
   let waiting = 0;
 
@@ -19,9 +19,12 @@ Carom.link = (() => {
     return text === null || text.trim() === "" ? NaN : Number(text);
   }
 
+  const long = () => opened.toString().length > LONGEST;
+  const refused = () => (long() ? [`The link is too long: ${LONGEST} characters are read at most`] : []);
+
   // The link that was opened without the words of the page alone; one too long says nothing.
   function asked() {
-    if (opened.toString().length > LONGEST) return new URLSearchParams();
+    if (long()) return new URLSearchParams();
     const found = new URLSearchParams(opened);
     OWN.forEach((name) => found.delete(name));
     return found;
@@ -48,6 +51,7 @@ Carom.link = (() => {
   function write() {
     window.clearTimeout(waiting);
     waiting = 0;
+    if (query === null) return;
     const words = whole();
     const { href, search } = window.location;
     const address = href.split(/[?#]/)[0];
@@ -96,5 +100,5 @@ Carom.link = (() => {
   document.addEventListener("click", (event) => event.target.closest?.(FILES) && write(), true);
   document.getElementById("copy").addEventListener("click", copy);
 
-  return { part, number, asked, put, refresh, query: () => query };
+  return { part, number, asked, refused, put, refresh };
 })();

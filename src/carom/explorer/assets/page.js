@@ -142,10 +142,10 @@ Carom.page = (() => {
   function open() {
     const asked = Carom.link.asked();
     const preset = Carom.presets.choose(Carom.link.part("preset") ?? "");
-    linked = Carom.fields.set(asked.size ? asked : preset).join("; ");
+    const odd = Carom.fields.set(asked.size ? asked : preset);
+    linked = [...Carom.link.refused(), ...odd].join("; ");
     opening = true;
     Carom.beside.put(Carom.link.part("beside"));
-    Carom.fit.choose(Carom.link.part("data") ?? "");
     Carom.tabs.choose(Carom.link.part("tab") ?? Carom.tabs.first);
     const time = Carom.link.number("time");
     Carom.clock.pause();
@@ -158,15 +158,23 @@ Carom.page = (() => {
     ask();
   }
 
-  // Going over from bodies to numbers keeps the impact.
-  function changed(name) {
-    const carried = name === "given" && answers[0] && answers[0].carried;
-    if (carried && Carom.fields.value("given") === "numbers") {
-      Carom.fields.put("psi", String(carried.psi));
-      Carom.fields.put("chi", String(carried.chi));
+  // Going over from bodies to numbers keeps the impact, that of the controls as they are now.
+  async function carry() {
+    const query = Carom.fields.query();
+    query.delete("given");
+    ["law", "data"].forEach((name) => query.delete(name));
+    try {
+      const { carried } = await Carom.source.answer(query.toString());
+      Object.entries(carried ?? {}).forEach(([name, number]) => Carom.fields.put(name, String(number)));
+    } catch {
+      // bodies that are no impact leave the numbers as they were
     }
+  }
+
+  async function changed(name) {
     linked = "";
     opening = false;
+    if (name === "given" && Carom.fields.value("given") === "numbers") await carry();
     ask();
   }
 
@@ -231,7 +239,7 @@ Carom.page = (() => {
     open();
   }
 
-  return { start, answers: () => answers, duration: () => (scenes[0] ? scenes[0].data.duration : 0), get scenes() { return scenes; } };
+  return { start, frame: drawNow, answers: () => answers, duration: () => (scenes[0] ? scenes[0].data.duration : 0), get scenes() { return scenes; } };
 })();
 
 Carom.page.start();

@@ -59,7 +59,9 @@ Carom.results = (() => {
     const cells = [value(first), ...(both ? [value(second)] : [])];
     const head = make("th", "carom-sign", sign);
     head.scope = "row";
-    return make("tr", "", head, make("td", "carom-meaning", told), ...cells);
+    const found = make("tr", "", head, make("td", "carom-meaning", told), ...cells);
+    found.dataset.name = (first || second).name;
+    return found;
   }
 
   function head() {

@@ -16,11 +16,12 @@ Carom.source = (() => {
 
   // What a refusal says: of which field, and after how many seconds to ask again, if at all.
   async function refusal(answer) {
-    const text = await answer.text();
+    const text = await answer.clone().text();
     try {
-      return JSON.parse(text);
+      const told = JSON.parse(text);
+      return "field" in told ? told : null;
     } catch {
-      return { field: "", message: text.replace(/^carom: /, "").trim() };
+      return answer.ok ? null : { field: "", message: text.replace(/^carom: /, "").trim() };
     }
   }
 
@@ -28,8 +29,8 @@ Carom.source = (() => {
   async function asked(address, options) {
     for (;;) {
       const answer = await once(address, options);
-      if (answer.ok) return answer;
       const told = await refusal(answer);
+      if (!told) return answer;
       if (!told.again) throw told;
       document.getElementById("notice").textContent = told.message;
       await pause(told.again);
