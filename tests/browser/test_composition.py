@@ -7,6 +7,7 @@ import pytest
 pytestmark = pytest.mark.browser
 WIDTHS = (400, 1024, 1440, 1920)
 THEMES = ("light", "dark")
+CHARTS = ("rebounds", "forces", "energies")
 STATES = {
     "as it opens": "",
     "three laws": "angle=25&friction=0.25&law=mindlin&law=YADE+Mindlin&law=Walton+%26+Braun",
@@ -81,38 +82,6 @@ CANVAS_WORDS = """() => {
   return drawn; }"""
 
 
-@pytest.fixture(params=list(itertools.product(WIDTHS, STATES)), ids=lambda each: "-".join(map(str, each)))
-def seen(visit, request):
-    width, state = request.param
-    found = visit(f"?{STATES[state]}", width=width)
-    found.until(lambda: found.traces("energies"))
-    found.page.wait_for_timeout(300)
-    return found
-
-
-def test_the_pictures_stay_in_view_while_a_slider_is_moved(seen):
-    sliders = seen.page.locator("#fields input[type=range]").all()
-    moved = [slider for slider in sliders if slider.is_visible()]
-    assert len(moved) >= 4
-    for slider in moved:
-        slider.scroll_into_view_if_needed()
-        slider.press("ArrowRight")
-        assert min(seen.page.evaluate(STAGES)) >= 0
-        box, film = slider.bounding_box(), seen.page.locator("#film").bounding_box()
-        if box["x"] < film["x"] + film["width"] and film["x"] < box["x"] + box["width"]:
-            assert box["y"] >= film["y"] + film["height"]  # nor does the film hide the slider
-
-
-def test_charts_have_one_height(seen):
-    heights = [seen.page.locator(f"#{n}").bounding_box()["height"] for n in ("rebounds", "forces", "energies")]
-    assert max(heights) - min(heights) < 1
-    assert min(heights) > 200
-
-
-def test_no_card_is_empty_over_a_third(seen):
-    empty = {each["card"]: each["empty"] for each in seen.page.evaluate(EMPTY, ABOUT)}
-    assert len(empty) >= 6
-    assert {card: share for card, share in empty.items() if share > EMPTIEST} == {}
 
 
 def apart(one, other, least=1.0):
@@ -122,19 +91,24 @@ def apart(one, other, least=1.0):
     return width < least or height < least + 1.0
 
 
-@pytest.mark.parametrize("theme", THEMES)
-def test_words_are_neither_cut_nor_overlap(seen, theme):
-    seen.page.evaluate(f"Carom.theme.choose('{theme}')")
-    seen.page.wait_for_timeout(150)
+def overlapping(words, least=1.0):
+    """Return pairs of words that are drawn one over the other."""
+    pairs = itertools.combinations(words, 2)
+    return [
+        (a["text"], b["text"])
+        for a, b in pairs
+        if a["box"] != b["box"] and not apart(a["box"], b["box"], least)
+    ]
+
+
+def check_words(seen):
     words = seen.page.evaluate(WORDS)
-    assert len(words) > 40
+    assert len(words) > 30
     assert [each["text"] for each in words if each["aside"]] == []
-    shown = [each for each in words if each["seen"]]
-    pairs = itertools.combinations(shown, 2)
-    assert [(a["text"], b["text"]) for a, b in pairs if not apart(a["box"], b["box"], 2.0)] == []
+    assert overlapping([each for each in words if each["seen"]], 2.0) == []
 
 
-def test_words_in_pictures_are_neither_cut_nor_overlap(seen):
+def check_pictures(seen):
     words = seen.page.evaluate(CANVAS_WORDS)
     cut = [
         (each["canvas"], each["time"], each["text"])
@@ -146,9 +120,56 @@ def test_words_in_pictures_are_neither_cut_nor_overlap(seen):
     assert cut == []
     for canvas, time in {(each["canvas"], each["time"]) for each in words}:
         there = [w for w in words if w["canvas"] == canvas and (w["still"] or w["time"] == time)]
-        pairs = itertools.combinations(there, 2)
-        assert [
-            (a["text"], b["text"])
-            for a, b in pairs
-            if a["text"] != b["text"] and not apart(a["box"], b["box"])
-        ] == []
+        once = {(w["text"], *w["box"]): w for w in there}.values()
+        assert overlapping(once) == []
+
+
+def check_cards(seen):
+    empty = {each["card"]: each["empty"] for each in seen.page.evaluate(EMPTY, ABOUT)}
+    assert len(empty) >= 6
+    assert {card: share for card, share in empty.items() if share > EMPTIEST} == {}
+    charts = [seen.page.locator(f"#{name}").bounding_box() for name in CHARTS]
+    heights = [box["height"] for box in charts]
+    assert max(heights) - min(heights) < 1
+    assert min(heights) > 200
+
+
+def check_sliders(seen):
+    """The pictures stay in view while a slider is moved, and do not hide it."""
+    sliders = seen.page.locator("#fields input[type=range]").all()
+    moved = [slider for slider in sliders if slider.is_visible()]
+    assert len(moved) >= 4
+    for slider in moved:
+        slider.scroll_into_view_if_needed()
+        slider.press("ArrowRight")
+        assert min(seen.page.evaluate(STAGES)) >= 0
+        box, film = slider.bounding_box(), seen.page.locator("#film").bounding_box()
+        if box["x"] < film["x"] + film["width"] and film["x"] < box["x"] + box["width"]:
+            assert box["y"] >= film["y"] + film["height"]
+
+
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("width", WIDTHS)
+def test_the_page_is_composed(visit, width, state):
+    seen = visit(f"?{STATES[state]}", width=width)
+    seen.until(lambda: seen.traces("energies"))
+    for theme in THEMES:
+        seen.page.evaluate(f"Carom.theme.choose('{theme}')")
+        seen.page.wait_for_timeout(300)
+        check_words(seen)
+        check_pictures(seen)
+        check_cards(seen)
+    check_sliders(seen)
+
+
+@pytest.mark.parametrize("panel", ["Measurements", "Files", "Python"])
+@pytest.mark.parametrize("width", WIDTHS)
+def test_panels_are_composed(visit, width, panel):
+    seen = visit(f"?tab={panel}&data=kharaz2001", width=width)
+    place = {"Measurements": "#fit .main-svg", "Files": "#files a", "Python": "#code"}[panel]
+    seen.until(lambda: seen.page.locator(place).first.is_visible())
+    seen.until(lambda: panel != "Python" or "carom" in seen.page.inner_text("#code"))
+    seen.page.wait_for_timeout(300)
+    check_words(seen)
+    empty = {each["card"]: each["empty"] for each in seen.page.evaluate(EMPTY, ABOUT)}
+    assert {card: share for card, share in empty.items() if share > EMPTIEST} == {}

@@ -68,7 +68,7 @@ Carom.patch = (() => {
     const wide = Object.keys(BARS).find((name) => {
       const side = sideWith(BARS[name]);
       return side >= 0.92 * most || side >= ENOUGH;
-    });
+    }) ?? "none"; // in a box too small for any
     return { bar: wide, side: Math.max(40, sideWith(BARS[wide])) };
   }
 
