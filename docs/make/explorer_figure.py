@@ -16,11 +16,12 @@ from carom.explorer import explorer
 FIGURES = Path(__file__).parents[1] / "figures" / "page"
 LAWS = "law=mindlin&law=YADE+Mindlin&law=Walton+%26+Braun"
 STATE = f"?angle=25&friction=0.25&{LAWS}&time=0.6&theme=light&data=kharaz2001"
+TWO = "?angle=25&friction=0.25&time=0.6&theme=light"
 SIZES = {400: 800, 1024: 768, 1440: 900, 1920: 1080}
 PICTURES = {  # state, width
     **{f"{width}": (STATE, width) for width in SIZES},
     "dark": (STATE.replace("light", "dark"), 1440),
-    "two": ("?angle=25&friction=0.25&time=0.6&theme=light&beside=angle%3D60%26friction%3D0.25", 1440),
+    "two": (f"{TWO}&beside=angle%3D60%26friction%3D0.25", 1440),
     "fit": (STATE + "&tab=Measurements", 1440),
 }
 COLORS = 128  # of a picture, which is small for it

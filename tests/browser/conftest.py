@@ -115,7 +115,8 @@ class Visit:
     def traces(self, chart):
         """Return the traces of a chart by their names, as plotly drew them."""
         words = (
-            "id => { const plot = document.querySelector(`#${id}.js-plotly-plot, #${id} .js-plotly-plot`);"
+            "id => { const plot = document.querySelector("
+            "`#${id}.js-plotly-plot, #${id} .js-plotly-plot`);"
             " return plot && plot._fullData && plot.querySelector('.main-svg')"
             " ? plot._fullData.map(t => ({name: t.name, mode: t.mode,"
             " x: Array.from(t.x), y: Array.from(t.y)})) : []; }"

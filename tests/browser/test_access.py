@@ -58,7 +58,10 @@ def test_every_control_is_reached_by_tab_and_seen(visit, panel):
     assert [name for name, marked in reached.items() if not marked] == []
 
 
-@pytest.mark.parametrize("query", ["", "?given=numbers&against=sphere&data=kharaz2001", "?tab=Files", "?tab=Measurements"])
+@pytest.mark.parametrize(
+    "query",
+    ["", "?given=numbers&against=sphere&data=kharaz2001", "?tab=Files", "?tab=Measurements"],
+)
 def test_every_control_has_a_name(visit, query):
     """As the browser tells a screen reader."""
     seen = visit(query)

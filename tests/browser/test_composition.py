@@ -1,4 +1,4 @@
-"""The page as a picture at four widths, light and dark: what stays in view, fits and is told apart."""
+"""The page as a picture at four widths, light and dark: what is in view, fits, is told apart."""
 
 import itertools
 
@@ -17,7 +17,8 @@ STATES = {
 }
 EMPTIEST = 1 / 3  # of a card
 ABOUT = 28  # pixels around what a card holds that are not empty
-STAGES = """() => [...document.querySelectorAll('#film canvas')].filter(each => each.checkVisibility())
+STAGES = """() => [...document.querySelectorAll('#film canvas')]
+  .filter(each => each.checkVisibility())
   .map(each => { const box = each.getBoundingClientRect();
     return [box.left, box.top, innerWidth - box.right, innerHeight - box.bottom]; }).flat()"""
 EMPTY = """about => [...document.querySelectorAll('.carom-card, .carom-cell')]
@@ -49,14 +50,17 @@ WORDS = """() => {
   const found = [];
   const add = (at, text, r) => { const c = clip(at);
     found.push({ text, box: [r.left, r.top, r.right, r.bottom],
-      seen: r.left > c.left - 1 && r.right < c.right + 1 && r.top > c.top - 1 && r.bottom < c.bottom + 1,
+      seen: r.left > c.left - 1 && r.right < c.right + 1
+        && r.top > c.top - 1 && r.bottom < c.bottom + 1,
       aside: r.left < c.left - 1.5 || r.right > c.right + 1.5 }); };
   const walk = document.createTreeWalker(document.getElementById('page'), NodeFilter.SHOW_TEXT);
   while (walk.nextNode()) {
     const node = walk.currentNode, at = node.parentElement;
-    if (!node.textContent.trim() || !at.checkVisibility({ visibilityProperty: true, opacityProperty: true })
+    if (!node.textContent.trim()
+      || !at.checkVisibility({ visibilityProperty: true, opacityProperty: true })
       || at.closest('select, .hoverlayer, pre, sub, sup, #tip')) continue;
-    if (getComputedStyle(at).clipPath !== 'none' || at.closest('h2') && getComputedStyle(at.closest('h2')).clipPath !== 'none') continue;
+    const around = [at, at.closest('h2') || at];
+    if (around.some(each => getComputedStyle(each).clipPath !== 'none')) continue;
     const range = document.createRange(); range.selectNodeContents(node);
     for (const r of range.getClientRects()) if (r.width > 1) add(at, node.textContent.trim(), r); }
   return found; }"""
@@ -65,13 +69,15 @@ CANVAS_WORDS = """() => {
   CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
     const size = this.measureText(text), dense = devicePixelRatio;
     const at = this.getTransform().transformPoint({ x, y });
-    found.push({ canvas: drawing, still: !this.canvas.isConnected, text, box: [at.x / dense - size.actualBoundingBoxLeft,
-      at.y / dense - size.actualBoundingBoxAscent, at.x / dense + size.actualBoundingBoxRight,
-      at.y / dense + size.actualBoundingBoxDescent], room: [this.canvas.width / dense, this.canvas.height / dense] });
+    found.push({ canvas: drawing, still: !this.canvas.isConnected, text,
+      box: [at.x / dense - size.actualBoundingBoxLeft, at.y / dense - size.actualBoundingBoxAscent,
+        at.x / dense + size.actualBoundingBoxRight, at.y / dense + size.actualBoundingBoxDescent],
+      room: [this.canvas.width / dense, this.canvas.height / dense] });
     return fill.apply(this, arguments); };
   const drawn = [];
   let drawing = '';
-  const scenes = Carom.page.answers().map(each => each && Carom.scene.of(each.scene)); // nothing is kept of them
+  // nothing is kept of these scenes
+  const scenes = Carom.page.answers().map(each => each && Carom.scene.of(each.scene));
   for (const time of [-0.4, 0.02, 0.2, 0.35, 0.5, 0.7, 0.9, 0.99, 1.4]) {
     found.length = 0;
     scenes.forEach((scene, row) => scene && ['stage', 'patch'].forEach(name => {
@@ -80,8 +86,6 @@ CANVAS_WORDS = """() => {
     drawn.push(...found.map(each => ({ ...each, time }))); }
   CanvasRenderingContext2D.prototype.fillText = fill;
   return drawn; }"""
-
-
 
 
 def apart(one, other, least=1.0):

@@ -176,3 +176,18 @@ def test_a_link_of_bodies_that_do_not_fit(visit):
     seen.page.fill("#second_radius", "30")
     seen.until(lambda: seen.notice() == "" and "second_radius=30" in seen.link())
     assert all("second_radius=30" in href for href in seen.page.evaluate(hrefs))
+
+
+@pytest.mark.parametrize(
+    ("query", "beginning"),
+    [
+        ("?against=cup&radius=20", "Its radius: must be above 20 mm"),
+        ("?beside=angle%3D1000", "Beside: Incidence: must be a number from 0 to 89.9 deg"),
+    ],
+)
+def test_a_link_that_cannot_be_mended_is_asked_for_only_once(visit, query, beginning):
+    seen = visit(query, loading=True, ready=False)
+    assert seen.until(lambda: seen.notice()).startswith(beginning)
+    seen.page.wait_for_timeout(500)
+    asked = "performance.getEntriesByType('resource').filter(each => each.name.includes('answer?'))"
+    assert seen.page.evaluate(f"{asked}.length") <= 4

@@ -42,7 +42,13 @@ def test_every_picture_is_written_in_both_modes(name, tmp_path):
 
 @pytest.mark.parametrize(
     "view",
-    [View(given=NUMBERS, psi=0.0), View(friction=0.0), View(angle=0.0), View(angle=89.9)],
+    [
+        View(given=NUMBERS, psi=0.0),
+        View(friction=0.0),
+        View(angle=0.0),
+        View(angle=89.9),
+        View(restitution=0.8),
+    ],
     ids=str,
 )
 def test_pictures_of_odd_states(view, tmp_path):

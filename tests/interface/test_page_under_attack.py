@@ -21,11 +21,10 @@ PATIENCE = 30.0  # s, of each answer: nothing hangs, on a machine that is busy a
 
 @pytest.mark.slow
 def test_a_page_under_attack_answers():
-    with served() as url:
-        with attacked(url, "all at once"):
-            time.sleep(3.0)
-            for angle in (20, 40, 60):
-                size, late = Page(url, PATIENCE).answer(f"angle={angle}")
-                assert size > 10_000
-                assert late == []
-                time.sleep(0.5)
+    with served() as url, attacked(url, "all at once"):
+        time.sleep(3.0)
+        for angle in (20, 40, 60):
+            size, late = Page(url, PATIENCE).answer(f"angle={angle}")
+            assert size > 10_000
+            assert late == []
+            time.sleep(0.5)

@@ -15,7 +15,10 @@ from carom.quantities.units import whole
 
 def explore_command(
     host: Annotated[
-        str, typer.Option(help="Address of the page; the default is open to this machine only.")
+        str,
+        typer.Option(
+            help="Address of the page; 127.0.0.1 is for this machine only, 0.0.0.0 for others, too."
+        ),
     ] = "127.0.0.1",
     port: Annotated[str, whole_option("Port of the page; 0 takes any free port.")] = "8050",
     open_browser: Annotated[
@@ -28,7 +31,7 @@ def explore_command(
         str | None,
         typer.Option(
             metavar="FOLDER",
-            help="Write a copy of the page that runs in the browser alone, e.g. for a course.",
+            help="Write a copy of the page that needs no server, e.g. for a course, and end.",
         ),
     ] = None,
     as_json: Annotated[
@@ -41,8 +44,9 @@ def explore_command(
 ) -> None:
     """Explore impacts on a page in the browser.
 
-    Sliders change the impact while you watch the ball, the contact and the forces. The page also
-    compares contact laws of DEM codes and fits your measurements. It runs until you press Ctrl-C.
+    Sliders change the impact while you watch the ball, the contact, the forces and the energies.
+    The page also compares contact laws of DEM codes and fits your measurements. It runs until you
+    press Ctrl-C. What --export writes runs in the browser alone, without laws, fits and files.
 
     \b
     Example: carom explore

@@ -3,11 +3,10 @@
 import json
 import logging
 from functools import cache
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from flask import Flask, Response, abort, request, send_file
+from flask import Flask, Response, request, send_file, send_from_directory
 from werkzeug.exceptions import HTTPException
 
 from carom.explorer import answers
@@ -15,7 +14,7 @@ from carom.explorer.downloads import add_files
 from carom.explorer.fits import add_fits
 from carom.explorer.knobs import WORDS
 from carom.explorer.limits import LARGEST_REQUEST, Busy
-from carom.explorer.page import page
+from carom.explorer.page import page, plotly_file
 from carom.explorer.refused import Refused
 from carom.explorer.views import View
 from carom.explorer.warming import Preparing, Warming
@@ -23,10 +22,10 @@ from carom.explorer.worker import Worker
 from carom.quantities.refusals import InputError
 
 OWN_HOST_ONLY = (
-    "default-src 'self'; script-src 'self' 'unsafe-eval'; style-src 'self' 'unsafe-inline'; "
+    "default-src 'self'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' data: blob:; font-src 'self' data:; object-src 'none'; base-uri 'none'; "
     "form-action 'self'; frame-ancestors 'none'"
-)  # plotly writes styles; programs that drive a browser evaluate their questions
+)  # plotly writes styles
 HEADERS = {
     "Content-Security-Policy": OWN_HOST_ONLY,
     "Referrer-Policy": "no-referrer",
@@ -34,7 +33,6 @@ HEADERS = {
 }
 ASSETS = Path(__file__).with_name("assets")
 FOR_THE_PAGE = ("/answer", "/laws", "/fit")  # told of errors as JSON, others as text
-WEEK = 7 * 86400  # s
 AGAIN = 1  # s after which to ask again for what is being compiled
 LOGGED = 300  # characters of what went wrong
 
@@ -56,7 +54,7 @@ def new_app(worker: Worker, warming: Warming, hosts: list[str] | None = None) ->
 
 
 def _add_parts(server: Flask) -> None:
-    """Add the page, and what it is made of."""
+    """Add the page, and what it is made of: a browser keeps it, and asks whether it is the same."""
 
     @server.get("/")
     def home() -> Response:
@@ -64,14 +62,11 @@ def _add_parts(server: Flask) -> None:
 
     @server.get("/assets/<name>")
     def asset(name: str) -> Response:
-        file = ASSETS / name
-        if not file.is_file():
-            abort(404)
-        return _kept(file)
+        return send_from_directory(ASSETS, name)
 
     @server.get("/plotly.min.js")
     def plotly() -> Response:
-        return _kept(plotly_file())
+        return send_file(plotly_file())
 
 
 def _add_answers(server: Flask, warming: Warming) -> None:
@@ -95,24 +90,8 @@ def _page() -> str:
     return page()
 
 
-def plotly_file() -> Path:
-    """Return the file of plotly's JavaScript, without its package, which takes long to load."""
-    found = find_spec("plotly")
-    if found is None or found.origin is None:
-        raise InputError("the explorer needs the package plotly; pip install 'carom[explore]'")
-    return Path(found.origin).with_name("package_data") / "plotly.min.js"
-
-
 def _query() -> str:
     return request.query_string.decode("ascii", "replace")
-
-
-def _kept(file: Path) -> Response:
-    """Return a file, which a browser keeps as long as it has not changed.
-
-    For a week without asking if the address tells its version.
-    """
-    return send_file(file, max_age=WEEK if "v" in request.args else None)
 
 
 def _json(told: Any, status: int = 200) -> Response:

@@ -7,11 +7,12 @@ from typing import Any
 from carom.bodies.materials import material
 from carom.datasets import names as dataset_names, path
 from carom.explorer.knobs import CHOICES, KNOBS, OPTIONS, OWN, WORDS, label
+from carom.explorer.limits import LARGEST_UPLOAD, LONGEST_LINK
 from carom.explorer.presets import PRESETS
 from carom.explorer.scenes import ENERGIES, OF_CONTACT
 from carom.explorer.symbols import SYMBOLS
 from carom.explorer.tables import RESTITUTIONS
-from carom.explorer.views import LAWS, UNDAMPED, View
+from carom.explorer.views import LAWS, PAGE_ONLY, View
 from carom.impacts.curves import REGIMES as LONG
 from carom.io.tables import read_table
 from carom.io.version import __version__
@@ -25,12 +26,12 @@ def config(*, static: bool = False) -> dict[str, Any]:
     return {
         "version": __version__,
         "static": static,
+        "page_only": PAGE_ONLY,
+        "longest_link": LONGEST_LINK,
+        "largest_upload": LARGEST_UPLOAD,
         "fields": _fields() | (_of_copy() if static else {}),
         "materials": {name: _material(name) for name in CHOICES["second_material"] if name != OWN},
-        "laws": [
-            {"label": entry.label, "used_by": entry.used_by, "damped": entry.label not in UNDAMPED}
-            for entry in CATALOGUE
-        ],
+        "laws": [{"label": entry.label, "used_by": entry.used_by} for entry in CATALOGUE],
         "regimes": [{"name": name, "long": long} for name, long in zip(REGIMES, LONG, strict=True)],
         "symbols": SYMBOLS,
         "energies": ENERGIES | OF_CONTACT,
@@ -61,11 +62,12 @@ def _fields() -> dict[str, dict[str, Any]]:
 
 
 def _of_copy() -> dict[str, dict[str, Any]]:
-    """Return the fields that are choices in a copy without a server: what its tables hold."""
+    """Return the fields that differ in a copy without a server, which has tables and no units."""
     held = [[f"{e:g}", OPTIONS.get(f"{e:g}", f"{e:g}")] for e in RESTITUTIONS]
-    field = _fields()["restitution"]
-    chosen = f"{field['default']:g}"
-    return {"restitution": {**field, "slider": None, "choices": held, "default": chosen}}
+    known = _fields()
+    chosen = {"slider": None, "choices": held, "default": f"{View.restitution:g}"}
+    plain = {"hint": ""}  # its numbers are read in the unit of the field alone
+    return {"restitution": known["restitution"] | chosen, "radius": known["radius"] | plain}
 
 
 def _material(name: str) -> dict[str, float | None]:

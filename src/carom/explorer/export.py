@@ -3,11 +3,10 @@
 import os
 import shutil
 import tempfile
-from importlib.resources import files
 from pathlib import Path
 from typing import NamedTuple
 
-from carom.explorer.page import asset, assets_of, page
+from carom.explorer.page import asset, assets_of, page, plotly_file
 from carom.explorer.tables import IMPACTS, tables
 from carom.io.paths import checked_path
 from carom.io.progress import Progress, advancing
@@ -75,7 +74,7 @@ def _parts(progress: Progress) -> dict[str, bytes]:
         script = tables(advance)
     for name in assets_of(static=True):
         found[f"{ASSETS}/{name}"] = script.encode() if name == "tables.js" else asset(name)
-    found[PLOTLY] = files("plotly").joinpath("package_data", PLOTLY).read_bytes()
+    found[PLOTLY] = plotly_file().read_bytes()
     return found
 
 

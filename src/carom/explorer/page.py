@@ -3,13 +3,28 @@
 import json
 from html import escape
 from importlib.resources import files
+from importlib.util import find_spec
+from pathlib import Path
 
 from carom.explorer.config import config
+from carom.quantities.refusals import InputError
 
-STYLES = ("carom.css", "composition.css", "controls.css", "pictures.css", "reading.css", "laws.css", "fit.css")
-PICTURES = ("config", "theme", "clock", "canvas", "contact", "view", "scene", "stage", "profile", "patch", "told")
-CHARTS = ("plotting", "bands", "keys", "chart_rebounds", "chart_histories", "charts", "cursor", "results", "laws")
-READER = ("tips", "tabs", "files", "fit_charts", "fit_tables", "fit", "fields", "code", "presets", "beside", "link", "page")
+STYLES = (
+    *("carom.css", "composition.css", "controls.css"),
+    *("pictures.css", "reading.css", "laws.css", "fit.css"),
+)
+PICTURES = (
+    *("config", "elements", "theme", "clock", "canvas", "contact", "view", "scene", "stage"),
+    *("profile", "patch_layout", "patch", "told"),
+)
+CHARTS = (
+    *("plotting", "bands", "keys", "chart_rebounds", "chart_histories", "charts", "cursor"),
+    *("results", "laws"),
+)
+READER = (
+    *("tips", "tabs", "files", "fit_charts", "fit_tables", "fit"),
+    *("fields", "code", "presets", "beside", "link", "page"),
+)
 LIVE = ("server",)
 COPY = (
     *("tables", "quantities", "rebound", "normal", "springs", "law"),
@@ -45,6 +60,14 @@ def assets_of(*, static: bool = False) -> tuple[str, ...]:
 def asset(name: str) -> bytes:
     """Return a file of the page."""
     return files("carom.explorer").joinpath("assets", name).read_bytes()
+
+
+def plotly_file() -> Path:
+    """Return the file of plotly's JavaScript, without its package, which takes long to load."""
+    found = find_spec("plotly")
+    if found is None or found.origin is None:
+        raise InputError("the explorer needs the package plotly; pip install 'carom[explore]'")
+    return Path(found.origin).with_name("package_data") / "plotly.min.js"
 
 
 def _place(name: str) -> str:

@@ -4,10 +4,11 @@ import socket
 from dataclasses import dataclass, field
 from errno import EADDRNOTAVAIL
 
-from carom.explorer.app import new_app, plotly_file
+from carom.explorer.app import new_app
 from carom.explorer.connections import Server
 from carom.explorer.limits import QUEUED
 from carom.explorer.overlays import followers
+from carom.explorer.page import plotly_file
 from carom.explorer.warming import Warming
 from carom.explorer.worker import Worker
 from carom.quantities.refusals import InputError, refusal

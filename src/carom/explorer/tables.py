@@ -88,7 +88,7 @@ def _packed(patches: Patches, restitution: float) -> dict[str, Any]:
 
 
 def _text(values: Array, kind: type) -> str:
-    return b64encode(np.ascontiguousarray(values, dtype=np.dtype(kind).newbyteorder("<"))).decode()
+    return b64encode(values.astype(np.dtype(kind).newbyteorder("<")).tobytes()).decode()
 
 
 def _losses(restitution: float) -> dict[str, float]:

@@ -33,7 +33,6 @@ from carom.verify.errors import losses_of
 
 OF_MOTION = ("speed", "angle", "spin")
 OF_NUMBERS = ("psi", "chi")
-OF_BOTH = ("friction", "restitution")
 OF_BODIES = (
     *("radius", "material", *OF_MATERIAL, "against", "second_radius", "second_material"),
     *(SECOND + name for name in OF_MATERIAL),

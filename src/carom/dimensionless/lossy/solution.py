@@ -73,6 +73,7 @@ class LossySolution(Trajectory):
         wanted = self._times_within(time)
         rows, scale = self._sampled(wanted), self._scale
         first, psi = self._first, rows[layout.AT_PSI]
+        radius = np.maximum(rows[layout.AT_B], 0.0)  # rounding at the end of the contact
         stored, shear = 1.875 * self.chi * rows[layout.AT_SQUARE], rows[layout.AT_SHEAR_LOST]
         return History(
             time=wanted,
@@ -81,8 +82,8 @@ class LossySolution(Trajectory):
             psi=scale * psi,
             displacement=scale * rows[layout.AT_U],
             force=scale * rows[layout.AT_Q],
-            stick_radius=np.minimum(rows[layout.AT_STUCK], rows[layout.AT_B]),
-            contact_radius=rows[layout.AT_B],
+            stick_radius=np.minimum(rows[layout.AT_STUCK], radius),
+            contact_radius=radius,
             stored=scale**2 * stored,
             dissipated=scale**2 * (0.5 * (first - psi) * (first + psi) - stored - shear),
             shear_lost=scale**2 * shear,

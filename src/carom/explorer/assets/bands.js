@@ -107,14 +107,26 @@ Carom.bands = (() => {
     });
   }
 
-  // A regime of the curve or a phase of the contact, named and marked as in figures.
-  const SIGNS = { 1: "\u00a0+", 0: "", "-1": "\u00a0−" };
+  // The regimes on both sides of zero as far as they are shown, marked as in figures.
+  const LOOKS = ["stick", "slip-plus", "gross-plus", "only"]; // from zero on
+  function regimes(borders, low, high) {
+    const ends = [0, ...borders, Infinity];
+    const found = LOOKS.flatMap((look, row) => {
+      const [from, to] = [ends[row], ends[row + 1]];
+      const sides = row ? [[-to, -from], [from, to]] : [[-to, to]]; // stick is one band
+      const { name } = Carom.config.regimes[row];
+      return sides.map(([start, end]) => ({ name, look, start: Math.max(start, low), end: Math.min(end, high) }));
+    });
+    return found.filter(({ start, end }) => end > start).sort((a, b) => a.start - b.start);
+  }
+
+  // A phase of the contact; its sign stays on the line of its last word.
   const phase = ({ kind, sign, start, end }, scale = 1) => ({
     start: start * scale,
     end: end * scale,
-    name: kind + SIGNS[sign],
+    name: Carom.scene.nameOf({ kind, sign }).replace(/ (?=[+−]$)/, "\u00a0"),
     look: kind === "stick" ? "stick" : `${kind === "slip" ? "slip" : "gross"}-${sign < 0 ? "minus" : "plus"}`,
   });
 
-  return { room, place, point, phase };
+  return { room, place, point, regimes, phase };
 })();

@@ -19,8 +19,17 @@ Carom.beside = (() => {
     for (const id of ["stage-beside", "patch-beside"]) box(id).hidden = !query;
   }
 
+  // Its answer, null without one; what is refused is no longer beside.
   async function answered() {
-    if (query && !answer) answer = await Carom.source.answer(query.toString());
+    const mine = query;
+    if (!mine || answer) return answer;
+    try {
+      const found = await Carom.source.answer(mine.toString());
+      if (mine === query) answer = found; // it may be another by now
+    } catch (refusal) {
+      if (mine === query) put(null);
+      throw { field: refusal.field, message: refusal.message, beside: true };
+    }
     return answer;
   }
 

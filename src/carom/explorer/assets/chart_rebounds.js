@@ -2,39 +2,11 @@
 window.Carom = window.Carom || {};
 
 Carom.rebounds = (() => {
-  const REGIMES = [ // marked as in figures, from the smallest |psi_1| on
-    ["stick", "stick"],
-    ["gross slip, stick", "slip-plus"],
-    ["gross slip, slip", "gross-plus"],
-    ["gross slip only", "only"],
-  ];
   const PLACE = "<br>ψ₁ = %{x:.4g}, ψ₂ = %{y:.4g}<extra></extra>";
   const BESIDE = { dash: "7px,4px", width: 1.5 };
   const PADDING = 0.05; // of the range of psi_2
 
   const color = (name) => Carom.theme.color(name);
-
-  // The regimes on both sides of psi_1 = 0, as far as they are shown.
-  function regimes({ borders }, low, high) {
-    const ends = [0, ...borders, Infinity];
-    return REGIMES.flatMap(([name, look], row) => {
-      const span = [ends[row], ends[row + 1]];
-      return [span.map((end) => -end).reverse(), span].map(([start, end]) => {
-        return { name, look, start: Math.max(start, low), end: Math.min(end, high) };
-      });
-    }).filter(({ start, end }) => end > start).sort((a, b) => a.start - b.start);
-  }
-
-  // Stick on both sides of zero is one band.
-  function joined(bands) {
-    const whole = [];
-    for (const band of bands) {
-      const last = whole[whole.length - 1];
-      if (last && last.name === band.name && last.end === band.start) last.end = band.end;
-      else whole.push({ ...band });
-    }
-    return whole;
-  }
 
   function points(at, name, fill) {
     return {
@@ -96,24 +68,17 @@ Carom.rebounds = (() => {
     return [...found, { sample: line({ ...BESIDE, color: color("beside") }) + point, text: "beside" }];
   }
 
-  function range(lists) {
-    const values = lists.flat().filter((value) => value !== null);
-    const [low, high] = [Math.min(...values), Math.max(...values)];
-    const padding = PADDING * (high - low || 1);
-    return [low - padding, high + padding];
-  }
-
   function chart(answers) {
     const [first, second] = answers;
     const curves = [first.curve, ...(second ? [second.curve] : [])];
     const xs = curves.flatMap(({ psi }) => [psi[0], psi[psi.length - 1]]);
     const x = [Math.min(...xs), Math.max(...xs)];
-    const y = range([...curves.map(({ out }) => out), ...first.laws.map(({ out }) => out)]);
+    const y = Carom.plotting.range([...curves.map(({ out }) => out), ...first.laws.map(({ out }) => out)], PADDING);
     return {
       traces: traces(answers),
       x: { title: "ψ₁", range: x, zeroline: x[0] < 0 },
       y: { title: "ψ₂", range: y, zeroline: true },
-      bands: joined(regimes(first.curve, ...x)),
+      bands: Carom.bands.regimes(first.curve.borders, ...x),
       keys: keys(answers),
       hover: true,
       revision: "psi",

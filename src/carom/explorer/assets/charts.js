@@ -77,7 +77,6 @@ Carom.charts = (() => {
 
   build();
   return {
-    load: () => Carom.plotting.load(),
     show,
     again: () => answers && show(answers),
     stress,

@@ -116,7 +116,6 @@ Carom.clock = (() => {
     borders,
     slow: (on) => (slower = Boolean(on)),
     isSlow: () => slower,
-    rateAt,
     after,
     next: () => jump(later() ?? LAST),
     previous: () => jump(earlier() ?? FIRST),

@@ -132,6 +132,7 @@ Carom.source = (() => {
     laws: async () => ({ laws: [], slow: [] }),
     fit: cannot,
     code: cannot,
+    written: cannot,
     file: () => null,
   };
 })();

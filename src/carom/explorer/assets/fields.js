@@ -2,7 +2,8 @@
 window.Carom = window.Carom || {};
 
 Carom.fields = (() => {
-  const { fields: known, materials } = Carom.config;
+  const { make } = Carom.elements;
+  const { fields: known } = Carom.config;
   const OF_MATERIAL = ["young", "poisson", "density"];
   const material = (which) => [`${which}material`, ...OF_MATERIAL.map((name) => which + name)];
   const GROUPS = {
@@ -15,13 +16,6 @@ Carom.fields = (() => {
   const OWN = "own";
   const heard = [];
   const box = (name) => document.getElementById(name);
-
-  function make(tag, properties, ...children) {
-    const element = document.createElement(tag);
-    Object.assign(element, properties);
-    element.append(...children);
-    return element;
-  }
 
   function labelOf(name) {
     const { label, symbol } = known[name];
@@ -102,6 +96,17 @@ Carom.fields = (() => {
     follow(name);
   }
 
+  // Set a field to what it is as the page opens; tell whether that changed it.
+  function reset(name) {
+    const first = names().includes(name) ? String(known[name].default) : null;
+    if (first === null || value(name) === first) return false;
+    put(name, first);
+    return true;
+  }
+
+  // A number as it was typed, with the unit of its field unless it has its own.
+  const withUnit = (name, text) => (PLAIN.test(text.trim()) ? `${text} ${known[name].unit}` : text).trim();
+
   // The query of what differs from the page as it opens.
   function query() {
     const found = new URLSearchParams();
@@ -135,6 +140,7 @@ Carom.fields = (() => {
     const has = !data || Carom.config.datasets.some(({ name }) => name === data);
     if (!has) odd.push(`${known.data.label}: there is no ${data}`);
     Carom.fit.choose(has ? data : "");
+    Carom.fit.changed();
     hide();
     complain("", "");
     return odd;
@@ -156,7 +162,7 @@ Carom.fields = (() => {
   function words(given) {
     const of = (name) => given.get(name) ?? String(known[name].default);
     if (of("given") === "numbers") return `ψ₁ = ${of("psi")}, χ = ${of("chi")}`;
-    return `${of("material")} on ${of("second_material")}, ${of("angle")} deg, µ = ${of("friction")}`;
+    return `${of("material")} on ${of("second_material")}, ${withUnit("angle", of("angle"))}, µ = ${of("friction")}`;
   }
 
   return {
@@ -168,8 +174,8 @@ Carom.fields = (() => {
     complain,
     words,
     label: (name) => (known[name] ? known[name].label : ""),
-    reset: (name) => put(name, String(known[name].default)),
+    reset,
+    withUnit,
     hear: (listener) => heard.push(listener),
-    materials,
   };
 })();

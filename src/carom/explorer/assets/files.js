@@ -11,14 +11,9 @@ Carom.files = (() => {
     ["course", "Contact through the impact", "The contact at several instants, its traction across, and the force.", PICTURE],
     ["view", "Python", "The lines that compute all this with the library.", [["py", "Python"]]],
   ];
+  const { make } = Carom.elements;
   const place = document.getElementById("files");
   let told = null;
-
-  function make(tag, properties, ...children) {
-    const element = Object.assign(document.createElement(tag), properties);
-    element.append(...children);
-    return element;
-  }
 
   function anchor(name, text, what) {
     const file = Carom.source.file(name);
@@ -49,23 +44,10 @@ Carom.files = (() => {
     event.preventDefault();
     tell(`Writing ${found.download} …`);
     try {
-      const answer = await fetch(found.href);
-      if (!answer.ok) throw await refusal(answer);
-      save(await answer.blob(), found.download);
+      save(await Carom.source.written(found.href), found.download);
       tell(`${found.download} is written.`);
     } catch (error) {
       tell(error.message, true);
-    }
-  }
-
-  async function refusal(answer) {
-    const text = await answer.text();
-    try {
-      const { field, message } = JSON.parse(text);
-      const label = field && Carom.fields.label(field);
-      return { message: label ? `${label}: ${message}` : message };
-    } catch {
-      return { message: text.trim() };
     }
   }
 

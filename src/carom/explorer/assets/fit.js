@@ -2,10 +2,10 @@
 window.Carom = window.Carom || {};
 
 Carom.fit = (() => {
-  const LARGEST = 1e6; // bytes of a file
+  const { largest_upload: LARGEST } = Carom.config; // bytes of a file
   const BODIES = ["material", "young", "poisson", "density"].flatMap((name) => [name, `second_${name}`])
     .concat("radius", "against", "second_radius");
-  const { make } = Carom.fitTables;
+  const { make } = Carom.elements;
   const panel = document.getElementById("fit-panel");
   const parts = {};
   let file = null; // {name, contents} of the reader's file
@@ -27,7 +27,7 @@ Carom.fit = (() => {
     parts.input = make("input", { id: "upload", type: "file", accept: ".csv,text/csv,text/plain", tabIndex: -1 });
     parts.input.ariaLabel = "table of measured rebounds";
     parts.button = make("button", { id: "upload-button", type: "button" }, "Choose or drop a CSV file");
-    parts.drop = make("div", { id: "drop", className: "carom-drop" }, parts.button, parts.input);
+    parts.drop = make("div", { id: "drop" }, parts.button, parts.input);
     const template = make("a", { id: "template", className: "carom-button", download: "template.csv", href: Carom.source.file("template.csv") }, "Empty table to fill in");
     parts.progress = make("p", { id: "fit-progress", role: "status" });
     parts.notice = make("p", { id: "fit-notice", className: "carom-notice", role: "alert" });
@@ -90,10 +90,12 @@ Carom.fit = (() => {
   }
 
   function inWords() {
-    const value = Carom.fields.value;
+    const { value, withUnit } = Carom.fields;
+    const long = (name) => `${withUnit(name, value(name))} radius`;
     const of = (name) => (value(name) === "own" ? "your own material" : value(name));
-    const sized = value("against") === "half-space" ? "" : ` of ${value("second_radius")} mm radius`;
-    return `ball of ${value("radius")} mm radius, ${of("material")}; on a ${value("against")}${sized}, ${of("second_material")}`;
+    const against = document.getElementById("against").selectedOptions[0].text;
+    const sized = value("against") === "half-space" ? "" : ` of ${long("second_radius")}`;
+    return `ball of ${long("radius")}, ${of("material")}; on a ${against}${sized}, ${of("second_material")}`;
   }
 
   // Fit the data set that is chosen, else the file; with the bodies of the page if these are said.
@@ -146,6 +148,7 @@ Carom.fit = (() => {
   function complain({ field, message }) {
     const label = field && Carom.fields.label(field);
     parts.notice.textContent = label ? `${label}: ${message}` : message;
+    parts.notice.scrollIntoView({ block: "nearest" });
   }
 
   function askBodies({ message, columns }) {
@@ -162,6 +165,7 @@ Carom.fit = (() => {
 
   // A fit stays as it is when the bodies change, until the reader wants another.
   function changed() {
+    if (!parts.told) return; // not built, or of a copy without fits
     if (!parts.told.hidden && parts.told.waits) return rewrite();
     const now = bodies();
     const differs = used !== null && now !== null && now !== used;
@@ -208,7 +212,7 @@ Carom.fit = (() => {
   async function draw() {
     if (!shown || !parts.fit.clientWidth) return; // in a tab that is not shown
     const mine = shown;
-    await Carom.charts.load();
+    await Carom.plotting.load();
     if (mine !== shown) return;
     Carom.keys.show(parts.keys, Carom.fitCharts.keys(shown.charts[0]));
     parts.fit.querySelectorAll(".carom-cell").forEach((box, row) => {
@@ -226,5 +230,5 @@ Carom.fit = (() => {
     ask();
   }
 
-  return { build, choose, chosen: () => parts.data?.value ?? "", show };
+  return { build, choose, chosen: () => parts.data?.value ?? "", changed };
 })();

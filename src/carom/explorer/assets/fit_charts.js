@@ -2,8 +2,6 @@
 window.Carom = window.Carom || {};
 
 Carom.fitCharts = (() => {
-  const LOOKS = ["stick", "slip-plus", "gross-plus", "only"]; // of the regimes, in their order
-  const STRAIGHT = 90; // degrees
   const PADDING = 0.08; // of a range
   const EDGE = 0.03; // of a range along x
   const MINUS = "\u2212";
@@ -15,20 +13,7 @@ Carom.fitCharts = (() => {
     return { color: color(`law-${row}`), dash: row === 1 ? "7px,3px" : "2px,2.5px", width: 1.7 };
   }
 
-  function bands(chart, named) {
-    const { borders } = chart;
-    if (!borders.length) return [];
-    const [low, high] = span(chart);
-    const ends = [0, ...borders, STRAIGHT];
-    const found = LOOKS.flatMap((look, row) => {
-      const name = named ? Carom.config.regimes[row].name : "";
-      const span = [ends[row], ends[row + 1]];
-      return [span.map((end) => -end).reverse(), span].map(([start, end]) => {
-        return { name, look, start: Math.max(start, low), end: Math.min(end, high) };
-      });
-    });
-    return found.filter(({ start, end }) => end > start).sort((a, b) => a.start - b.start);
-  }
+  const bands = (chart) => (chart.borders.length ? Carom.bands.regimes(chart.borders, ...span(chart)) : []);
 
   // Measured values, each with the line of the file that it comes from.
   function points(chart, y, error, unit) {
@@ -54,12 +39,7 @@ Carom.fitCharts = (() => {
     return ends;
   }
 
-  function range(lists, part = PADDING) {
-    const values = lists.flat().filter((value) => value !== null);
-    const [low, high] = [Math.min(...values), Math.max(...values)];
-    const padding = part * (high - low || 1);
-    return [low - padding, high + padding];
-  }
+  const range = (lists, part = PADDING) => Carom.plotting.range(lists, part);
 
   // Values less and more their errors; those without one as they are.
   const reach = (values, errors) => values.flatMap((value, row) => {
@@ -68,8 +48,7 @@ Carom.fitCharts = (() => {
 
   // From the first to the last place along x, a little more where a point would be cut.
   function span({ lines: [{ x: along }], x }) {
-    const seen = x.filter((value) => value !== null);
-    const [low, high] = range([seen], EDGE);
+    const [low, high] = range([x], EDGE);
     return [Math.min(along[0], low), Math.max(along[along.length - 1], high)];
   }
 
@@ -90,7 +69,7 @@ Carom.fitCharts = (() => {
       traces: [...strip(chart), ...laws.reverse(), points(chart, chart.measured, chart.error, chart.unit)],
       x: { title: "", range: span(chart) },
       y: { title: within(chart.unit).trim(), range: range([reach(chart.measured, chart.error), ...chart.lines.map(({ y }) => y)]), zeroline: true },
-      bands: bands(chart, true),
+      bands: bands(chart),
       keys: [],
       hover: true,
       revision: `fit ${chart.response}`,
@@ -105,8 +84,8 @@ Carom.fitCharts = (() => {
     return {
       traces: [points(chart, y, error, unit)],
       x: { title: chart.along + within(chart.along_unit), range: span(chart) },
-      y: { title, range: range([reach(y, error), [0]]), zeroline: true },
-      bands: bands(chart, false),
+      y: { title, range: range([reach(y, error), [0]]), zeroline: true, nticks: 5 },
+      bands: bands(chart).map((band) => ({ ...band, name: "" })),
       keys: [],
       hover: true,
       revision: `residual ${chart.response} ${scaled}`,

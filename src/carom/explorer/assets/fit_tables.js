@@ -2,11 +2,7 @@
 window.Carom = window.Carom || {};
 
 Carom.fitTables = (() => {
-  function make(tag, properties, ...children) {
-    const element = Object.assign(document.createElement(tag), properties);
-    element.append(...children);
-    return element;
-  }
+  const { make } = Carom.elements;
 
   function table(name, heads, rows) {
     const head = heads.map((text) => make("th", { scope: "col" }, text));
@@ -15,18 +11,12 @@ Carom.fitTables = (() => {
     return make("table", { className: "carom-table carom-fit-table" }, caption, make("thead", {}, make("tr", {}, ...head)), make("tbody", {}, ...body));
   }
 
-  // A symbol that is explained where one points at it; V_y with its index below.
-  function symbol(text) {
-    const [letter, index] = text.split("_");
-    return Carom.tips.symbol(text, index ? `${letter}<sub>${index}</sub>` : letter);
-  }
-
   // A unit stands after the interval, what is to be said of a parameter below its name.
   function parameters({ parameters: given, confidence }) {
     const rows = given.map(({ symbol: sign, meaning, value, interval, unit, note }) => {
       const told = make("span", { className: "carom-note" }, note);
       const named = make("div", {}, meaning, ...(note ? [make("br"), told] : []));
-      return [symbol(sign), named, value, [interval, unit].filter(Boolean).join(" ")];
+      return [Carom.tips.symbol(sign), named, value, [interval, unit].filter(Boolean).join(" ")];
     });
     const found = table("Parameters", ["", "", "value", `${confidence} interval`], rows);
     found.classList.add("carom-parameters");
@@ -81,5 +71,5 @@ Carom.fitTables = (() => {
     return [make("div", {}, columns(fit.columns)), told];
   }
 
-  return { make, head, beside, below, columns };
+  return { head, beside, below, columns };
 })();

@@ -3,7 +3,6 @@
 window.Carom = window.Carom || {};
 
 Carom.law = (() => {
-  const SMALLEST = { elastic: 1e-6, viscous: 1e-3 }; // |psi_1| below which all is proportional to it
   const TIMES = 200; // intervals of histories
   const INSTANTS = { elastic: 60, viscous: 30 }; // intervals at which tractions are told
   const RADII = 33;
@@ -106,7 +105,7 @@ Carom.law = (() => {
     const { alpha } = Carom.tables.losses[restitution];
     const normal = Carom.normal.of(alpha);
     const size = Math.abs(psi);
-    const smallest = alpha > 0 ? SMALLEST.viscous : SMALLEST.elastic;
+    const { smallest } = Carom.tables.rebounds[restitution]; // |psi_1| below which all is proportional to it
     const given = Math.max(size, smallest);
     const found = followed(given, chi, normal);
     const scale = (psi < 0 ? -1 : 1) * Math.min(1, size / smallest);
@@ -147,5 +146,5 @@ Carom.law = (() => {
     found.tractions.forEach((line) => line.forEach((value, i) => (line[i] = Math.max(-HIGHEST, Math.min(HIGHEST, (scale * value) / normal.radius)))));
   }
 
-  return { solve, TIMES, RADII, HIGHEST };
+  return { solve, TIMES };
 })();

@@ -2,6 +2,7 @@
 window.Carom = window.Carom || {};
 
 Carom.laws = (() => {
+  const { make } = Carom.elements;
   const { laws: known } = Carom.config;
   const DASHES = ["7px,3px", "2px,2.5px", "9px,3px,2px,3px", "14px,4px"];
   const COLORS = 6; // of the theme: law-1 and so on
@@ -10,14 +11,8 @@ Carom.laws = (() => {
   let strip = null;
   let more = null;
   let clear = null;
+  let place = () => {}; // puts the buttons where they belong: on top of all laws, behind those chosen
   let answer = null;
-
-  function make(tag, className, ...children) {
-    const element = document.createElement(tag);
-    if (className) element.className = className;
-    element.append(...children);
-    return element;
-  }
 
   // Colour and dash by the place in the list: no two of 24 have both alike.
   function style(label) {
@@ -60,7 +55,8 @@ Carom.laws = (() => {
     clear = button("carom-clear", () => (choose([]), changed(), more.focus()));
     clear.textContent = "Remove all";
     const buttons = make("div", "carom-law-buttons", more, clear);
-    strip.append(buttons);
+    place = (folded) => (folded ? strip.append(buttons) : title.after(buttons));
+    place(true);
     strip.disabled = !can.laws;
     if (!can.laws) strip.append(make("p", "carom-note", why));
     strip.addEventListener("change", kept);
@@ -85,7 +81,10 @@ Carom.laws = (() => {
 
   function fold(folded) {
     strip.classList.toggle("carom-folded", folded);
+    place(folded);
     update();
+    more.focus(); // it was moved
+    strip.scrollIntoView({ block: "nearest" });
   }
 
   const chosen = () => [...chips].filter(([, { input }]) => input.checked).map(([label]) => label);

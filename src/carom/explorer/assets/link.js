@@ -4,8 +4,7 @@ window.Carom = window.Carom || {};
 Carom.link = (() => {
   const FILES = "a.carom-download";
   const WAIT = 300; // ms between two changes: browsers refuse floods
-  const LONGEST = 4000; // characters that are read
-  const OWN = ["time", "pace", "theme", "slow", "tab", "preset", "beside"]; // words of the page alone
+  const { longest_link: LONGEST, page_only: OWN } = Carom.config; // characters; words of the page alone
   let opened = new URLSearchParams(window.location.search);
   let query = null; // of the impact; null until there is one
   let paused = Carom.clock.START; // where the time last stood still
@@ -44,6 +43,7 @@ Carom.link = (() => {
       beside: Carom.beside.query() ?? "",
     };
     if (Carom.beside.query() === "") words.beside = "given=bodies";
+    if (words.preset && !query) found.set("given", "bodies"); // not those of the example
     Object.entries(words).forEach(([name, word]) => word !== "" && found.set(name, word));
     return found.toString();
   }

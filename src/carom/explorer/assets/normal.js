@@ -113,5 +113,5 @@ Carom.normal = (() => {
     return kept.get(alpha);
   }
 
-  return { of, EVEN };
+  return { of };
 })();

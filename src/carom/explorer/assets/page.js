@@ -4,6 +4,7 @@ window.Carom = window.Carom || {};
 Carom.page = (() => {
   const WORDS = "input:not([type=range]), textarea, select, button, summary, a, [contenteditable], [role=tab]";
   const WIDE = window.matchMedia("(min-width: 1280px)");
+  const BROAD = window.matchMedia("(min-width: 800px)");
   const PACES = [2, 5, 10, 30]; // seconds that a film takes
   const VIEWS = { stage: ["stage", "stage-beside"], patch: ["patch", "patch-beside"] };
   const byId = (id) => document.getElementById(id);
@@ -37,19 +38,20 @@ Carom.page = (() => {
     }
   }
 
-  function refuse({ field, message }) {
+  // A link that says one thing wrong is right in the others; an impact beside that is none goes.
+  let opening = true;
+  function refuse({ field, message, beside }) {
     const label = Carom.fields.label(field);
-    if (opening && label) return mend(field, `${label}: ${message}`);
+    const told = label ? `${label}: ${message}` : message || "The page has failed; load it again.";
+    if (beside) return mended(`Beside: ${told}`);
+    if (opening && Carom.fields.reset(field)) return mended(told);
     Carom.fields.complain(field, message);
-    notice(label ? `${label}: ${message}` : message || "The page has failed; load it again.");
+    notice(told);
     document.body.classList.add("carom-stale");
   }
 
-  // A link that says one thing wrong is right in the others.
-  let opening = true;
-  function mend(field, told) {
+  function mended(told) {
     linked = [linked, told].filter(Boolean).join("; ");
-    Carom.fields.reset(field);
     again = true;
   }
 
@@ -82,8 +84,9 @@ Carom.page = (() => {
   async function follow(answer) {
     following = new AbortController();
     try {
-      const { laws, slow } = await Carom.source.laws(Carom.fields.query().toString(), following.signal);
+      const { laws, slow } = await Carom.source.laws(answer.query, following.signal);
       if (answers[0] !== answer) return;
+      notice("");
       answers = [{ ...answer, laws, late: [], slow }, answers[1]];
       Carom.laws.show(answers[0]);
       Carom.charts.show(answers);
@@ -132,17 +135,20 @@ Carom.page = (() => {
     byId("patch").setAttribute("aria-label", `The contact from above at ${told}`);
   }
 
-  // The results stand beside the pictures where there is room, else among the charts.
+  // The results stand beside the pictures where there is room, else among the charts; a story
+  // scrolls with the charts, and on a phone it comes before the controls.
   function place() {
     const card = byId("results-card");
     const home = WIDE.matches ? byId("results-wide") : document.querySelector(".carom-charts");
     if (card.parentElement !== home) home.prepend(card);
+    if (BROAD.matches) byId("lower").prepend(byId("story"));
+    else byId("controls").before(byId("story"));
   }
 
   function open() {
     const asked = Carom.link.asked();
     const preset = Carom.presets.choose(Carom.link.part("preset") ?? "");
-    const odd = Carom.fields.set(asked.size ? asked : preset);
+    const odd = Carom.fields.set(asked.toString() ? asked : preset);
     linked = [...Carom.link.refused(), ...odd].join("; ");
     opening = true;
     Carom.beside.put(Carom.link.part("beside"));
@@ -227,19 +233,14 @@ Carom.page = (() => {
     Carom.clock.hear(() => Carom.link.refresh());
     Carom.tabs.hear(() => Carom.link.refresh());
     Carom.theme.hear(() => (draw(), Carom.charts.again(), Carom.link.refresh()));
-    WIDE.addEventListener("change", place);
+    [WIDE, BROAD].forEach((room) => room.addEventListener("change", place));
     window.addEventListener("popstate", open);
     const sizes = new ResizeObserver(draw);
     Object.values(VIEWS).flat().forEach((id) => sizes.observe(byId(id)));
   }
 
-  function start() {
-    build();
-    listen();
-    open();
-  }
-
-  return { start, frame: drawNow, answers: () => answers, duration: () => (scenes[0] ? scenes[0].data.duration : 0), get scenes() { return scenes; } };
+  build();
+  listen();
+  open();
+  return { frame: drawNow, answers: () => answers, get scenes() { return scenes; } };
 })();
-
-Carom.page.start();

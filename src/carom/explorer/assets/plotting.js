@@ -73,6 +73,14 @@ Carom.plotting = (() => {
     };
   }
 
+  // The range of values, null among them, with a part of it around.
+  function range(lists, part) {
+    const values = lists.flat().filter((value) => value !== null);
+    const [low, high] = [Math.min(...values), Math.max(...values)];
+    const padding = part * (high - low || 1);
+    return [low - padding, high + padding];
+  }
+
   // The range of y with room at its top for the names of bands.
   function roomy([low, high], height, pixels) {
     const left = height - MARGIN.t - MARGIN.b;
@@ -136,5 +144,5 @@ Carom.plotting = (() => {
   const lowered = (text) => text.replace(/_(\w+)/g, "<sub>$1</sub>"); // F_max as it is written
   const titled = (symbol, unit) => lowered(unit ? `${symbol} (${unit})` : symbol);
 
-  return { load, parts, draw, frame, line, lowered, titled };
+  return { load, parts, draw, frame, line, range, lowered, titled };
 })();

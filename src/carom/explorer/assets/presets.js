@@ -3,6 +3,7 @@ window.Carom = window.Carom || {};
 
 Carom.presets = (() => {
   const NONE = "";
+  const { make } = Carom.elements;
   const select = document.getElementById("preset");
   const place = document.getElementById("story");
   const heard = [];
@@ -15,28 +16,19 @@ Carom.presets = (() => {
       tell();
       const preset = found(select.value);
       if (preset) heard.forEach((hear) => hear(new URLSearchParams(preset.query)));
+      else Carom.link.refresh();
     });
-  }
-
-  function paragraph(text, className = "") {
-    const element = document.createElement("p");
-    Object.assign(element, { textContent: text, className });
-    return element;
   }
 
   function tell() {
     const preset = found(select.value);
     place.hidden = !preset;
     if (!preset) return;
-    const title = document.createElement("h2");
-    title.textContent = preset.title;
-    const sources = document.createElement("details");
-    const summary = document.createElement("summary");
-    summary.textContent = "Where the numbers are from";
-    sources.append(summary, ...preset.sources.map((source) => paragraph(source)));
-    place.replaceChildren(title, paragraph(preset.story));
-    if (preset.caution) place.append(paragraph(preset.caution, "carom-caution"));
-    place.append(sources);
+    const { title, story, caution, sources } = preset;
+    const stretched = caution ? [make("p", "carom-caution", caution)] : [];
+    const from = sources.map((source) => make("p", {}, source));
+    const fold = make("details", {}, make("summary", {}, "Where the numbers are from"), ...from);
+    place.replaceChildren(make("h2", {}, title), make("p", {}, story), ...stretched, fold);
   }
 
   // Show a story; return the query that it sets, as a link may hold other words.

@@ -7,6 +7,7 @@ Carom.results = (() => {
     "?": ["?", "unknown", "not known"],
     ok: ["✓", "ok", "holds"],
   };
+  const SHORTLY = { FAILS: "fails", "?": "is not judged" };
   const SHORT = { // what a line has room for; the whole meaning where one points
     psi_in: "velocity before",
     psi_out: "velocity after",
@@ -25,14 +26,9 @@ Carom.results = (() => {
     lost_energy: "normal losses",
     shear_lost_energy: "losses in shear",
   };
+  let unfolded = false;
+  const { make } = Carom.elements;
   const box = (id) => document.getElementById(id);
-
-  function make(tag, className, ...children) {
-    const element = document.createElement(tag);
-    if (className) element.className = className;
-    element.append(...children);
-    return element;
-  }
 
   // The rows of both impacts, those of the first in front.
   function rows([first, second]) {
@@ -53,7 +49,7 @@ Carom.results = (() => {
 
   function line([first, second], both) {
     const { name, symbol, meaning } = first || second;
-    const sign = Carom.tips.symbol(symbol, Carom.plotting.lowered(symbol));
+    const sign = Carom.tips.symbol(symbol);
     const told = make("span", "", SHORT[name] || meaning);
     told.title = meaning;
     const cells = [value(first), ...(both ? [value(second)] : [])];
@@ -83,17 +79,18 @@ Carom.results = (() => {
     return make("li", `carom-${look}`, icon, make("span", "", text));
   }
 
-  // How far the theory holds, in a line; what it is judged by opens, at once where it fails.
+  // How far the theory holds, in a line; what it is judged by opens, and stays so for other impacts.
   function findings({ findings: found }, title) {
     if (!found.length) return [];
     const order = Object.keys(MARKS);
     const sorted = [...found].sort((a, b) => order.indexOf(a.mark) - order.indexOf(b.mark));
     const worst = sorted[0].mark;
     const count = sorted.filter(({ mark }) => mark === worst).length;
-    const holds = worst === "ok" ? "the theory holds" : `the theory ${MARKS[worst][2]} in ${count} of ${found.length}`;
-    const sign = make("span", `carom-mark carom-${MARKS[worst][1]}`, MARKS[worst][0]);
+    const holds = worst === "ok" ? "the theory holds" : `the theory ${SHORTLY[worst]} in ${count} of ${found.length}`;
+    const sign = make("span", `carom-mark carom-${MARKS[worst][1]}`, MARKS[worst][0][0]);
     const fold = make("details", "", make("summary", "", sign, ` ${title}${holds}`));
-    fold.open = worst === "FAILS";
+    fold.open = unfolded;
+    fold.addEventListener("toggle", () => fold.isConnected && (unfolded = fold.open));
     fold.append(make("ul", "carom-findings", ...sorted.map(finding)));
     return [fold];
   }

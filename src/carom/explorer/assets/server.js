@@ -6,52 +6,44 @@ Carom.source = (() => {
 
   const pause = (seconds) => new Promise((done) => window.setTimeout(done, 1000 * seconds));
 
-  async function once(address, options) {
+  // What is at an address, read once: JSON as what it says, all else as `kind`.
+  async function once(address, options, kind) {
     try {
-      return await fetch(address, options);
+      const answer = await fetch(address, options);
+      const json = answer.headers.get("Content-Type") === "application/json";
+      const told = await (json ? answer.json() : answer[answer.ok ? kind : "text"]());
+      if (answer.ok || json) return told;
+      return { field: "", message: told.replace(/^carom: /, "").trim() };
     } catch (error) {
       throw error.name === "AbortError" ? error : GONE;
     }
   }
 
-  // What a refusal says: of which field, and after how many seconds to ask again, if at all.
-  async function refusal(answer) {
-    const text = await answer.clone().text();
-    try {
-      const told = JSON.parse(text);
-      return "field" in told ? told : null;
-    } catch {
-      return answer.ok ? null : { field: "", message: text.replace(/^carom: /, "").trim() };
-    }
-  }
-
   // The answer; where the program still prepares, how far it is, until it is ready.
-  async function asked(address, options) {
+  async function asked(address, options = {}, kind = "text") {
     for (;;) {
-      const answer = await once(address, options);
-      const told = await refusal(answer);
-      if (!told) return answer;
-      if (!told.again) throw told;
+      const told = await once(address, options, kind);
+      if (told.field === undefined) return told;
+      if (!told.again) throw told; // it is refused, of this field
       document.getElementById("notice").textContent = told.message;
       await pause(told.again);
     }
   }
 
-  const json = async (address, options) => (await asked(address, options)).json();
-
   function fit(request, signal) {
-    if (request.data) return json(`fit?${new URLSearchParams({ data: request.data })}`, { signal });
+    if (request.data) return asked(`fit?${new URLSearchParams({ data: request.data })}`, { signal });
     const headers = { "Content-Type": "application/json" };
-    return json("fit", { method: "POST", headers, body: JSON.stringify(request), signal });
+    return asked("fit", { method: "POST", headers, body: JSON.stringify(request), signal });
   }
 
   return {
     can: { laws: true, fit: true, files: true, code: true },
     why: "",
-    answer: (query, signal) => json(`answer?${query}`, { signal }),
-    laws: (query, signal) => json(`laws?${query}`, { signal }),
+    answer: (query) => asked(`answer?${query}`),
+    laws: (query, signal) => asked(`laws?${query}`, { signal }),
     fit,
-    code: async (query, signal) => (await asked(`view.py?${query}`, { signal })).text(),
+    code: (query, signal) => asked(`view.py?${query}`, { signal }),
+    written: (address) => asked(address, {}, "blob"),
     file: (name) => name,
   };
 })();

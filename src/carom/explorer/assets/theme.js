@@ -42,9 +42,7 @@ Carom.theme = (() => {
     choose,
     next: () => choose(CHOICES[(CHOICES.indexOf(choice) + 1) % CHOICES.length]),
     choice: () => choice,
-    forget: () => (colors = null),
     hear: (listener) => heard.push(listener),
     color,
-    label,
   };
 })();

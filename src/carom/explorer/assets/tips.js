@@ -3,13 +3,14 @@ window.Carom = window.Carom || {};
 
 Carom.tips = (() => {
   const GAP = 6; // pixels between a symbol and what is said of it
+  const { make } = Carom.elements;
   const box = document.getElementById("tip");
 
-  // A symbol of the page's text, null for one that is not explained.
-  function symbol(name, inner = name) {
-    const element = document.createElement("abbr");
+  // A symbol of the page's text; of V_y the index stands below.
+  function symbol(name) {
+    const [letter, index] = name.split("_");
+    const element = make("abbr", {}, letter, ...(index ? [make("sub", {}, index)] : []));
     element.dataset.symbol = name;
-    element.innerHTML = inner;
     return ready(element);
   }
 

@@ -102,5 +102,5 @@ Carom.view = (() => {
     return view;
   }
 
-  return { of, arrows };
+  return { of };
 })();

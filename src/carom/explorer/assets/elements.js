@@ -1,0 +1,14 @@
+// Elements of the page, each made in one call.
+window.Carom = window.Carom || {};
+
+Carom.elements = (() => {
+  // An element with these properties, or with this class, and what it holds.
+  function make(tag, given = {}, ...children) {
+    const element = document.createElement(tag);
+    Object.assign(element, typeof given === "string" ? { className: given } : given);
+    element.append(...children);
+    return element;
+  }
+
+  return { make };
+})();
