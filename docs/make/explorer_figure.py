@@ -24,7 +24,6 @@ PICTURES = {  # state, width
     "two": (f"{TWO}&beside=angle%3D60%26friction%3D0.25", 1440),
     "fit": (STATE + "&tab=Measurements", 1440),
 }
-COLORS = 128  # of a picture, which is small for it
 
 
 def main() -> None:
@@ -41,15 +40,11 @@ def main() -> None:
             tab.goto(page.url + state)
             tab.wait_for_selector(".main-svg", state="attached")
             tab.wait_for_timeout(5000)  # laws, fits and charts are all there
-            _store(tab.screenshot(), FIGURES / f"{name}.png")
+            picture = Image.open(BytesIO(tab.screenshot())).convert("RGB")
+            picture.save(FIGURES / f"{name}.png", optimize=True)
             tab.close()
         browser.close()
     page.stop()
-
-
-def _store(picture: bytes, file: Path) -> None:
-    image = Image.open(BytesIO(picture)).convert("RGB")
-    image.quantize(COLORS, dither=Image.Dither.NONE).save(file, optimize=True)
 
 
 if __name__ == "__main__":

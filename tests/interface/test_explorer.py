@@ -454,3 +454,11 @@ def test_histories_with_losses_are_those_of_the_library(view, tmp_path):
     for name, values in expected.items():
         np.testing.assert_allclose(np.asarray(found[name]), values, atol=1e-9 * np.ptp(values))
         assert np.ptp(values) > 0.0
+
+
+@pytest.mark.parametrize("psi", [4000.0, -4000.0])
+def test_the_curve_of_a_far_impact_has_all_regimes(psi):
+    found, out = exact_curve(scene_of(View(given=NUMBERS, psi=psi, chi=1.44)))
+    assert np.sum(np.abs(found) < 6.0) > 200
+    assert min(found[0], 0.0) <= psi <= found[-1]
+    np.testing.assert_allclose(out, carom.rebound(found, 1.44), atol=1e-9)

@@ -22,10 +22,10 @@ from carom.explorer.worker import Worker
 from carom.quantities.refusals import InputError
 
 OWN_HOST_ONLY = (
-    "default-src 'self'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
+    "default-src 'self'; script-src 'self' 'unsafe-eval'; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' data: blob:; font-src 'self' data:; object-src 'none'; base-uri 'none'; "
     "form-action 'self'; frame-ancestors 'none'"
-)  # plotly writes styles
+)  # plotly writes styles; who drives the page by a program evaluates questions
 HEADERS = {
     "Content-Security-Policy": OWN_HOST_ONLY,
     "Referrer-Policy": "no-referrer",

@@ -107,10 +107,12 @@ def _begun(scene: Scene, label: str) -> Future[LawCurve]:
 @lru_cache(maxsize=KEPT)
 def _exact(chi: float, restitution: float, low: float, high: float) -> tuple[Array, Array]:
     losses = losses_of(restitution)
+    regimes = _regimes(chi)
+    points = POINTS if losses is None else POINTS_WITH_LOSSES
+    within = np.linspace(max(low, -regimes), min(high, regimes), points)
+    psi = np.unique([low, *within, high])  # beyond the regimes the curve is straight
     if losses is None:
-        psi = np.linspace(low, high, POINTS)
         return psi, rebound(psi, chi)
-    psi = np.linspace(low, high, POINTS_WITH_LOSSES)
     given = psi, np.full(psi.size, chi), scale_free(losses)
     return psi, lossy_rebounds(*given, tolerance=DRAWN).psi_out
 

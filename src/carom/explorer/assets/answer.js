@@ -18,7 +18,9 @@ Carom.answer = (() => {
     const point = Number.isFinite(psi) ? psi : 0;
     const reach = Math.abs(point) > regimes / BEYOND ? Math.ceil(BEYOND * Math.abs(point)) : regimes;
     const [low, high] = [point < 0 ? -reach : 0, Math.max(reach, regimes)];
-    const along = Array.from({ length: POINTS }, (_, i) => low + ((high - low) * i) / (POINTS - 1));
+    const [first, last] = [Math.max(low, -regimes), Math.min(high, regimes)];
+    const within = Array.from({ length: POINTS }, (_, i) => first + ((last - first) * i) / (POINTS - 1));
+    const along = [...new Set([low, ...within, high])]; // beyond the regimes the curve is straight
     return {
       psi: fine(along),
       out: fine(along.map((value) => Carom.rebound.of(value, chi, e))),

@@ -9,7 +9,7 @@ Carom.source = (() => {
   const PARTS = ["young", "poisson", "density"];
   const GIGA = 1e9;
   const KEPT = 16; // answers that are remembered
-  const { fields, materials } = Carom.config;
+  const { fields, materials, page_only: OWN, longest_link: LONGEST_LINK } = Carom.config;
   const kept = new Map();
 
   function refuse(field, message) {
@@ -20,7 +20,8 @@ Carom.source = (() => {
   function word(name, text) {
     const { least, most, unit, choices } = fields[name];
     if (least === null) {
-      if (choices && !choices.some(([value]) => String(value) === text)) refuse(name, `there is no '${text.slice(0, LONGEST)}'`);
+      const known = (choices || []).map(([value]) => String(value));
+      if (choices && !known.includes(text)) refuse(name, `there is no '${text.slice(0, LONGEST)}'; there are ${known.join("; ")}`);
       return text;
     }
     const allowed = `must be a number from ${least} to ${most}${unit && ` ${unit}`}`;
@@ -49,8 +50,13 @@ Carom.source = (() => {
 
   // The view of a query: a value for every field.
   function viewOf(query) {
+    if (query.length > LONGEST_LINK) refuse("", `the link has ${query.length} characters; at most ${LONGEST_LINK} are read`);
     const given = new URLSearchParams(query);
-    const of = (name) => given.get(name) ?? String(fields[name].default);
+    for (const name of given.keys()) {
+      if (!(name in fields || OWN.includes(name))) refuse("", `the link says '${name.slice(0, LONGEST)}', which is unknown; leave it out`);
+    }
+    given.getAll("law").forEach((label) => label && word("law", label));
+    const of = (name) => given.getAll(name).at(-1) ?? String(fields[name].default);
     const idle = unused(of);
     const view = {};
     for (const name of Object.keys(fields)) {

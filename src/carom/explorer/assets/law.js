@@ -6,6 +6,8 @@ Carom.law = (() => {
   const TIMES = 200; // intervals of histories
   const INSTANTS = { elastic: 60, viscous: 30 }; // intervals at which tractions are told
   const RADII = 33;
+  const STEPS = 2; // in an even interval of the normal motion
+  const THIN = { below: 0.05, steps: 6 }; // psi_1 whose slip rings in viscous bodies are thinner than usual steps
   const HIGHEST = 9; // of a traction: at the edge it is infinite while viscous bodies load
   const RETRACES = 1e-9; // of chi = 1/2: load and unload are the same path, and nothing slips
 
@@ -103,8 +105,8 @@ Carom.law = (() => {
   // The whole impact: histories at even times as arrays, tractions, phases as shares of the duration.
   function solve(psi, chi, restitution) {
     const { alpha } = Carom.tables.losses[restitution];
-    const normal = Carom.normal.of(alpha);
     const size = Math.abs(psi);
+    const normal = Carom.normal.of(alpha, alpha > 0 && size < THIN.below ? THIN.steps : STEPS);
     const { smallest } = Carom.tables.rebounds[restitution]; // |psi_1| below which all is proportional to it
     const given = Math.max(size, smallest);
     const found = followed(given, chi, normal);

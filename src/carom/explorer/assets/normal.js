@@ -4,11 +4,10 @@ window.Carom = window.Carom || {};
 
 Carom.normal = (() => {
   const EVEN = 600; // even intervals of the whole: a multiple of those of histories and of tractions
-  const FINER = 2; // steps in each
   const AT_ENDS = 12; // steps in the first and the last, where the edge moves like a root
   const CLOCK = 0.002; // step of the clock d(tau) = dt/(2 b), by which nothing is singular
   const ITERATIONS = 6;
-  const kept = new Map(); // by alpha: it does not depend on anything else
+  const kept = new Map(); // it depends on alpha and on how fine the steps are alone
 
   // b, v and t by the clock: loading has its edge where the surfaces meet, unloading where springs let go.
   function rates(loading, alpha, b, v) {
@@ -49,10 +48,10 @@ Carom.normal = (() => {
   }
 
   // Times of all steps, and which of them are even.
-  function instants(duration, turning) {
+  function instants(duration, turning, finer) {
     const found = [];
     for (let i = 0; i < EVEN; i++) {
-      const steps = i === 0 || i === EVEN - 1 ? AT_ENDS : FINER;
+      const steps = i === 0 || i === EVEN - 1 ? AT_ENDS : finer;
       for (let j = 0; j < steps; j++) {
         let part = j / steps;
         if (i === 0) part *= part;
@@ -80,9 +79,9 @@ Carom.normal = (() => {
     return { ...found, t: time };
   }
 
-  function laid(alpha) {
+  function laid(alpha, finer) {
     const { turning, end } = ends(alpha);
-    const places = instants(end.t, turning.t);
+    const places = instants(end.t, turning.t, finer);
     const found = { alpha, duration: end.t, radius: turning.b, restitution: -end.v, turning: turning.t };
     const names = ["time", "speed", "edge", "penetration", "depth", "force", "stored"];
     names.forEach((name) => (found[name] = new Float64Array(places.length)));
@@ -108,9 +107,11 @@ Carom.normal = (() => {
     found.stored[i] = b * (1.875 * d * d - b * b * (1.25 * d - 0.375 * b * b));
   }
 
-  function of(alpha) {
-    if (!kept.has(alpha)) kept.set(alpha, laid(alpha));
-    return kept.get(alpha);
+  // The motion in steps of which so many lie in an even interval.
+  function of(alpha, finer) {
+    const key = `${alpha} ${finer}`;
+    if (!kept.has(key)) kept.set(key, laid(alpha, finer));
+    return kept.get(key);
   }
 
   return { of };
