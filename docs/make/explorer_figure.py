@@ -1,4 +1,4 @@
-"""Draw the page of `carom explore` as a browser shows it, at four widths: docs/figures/page/.
+"""Draw the page of `carom explore` as a browser shows it, at four widths: docs/figures/explorer/.
 
 Needs a browser and Playwright: python docs/make/explorer_figure.py
 """
@@ -13,7 +13,7 @@ from playwright.sync_api import sync_playwright
 
 from carom.explorer import explorer
 
-FIGURES = Path(__file__).parents[1] / "figures" / "page"
+FIGURES = Path(__file__).parents[1] / "figures" / "explorer"
 LAWS = "law=mindlin&law=YADE+Mindlin&law=Walton+%26+Braun"
 STATE = f"?angle=25&friction=0.25&{LAWS}&time=0.6&theme=light&data=kharaz2001"
 TWO = "?angle=25&friction=0.25&time=0.6&theme=light"

@@ -14,7 +14,7 @@ from carom.verify.errors import losses_of
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
-STATES, PAIRS = 1000, 100
+STATES, PAIRS, THINNER = 1000, 100, 60
 RESTITUTIONS = (1.0, 0.9, 0.7)
 LATE = 2e-4  # of the duration, that a front which is quick may be early or late
 CLOSE = 1e-3  # of the largest value of a history or profile
@@ -113,6 +113,20 @@ def test_histories(states, told, solved):
                 continue
             error = np.max(np.abs(found[name] - exact_energy))
             assert error <= CLOSE * max(np.max(exact_energy), HARDLY * all_), (state, name)
+
+
+def test_histories_of_thin_rings(offline):
+    rng = np.random.default_rng(7)
+    drawn = zip(
+        np.exp(rng.uniform(*np.log([1e-3, 0.05]), THINNER)),
+        rng.uniform(0.5, 3.0, THINNER),
+        strict=True,
+    )
+    states = [(float(psi), float(chi), (0.9, 0.7)[i % 2]) for i, (psi, chi) in enumerate(drawn)]
+    for state, text in zip(states, offline.evaluate(SOLVE, states), strict=True):
+        history = carom.solve(*state[:2], losses=losses_of(state[2])).history(201)
+        assert off(json.loads(text)["psi"], history.psi) <= CLOSE, state
+        assert off(json.loads(text)["force"], history.force) <= CLOSE, state
 
 
 def falls(work):
@@ -279,7 +293,10 @@ REFUSED = {
     "speed=": ("speed", "it is empty"),
     "against=cup&second_radius=2": ("second_radius", "must be above 5 mm"),
     "against=sphere&second_material=rigid": ("second_material", "density"),
-    "material=cheese": ("material", "there is no 'cheese'"),
+    "material=cheese": ("material", "there is no 'cheese'; there are steel; "),
+    "law=cheese": ("law", "there is no 'cheese'; there are "),
+    "taste=mild": ("", "the link says 'taste', which is unknown; leave it out"),
+    "a" * 20000: ("", "the link has 20000 characters; at most "),
 }
 
 
@@ -290,6 +307,8 @@ def test_refusals(offline):
         assert words in found["refusal"]["message"]
     (unused,) = offline.evaluate(ANSWER, ["given=numbers&angle=95"])
     assert "answer" in unused
+    (twice,) = offline.evaluate(ANSWER, ["angle=95&angle=40&pace=5"])
+    assert twice["answer"]["query"] == "angle=40"
 
 
 def test_what_needs_the_library_says_so(offline):

@@ -128,7 +128,9 @@ Carom.fields = (() => {
       const first = String(known[name].default);
       put(name, given.get(name) ?? first);
       if (given.has(name) && value(name) !== given.get(name)) {
-        odd.push(`${known[name].label}: there is no ${given.get(name)}`);
+        const { label, least, choices } = known[name];
+        const held = least === null ? "" : `; this copy has ${choices.map(([each]) => each).join(", ")} only`;
+        odd.push(`${label}: there is no ${given.get(name)}${held}`);
         put(name, first);
       }
     }
