@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from http import HTTPStatus
 from io import BytesIO
+from math import inf
 from threading import Lock
 from time import monotonic
 from typing import Any
@@ -15,7 +16,13 @@ from urllib.parse import urlsplit
 from flask import Flask
 from werkzeug.serving import ThreadedWSGIServer, WSGIRequestHandler
 
-from carom.explorer.limits import CONNECTIONS, LARGEST_REQUEST, REQUEST_SECONDS, Busy
+from carom.explorer.limits import (
+    CONNECTIONS,
+    LARGEST_REQUEST,
+    REQUEST_SECONDS,
+    WRITING_SECONDS,
+    Busy,
+)
 
 log = logging.getLogger(__name__)
 REFUSED = f"HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\n\r\ncarom: {Busy()}\n"
@@ -48,7 +55,8 @@ class Handler(WSGIRequestHandler):
 class Server(ThreadedWSGIServer):
     """A server that answers each connection in a thread, and closes those that keep it waiting.
 
-    A connection is at work once its request has arrived whole, until there is an answer. If there
+    A connection is at work once its request has arrived whole, until there is an answer and it had
+    `WRITING_SECONDS` to take it. If there
     are `CONNECTIONS`, the oldest that is not at work is closed for a new one, so that many slow
     ones cannot keep others out.
     """
@@ -57,7 +65,7 @@ class Server(ThreadedWSGIServer):
         self._app = app
         self._guard = Lock()
         self._since: dict[socket.socket, float] = {}  # open ones, the oldest first
-        self._at_work: set[socket.socket] = set()
+        self._at_work: dict[socket.socket, float] = {}  # until when
         super().__init__(host, port, self._answer, Handler, fd=listening)
 
     def process_request(self, request: Any, client_address: Any) -> None:
@@ -72,7 +80,8 @@ class Server(ThreadedWSGIServer):
     def _admitted(self, request: socket.socket) -> bool:
         with self._guard:
             if len(self._since) >= CONNECTIONS:
-                waiting = next((each for each in self._since if each not in self._at_work), None)
+                now, until = monotonic(), self._at_work
+                waiting = next((each for each in self._since if until.get(each, 0.0) < now), None)
                 if waiting is None:
                     return False
                 self._drop(waiting)
@@ -96,6 +105,7 @@ class Server(ThreadedWSGIServer):
         """Forget and close a connection."""
         with self._guard:
             self._since.pop(request, None)
+            self._at_work.pop(request, None)
         super().shutdown_request(request)
 
     def handle_error(self, request: Any, client_address: Any) -> None:
@@ -115,11 +125,11 @@ class Server(ThreadedWSGIServer):
 
     @contextmanager
     def _working(self, connection: socket.socket) -> Iterator[None]:
-        self._at_work.add(connection)
+        self._at_work[connection] = inf
         try:
             yield
         finally:
-            self._at_work.discard(connection)
+            self._at_work[connection] = monotonic() + WRITING_SECONDS
 
 
 def _take_body(environ: dict[str, Any]) -> None:
