@@ -34,6 +34,9 @@ KINDS = {
 }
 
 
+TRIES = 3  # of a question
+
+
 class Page:
     """What the browser sends when a control moves, on one connection."""
 
@@ -66,9 +69,18 @@ class Page:
         return found
 
     def _ask(self, method: str, path: str, body: str | None = None) -> tuple[int, bytes]:
-        self._line.request(method, path, body, {"Content-Type": "application/json"})
-        answer = self._line.getresponse()
-        return answer.status, answer.read()
+        """Ask, and ask again as the page does if the connection was closed for another."""
+        for left in range(TRIES - 1, -1, -1):
+            try:
+                self._line.request(method, path, body, {"Content-Type": "application/json"})
+                answer = self._line.getresponse()
+                return answer.status, answer.read()
+            except (OSError, http.client.HTTPException):
+                self._line.close()
+                if not left:
+                    raise
+                time.sleep(0.3)
+        raise AssertionError
 
 
 def moved(start: dict, laws: tuple[str, ...], bodies: bool, random: np.random.Generator) -> str:

@@ -13,7 +13,7 @@ from typing import Any
 from playwright.sync_api import sync_playwright
 
 WIDTHS = (1280, 400)
-SOURCES = {"_modules", "_static"}
+SOURCES = {"_modules", "_static", "explore"}  # the last has tests of its own
 SET = "window.MathJax && MathJax.startup ? MathJax.startup.promise.then(() => true) : true"
 FOUND = """() => ({
   wider: document.documentElement.scrollWidth - document.documentElement.clientWidth,

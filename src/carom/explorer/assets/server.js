@@ -7,7 +7,8 @@ Carom.source = (() => {
   const pause = (seconds) => new Promise((done) => window.setTimeout(done, 1000 * seconds));
 
   // What is at an address, read once: JSON as what it says, all else as `kind`.
-  async function once(address, options, kind) {
+  // A busy server may close a connection for another: it is asked again before it is taken for gone.
+  async function once(address, options, kind, tries = 3) {
     try {
       const answer = await fetch(address, options);
       const json = answer.headers.get("Content-Type") === "application/json";
@@ -15,8 +16,11 @@ Carom.source = (() => {
       if (answer.ok || json) return told;
       return { field: "", message: told.replace(/^carom: /, "").trim() };
     } catch (error) {
-      throw error.name === "AbortError" ? error : GONE;
+      if (error.name === "AbortError") throw error;
+      if (tries === 1) throw GONE;
     }
+    await pause(0.3);
+    return once(address, options, kind, tries - 1);
   }
 
   // The answer; where the program still prepares, how far it is, until it is ready.
