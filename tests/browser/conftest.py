@@ -52,6 +52,7 @@ class Visit:
 
     def travel(self, query):
         """Go to a link within the page, by way of another, and wait for its charts."""
+        self.page.bring_to_front()  # pages behind others draw seldom
         for where in (BETWEEN, query or "?"):
             self.page.evaluate(TRAVEL, where)
             self.until(lambda: self.page.evaluate("Carom.page.answers()[0] !== window.left"))
