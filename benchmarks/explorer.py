@@ -69,17 +69,19 @@ class Page:
         return found
 
     def _ask(self, method: str, path: str, body: str | None = None) -> tuple[int, bytes]:
-        """Ask, and ask again as the page does if the connection was closed for another."""
+        """Ask, and ask again as the page does, if the connection was refused or closed."""
         for left in range(TRIES - 1, -1, -1):
             try:
                 self._line.request(method, path, body, {"Content-Type": "application/json"})
                 answer = self._line.getresponse()
-                return answer.status, answer.read()
+                found = answer.status, answer.read()
+                if answer.status != 503 or not left:
+                    return found
             except (OSError, http.client.HTTPException):
                 self._line.close()
                 if not left:
                     raise
-                time.sleep(0.3)
+            time.sleep(0.3)
         raise AssertionError
 
 

@@ -17,6 +17,7 @@ from carom.explorer.connections import Server
 PATIENCE = 20.0  # s
 GET = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
 SENT = b"POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 4\r\n\r\nwhat"
+LARGE = b"GET /large HTTP/1.1\r\nHost: localhost\r\n\r\n"
 ENDLESS = b"GET / HTTP/1.1\r\nHost: localhost\r\nX: "
 BODY = b"POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000\r\n\r\n"
 
@@ -46,6 +47,11 @@ def port(slow, seconds, monkeypatch):
     def answer():
         slow.wait(PATIENCE)
         return f"told {request.get_data(as_text=True)}"
+
+    @app.route("/large")
+    def large():
+        slow.wait(PATIENCE)
+        return b"a" * 50_000_000  # more than a connection holds on its way
 
     with socket.create_server(("127.0.0.1", 0)) as listening:
         server = Server("127.0.0.1", listening.getsockname()[1], app, listening.fileno())
@@ -87,6 +93,30 @@ def test_slow_connections_give_way_to_new_ones(port, start):
         each.settimeout(1.0)
         assert told(each) == b""
     for each in held[8:]:
+        each.close()
+
+
+def test_answers_that_are_not_taken_give_way_to_new_ones(port):
+    held = []
+    for _ in range(4):
+        held.append(opened(port, LARGE))
+        assert held[-1].recv(1) == b"H"  # the answer is on its way
+    assert told(opened(port, GET)).endswith(b"told ")
+    sizes = [len(told(each)) for each in held]
+    assert sizes[0] < 50_000_000 < min(sizes[1:])  # the first had waited the longest
+
+
+def test_an_answer_that_begins_outlasts_connections_that_came_meanwhile(port, slow):
+    slow.clear()
+    working = opened(port, LARGE)
+    held = [opened(port, ENDLESS) for _ in range(3)]
+    time.sleep(0.5)
+    slow.set()
+    assert working.recv(1) == b"H"
+    assert told(opened(port, GET)).endswith(b"told ")
+    assert told(held[0]) == b""
+    assert len(told(working)) > 50_000_000
+    for each in held[1:]:
         each.close()
 
 

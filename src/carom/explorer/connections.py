@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from http import HTTPStatus
 from io import BytesIO
-from math import inf
 from threading import Lock
 from time import monotonic
 from typing import Any
@@ -16,13 +15,7 @@ from urllib.parse import urlsplit
 from flask import Flask
 from werkzeug.serving import ThreadedWSGIServer, WSGIRequestHandler
 
-from carom.explorer.limits import (
-    CONNECTIONS,
-    LARGEST_REQUEST,
-    REQUEST_SECONDS,
-    WRITING_SECONDS,
-    Busy,
-)
+from carom.explorer.limits import CONNECTIONS, LARGEST_REQUEST, REQUEST_SECONDS, Busy
 
 log = logging.getLogger(__name__)
 REFUSED = f"HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\n\r\ncarom: {Busy()}\n"
@@ -55,17 +48,17 @@ class Handler(WSGIRequestHandler):
 class Server(ThreadedWSGIServer):
     """A server that answers each connection in a thread, and closes those that keep it waiting.
 
-    A connection is at work once its request has arrived whole, until there is an answer and it had
-    `WRITING_SECONDS` to take it. If there
-    are `CONNECTIONS`, the oldest that is not at work is closed for a new one, so that many slow
-    ones cannot keep others out.
+    A connection is at work once its request has arrived whole, until there is an answer. If there
+    are `CONNECTIONS`, one that is not at work is closed for a new one: the one that has waited the
+    longest for its request, or for its answer to be taken, so that many slow ones cannot keep
+    others out.
     """
 
     def __init__(self, host: str, port: int, app: Flask, listening: int) -> None:
         self._app = app
         self._guard = Lock()
-        self._since: dict[socket.socket, float] = {}  # open ones, the oldest first
-        self._at_work: dict[socket.socket, float] = {}  # until when
+        self._since: dict[socket.socket, float] = {}  # open ones, the longest waiting first
+        self._at_work: set[socket.socket] = set()
         super().__init__(host, port, self._answer, Handler, fd=listening)
 
     def process_request(self, request: Any, client_address: Any) -> None:
@@ -80,8 +73,7 @@ class Server(ThreadedWSGIServer):
     def _admitted(self, request: socket.socket) -> bool:
         with self._guard:
             if len(self._since) >= CONNECTIONS:
-                now, until = monotonic(), self._at_work
-                waiting = next((each for each in self._since if until.get(each, 0.0) < now), None)
+                waiting = next((each for each in self._since if each not in self._at_work), None)
                 if waiting is None:
                     return False
                 self._drop(waiting)
@@ -105,7 +97,7 @@ class Server(ThreadedWSGIServer):
         """Forget and close a connection."""
         with self._guard:
             self._since.pop(request, None)
-            self._at_work.pop(request, None)
+            self._at_work.discard(request)
         super().shutdown_request(request)
 
     def handle_error(self, request: Any, client_address: Any) -> None:
@@ -125,11 +117,14 @@ class Server(ThreadedWSGIServer):
 
     @contextmanager
     def _working(self, connection: socket.socket) -> Iterator[None]:
-        self._at_work[connection] = inf
+        self._at_work.add(connection)
         try:
             yield
         finally:
-            self._at_work[connection] = monotonic() + WRITING_SECONDS
+            with self._guard:
+                self._at_work.discard(connection)
+                if connection in self._since:  # its answer begins to wait
+                    self._since[connection] = self._since.pop(connection)
 
 
 def _take_body(environ: dict[str, Any]) -> None:

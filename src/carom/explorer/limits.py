@@ -21,7 +21,6 @@ WAITING_SECONDS = 20.0  # that they do
 
 CONNECTIONS = 200  # at once
 QUEUED = 128  # connections that are not accepted yet: a burst of so many drives nobody out
-WRITING_SECONDS = 2.0  # that an answer may take on its way before its connection may be closed
 REQUEST_SECONDS = 60.0  # from the connection until the answer is taken
 
 

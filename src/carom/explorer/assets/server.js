@@ -7,14 +7,16 @@ Carom.source = (() => {
   const pause = (seconds) => new Promise((done) => window.setTimeout(done, 1000 * seconds));
 
   // What is at an address, read once: JSON as what it says, all else as `kind`.
-  // A busy server may close a connection for another: it is asked again before it is taken for gone.
+  // A busy server may refuse a connection, or close it for another: it is asked again before its
+  // refusal is told, or it is taken for gone.
   async function once(address, options, kind, tries = 3) {
     try {
       const answer = await fetch(address, options);
       const json = answer.headers.get("Content-Type") === "application/json";
       const told = await (json ? answer.json() : answer[answer.ok ? kind : "text"]());
       if (answer.ok || json) return told;
-      return { field: "", message: told.replace(/^carom: /, "").trim() };
+      if (answer.status !== 503 || tries === 1)
+        return { field: "", message: told.replace(/^carom: /, "").trim() };
     } catch (error) {
       if (error.name === "AbortError") throw error;
       if (tries === 1) throw GONE;
