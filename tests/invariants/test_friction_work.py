@@ -85,6 +85,17 @@ def test_viscoelastic_impacts():
         assert found == pytest.approx(known, rel=1e-4, abs=1e-6 * psi**2), (psi, chi, e)
 
 
+@pytest.mark.parametrize("psi", [1.5e4, -1e9])
+def test_viscoelastic_impacts_that_slide(psi):
+    """The pressure times the way, at every radius: that of the mean psi, but for elastic slip."""
+    solution = carom.solve(psi, 1.44, losses=carom.KelvinVoigt(restitution=0.7))
+    ledger = solution.at(solution.duration).dissipated[0]
+    assert summed(solution) == pytest.approx(ledger, rel=1e-9)
+    radii = np.linspace(0.0, 1.0, 12)
+    found = solution.friction_work(radii)[:, 0]
+    assert found == pytest.approx(abs(psi) * solution.pressed(radii), rel=20.0 / abs(psi))
+
+
 def test_the_pressure_adds_up_to_the_momentum():
     """2 pi integral of p r dr dt = 2/3 pi integral of P dt = (8/15) pi (1 + e)."""
     for losses in (None, carom.KelvinVoigt(restitution=0.7), carom.KelvinVoigt(restitution=0.2)):

@@ -10,6 +10,7 @@ from carom.dimensionless.numerics.kernels import kernel
 from carom.quantities.refusals import refusal
 
 LARGEST_CHI = 1000.0  # beyond, few impacts are solved
+FAR = 1e4  # psi_1 that is solved at most: at every such chi all slides, and would beyond as well
 
 
 class Loss(IntEnum):

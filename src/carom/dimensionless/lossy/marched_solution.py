@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.dimensionless.elastic.phases import Kind, Status
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.law import LossNumbers
+from carom.dimensionless.lossy.law import FAR, LossNumbers
 from carom.dimensionless.lossy.solution import LossySolution, outcome, phases_told
 from carom.dimensionless.lossy.springs.rebounds import run, trace
 from carom.dimensionless.lossy.springs.record import BACK, COLUMNS, FORTH
@@ -69,15 +69,15 @@ def solve_by_marching(psi: float, chi: float, losses: LossNumbers) -> MarchedSol
     """Solve one oblique impact of a yielding sphere or a standard linear solid."""
     work, numbers = new_work(), np.zeros(layout.NUMBERS)
     rows = np.zeros((len(work.motion), COLUMNS))
-    given = psi, chi, int(losses.loss), losses.parameter, losses.extra
-    status = run(*given, work, numbers)
-    steps = trace(*given, MOST_SPRINGS, work, rows) if status == Status.SOLVED else -1
+    law, first = (chi, int(losses.loss), losses.parameter, losses.extra), min(abs(psi), FAR)
+    status = run(psi, *law, work, numbers)
+    steps = trace(first, *law, MOST_SPRINGS, work, rows) if status == Status.SOLVED else -1
     kept = rows[: steps + 1].copy()
     return MarchedSolution(
         **outcome(psi, chi, losses, status, numbers),
         phases=_phases(kept, -1 if psi < 0.0 else 1),
         _rows=kept,
-        _first=abs(psi) or 1.0,
+        _first=first or 1.0,
     )
 
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.law import Loss, LossNumbers, largest_pressure
+from carom.dimensionless.lossy.law import FAR, Loss, LossNumbers, largest_pressure
 from carom.dimensionless.lossy.layout import PSI_OUT
 from carom.dimensionless.lossy.panels.plans import TOLERANCE
 from carom.dimensionless.lossy.panels.record import Trace, new_record
@@ -23,7 +23,7 @@ from carom.dimensionless.numerics.kernels import entry_point
 from carom.dimensionless.numerics.threads import in_blocks
 
 NEARLY_ELASTIC, NEARLY_YIELDING = 1e-10, 1e-5
-LINEAR, FAR = 1e-3, 1e4  # psi_1 between which viscoelastic impacts are solved
+LINEAR = 1e-3  # psi_1 of viscoelastic impacts that is solved at least
 BLOCK, SMALLEST_BLOCK = 64, 2  # impacts that a thread takes at once
 
 
@@ -61,7 +61,7 @@ def outgoing(
 ) -> tuple[int, int]:
     """Run a viscoelastic impact of any psi_1; return its status and the number of panels.
 
-    Below LINEAR psi_2/psi_1 is linear in psi_1, beyond FAR the impulse is that of sliding.
+    Below LINEAR psi_2/psi_1 is linear in psi_1, beyond FAR psi_1 - psi_2 is the same.
     """
     speed, other = abs(psi), 0.0
     given = chi, alpha, tolerance, NEVER, work, numbers, record

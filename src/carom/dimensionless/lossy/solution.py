@@ -54,11 +54,17 @@ class LossySolution(Trajectory):
     max_pressure: float
     shear_lost: float
     losses: LossNumbers = field(repr=False)
-    _first: float = field(repr=False)  # psi_1 of the record, all of which is scaled by it
+    _first: float = field(repr=False)  # psi_1 of the record
 
     @property
     def _scale(self) -> float:
-        return self.psi_in / self._first
+        """What the record is scaled by: its psi_1 is the smallest that is solved."""
+        return float(np.copysign(min(abs(self.psi_in) / self._first, 1.0), self.psi_in))
+
+    @property
+    def _excess(self) -> float:
+        """How much faster than in the record all slips: its psi_1 is the largest that is solved."""
+        return max(abs(self.psi_in) - self._first, 0.0)
 
     @abstractmethod
     def _sampled(self, wanted: Array) -> Array:
@@ -71,21 +77,22 @@ class LossySolution(Trajectory):
         a time outside the contact, or if the impact is not solved.
         """
         wanted = self._times_within(time)
-        rows, scale = self._sampled(wanted), self._scale
+        rows, scale, excess = self._sampled(wanted), self._scale, self._excess
         first, psi = self._first, rows[layout.AT_PSI]
         radius = np.maximum(rows[layout.AT_B], 0.0)  # rounding at the end of the contact
         stored, shear = 1.875 * self.chi * rows[layout.AT_SQUARE], rows[layout.AT_SHEAR_LOST]
+        kinetic_lost = 0.5 * (first - psi) * (first + psi + 2.0 * excess)
         return History(
             time=wanted,
             penetration=rows[layout.AT_D],
             speed=rows[layout.AT_V],
-            psi=scale * psi,
-            displacement=scale * rows[layout.AT_U],
+            psi=scale * (psi + excess),
+            displacement=scale * (rows[layout.AT_U] + excess * wanted),
             force=scale * rows[layout.AT_Q],
             stick_radius=np.minimum(rows[layout.AT_STUCK], radius),
             contact_radius=radius,
             stored=scale**2 * stored,
-            dissipated=scale**2 * (0.5 * (first - psi) * (first + psi) - stored - shear),
+            dissipated=scale**2 * (kinetic_lost - stored - shear),
             shear_lost=scale**2 * shear,
             normal_force=rows[layout.AT_P],
             normal_stored=rows[layout.AT_STORED],

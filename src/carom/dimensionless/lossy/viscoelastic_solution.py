@@ -9,12 +9,12 @@ from carom.dimensionless.elastic.phases import Kind
 from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import Profile
 from carom.dimensionless.lossy import friction_work, layout
-from carom.dimensionless.lossy.law import LossNumbers
+from carom.dimensionless.lossy.law import FAR, LossNumbers
 from carom.dimensionless.lossy.panels.collocation import NODES, TO_SERIES, place
 from carom.dimensionless.lossy.panels.plans import TOLERANCE
 from carom.dimensionless.lossy.panels.record import Trace, new_record
 from carom.dimensionless.lossy.panels.work import new_work
-from carom.dimensionless.lossy.rebounds import outgoing
+from carom.dimensionless.lossy.rebounds import LINEAR, outgoing
 from carom.dimensionless.lossy.solution import LossySolution, outcome, phases_told
 from carom.dimensionless.lossy.viscoelastic.instant import Instant, Replay, displaced
 from carom.dimensionless.numerics.arrays import Array
@@ -41,12 +41,15 @@ class ViscoelasticSolution(LossySolution):
             shapes = [surface.slip_shape(instant.stuck, radius) for radius in radii]
             within = (radii <= instant.radius)[:, np.newaxis]
             found = rate * np.array(shapes).reshape(-1, 2) + displaced(change, radii)
+            found[:, 0] += self._excess
             return self._scale * within * found
 
         def slid(radii: Array) -> Array:
             within = radii <= instant.radius
             found = np.zeros((radii.size, 2))
             found[within] = displaced(lags(), radii[within]) - self._lag_at_touch(radii[within])
+            if self._excess:
+                found[within, 0] += self._excess * (instant.time - self._touched(radii[within]))
             return self._scale * found
 
         profile = _scaled(instant.forces(), self._scale)
@@ -54,7 +57,10 @@ class ViscoelasticSolution(LossySolution):
 
     def _friction_work(self, radii: Array) -> Array:
         given = self._record, self._replay, self.losses.parameter
-        return self._scale**2 * friction_work.work(*given, radii)
+        found = friction_work.work(*given, radii)
+        if self._excess:
+            found[:, 0] += self._excess * self._pressed(radii)
+        return self._scale**2 * found
 
     def _pressed(self, radii: Array) -> Array:
         return friction_work.pressed(self._record, self.losses.parameter, radii)
@@ -63,8 +69,7 @@ class ViscoelasticSolution(LossySolution):
         return friction_work.borders(self._record)
 
     def _replay(self, number: int) -> Replay:
-        first = float(self._record.rows[0, layout.AT_PSI, 0])
-        return Replay(first, self.chi, self.losses.parameter, number)
+        return Replay(self._first, self.chi, self.losses.parameter, number)
 
     def _touched(self, radii: Array) -> Array:
         return np.array([self._read(*at, layout.AT_TIME) for at in self._touches(radii)])
@@ -134,7 +139,6 @@ def solve_viscoelastic(psi: float, chi: float, losses: LossNumbers) -> Viscoelas
     if psi == 0.0:  # solved as a limit; nothing moves along, and nothing slips
         kept.kinds[:] = Kind.STICK, 0
         kept.rows[:, layout.AT_STUCK] = kept.rows[:, layout.AT_B]
-    first = float(kept.rows[0, layout.AT_PSI, 0]) if panels else 1.0
     stretches = (
         (float(rows[layout.AT_TIME, NODES - 1]), *kind)
         for rows, kind in zip(kept.rows, kept.kinds.tolist(), strict=True)
@@ -143,5 +147,5 @@ def solve_viscoelastic(psi: float, chi: float, losses: LossNumbers) -> Viscoelas
         **outcome(psi, chi, losses, status, numbers),
         phases=phases_told(stretches, -1 if psi < 0.0 else 1, SHORTEST),
         _record=kept,
-        _first=first,
+        _first=min(max(abs(psi), LINEAR), FAR),
     )

@@ -4,7 +4,7 @@ import numpy as np
 
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.law import Loss, LossNumbers, why_not
+from carom.dimensionless.lossy.law import FAR, Loss, LossNumbers, why_not
 from carom.dimensionless.lossy.springs.march import march
 from carom.dimensionless.lossy.springs.work import MOST_SPRINGS, Arrays
 from carom.dimensionless.numerics.arrays import Codes, Matrix, Vector
@@ -29,21 +29,23 @@ def springs_of(loss: int) -> int:
 def run(
     psi: float, chi: float, loss: int, parameter: float, extra: float, work: Arrays, numbers: Vector
 ) -> int:
-    """Run an impact of any psi_1; return its status.
+    """Run an impact of any psi_1; return its status. Beyond FAR psi_1 - psi_2 is the same.
 
     Numbers are Richardson's (1911), of all springs and half of them.
     """
     status = why_not(psi, chi)
     if status == Status.SOLVED.value:
         law, count = law_of(loss, parameter, extra), springs_of(loss)
-        half = march(abs(psi), chi, law, count // 2, work, work.no_rows, work.coarse)
-        whole = march(abs(psi), chi, law, count, work, work.no_rows, numbers)
+        speed = min(abs(psi), FAR)
+        half = march(speed, chi, law, count // 2, work, work.no_rows, work.coarse)
+        whole = march(speed, chi, law, count, work, work.no_rows, numbers)
         if half == 0 or whole == 0:
             status = Status.UNRESOLVED.value
         for j in range(numbers.size):
             numbers[j] += (numbers[j] - work.coarse[j]) / 3.0
             if not np.isfinite(numbers[j]):
                 status = Status.UNRESOLVED.value
+        numbers[layout.PSI_OUT] += abs(psi) - speed
         numbers[layout.PSI_OUT] *= np.copysign(1.0, psi)
     if status != Status.SOLVED.value:
         numbers[:] = np.nan
@@ -62,7 +64,7 @@ def trace(
     rows: Matrix,
 ) -> int:
     """Fill in a row for each step over so many springs; return the number of steps."""
-    return march(abs(psi), chi, law_of(loss, parameter, extra), count, work, rows, work.coarse)
+    return march(psi, chi, law_of(loss, parameter, extra), count, work, rows, work.coarse)
 
 
 @entry_point()

@@ -130,7 +130,10 @@ def follow_event(
 @kernel
 def begin(work: Arrays, motion: Motion, count: int, sign: int, now: State, time: float) -> int:
     """Begin a ring of slip at the edge; return how many pieces there are."""
-    set_ring(work, RETREATS, sign, 0)
+    depth, stuck = 0, rim(work.pieces, count)
+    if stuck < now.radius:  # the ring before closed to rounding
+        depth = push_at_once(work, 0, now.radius, stuck, time, excess(sign, now))
+    set_ring(work, RETREATS, sign, depth)
     return retreat(work, motion, count, now, time)
 
 
