@@ -125,7 +125,6 @@ def test_what_a_link_says_right_is_kept_beside_what_it_says_wrong():
             "must have a density, which a rigid one has not",
         ),
         (View(speed=1e300), "speed", "that a computer cannot hold"),
-        (View(friction=1e-300, restitution=0.5), "friction", "that a computer cannot hold"),
         (View(given=NUMBERS, psi=np.inf), "psi", "that a computer cannot hold"),
     ],
 )

@@ -68,7 +68,11 @@ class LawCurve:
 
 def exact_curve(scene: Scene) -> tuple[Array, Array]:
     """Return psi_1 and psi_2 of the exact curve, over the present point and all regimes."""
-    return _exact(round(scene.chi, DIGITS), scene.restitution, *_span(scene))
+    psi, out = _exact(round(scene.chi, DIGITS), scene.restitution)
+    high = _span(scene)[1]
+    if high > psi[-1]:  # the curve is straight there
+        psi, out = np.append(psi, high), np.append(out, out[-1] + (high - psi[-1]))
+    return _whole(scene, psi, out)
 
 
 def law_curves(
@@ -105,16 +109,23 @@ def _begun(scene: Scene, label: str) -> Future[LawCurve]:
 
 
 @lru_cache(maxsize=KEPT)
-def _exact(chi: float, restitution: float, low: float, high: float) -> tuple[Array, Array]:
+def _exact(chi: float, restitution: float) -> tuple[Array, Array]:
+    """Return psi_1 and psi_2 over all regimes, psi_1 >= 0."""
     losses = losses_of(restitution)
-    regimes = _regimes(chi)
     points = POINTS if losses is None else POINTS_WITH_LOSSES
-    within = np.linspace(max(low, -regimes), min(high, regimes), points)
-    psi = np.unique([low, *within, high])  # beyond the regimes the curve is straight
+    psi = np.linspace(0.0, _regimes(chi), points)
     if losses is None:
         return psi, rebound(psi, chi)
     given = psi, np.full(psi.size, chi), scale_free(losses)
     return psi, lossy_rebounds(*given, tolerance=DRAWN).psi_out
+
+
+def _whole(scene: Scene, psi: Array, out: Array) -> tuple[Array, Array]:
+    """Return a curve, known for psi_1 >= 0, as far as it is drawn."""
+    low, high = _span(scene)
+    both = np.concatenate([-psi[:0:-1], psi]), np.concatenate([-out[:0:-1], out])
+    shown = (both[0] >= low) & (both[0] <= high)
+    return both[0][shown], both[1][shown]
 
 
 @lru_cache(maxsize=KEPT)
@@ -122,16 +133,13 @@ def _of_law(scene: Scene, label: str) -> LawCurve:
     law = named(label)[0].law
     if scene.restitution != 1.0:
         law = damped(law, scene.restitution)
-    low, high = _span(scene)
     grid = np.linspace(0.0, _regimes(scene.chi), POINTS_OF_LAWS)
     half = _half(law, round(scene.chi, DIGITS), round(scene.kappa, DIGITS))
-    psi, out = np.concatenate([-grid[:0:-1], grid]), np.concatenate([-half[:0:-1], half])
-    shown = (psi >= low) & (psi <= high)
     at, share, force = float("nan"), np.array([]), np.array([])
     if np.isfinite(scene.psi_in):
         at = float(_rebound(law, scene.psi_in, scene.chi, scene.kappa))
         share, force = _in_time(law, scene)
-    return LawCurve(label, psi[shown], out[shown], at, share, force)
+    return LawCurve(label, *_whole(scene, grid, half), at, share, force)
 
 
 def _in_time(law: Law, scene: Scene) -> tuple[Array, Array]:

@@ -16,7 +16,7 @@ from carom.dimensionless.lossy.panels.record import Trace, new_record
 from carom.dimensionless.lossy.panels.work import new_work
 from carom.dimensionless.lossy.rebounds import LINEAR, outgoing
 from carom.dimensionless.lossy.solution import LossySolution, outcome, phases_told
-from carom.dimensionless.lossy.viscoelastic.instant import Instant, Replay, displaced
+from carom.dimensionless.lossy.viscoelastic.instant import Instant, Replay, displaced, replay
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.chebyshev import extrema, from_extrema
 from carom.dimensionless.states import ContactState
@@ -69,7 +69,7 @@ class ViscoelasticSolution(LossySolution):
         return friction_work.borders(self._record)
 
     def _replay(self, number: int) -> Replay:
-        return Replay(self._first, self.chi, self.losses.parameter, number)
+        return replay(self._first, self.chi, self.losses.parameter, number)
 
     def _touched(self, radii: Array) -> Array:
         return np.array([self._read(*at, layout.AT_TIME) for at in self._touches(radii)])

@@ -1,7 +1,7 @@
 """The contact of a viscoelastic impact at an instant, read off when it has been run up to there."""
 
 from collections.abc import Callable, Iterator
-from functools import partial
+from functools import lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -39,6 +39,7 @@ from carom.dimensionless.lossy.viscoelastic.ring import (
 from carom.dimensionless.numerics.arrays import Array
 
 OF_SLOPE = np.polynomial.chebyshev.chebder(np.eye(NODES))  # of a series on a panel
+REPLAYS = 64  # that are kept
 RESOLVED, NARROW = 1e-10, 1e-6  # of a series on a panel; panels that are not halved any more
 
 Read = Callable[[Array], tuple[Array, Array]]  # value and slope in s, at radii
@@ -57,10 +58,18 @@ class Replay:
     """An impact, psi_1 > 0, run again up to a panel, which is left as it was solved."""
 
     def __init__(self, psi: float, chi: float, alpha: float, number: int) -> None:
-        self.alpha, self.number, self.work = alpha, number, new_work()
-        numbers, record = np.zeros(NUMBERS), new_record(False)
+        work, numbers, record = new_work(), np.zeros(NUMBERS), new_record(False)
         given = psi, chi, alpha, TOLERANCE, number
-        self.pieces = run_until(*given, self.work, numbers, record)
+        self.alpha, self.number = alpha, number
+        self.pieces = run_until(*given, work, numbers, record)
+        self.work = work._replace(
+            series=work.series[: number + 1].copy(),
+            pieces=work.pieces[: self.pieces].copy(),
+            passed=work.passed[: int(work.ring[DEPTH])].copy(),
+        )
+
+
+replay = lru_cache(REPLAYS)(Replay)
 
 
 class Instant:
