@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 import carom
 from carom.verify import damping, poisson_from_kappa, recipes, restitution, stiffnesses
-from carom.verify.conversions import CONVENTIONS
+from carom.verify.conversions import CONVENTIONS, MINDLIN
 from carom.verify.engines.experiments import Experiment, psi_out
 from carom.verify.engines.lammps import INPUT, Lammps
 from carom.verify.engines.running import run
@@ -238,6 +238,7 @@ class ByRecipe(Lammps):
     ("code", "law"),
     [
         ("LAMMPS Hertz", carom.LammpsMindlin("mindlin_rescale/force")),
+        ("LAMMPS Hertz", carom.LammpsMindlin("mindlin_rescale/force", tangential_damping=1.0)),
         ("LAMMPS Hooke", carom.LinearSpring()),
     ],
 )
@@ -247,7 +248,8 @@ def test_lammps_takes_the_recipe(code, law, e):
     law = replace(law, restitution=e)
     speeds = tuple(psi * pair.scales(slow).tangential_speed)
     wanted = Experiment(pair=pair, law=law, normal_speed=slow, tangential_speed=speeds, steps=2000)
-    found = run(ByRecipe(line=recipes(pair, slow, e)[code]), wanted).outcomes
+    mindlin = law if isinstance(law, carom.LammpsMindlin) else MINDLIN
+    found = run(ByRecipe(line=recipes(pair, slow, e, mindlin=mindlin)[code]), wanted).outcomes
     expected = law.rebound(psi, pair.chi, kappa=pair.kappa, steps=2000)
     assert psi_out(wanted, found) == pytest.approx(expected, abs=2e-4)
     assert found.normal_speed / slow == pytest.approx(np.full(4, e), abs=3e-4)

@@ -149,7 +149,9 @@ def test_tune_a_case_between_angles(run):
     assert record["duration"] == pytest.approx(hit.history(3).time.values[-1], rel=1e-6)
     spring = next(law for law in record["laws"] if law["law"] == "linear spring")
     best = carom.LinearSpring(spring["value"])
-    assert record["inputs"] == recipes(pair, speed, 0.8, spring=best)
+    sideways = carom.LammpsMindlin("mindlin_rescale/force", tangential_damping=1.0)
+    assert record["inputs"] == recipes(pair, speed, 0.8, spring=best, mindlin=sideways)
+    assert " 1 0.2 damping coeff_restitution" in record["inputs"]["LAMMPS Hertz"]
     table = run("tune", "ball.toml", *options)[1]
     micro = 1e6 * record["duration"]
     assert f"normal speed of {speed:.4g} m/s the contact lasts {micro:.4g} µs; " in table

@@ -1,37 +1,27 @@
-"""What the page of the explorer draws is what the library says, and a link holds all of it."""
+"""What the page of the explorer draws is what the library says."""
 
-import json
 import re
 import subprocess
 import sys
-from dataclasses import fields, replace
-from urllib.parse import urlencode
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import event, given, settings, strategies as st
 
 import carom
 
 pytest.importorskip("flask")
 
 from carom.explorer.answers import answer, laws
-from carom.explorer.config import REGIMES, config
 from carom.explorer.figures import curve_figure
 from carom.explorer.files import write
-from carom.explorer.knobs import CHOICES, KNOBS, NUMBERS, OF_MATERIAL, label
+from carom.explorer.knobs import NUMBERS
 from carom.explorer.overlays import exact_curve, law_curves
-from carom.explorer.refused import Refused
-from carom.explorer.scenes import ENERGIES, impact_of, scene_of
+from carom.explorer.scenes import impact_of, scene_of
 from carom.explorer.scripts import script
-from carom.explorer.views import LAWS, OF_BODIES, OF_NUMBERS, View
-from carom.plots.impact import ENERGIES as IN_FIGURES, LOST
-from carom.plots.regimes import REGIMES as OF_FIGURES
+from carom.explorer.views import LAWS, View
 
-NUMBER = {name: st.floats(knob.least, knob.most) for name, knob in KNOBS.items()}
-WORD = {name: st.sampled_from(known) for name, known in CHOICES.items()}
 PATIENCE = 60.0  # s
-SOME_LAWS = st.lists(st.sampled_from(LAWS), unique=True, max_size=4).map(tuple)
 BODIES = [
     View(),
     View(angle=70.0, friction=0.1),
@@ -56,106 +46,6 @@ def losses(view):
 
 def exactly(view, psi, chi):
     return carom.rebound(psi, chi, losses=losses(view))
-
-
-@given(st.builds(View, law=SOME_LAWS, **NUMBER, **WORD))
-@settings(max_examples=200, derandomize=True, deadline=None)
-def test_every_state_is_a_link_that_restores_it(view):
-    assert View.of("?" + view.query()) == view
-
-
-@pytest.mark.parametrize("name", KNOBS)
-def test_numbers_out_of_range_are_refused_by_name(name):
-    knob, using = KNOBS[name], {"against": "sphere", "material": "own", "second_material": "own"}
-    if name in OF_NUMBERS:
-        using = {"given": NUMBERS}
-    for text in ("", "nan", "inf", "x", "1e400", str(knob.most * 1.01), str(knob.least - 0.1)):
-        with pytest.raises(Refused, match=r": must be a number from .*(not '|empty)") as error:
-            View.of(urlencode(using | {name: text}))
-        assert error.value.field == name
-        assert error.value.message.startswith("must be")
-
-
-@pytest.mark.parametrize(
-    ("query", "says"),
-    [
-        ("material=stell", "did you mean 'steel'"),
-        ("law=mindlinn", "did you mean 'mindlin'"),
-        ("frction=1", "did you mean 'friction'"),
-        ("against=wall", "there are half-space; sphere; cup"),
-        ("psi=1&" * 1000, "at most"),
-        ("angle=3 m", "must be a number from 0 to 89.9 deg, not '3 m'"),
-    ],
-)
-def test_links_that_say_nonsense_are_refused_in_one_line(query, says):
-    view, wrong = View.with_complaints(query)
-    assert view == View()
-    line = str(next(iter(wrong.values())))
-    assert says in line
-    assert "\n" not in line
-
-
-def test_what_a_view_does_not_use_may_be_anything():
-    assert View.of("psi=&chi=x&second_radius=-1").pair == View().pair
-    assert View.of("given=numbers&psi=2&radius=&angle=95").psi == 2.0
-    for query in ("against=sphere&second_radius=-1", "second_material=own&second_young=soft"):
-        with pytest.raises(Refused) as error:
-            View.of(query)
-        assert error.value.field in query
-    assert View.of("young=soft&second_density=&psi=x").pair == View().pair
-    assert View.of("second_material=own&second_density=").pair.second.material.young == 70e9
-
-
-def test_what_a_link_says_right_is_kept_beside_what_it_says_wrong():
-    view, wrong = View.with_complaints(
-        "angle=40&friction=-1&material=brass&time=0.3&theme=dark&slow=1&tab=Files&beside=angle%3D5"
-    )
-    assert (view.angle, view.friction, view.material) == (40.0, 0.2, "brass")
-    assert len(wrong) == 1
-
-
-@pytest.mark.parametrize(
-    ("view", "field", "says"),
-    [
-        (View(against="cup", second_radius=5.0), "second_radius", "must be above 5 mm: the ball"),
-        (View(against="cup", second_radius=1.0), "second_radius", "fit into the cup"),
-        (
-            View(against="sphere", second_material="rigid"),
-            "second_material",
-            "must have a density, which a rigid one has not",
-        ),
-        (View(speed=1e300), "speed", "that a computer cannot hold"),
-        (View(given=NUMBERS, psi=np.inf), "psi", "that a computer cannot hold"),
-    ],
-)
-def test_what_does_not_go_together_is_told_of_a_field(view, field, says):
-    with pytest.raises(Refused, match=says) as error:
-        answer(view)
-    assert error.value.field == field
-    assert str(error.value).startswith(f"{label(field)}: ")  # not an argument of Python
-
-
-EXTREME = {name: st.sampled_from([knob.least, knob.most]) for name, knob in KNOBS.items()}
-
-
-@given(st.builds(View, **{name: st.one_of(EXTREME[name], NUMBER[name]) for name in KNOBS}, **WORD))
-@settings(max_examples=40, derandomize=True, deadline=None)
-def test_any_numbers_are_answered_or_refused_by_field(view):
-    try:
-        told = json.dumps(answer(view), allow_nan=False)
-    except Refused as error:
-        told = error.field
-        event(told)
-    assert told in OF_BODIES or 10_000 < len(told) < 200_000
-
-
-def test_own_materials_are_those_of_the_numbers():
-    own = View(material="own", young=203.0, poisson=0.295, density=7810.0, angle=20.0)
-    assert scene_of(own).psi_out == pytest.approx(scene_of(View(angle=20.0)).psi_out, rel=1e-12)
-    soft = View(against="sphere", second_material="own", second_young=0.01, second_poisson=0.5)
-    stuff = carom.Material(young="10 MPa", poisson=0.5, density=soft.second_density)
-    assert soft.pair.second.material.young == stuff.young
-    assert {soft.unused} == {(*OF_NUMBERS, *OF_MATERIAL)}
 
 
 def assert_coulomb(scene):
@@ -290,88 +180,6 @@ def test_curves_of_laws_that_take_long_follow():
         law = next(e for e in carom.verify.CATALOGUE if e.label == curve.label).law
         meant = law.rebound(curve.psi_in, scene.chi, kappa=scene.kappa)
         np.testing.assert_allclose(curve.psi_out, meant, atol=1e-9, err_msg=curve.label)
-
-
-def test_an_answer_is_the_scene_as_json_holds_it():
-    view = View(law=LAWS[:2], angle=41.5)
-    scene, told = scene_of(view), json.loads(json.dumps(answer(view), allow_nan=False))
-    assert View.of(told["query"]) == view
-    assert told["carried"] == {
-        "psi": float(f"{scene.psi_in:.6g}"),
-        "chi": float(f"{scene.chi:.6g}"),
-    }
-    psi, out = exact_curve(scene)
-    np.testing.assert_allclose(told["curve"]["psi"], psi, atol=1e-7)
-    np.testing.assert_allclose(told["curve"]["out"], out, atol=1e-7)
-    assert told["curve"]["at"] == [scene.psi_in, scene.psi_out]
-    chi = scene.chi
-    np.testing.assert_allclose(told["curve"]["borders"], [1.0, 2.0 * chi, 4.0 * chi - 1.0])
-    history = told["history"]
-    np.testing.assert_allclose(history["force"], scene.force, atol=1e-5)
-    np.testing.assert_allclose(np.sum(list(history["energies"].values()), axis=0), 1.0, atol=1e-4)
-    assert set(history["energies"]) == set(scene.energies)
-
-
-def test_laws_that_are_not_there_follow():
-    view = View(given=NUMBERS, psi=1.0, chi=1.61803, law=LAWS)
-    told = answer(view)
-    assert {law["label"] for law in told["laws"]} | set(told["late"]) == set(LAWS)
-    followed = json.loads(json.dumps(laws(view), allow_nan=False))
-    assert followed["slow"] == []
-    assert [law["label"] for law in followed["laws"]] == list(LAWS)
-    scene = scene_of(view)
-    for law, curve in zip(followed["laws"], law_curves(scene, LAWS), strict=True):
-        assert law["at"] == curve.at
-        assert law["off"] == pytest.approx(curve.at - scene.psi_out, abs=1e-15)
-        np.testing.assert_allclose(law["out"], curve.psi_out, atol=1e-7)
-    assert answer(view)["late"] == []  # remembered
-
-
-def test_results_are_the_numbers_of_the_impact():
-    view = View(restitution=0.8, spin=40.0)
-    hit = impact_of(view)
-    rows = {row["name"]: row for row in answer(view)["results"]}
-    assert float(rows["psi_out"]["value"]) == pytest.approx(hit.psi_out, rel=1e-5)
-    assert rows["psi_out"]["symbol"] == "ψ₂"
-    angle = rows["rebound_angle"]
-    assert angle["unit"] == "deg"
-    assert float(angle["value"]) == pytest.approx(np.degrees(hit.rebound_angle), rel=1e-5)
-    micro = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "ns": 1e-9}[rows["duration"]["unit"]]
-    assert float(rows["duration"]["value"]) * micro == pytest.approx(hit.duration, rel=1e-5)
-    assert float(rows["normal_restitution"]["value"]) == pytest.approx(0.8, abs=1e-3)
-    assert rows["kappa"]["unit"] == ""
-    assert set(config()["symbols"]) >= {row["symbol"] for row in rows.values()}
-    free = {row["name"]: row["value"] for row in answer(View(friction=0.0))["results"]}
-    assert free["psi_in"] == "none: it slides freely"
-
-
-def test_findings_speak_of_the_page():
-    view = View(radius=0.2, material="rubber", speed=60.0, second_material="steel", friction=0.05)
-    told, found = answer(view)["findings"], impact_of(view).validity
-    assert len(told) == len(found.findings)
-    marks = [row["mark"] for row in told]
-    assert marks == sorted(marks, key=["FAILS", "?", "ok"].index)
-    assert marks.count("FAILS") == sum(finding.holds is False for finding in found.findings) > 0
-    for row in told:
-        for word in ("method=", "psi_", "mu ", "chi"):
-            assert word not in row["text"]
-
-
-def test_the_page_is_told_all_that_it_shows():
-    told = json.loads(json.dumps(config(), allow_nan=False))
-    assert set(told["fields"]) == {field.name for field in fields(View)}
-    for name, field in told["fields"].items():
-        assert field["label"]
-        assert (name in KNOBS) == (field["most"] is not None)
-        assert View.of(urlencode({name: field["default"]}, doseq=True)) == View()
-        assert field["symbol"] in ("", *told["symbols"])
-    assert [law["label"] for law in told["laws"]] == list(LAWS)
-    assert told["materials"]["rigid"]["young"] is None
-    assert told["materials"]["steel"] == {"young": 210e9, "poisson": 0.3, "density": 7850}
-    assert tuple(OF_FIGURES) == REGIMES
-    assert {name: words[0] for name, words in (IN_FIGURES | LOST).items()} == ENERGIES
-    for preset in told["presets"]:
-        answer(View.of(preset["query"]))
 
 
 def test_the_figure_of_the_curve_holds_laws_and_the_impact():

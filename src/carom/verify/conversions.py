@@ -229,7 +229,8 @@ def recipes(
     wanted : float or str
         Normal coefficient of restitution.
     spring, mindlin : LinearSpring, LammpsMindlin
-        Tangential stiffnesses, e.g. those that `tune` has found; by default those of the bodies.
+        Tangential stiffnesses, e.g. those that `tune` has found, and of `mindlin` the tangential
+        damping; by default the stiffnesses of the bodies, and none.
 
     Returns
     -------
@@ -259,11 +260,13 @@ def recipes(
     k, mu, zeta = stiffnesses(pair, normal_speed), pair.friction, damping(e)
     ratio = k.ratio if spring.stiffness_ratio is None else spring.stiffness_ratio
     k_n, k_t, dashpot = k.normal, ratio * k.normal, 2.0 * zeta * sqrt(k.normal * pair.normal_mass)
-    loss, rule = (0.0, "velocity") if e == 1.0 else (e, "coeff_restitution")
+    loss, sideways, rule = 0.0, 0.0, "velocity"
+    if e < 1.0:
+        loss, sideways, rule = e, mindlin.tangential_damping, "coeff_restitution"
     beta = damping(e, "thornton")
     return {
         "LAMMPS Hertz": f"hertz {k.hertz:.4e} {loss:g} tangential {mindlin.variant}"
-        f" {mindlin.stiffness * k.mindlin:.4e} 0 {mu:g} damping {rule}",
+        f" {mindlin.stiffness * k.mindlin:.4e} {sideways:g} {mu:g} damping {rule}",
         "LAMMPS Hooke": f"hooke {k_n:.4e} {dashpot:.4e} tangential linear_history"
         f" {k_t:.4e} 0 {mu:g} damping velocity",
         "LIGGGHTS hooke/stiffness": f"kn {k_n:.4e} kt {k_t:.4e}"

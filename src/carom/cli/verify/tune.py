@@ -1,6 +1,7 @@
 """`carom verify tune`: parameters of contact laws for a pair of bodies."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -83,6 +84,8 @@ def _inputs(setting: "Setting", tuning: "Tuning") -> dict[str, str]:
     spring = tuning.best(carom.LinearSpring) or SPRING
     mindlin = tuning.best(carom.LammpsMindlin) or MINDLIN
     bodies, speed, restitution = setting.pair, setting.normal_speed, setting.restitution
+    if restitution < 1.0:  # softened so, the law comes closest if it damps sideways as well
+        mindlin = replace(mindlin, tangential_damping=1.0)
     return carom.verify.recipes(bodies, speed, restitution, spring=spring, mindlin=mindlin)
 
 

@@ -1,0 +1,101 @@
+"""What the page is told: an impact, its contact laws, results and findings, as JSON holds them."""
+
+import json
+from dataclasses import fields
+from urllib.parse import urlencode
+
+import numpy as np
+import pytest
+
+pytest.importorskip("flask")
+
+from carom.explorer.answers import answer, laws
+from carom.explorer.config import REGIMES, config
+from carom.explorer.knobs import KNOBS, NUMBERS
+from carom.explorer.overlays import exact_curve, law_curves
+from carom.explorer.scenes import ENERGIES, impact_of, scene_of
+from carom.explorer.views import LAWS, View
+from carom.plots.impact import ENERGIES as IN_FIGURES, LOST
+from carom.plots.regimes import REGIMES as OF_FIGURES
+
+
+def test_an_answer_is_the_scene_as_json_holds_it():
+    view = View(law=LAWS[:2], angle=41.5)
+    scene, told = scene_of(view), json.loads(json.dumps(answer(view), allow_nan=False))
+    assert View.of(told["query"]) == view
+    assert told["carried"] == {
+        "psi": float(f"{scene.psi_in:.6g}"),
+        "chi": float(f"{scene.chi:.6g}"),
+    }
+    psi, out = exact_curve(scene)
+    np.testing.assert_allclose(told["curve"]["psi"], psi, atol=1e-7)
+    np.testing.assert_allclose(told["curve"]["out"], out, atol=1e-7)
+    assert told["curve"]["at"] == [scene.psi_in, scene.psi_out]
+    chi = scene.chi
+    np.testing.assert_allclose(told["curve"]["borders"], [1.0, 2.0 * chi, 4.0 * chi - 1.0])
+    history = told["history"]
+    np.testing.assert_allclose(history["force"], scene.force, atol=1e-5)
+    np.testing.assert_allclose(np.sum(list(history["energies"].values()), axis=0), 1.0, atol=1e-4)
+    assert set(history["energies"]) == set(scene.energies)
+
+
+def test_laws_that_are_not_there_follow():
+    view = View(given=NUMBERS, psi=1.0, chi=1.61803, law=LAWS)
+    told = answer(view)
+    assert {law["label"] for law in told["laws"]} | set(told["late"]) == set(LAWS)
+    followed = json.loads(json.dumps(laws(view), allow_nan=False))
+    assert followed["slow"] == []
+    assert [law["label"] for law in followed["laws"]] == list(LAWS)
+    scene = scene_of(view)
+    for law, curve in zip(followed["laws"], law_curves(scene, LAWS), strict=True):
+        assert law["at"] == curve.at
+        assert law["off"] == pytest.approx(curve.at - scene.psi_out, abs=1e-15)
+        np.testing.assert_allclose(law["out"], curve.psi_out, atol=1e-7)
+    assert answer(view)["late"] == []  # remembered
+
+
+def test_results_are_the_numbers_of_the_impact():
+    view = View(restitution=0.8, spin=40.0)
+    hit = impact_of(view)
+    rows = {row["name"]: row for row in answer(view)["results"]}
+    assert float(rows["psi_out"]["value"]) == pytest.approx(hit.psi_out, rel=1e-5)
+    assert rows["psi_out"]["symbol"] == "ψ₂"
+    angle = rows["rebound_angle"]
+    assert angle["unit"] == "deg"
+    assert float(angle["value"]) == pytest.approx(np.degrees(hit.rebound_angle), rel=1e-5)
+    micro = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "ns": 1e-9}[rows["duration"]["unit"]]
+    assert float(rows["duration"]["value"]) * micro == pytest.approx(hit.duration, rel=1e-5)
+    assert float(rows["normal_restitution"]["value"]) == pytest.approx(0.8, abs=1e-3)
+    assert rows["kappa"]["unit"] == ""
+    assert set(config()["symbols"]) >= {row["symbol"] for row in rows.values()}
+    free = {row["name"]: row["value"] for row in answer(View(friction=0.0))["results"]}
+    assert free["psi_in"] == "none: it slides freely"
+
+
+def test_findings_speak_of_the_page():
+    view = View(radius=0.2, material="rubber", speed=60.0, second_material="steel", friction=0.05)
+    told, found = answer(view)["findings"], impact_of(view).validity
+    assert len(told) == len(found.findings)
+    marks = [row["mark"] for row in told]
+    assert marks == sorted(marks, key=["FAILS", "?", "ok"].index)
+    assert marks.count("FAILS") == sum(finding.holds is False for finding in found.findings) > 0
+    for row in told:
+        for word in ("method=", "psi_", "mu ", "chi"):
+            assert word not in row["text"]
+
+
+def test_the_page_is_told_all_that_it_shows():
+    told = json.loads(json.dumps(config(), allow_nan=False))
+    assert set(told["fields"]) == {field.name for field in fields(View)}
+    for name, field in told["fields"].items():
+        assert field["label"]
+        assert (name in KNOBS) == (field["most"] is not None)
+        assert View.of(urlencode({name: field["default"]}, doseq=True)) == View()
+        assert field["symbol"] in ("", *told["symbols"])
+    assert [law["label"] for law in told["laws"]] == list(LAWS)
+    assert told["materials"]["rigid"]["young"] is None
+    assert told["materials"]["steel"] == {"young": 210e9, "poisson": 0.3, "density": 7850}
+    assert tuple(OF_FIGURES) == REGIMES
+    assert {name: words[0] for name, words in (IN_FIGURES | LOST).items()} == ENERGIES
+    for preset in told["presets"]:
+        answer(View.of(preset["query"]))

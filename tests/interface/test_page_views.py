@@ -1,0 +1,122 @@
+"""A link holds all of a view of the page, and any of it is answered or refused by a field."""
+
+import json
+from urllib.parse import urlencode
+
+import numpy as np
+import pytest
+from hypothesis import event, given, settings, strategies as st
+
+import carom
+
+pytest.importorskip("flask")
+
+from carom.explorer.answers import answer
+from carom.explorer.knobs import CHOICES, KNOBS, NUMBERS, OF_MATERIAL, label
+from carom.explorer.refused import Refused
+from carom.explorer.scenes import scene_of
+from carom.explorer.views import LAWS, OF_BODIES, OF_NUMBERS, View
+
+NUMBER = {name: st.floats(knob.least, knob.most) for name, knob in KNOBS.items()}
+WORD = {name: st.sampled_from(known) for name, known in CHOICES.items()}
+SOME_LAWS = st.lists(st.sampled_from(LAWS), unique=True, max_size=4).map(tuple)
+
+
+@given(st.builds(View, law=SOME_LAWS, **NUMBER, **WORD))
+@settings(max_examples=200, derandomize=True, deadline=None)
+def test_every_state_is_a_link_that_restores_it(view):
+    assert View.of("?" + view.query()) == view
+
+
+@pytest.mark.parametrize("name", KNOBS)
+def test_numbers_out_of_range_are_refused_by_name(name):
+    knob, using = KNOBS[name], {"against": "sphere", "material": "own", "second_material": "own"}
+    if name in OF_NUMBERS:
+        using = {"given": NUMBERS}
+    for text in ("", "nan", "inf", "x", "1e400", str(knob.most * 1.01), str(knob.least - 0.1)):
+        with pytest.raises(Refused, match=r": must be a number from .*(not '|empty)") as error:
+            View.of(urlencode(using | {name: text}))
+        assert error.value.field == name
+        assert error.value.message.startswith("must be")
+
+
+@pytest.mark.parametrize(
+    ("query", "says"),
+    [
+        ("material=stell", "did you mean 'steel'"),
+        ("law=mindlinn", "did you mean 'mindlin'"),
+        ("frction=1", "did you mean 'friction'"),
+        ("against=wall", "there are half-space; sphere; cup"),
+        ("psi=1&" * 1000, "at most"),
+        ("angle=3 m", "must be a number from 0 to 89.9 deg, not '3 m'"),
+    ],
+)
+def test_links_that_say_nonsense_are_refused_in_one_line(query, says):
+    view, wrong = View.with_complaints(query)
+    assert view == View()
+    line = str(next(iter(wrong.values())))
+    assert says in line
+    assert "\n" not in line
+
+
+def test_what_a_view_does_not_use_may_be_anything():
+    assert View.of("psi=&chi=x&second_radius=-1").pair == View().pair
+    assert View.of("given=numbers&psi=2&radius=&angle=95").psi == 2.0
+    for query in ("against=sphere&second_radius=-1", "second_material=own&second_young=soft"):
+        with pytest.raises(Refused) as error:
+            View.of(query)
+        assert error.value.field in query
+    assert View.of("young=soft&second_density=&psi=x").pair == View().pair
+    assert View.of("second_material=own&second_density=").pair.second.material.young == 70e9
+
+
+def test_what_a_link_says_right_is_kept_beside_what_it_says_wrong():
+    view, wrong = View.with_complaints(
+        "angle=40&friction=-1&material=brass&time=0.3&theme=dark&slow=1&tab=Files&beside=angle%3D5"
+    )
+    assert (view.angle, view.friction, view.material) == (40.0, 0.2, "brass")
+    assert len(wrong) == 1
+
+
+@pytest.mark.parametrize(
+    ("view", "field", "says"),
+    [
+        (View(against="cup", second_radius=5.0), "second_radius", "must be above 5 mm: the ball"),
+        (View(against="cup", second_radius=1.0), "second_radius", "fit into the cup"),
+        (
+            View(against="sphere", second_material="rigid"),
+            "second_material",
+            "must have a density, which a rigid one has not",
+        ),
+        (View(speed=1e300), "speed", "that a computer cannot hold"),
+        (View(given=NUMBERS, psi=np.inf), "psi", "that a computer cannot hold"),
+    ],
+)
+def test_what_does_not_go_together_is_told_of_a_field(view, field, says):
+    with pytest.raises(Refused, match=says) as error:
+        answer(view)
+    assert error.value.field == field
+    assert str(error.value).startswith(f"{label(field)}: ")  # not an argument of Python
+
+
+EXTREME = {name: st.sampled_from([knob.least, knob.most]) for name, knob in KNOBS.items()}
+
+
+@given(st.builds(View, **{name: st.one_of(EXTREME[name], NUMBER[name]) for name in KNOBS}, **WORD))
+@settings(max_examples=40, derandomize=True, deadline=None)
+def test_any_numbers_are_answered_or_refused_by_field(view):
+    try:
+        told = json.dumps(answer(view), allow_nan=False)
+    except Refused as error:
+        told = error.field
+        event(told)
+    assert told in OF_BODIES or 10_000 < len(told) < 200_000
+
+
+def test_own_materials_are_those_of_the_numbers():
+    own = View(material="own", young=203.0, poisson=0.295, density=7810.0, angle=20.0)
+    assert scene_of(own).psi_out == pytest.approx(scene_of(View(angle=20.0)).psi_out, rel=1e-12)
+    soft = View(against="sphere", second_material="own", second_young=0.01, second_poisson=0.5)
+    stuff = carom.Material(young="10 MPa", poisson=0.5, density=soft.second_density)
+    assert soft.pair.second.material.young == stuff.young
+    assert {soft.unused} == {(*OF_NUMBERS, *OF_MATERIAL)}
