@@ -19,8 +19,7 @@ RESTITUTIONS = (1.0, 0.9, 0.7)
 LATE = 2e-4  # of the duration, that a front which is quick may be early or late
 CLOSE = 1e-3  # of the largest value of a history or profile
 STEP = 1 / 600  # of the duration: how finely the copy follows an impact
-THIN = 0.01  # psi_1: below, rings with losses are thinner than a step, energies less certain
-HARDLY = 1e-3  # of the energy: what takes less is judged as if it took so much
+HARDLY = 3e-4  # of the energy: what takes less is judged as if it took so much
 SHORT = 2 * STEP  # phases that the copy may pass over
 NEAR_FRONT = 0.03  # of the contact radius: there viscous tractions rise like a root
 SOLVE = """states => states.map(([psi, chi, e]) => {
@@ -100,19 +99,15 @@ def test_histories(states, told, solved):
         assert off(found["psi"], history.psi) <= CLOSE, state
         assert off(found["force"], history.force) <= CLOSE, state
         assert off(found["contact"], history.contact_radius) <= CLOSE, state
-        if state[2] != 1.0 and abs(state[0]) < THIN:
-            continue
-        all_ = 0.5 * state[0] ** 2
         energies = {
             "stored": history.stored,
             "dissipated": history.dissipated,
             "shear": history.shear_lost,
         }
         for name, exact_energy in energies.items():
-            if name == "dissipated" and falls(exact_energy):
-                continue
             error = np.max(np.abs(found[name] - exact_energy))
-            assert error <= CLOSE * max(np.max(exact_energy), HARDLY * all_), (state, name)
+            least = HARDLY * 0.5 * state[0] ** 2
+            assert error <= CLOSE * max(np.max(exact_energy), least), (state, name)
 
 
 def test_histories_of_thin_rings(offline):
@@ -127,11 +122,6 @@ def test_histories_of_thin_rings(offline):
         history = carom.solve(*state[:2], losses=losses_of(state[2])).history(201)
         assert off(json.loads(text)["psi"], history.psi) <= CLOSE, state
         assert off(json.loads(text)["force"], history.force) <= CLOSE, state
-
-
-def falls(work):
-    """Tell whether the library's work of friction falls, as it cannot: rounding of a difference."""
-    return np.min(np.diff(work)) < -CLOSE * np.max(np.abs(work))
 
 
 def test_stick_radii(states, told, solved):
@@ -227,9 +217,6 @@ def same_number(row, exact, scene):
     """Check a number that follows from psi_2, or that springs give, in its unit."""
     if exact["value"].startswith("none"):
         assert row["value"] == exact["value"]
-        return
-    thin = scene.restitution != 1.0 and abs(scene.psi_in) < THIN
-    if thin and row["name"] == "dissipated_energy":
         return
     rough = scene.restitution != 1.0 and row["name"] in ("dissipated_energy", "shear_lost_energy")
     assert row["unit"] == exact["unit"]
