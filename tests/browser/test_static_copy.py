@@ -21,7 +21,7 @@ CLOSE = 1e-3  # of the largest value of a history or profile
 STEP = 1 / 600  # of the duration: how finely the copy follows an impact
 HARDLY = 3e-4  # of the energy: what takes less is judged as if it took so much
 SHORT = 2 * STEP  # phases that the copy may pass over
-NEAR_FRONT = 0.03  # of the contact radius: there viscous tractions rise like a root
+NEAR_FRONT = 0.01  # of the contact radius: there viscous tractions rise like a root
 SOLVE = """states => states.map(([psi, chi, e]) => {
   const found = Carom.law.solve(psi, chi, e);
   const names = ["psi", "force", "stick", "contact", "stored", "dissipated", "shear"];
