@@ -28,7 +28,8 @@ Carom.presets = (() => {
     const stretched = caution ? [make("p", "carom-caution", caution)] : [];
     const from = sources.map((source) => make("p", {}, source));
     const fold = make("details", {}, make("summary", {}, "Where the numbers are from"), ...from);
-    place.replaceChildren(make("h2", {}, title), make("p", {}, story), ...stretched, fold);
+    const head = make("summary", {}, make("h2", {}, title));
+    place.replaceChildren(make("details", { open: true }, head, make("p", {}, story), ...stretched, fold));
   }
 
   // Show a story; return the query that it sets, as a link may hold other words.
