@@ -41,12 +41,47 @@ def test_everything_that_the_page_names_is_there(tmp_path):
 
 @pytest.mark.usefixtures("quick")
 def test_an_empty_folder_and_an_older_copy_are_replaced(tmp_path):
-    (tmp_path / "page").mkdir()
-    exporting.export(tmp_path / "page")
-    (tmp_path / "page" / "assets" / "older.js").write_text("")
-    exporting.export(tmp_path / "page")
-    assert not (tmp_path / "page" / "assets" / "older.js").exists()
+    page = tmp_path / "page"
+    page.mkdir()
+    same = page.stat().st_ino
+    exporting.export(page)
+    (page / "assets" / "older.js").write_text("")
+    html = (page / "index.html").read_text(encoding="utf-8")
+    (page / "index.html").write_text(f'{html}<script src="assets/older.js">', encoding="utf-8")
+    exporting.export(page)
+    assert not (page / "assets" / "older.js").exists()
+    assert (page / "index.html").read_text(encoding="utf-8") == html
+    assert names(page) == set(exporting.MADE)
     assert names(tmp_path) == {"page"}
+    assert page.stat().st_ino == same  # who works in it still does
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_file_of_ones_own_beside_the_parts_is_kept(tmp_path):
+    exporting.export(tmp_path)
+    (tmp_path / "assets" / "logo.png").write_text("mine")
+    assert "holds other files" in refused(tmp_path)
+    assert (tmp_path / "assets" / "logo.png").read_text() == "mine"
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("moves", range(6))
+def test_an_older_copy_is_put_back_if_the_new_one_cannot_take_its_place(
+    tmp_path, monkeypatch, moves
+):
+    exporting.export(tmp_path)
+    before = {each: each.stat().st_ino for each in tmp_path.rglob("*")}
+    left, move = iter(range(moves)), exporting._moved
+
+    def stopped(one, other):
+        if next(left, None) is None and one.parent.name != "old" and other.parent.name != "new":
+            raise KeyboardInterrupt
+        move(one, other)
+
+    monkeypatch.setattr(exporting, "_moved", stopped)
+    with pytest.raises(KeyboardInterrupt):
+        exporting.export(tmp_path)
+    assert {each: each.stat().st_ino for each in tmp_path.rglob("*")} == before
 
 
 def refused(target):

@@ -181,6 +181,23 @@ def test_ledgers_of_hardly_oblique_impacts(decade: float) -> None:
         assert np.min(h.stored) > -close
 
 
+@pytest.mark.parametrize(
+    ("psi", "chi", "e"),
+    [
+        (1.0 + 1e-9, 3.0, 0.7),  # the edge goes back to where the front jumped
+        (1.005, 2.5, 0.7),
+        (1.0106, 2.303, 0.532),
+        (0.0014292769783858395, 3.4387011985264313, 0.71981058207697),  # a ring closes twice
+        (0.02223, 2.0147, 0.7),
+    ],
+)
+def test_ledgers_where_rings_end(psi: float, chi: float, e: float) -> None:
+    """Each once gave friction's work back, up to half of it."""
+    h = carom.solve(psi, chi, losses=carom.KelvinVoigt(restitution=e)).history(1001)
+    for taken in (h.dissipated, h.shear_lost):
+        assert np.min(np.diff(taken)) > -1e-6 * 0.5 * psi**2
+
+
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("psi", [1.1e4, -1e8, 1e300])
 def test_whatever_is_faster_slides(law: Loss, psi: float) -> None:

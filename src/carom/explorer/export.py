@@ -1,7 +1,7 @@
 """A copy of the page as a folder of files, which needs neither this program nor a network."""
 
 import os
-import shutil
+import re
 import tempfile
 from pathlib import Path
 from typing import NamedTuple
@@ -13,7 +13,7 @@ from carom.io.progress import Progress, advancing
 from carom.quantities.refusals import InputError, refusal
 
 PAGE, PLOTLY, ASSETS = "index.html", "plotly.min.js", "assets"
-MADE = {PAGE, PLOTLY, ASSETS}  # what a copy holds
+MADE = (ASSETS, PLOTLY, PAGE)  # what a copy holds
 MARK = 'id="config"'  # in its page
 
 
@@ -28,8 +28,8 @@ class Copy(NamedTuple):
 def export(folder: str | Path, progress: Progress = None) -> Copy:
     """Write a copy of the page into a new or empty folder, or in the place of an older copy.
 
-    The copy appears whole or not at all. InputError if the folder holds anything else, or cannot be
-    written.
+    Once all of it is made it takes its place, or what was there is put back. InputError if the
+    folder holds anything else, or cannot be written.
     """
     target = checked_path("folder", folder, "folder")
     real = Path(os.path.realpath(target))
@@ -49,8 +49,9 @@ def _check(target: Path, real: Path) -> None:
         raise refusal("folder", str(target), "it is a file; give the name of a folder")
     if not real.parent.is_dir():
         raise refusal("folder", str(target), "the folder around it must exist; make it first")
-    if not os.access(real.parent, os.W_OK):
-        raise refusal("folder", str(target), "the folder around it is not to be written to")
+    if not os.access(real if real.exists() else real.parent, os.W_OK):
+        which = "it" if real.exists() else "the folder around it"
+        raise refusal("folder", str(target), f"{which} cannot be written to")
     if real.exists() and not _is_ours(real):
         raise refusal("folder", str(target), "it holds other files; give a new or empty folder")
 
@@ -60,11 +61,11 @@ def _is_ours(folder: Path) -> bool:
     held = {each.name for each in folder.iterdir()}
     if not held:
         return True
-    return (
-        held == MADE
-        and not any(each.is_symlink() for each in folder.iterdir())
-        and MARK in (folder / PAGE).read_text(encoding="utf-8", errors="replace")
-    )
+    if held != set(MADE) or any(each.is_symlink() for each in folder.iterdir()):
+        return False
+    told = (folder / PAGE).read_text(encoding="utf-8", errors="replace")
+    named = set(re.findall(rf'"{ASSETS}/([^"]+)"', told))
+    return MARK in told and {each.name for each in (folder / ASSETS).iterdir()} <= named
 
 
 def _parts(progress: Progress) -> dict[str, bytes]:
@@ -79,19 +80,33 @@ def _parts(progress: Progress) -> dict[str, bytes]:
 
 
 def _replace(real: Path, parts: dict[str, bytes]) -> None:
-    """Write all beside the folder, then put it in its place."""
-    with tempfile.TemporaryDirectory(prefix=".carom-", dir=real.parent) as room:
+    """Write all beside its place, then put it there; a folder that exists stays the same one."""
+    existed = real.exists()
+    with tempfile.TemporaryDirectory(
+        prefix=".carom-", dir=real if existed else real.parent
+    ) as room:
         made, old = Path(room, "new"), Path(room, "old")
         for name, content in parts.items():
             place = made / name
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_bytes(content)
-        if real.exists():
-            shutil.copymode(real, made)
-            real.replace(old)
-        try:
+        if not existed:
             made.replace(real)
-        except OSError:
-            if old.exists():
-                old.replace(real)
+            return
+        old.mkdir()
+        try:
+            for name in MADE:
+                _moved(real / name, old / name)
+                _moved(made / name, real / name)
+        except BaseException:
+            for name in MADE:
+                if not (made / name).exists():
+                    _moved(real / name, made / name)
+                _moved(old / name, real / name)
             raise
+
+
+def _moved(one: Path, other: Path) -> None:
+    """Move a file or folder, if it is there."""
+    if one.exists():
+        one.replace(other)

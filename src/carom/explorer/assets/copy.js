@@ -2,8 +2,9 @@
 window.Carom = window.Carom || {};
 
 Carom.source = (() => {
-  const MORE = "The installed program does: pip install \"carom[explore]\", then carom explore.";
-  const WHY = `This copy of the page runs in the browser alone and cannot do this. ${MORE}`;
+  const PROGRAM = "install Carom with its extra \"explore\", then run carom explore";
+  const MORE = `The program takes others: ${PROGRAM}.`;
+  const WHY = `This copy of the page runs in the browser alone and cannot do this. The program can: ${PROGRAM}.`;
   const NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?/i;
   const LONGEST = 40; // characters of a wrong number that are shown
   const PARTS = ["young", "poisson", "density"];
@@ -31,7 +32,9 @@ Carom.source = (() => {
     const rest = trimmed.slice(digits.length).trim();
     const value = Number(digits);
     const right = digits && (rest === "" || rest === unit) && value >= least && value <= most;
-    if (!right) refuse(name, `${allowed}, not '${text.slice(0, LONGEST)}'`);
+    const foreign = digits && /^\p{L}/u.test(rest) && rest !== unit;
+    const units = foreign ? `; this copy takes ${unit || "no unit"} only` : "";
+    if (!right) refuse(name, `${allowed}, not '${text.slice(0, LONGEST)}'${units}`);
     return value;
   }
 

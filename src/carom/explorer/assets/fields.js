@@ -126,11 +126,12 @@ Carom.fields = (() => {
     }
     for (const name of names()) {
       const first = String(known[name].default);
-      put(name, given.get(name) ?? first);
-      if (given.has(name) && value(name) !== given.get(name)) {
-        const { label, least, choices } = known[name];
+      const { label, least, choices } = known[name];
+      const same = least === null ? null : choices?.find(([each]) => Number(each) === Number(given.get(name)));
+      put(name, same ? String(same[0]) : (given.get(name) ?? first));
+      if (given.has(name) && !same && value(name) !== given.get(name)) {
         const held = least === null ? "" : `; this copy has ${choices.map(([each]) => each).join(", ")} only`;
-        odd.push(`${label}: there is no ${given.get(name)}${held}`);
+        odd.push(`${label}: there is no ${given.get(name)}${held}, and ${first} is shown`);
         put(name, first);
       }
     }
@@ -139,8 +140,8 @@ Carom.fields = (() => {
     laws.filter((label) => !there.includes(label)).forEach((label) => odd.push(`Contact law: there is no ${label}`));
     Carom.laws.choose(there);
     const data = given.get("data") ?? "";
-    const has = !data || Carom.config.datasets.some(({ name }) => name === data);
-    if (!has) odd.push(`${known.data.label}: there is no ${data}`);
+    const has = !data || (Carom.source.can.fit && Carom.config.datasets.some(({ name }) => name === data));
+    if (!has) odd.push(`${known.data.label}: ${Carom.source.can.fit ? `there is no ${data}` : "not fitted in this copy"}`);
     Carom.fit.choose(has ? data : "");
     Carom.fit.changed();
     hide();

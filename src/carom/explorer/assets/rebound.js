@@ -57,7 +57,8 @@ Carom.rebound = (() => {
     const sign = psi < 0 ? -1 : 1;
     if (size >= borders(chi, e)[2] && size > 1) return sign * (size - 2 * chi * (1 + e));
     const patches = table(e);
-    const lost = valueAt(patches, Math.max(place(size, chi, e), patches.smallest), chi) / (1 + size);
+    const at = Math.max(place(size, chi, e), patches.smallest);
+    const lost = valueAt(patches, at, chi) / (1 + Math.max(size, patches.smallest));
     return psi * Math.min(1, Math.max(-1, 1 - lost));
   }
 

@@ -105,8 +105,11 @@ def follow_event(
     ring = ring_of(work)
     if event == BEGINS:
         return begin(work, motion, count, 1 if now.psi > 0.0 else -1, now, time)
-    if event == CLOSES:
-        return begin(work, motion, count, -ring.sign, now, time)
+    if event == CLOSES:  # to rounding: what was left of the ring slips the other way at once
+        stuck, g = rim(work.pieces, count), excess(-ring.sign, now)
+        depth = push_at_once(work, 0, max(now.radius, stuck), stuck, time, g)
+        set_ring(work, RETREATS, -ring.sign, depth)
+        return retreat(work, motion, count, now, time)
     if event == STOPS:
         level = level_now(motion, ring.sign, now)
         lay_flat(work.pieces, count, ring.sign, rim(work.pieces, count), now.radius, level)
@@ -130,10 +133,7 @@ def follow_event(
 @kernel
 def begin(work: Arrays, motion: Motion, count: int, sign: int, now: State, time: float) -> int:
     """Begin a ring of slip at the edge; return how many pieces there are."""
-    depth, stuck = 0, rim(work.pieces, count)
-    if stuck < now.radius:  # the ring before closed to rounding
-        depth = push_at_once(work, 0, now.radius, stuck, time, excess(sign, now))
-    set_ring(work, RETREATS, sign, depth)
+    set_ring(work, RETREATS, sign, 0)
     return retreat(work, motion, count, now, time)
 
 

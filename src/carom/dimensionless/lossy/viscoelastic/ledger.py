@@ -120,33 +120,24 @@ def entry_moments(
 
 
 @kernel
-def gap_moments(
-    work: Arrays, i: int, ring: Ring, alpha: float, edge: float, front: float, time: float
-) -> tuple[float, float, float]:
-    """Return the integrals over what the front jumped from the end of an entry to the next.
+def gap_end(work: Arrays, i: int, ring: Ring, front: float) -> float:
+    """Return where what the front jumped ends, from the end of an entry to the next.
 
     Where it arrives is known to rounding of levels, which is much of a thin ring.
     """
-    inner = front
     if i < ring.depth - 1:
-        inner = work.passed[i + 1, passed.R_OUTER]
-    elif ring.mode == RETURNS:
-        return 0.0, 0.0, 0.0
-    elif ring.mode == RETREATS:
-        inner = np.sqrt(work.values[FRONT, 0])
-    outer = min(work.passed[i, passed.R_INNER], edge)
-    if outer <= inner:
-        return 0.0, 0.0, 0.0
-    h = left(work, i, False, ring.sign, alpha, time)
-    return h * (outer - inner), h * cubes(inner, outer), h * h * (outer - inner)
+        return float(work.passed[i + 1, passed.R_OUTER])
+    if ring.mode == RETREATS:
+        return float(np.sqrt(work.values[FRONT, 0]))
+    return float(work.passed[i, passed.R_INNER]) if ring.mode == RETURNS else front
 
 
 @kernel
 def edge_left(work: Arrays, i: int, ring: Ring, alpha: float, edge: float, time: float) -> float:
     """Return h at the edge, which an entry of the stack holds."""
     row, n = work.passed[i], int(work.passed[i, passed.PANEL])
-    if row[passed.PANEL] == AT_ONCE:
-        return left(work, i, True, ring.sign, alpha, time)
+    if row[passed.PANEL] == AT_ONCE or edge <= row[passed.R_INNER]:
+        return left(work, i, False, ring.sign, alpha, time)
     x = place(work.series, n, FRONT, edge * edge, row[passed.X_OUTER], row[passed.X_INNER])
     return left_at(work, n, ring.sign, alpha, x, time)
 
@@ -163,10 +154,12 @@ def ring_moments(
         last = at.place if ring.mode == RETURNS and i == ring.depth - 1 else row[passed.X_INNER]
         found = entry_moments(work, i, ring, alpha, edge, last, time)
         plain, weighted, square = plain + found[0], weighted + found[1], square + found[2]
-        found = gap_moments(work, i, ring, alpha, edge, at.radius, time)
-        plain, weighted, square = plain + found[0], weighted + found[1], square + found[2]
-        parts = edge <= 0.0 and i == ring.depth - 1
-        if parts or row[passed.R_INNER] < edge <= row[passed.R_OUTER]:
+        inner, outer = gap_end(work, i, ring, at.radius), min(row[passed.R_INNER], edge)
+        if inner < outer:
+            h = left(work, i, False, ring.sign, alpha, time)
+            plain, weighted = plain + h * (outer - inner), weighted + h * cubes(inner, outer)
+            square += h * h * (outer - inner)
+        if edge <= row[passed.R_OUTER] and (edge > inner or i == ring.depth - 1):
             at_edge = edge_left(work, i, ring, alpha, edge, time)
     if ring.mode == RETREATS:
         n, x0 = panel.number, -1.0
