@@ -171,7 +171,7 @@ def test_ledgers_of_hardly_oblique_impacts(decade: float) -> None:
     """
     rng = np.random.default_rng(12)
     for _ in range(25):
-        psi, chi = 10.0 ** (decade + rng.uniform()), 0.3 * 10.0 ** rng.uniform()
+        psi, chi = 10.0 ** (decade + rng.uniform()), 0.3 * 10.0 ** rng.uniform(0.0, 1.5)
         alpha = float(rng.uniform(0.005, 0.6))
         s = solve_with_losses(psi, chi, LossNumbers(Loss.VISCOUS, alpha))
         h, close = s.history(150), 1e-4 * 0.5 * psi**2
@@ -189,6 +189,7 @@ def test_ledgers_of_hardly_oblique_impacts(decade: float) -> None:
         (1.0106, 2.303, 0.532),
         (0.0014292769783858395, 3.4387011985264313, 0.71981058207697),  # a ring closes twice
         (0.02223, 2.0147, 0.7),
+        (2.3834658655454422e-05, 2.920233082538344, 0.6319611009554595),
     ],
 )
 def test_ledgers_where_rings_end(psi: float, chi: float, e: float) -> None:
@@ -196,6 +197,7 @@ def test_ledgers_where_rings_end(psi: float, chi: float, e: float) -> None:
     h = carom.solve(psi, chi, losses=carom.KelvinVoigt(restitution=e)).history(1001)
     for taken in (h.dissipated, h.shear_lost):
         assert np.min(np.diff(taken)) > -1e-6 * 0.5 * psi**2
+    assert h.shear_lost[-1] < 0.5 * psi**2
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -290,6 +292,14 @@ def test_small_psi_is_the_impact_without_slip(chi: float, alpha: float) -> None:
     for psi in (1e-12, 1e-7, 5e-5):
         found = solve_with_losses(psi, chi, LossNumbers(Loss.VISCOUS, alpha)).psi_out / psi
         assert found == pytest.approx(limit, abs=2e-4)
+
+
+def test_small_psi_where_twice_the_smallest_is_not_solved() -> None:
+    """psi_2/psi_1 is then that of the smallest, which the history holds as well."""
+    law = LossNumbers(Loss.VISCOUS, 0.10857)
+    assert solve_with_losses(2e-3, 42.604, law).status is Status.UNRESOLVED
+    s = solve_with_losses(1e-6, 42.604, law)
+    assert s.psi_out == pytest.approx(s.at(s.duration).psi[0], rel=1e-12)
 
 
 def test_bad_input_is_told_and_takes_no_time() -> None:

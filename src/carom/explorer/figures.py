@@ -164,11 +164,11 @@ def drawn_curve(scene: Scene, laws: list[LawCurve]) -> Figure:
     legend = axis.get_legend()
     entries: list[Any] = [] if legend is None else list(legend.legend_handles)
     for row, law in enumerate(laws):
-        look: Any = {"color": drawing.LINES[1 + row % 4], "lw": 0.9}
+        look: Any = {"color": drawing.LINES[1 + row % 4], "lw": 0.9 * (1 + row // 16)}
         look["ls"] = drawing.DASHES[1 + row // 4 % 4]
         entries += axis.plot(law.psi_in, law.psi_out, label=law.label, **look)
     if isfinite(scene.psi_in):
-        point: Any = {"marker": "o", "ls": "", "color": drawing.VERMILION, "label": "this impact"}
+        point: Any = {"marker": "o", "ls": "", "color": drawing.BLACK, "label": "this impact"}
         entries += axis.plot(scene.psi_in, scene.psi_out, **point)
     if laws:  # whose names are long
         height = figure.get_figheight() + ENTRY * drawing.MM * len(laws)

@@ -10,6 +10,7 @@ import xarray as xr
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Cup, Sphere
 from carom.explorer.columns import plain_words
+from carom.explorer.results import in_words
 from carom.fitting import Estimate, Fit
 from carom.fitting.comparison import LawFit
 from carom.fitting.estimates import significant
@@ -49,7 +50,7 @@ def shown_fit(
         "laws": _laws(found) if not problem.is_normal else _losses(found),
         "verdict": found.losses.verdict if drops and found.losses else found.comparison.verdict,
         "regimes": [] if problem.is_normal else _regimes(found),
-        "notes": [note for note in found.notes if not note.startswith(TOLD_ELSEWHERE)],
+        "notes": [in_words(note) for note in found.notes if not note.startswith(TOLD_ELSEWHERE)],
         "charts": charts,
         "columns": columns,
         "bodies": {"from": bodies_from, "text": words_of(problem.pair)},

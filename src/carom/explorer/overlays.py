@@ -20,8 +20,8 @@ from carom.quantities.arrays import Array
 from carom.verify.catalogue import named
 from carom.verify.errors import damped, losses_of
 
-POINTS, POINTS_WITH_LOSSES, POINTS_OF_LAWS = 241, 101, 61
-DRAWN = 1e-6  # tolerance of a curve with losses, of which a point takes 0.4 ms
+POINTS, POINTS_WITH_LOSSES, POINTS_OF_LAWS = 241, 81, 61
+DRAWN = 1e-8  # tolerance of a curve with losses, of which a point takes 0.6 ms
 BEYOND = 1.15  # of the present psi_1, that is shown
 STEPS = 400  # of a law's force in time
 EVERY = 2  # of these that is drawn

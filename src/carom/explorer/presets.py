@@ -211,7 +211,7 @@ PRESETS = (
         "any, at 2.06° on the side that it came from. It slides to the end, so friction takes the "
         "same spin from it whatever it had: from 100 rad/s it leaves with 12.8 rad/s of topspin, "
         "from 150 with 37.2 rad/s of backspin.",
-        urlencode({"speed": 0.6, "angle": 20, "spin": 112.763}),
+        urlencode({"speed": 0.6, "angle": 20, "spin": 112.763114494309}),
         (
             "Bearing steel as in Carom's catalogue of materials (Metals Handbook Desk Edition, "
             "ASM, 1985).",

@@ -31,6 +31,8 @@ IN_WORDS = {  # what findings of the library call an argument or a letter, and t
     r", which method='halfspace' solves": ", which boundary elements solve",
     r"method='halfspace' solves": "boundary elements solve",
     r"Dundurs beta": "Dundurs' β",
+    r"'carom materials' lists them all": "the list of materials in the controls has them all",
+    r"^(\w+): (not a number in [^;]+); \1: ": r"\1: \2; ",
     r"\bpsi_1\b": "ψ₁",
     r"\bpsi_2\b": "ψ₂",
     r"\bp_0\b": "p₀",

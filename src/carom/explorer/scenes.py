@@ -16,7 +16,7 @@ from carom.dimensionless.states import Phase
 from carom.explorer.knobs import refused
 from carom.explorer.refused import Refused
 from carom.explorer.results import Row, findings_of, rows_of
-from carom.explorer.stages import MovingBodies, short, stage_of_bodies, stage_of_numbers
+from carom.explorer.stages import MovingBodies, precise, short, stage_of_bodies, stage_of_numbers
 from carom.explorer.views import View
 from carom.impacts.exact import Impact
 from carom.impacts.history import history_columns
@@ -27,6 +27,7 @@ from carom.quantities.prefixes import prefixed
 from carom.quantities.refusals import InputError
 
 TIMES = 201  # of the histories
+NO_SPIN = 1e-9  # of the spin before: less is rounding
 KEPT = 16  # scenes that are remembered
 RADII, INSTANTS = 33, 61  # at which tractions are drawn
 FEWER = 31  # instants with losses, of which one takes 2 ms
@@ -94,8 +95,8 @@ class Scene:
             "time": short(self.share),
             "contact": short(self.contact),
             "stick": short(self.stick),
-            "psi": short(self.psi) if self.rubs else None,
-            "force": short(self.force / (self.limit.max() or 1.0)),
+            "psi": precise(self.psi) if self.rubs else None,
+            "force": precise(self.force / (self.limit.max() or 1.0)),
             "rim": short(self.rim),
             "tractions": short(self.tractions),
             "stage": self.stage.moving(),
@@ -162,12 +163,21 @@ def _of_bodies(view: View) -> Scene:
         rim=_rim(hit.solution, column["normal_velocity"] / hit.normal_speed),
         tractions=_tractions(hit.solution),
         stage=stage_of_bodies(hit, column),
-        results=rows_of(hit.scalars(), lossy=hit.losses is not None),
+        results=rows_of(_scalars(hit), lossy=hit.losses is not None),
         findings=findings_of(hit.validity.findings),
     )
 
 
+def _scalars(hit: Impact) -> Mapping[str, float]:
+    """Return the numbers of an impact; what rounding leaves of a spin is none."""
+    found = hit.scalars()
+    left = found["spin_out"]
+    return found | {"spin_out": 0.0 if abs(left) < NO_SPIN * abs(hit.spin) else left}
+
+
 def _of_numbers(view: View) -> Scene:
+    if not view.friction:
+        raise refused("friction", "must be above 0: without friction there is no ψ₁")
     solution = solve(view.psi, view.chi, losses=view.losses)
     history = solution.history(TIMES)
     parts = (0.5 * history.psi**2, history.stored, history.dissipated, history.shear_lost)

@@ -44,9 +44,9 @@ LAWS = """\
 laws = {{entry.label: entry.law for entry in carom.verify.CATALOGUE}}
 for label in {labels!r}:
     law = {law}
-    print(label, law.rebound({psi}, {chi}, kappa={kappa}))
-    shown += axis.plot(psi, law.rebound(psi, {chi}, kappa={kappa}), "--", label=label)
+{told}    shown += axis.plot(psi, law.rebound(psi, {chi}, kappa={kappa}), "--", label=label)
 """
+TOLD = "    print(label, law.rebound({psi}, {chi}, kappa={kappa}))\n"
 LAW, DAMPED = "laws[label]", "dataclasses.replace(laws[label], restitution={e!r})"
 SAVED = """\
 axis.legend(handles=shown)
@@ -76,7 +76,8 @@ def script(view: View, time: float) -> str:
     parts.append((CURVE if rubs else FREE).format(losses=losses, **names))
     if view.laid_over:
         law = DAMPED.format(e=e) if damps else LAW
-        parts.append(LAWS.format(labels=view.laid_over, law=law, **names))
+        told = TOLD.format(**names) if rubs else ""
+        parts.append(LAWS.format(labels=view.laid_over, law=law, told=told, **names))
     parts.append(SAVED)
     if view.data:
         parts.append(DATA.format(name=view.data))

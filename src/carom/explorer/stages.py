@@ -18,7 +18,7 @@ from carom.quantities.arrays import Array
 BEFORE = AFTER = 0.6  # of the contact's duration that is shown besides
 DEEPEST, WIDEST = 0.3, 6.0  # radii that the bodies may approach, and travel sideways
 STEEPEST = 0.7  # angle by which a body may travel around another, in rad
-BENT = ", paths bent"
+BENT = {"plane": "", "cup": ", paths bent", "sphere": ", paths bent about the centre of mass"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +77,7 @@ def stage_of_bodies(hit: Impact, column: Mapping[str, Array]) -> MovingBodies:
     x, y = place.T - rest.T
     first = Body("sphere", 1.0, x, y + height, first_turn)
     second = Body(kind, size, -rest[:, 0], height - rest[:, 1], second_turn)
-    caption = f"motion magnified {magnified:.3g} times" + (BENT if kind != "plane" else "")
+    caption = f"motion magnified {magnified:.3g} times{BENT[kind]}"
     return MovingBodies(_wide(time), (first, second), caption)
 
 
@@ -157,3 +157,8 @@ def short(values: Array) -> list[Any]:
     """Return numbers for the page, to what a picture shows."""
     found: list[Any] = np.round(values, 5).tolist()
     return found
+
+
+def precise(values: Array) -> list[float]:
+    """Return numbers for the page of which the smallest still have a sign."""
+    return [float(f"{value:.6g}") for value in values.tolist()]

@@ -11,13 +11,13 @@ def _named(name: str, more: str = "") -> str:
 
 SYMBOLS = {
     # what decides
-    "ψ₁": "How obliquely the contact point arrives: ψ₁ = κ V_x/(µ V₁). Up to 1 it sticks at once.",
+    "ψ₁": "How obliquely the contact point arrives: ψ₁ = κ Vₓ/(µ V₁). Up to 1 it sticks at once.",
     "ψ₂": "The same number after the impact. It is negative if the contact point leaves backwards.",
     "ψ": "Tangential velocity of the contact point over the largest that sticks from the first "
-    "touch: ψ = κ V_x/(µ V₁).",
+    "touch: ψ = κ Vₓ/(µ V₁).",
     "χ": "How fast the contact turns the tangential motion back, against the normal one: "
-    "χ = (κ/2) (m_n/m_t), about 1.44 for solid balls of steel.",
-    "κ": "How stiff the contact is sideways, against pressing: κ = G*/E*, about 0.82 for steel.",
+    "χ = (κ/2) (mₙ/mₜ), about 1.45 for solid balls of steel.",
+    "κ": "How stiff the contact is sideways, against pressing: κ = G*/E*, about 0.83 for steel.",
     "µ": _named("friction", ": surfaces that slide rub with µ times the normal force"),
     # what is given
     "R": "Radius of the ball.",
@@ -28,17 +28,18 @@ SYMBOLS = {
     "e": "Normal speed after the impact over that before it; 1 without losses.",
     "V": _named("speed"),
     "V₁": _named("normal_speed"),
-    "θ": "Angle of incidence: between the normal and the path of the centre.",
+    "θ": "Angle of incidence: between the normal and the path of the centre; of two balls, of the "
+    "first as seen from the second.",
     "ω": "Spin of the first body; positive if it adds to the motion of the contact point, as "
     "backspin does.",
     # what comes of it
-    "V′": _named("rebound_speed"),
-    "θ′": "Angle of rebound: between the normal and the path of the centre; negative if the ball "
-    "comes back.",
+    "V′": _named("rebound_speed", "; of two balls, of the first as seen from the second"),
+    "θ′": "Angle of rebound: between the normal and the path of the centre, as for θ; negative if "
+    "the ball comes back.",
     "ω′": "Spin of the first body after; negative for topspin of a ball that flies on.",
     "ω₂′": "Spin of the second body after; positive spins of both have the same sense of rotation.",
     "e_c": "Tangential velocity of the contact point, after over before: e_c = ψ₂/ψ₁.",
-    "e_t": "Tangential velocity of the centres, after over before: e_t = v_t′/v_t.",
+    "e_t": "Tangential velocity of the centres, after over before: e_t = vₜ′/vₜ.",
     "δω": "Spin before the impact that was not intended.",
     "τ": "How long the material takes to follow a load that stays.",
     "V_y": "Normal speed from which the material yields.",

@@ -12,6 +12,7 @@ from carom.explorer.columns import KINDS, Given, taken
 from carom.explorer.fitted import shown_fit
 from carom.explorer.limits import LARGEST_UPLOAD, MOST_ROWS
 from carom.explorer.refused import Refused
+from carom.explorer.results import in_words
 from carom.explorer.views import View
 from carom.fitting import fit
 from carom.fitting.reading import read_problem
@@ -58,7 +59,7 @@ def shown_name(name: str) -> str:
 def _in_words_of_the_page(message: str, path: str, name: str) -> str:
     subject, colon, rest = message.replace(path, name).partition(": ")
     rest = rest.replace(", or fix some, e.g. fixed={'restitution': 0.98}", "")
-    return WORDS.get(subject, subject) + colon + rest
+    return in_words(WORDS.get(subject, subject) + colon + rest)
 
 
 def _decoded(contents: str) -> bytes:
@@ -90,8 +91,7 @@ def _fitted(file: Path, name: str, view: View | None) -> dict[str, Any]:
     given = [Given(head, own, str(column.unit)) for head, (own, column) in pairs]
     if table.case is None and (view is None or view.in_numbers):
         _check(table)
-        if not any(column.is_result for column in given):
-            read_problem(file, View().pair)  # no bodies make a fit of it: say why
+        read_problem(file, View().pair)  # of which no bodies make a fit, that says why
         asked = ASKED.format(name=name)
         return {"asks": "bodies", "name": name, "message": asked, "columns": taken(given)}
     pair: Pair | None = view.pair if table.case is None and view is not None else None

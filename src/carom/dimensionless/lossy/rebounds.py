@@ -63,16 +63,17 @@ def outgoing(
 
     Below LINEAR psi_2/psi_1 is linear in psi_1, beyond FAR psi_1 - psi_2 is the same.
     """
-    speed, other = abs(psi), 0.0
+    speed, bent, other = abs(psi), False, 0.0
     given = chi, alpha, tolerance, NEVER, work, numbers, record
     if speed < LINEAR:
-        viscoelastic.run(2.0 * LINEAR, *given)
-        other = 0.5 * numbers[PSI_OUT] / LINEAR
+        twice, _ = viscoelastic.run(2.0 * LINEAR, *given)
+        bent, other = twice == Status.SOLVED.value, 0.5 * numbers[PSI_OUT] / LINEAR
     near = min(max(speed, LINEAR), FAR) if np.isfinite(psi) else psi
     status, panels = viscoelastic.run(near, *given)
     if speed < LINEAR:
         ratio = numbers[PSI_OUT] / LINEAR
-        numbers[PSI_OUT] = speed * (ratio + (ratio - other) * (1.0 - speed / LINEAR))
+        more = (ratio - other) * (1.0 - speed / LINEAR) if bent else 0.0
+        numbers[PSI_OUT] = speed * (ratio + more)
         numbers[layout.SHEAR_LOST] *= (speed / LINEAR) ** 2
     elif speed > FAR:
         numbers[PSI_OUT] += speed - FAR

@@ -7,7 +7,9 @@ Carom.answer = (() => {
   const CARRIED = 6; // digits that go over from bodies to numbers
   const OF_LOSSES = 4; // digits of energies that springs give
   const SMALL_CONTACT = 0.1; // a_max/R* up to which Hertz's theory holds
+  const NO_SPIN = 1e-9; // of the spin before: less is rounding
   const short = (values) => Carom.paths.short(values);
+  const precise = (values) => Array.from(values, (value) => Number(value.toPrecision(6)) || 0);
   const fine = (values) => Array.from(values, (value) => Math.round(value * 1e7) / 1e7 || 0);
   const most = (values) => values.reduce((a, b) => Math.max(a, b));
   const shares = Array.from({ length: Carom.law.TIMES + 1 }, (_, i) => i / Carom.law.TIMES);
@@ -36,10 +38,10 @@ Carom.answer = (() => {
       unit,
       phases,
       time: short(shares),
-      psi: short(found.psi),
+      psi: precise(found.psi),
       contact: short(found.contact.map((value) => value / found.radius)),
       stick: short(stick.map((value) => value / found.radius)),
-      force: short(found.force.map((value) => (1.5 * value) / highest)),
+      force: precise(found.force.map((value) => (1.5 * value) / highest)),
       rim: short(found.speed.map((value) => (found.normal.alpha * Math.max(value, 0)) / found.radius ** 2)),
       tractions: found.tractions.map(short),
       stage,
@@ -136,7 +138,7 @@ Carom.answer = (() => {
       kappa: pair.kappa,
       rebound_angle: Math.atan2(along, e * speed),
       rebound_speed: Math.hypot(e * speed, along),
-      spin_out: spin,
+      spin_out: Math.abs(spin) < NO_SPIN * Math.abs(view.spin) ? 0 : spin,
       contact_restitution: velocity === 0 ? NaN : after / velocity,
       tangential_restitution: before[0] === 0 ? NaN : along / before[0],
       dissipated_energy: 0.5 * pair.tangentialMass * (velocity - after) * (velocity + after) - sheared,

@@ -4,11 +4,13 @@ window.Carom = window.Carom || {};
 Carom.beside = (() => {
   const box = (id) => document.getElementById(id);
   let query = null; // null: there is none; "" is the impact as the page opens
+  let example = ""; // of which it is
   let answer = null;
   let heard = () => {};
 
   // Keep an impact beside; its contact laws stay with the other.
-  function put(words) {
+  function put(words, preset = "") {
+    example = preset;
     query = words === null ? null : new URLSearchParams(words);
     if (query) ["law", "data"].forEach((name) => query.delete(name));
     answer = null;
@@ -36,13 +38,15 @@ Carom.beside = (() => {
   function build(hear) {
     heard = hear;
     box("compare").addEventListener("click", () => {
-      put(query ? null : Carom.fields.query());
+      if (query) put(null);
+      else put(Carom.fields.query(), Carom.presets.chosen());
       heard();
     });
     box("swap").addEventListener("click", () => {
-      const other = query;
+      const [other, told] = [query, example];
       const laws = Carom.laws.chosen();
-      put(Carom.fields.query());
+      put(Carom.fields.query(), Carom.presets.chosen());
+      Carom.presets.choose(told);
       Carom.fields.set(other);
       Carom.laws.choose(laws);
       heard();

@@ -12,7 +12,7 @@ Carom.clock = (() => {
   const SLOWEST = 1 / 6; // of the usual rate, at a change of phase
   const AROUND = 0.05; // the share before and after a change in which the film is slower
   const SUBSTEP = 0.004; // seconds in which the rate hardly changes
-  const SAME = 1e-6; // shares that are one instant
+  const SAME = 1e-6; // shares that are one instant, as finely as links hold them
 
   let time = START;
   let playing = false;
@@ -87,7 +87,7 @@ Carom.clock = (() => {
 
   function jump(to) {
     pause();
-    set(to);
+    set(Math.ceil(to / SAME) * SAME); // not before it when a link rounds
   }
 
   // The changes of phase of all impacts that are shown, as shares of the duration.
@@ -96,8 +96,8 @@ Carom.clock = (() => {
     changes = sorted.filter((at, i) => !i || at - sorted[i - 1] > SAME);
   }
 
-  const later = () => changes.find((at) => at > time + SAME);
-  const earlier = () => changes.filter((at) => at < time - SAME).pop();
+  const later = () => changes.find((at) => at > time + 2 * SAME);
+  const earlier = () => changes.filter((at) => at < time - 2 * SAME).pop();
 
   return {
     FIRST,

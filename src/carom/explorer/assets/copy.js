@@ -75,7 +75,8 @@ Carom.source = (() => {
     return view;
   }
 
-  function covered({ restitution, given, chi }) {
+  function covered({ restitution, given, chi, friction }) {
+    if (given === "numbers" && !friction) refuse("friction", "must be above 0: without friction there is no ψ₁");
     const known = Object.keys(Carom.tables.losses).map(Number).sort((a, b) => b - a);
     if (!known.includes(restitution)) refuse("restitution", `this copy has ${known.join(", ")} only. ${MORE}`);
     const [least, most] = Carom.tables.chi;

@@ -18,6 +18,7 @@ Carom.link = (() => {
     return text === null || text.trim() === "" ? NaN : Number(text);
   }
 
+  const shown = () => Number(paused.toFixed(6));
   const long = () => opened.toString().length > LONGEST;
   const refused = () => (long() ? [`The link is too long: ${LONGEST} characters are read at most`] : []);
 
@@ -32,7 +33,7 @@ Carom.link = (() => {
   function whole() {
     const found = new URLSearchParams(query);
     if (!Carom.clock.isPlaying()) paused = Carom.clock.now();
-    const time = Number(paused.toFixed(3));
+    const time = shown();
     const words = {
       time: time === Carom.clock.START ? "" : time,
       pace: Carom.clock.pace() === Carom.clock.PACE ? "" : Carom.clock.pace(),
@@ -58,7 +59,7 @@ Carom.link = (() => {
     if (search.slice(1) !== words) window.history.replaceState(null, "", words ? `?${words}` : address);
     document.getElementById("link").value = words ? `${address}?${words}` : address;
     const of = new URLSearchParams(query);
-    of.set("time", Number(paused.toFixed(3)));
+    of.set("time", shown());
     Carom.code.show(of.toString());
     document.querySelectorAll(FILES).forEach((anchor) => {
       if (anchor.dataset.path) anchor.href = `${anchor.dataset.path}?${of}`;

@@ -149,7 +149,6 @@ Carom.page = (() => {
     const asked = Carom.link.asked();
     const preset = Carom.presets.choose(Carom.link.part("preset") ?? "");
     const odd = Carom.fields.set(asked.toString() ? asked : preset);
-    linked = [...Carom.link.refused(), ...odd].join("; ");
     opening = true;
     Carom.beside.put(Carom.link.part("beside"));
     Carom.tabs.choose(Carom.link.part("tab") ?? Carom.tabs.first);
@@ -161,7 +160,16 @@ Carom.page = (() => {
     byId("slow").checked = Carom.link.number("slow") === 1;
     Carom.clock.slow(byId("slow").checked);
     Carom.theme.choose(Carom.link.part("theme"));
+    linked = [...Carom.link.refused(), ...odd, ...unknown()].join("; ");
     ask();
+  }
+
+  // Words of a link that are for the page alone, and that it does not know.
+  function unknown() {
+    const shown = { preset: Carom.presets.chosen(), tab: Carom.tabs.chosen(), theme: Carom.theme.choice() };
+    const odd = Object.keys(shown).filter((name) => (Carom.link.part(name) || shown[name]) !== shown[name]);
+    if (Carom.link.part("time") && Number.isNaN(Carom.link.number("time"))) odd.push("time");
+    return odd.map((name) => `${name}: there is no ${Carom.link.part(name)}`);
   }
 
   // Going over from bodies to numbers keeps the impact, that of the controls as they are now.

@@ -25,7 +25,7 @@ Carom.scene = (() => {
   function factsOf(data) {
     const highest = data.contact.reduce((best, value, i) => (value > data.contact[best] ? i : best), 0);
     return {
-      rubs: data.tractions.some((row) => row.some(Boolean)), // whether friction ever acts
+      rubs: data.force.some(Boolean), // whether friction ever acts
       viscous: data.rim.some((value) => value > 0),
       peak: highest / (data.contact.length - 1), // largest compression
       strongest: data.force.reduce((most, value) => Math.max(most, Math.abs(value)), 0),
