@@ -124,6 +124,17 @@ def test_back_and_forward_restore_the_film_and_the_theme(visit):
         seen.until(lambda wanted=wanted: shown() == wanted)
 
 
+def test_an_example_goes_with_its_impact_when_two_are_swapped(visit):
+    seen = visit("?preset=glass")
+    seen.page.click("#compare")
+    seen.page.select_option("#preset", "steel")
+    for title, chosen in (("Glass on glass", "glass"), ("Steel on steel", "steel")):
+        seen.page.click("#swap")
+        seen.until(lambda title=title: title in seen.page.inner_text("#story"))
+        assert seen.page.input_value("#preset") == chosen
+        seen.linked(f"preset={chosen}")
+
+
 NONSENSE = {
     "angle=ninety": "Incidence: ",
     "radius=-5": "Ball radius: ",
@@ -132,6 +143,8 @@ NONSENSE = {
     "colour=red": "colour: ",
     "angle=1e400&friction=nan": "Incidence: ",
     "data=/etc/passwd": "Measured rebounds: ",
+    "preset=nope": "preset: there is no nope",
+    "time=soon&theme=dark": "time: there is no soon",
     "angle=" + "9" * 5000: "The link is too long",
 }
 

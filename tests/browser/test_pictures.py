@@ -254,12 +254,29 @@ def test_slow_motion_is_smooth(visit):
 
 
 def test_jumps_to_changes_of_phase(visit):
+    """They are held by links, as they are rounded there: the phase is the one that begins."""
     seen = visit("?time=-0.6")
-    words = "name => { Carom.clock[name](); return [Carom.clock.now(), Carom.clock.isPlaying()]; }"
-    ends = "Carom.page.scenes[0].data.phases.map(phase => phase.end)"
-    borders = [0.0, *seen.page.evaluate(ends), 1.6]
+    words = """name => {
+      Carom.clock[name]();
+      const now = Carom.clock.now();
+      return [now, Carom.clock.isPlaying(), Carom.page.scenes[0].at(Number(now.toFixed(6))).phase];
+    }"""
+    phases = seen.page.evaluate("Carom.page.scenes[0].data.phases")
+    names = [seen.page.evaluate("phase => Carom.scene.nameOf(phase)", phase) for phase in phases]
+    borders = [-0.6, 0.0, *(phase["end"] for phase in phases), 1.6]
+    told = ["before", *names, names[-1], "after"]
     seen.page.evaluate("Carom.clock.play()")
-    for border in borders:
-        assert seen.page.evaluate(words, "next") == [pytest.approx(border), False]
-    for border in [*borders[-2::-1], -0.6]:
-        assert seen.page.evaluate(words, "previous") == [pytest.approx(border), False]
+    for name, rows in (("next", range(1, len(told))), ("previous", range(len(told) - 2, -1, -1))):
+        for row in rows:
+            now, playing, phase = seen.page.evaluate(words, name)
+            assert (playing, phase) == (False, told[row])
+            assert borders[row] <= now <= borders[row] + 1.1e-6
+
+
+def test_tiny_forces_are_told_as_large_ones_are(visit):
+    """Billiard balls that roll on each other as gear wheels all but do: nothing is rounded away."""
+    queries = [f"?given=numbers&psi={psi:.15g}" for psi in (1e-4, 1e-9)]
+    shares = [-0.3, 0.1, 0.3, 0.5, 0.7, 0.9, 1.3]
+    one, other = (visit().page.evaluate(TOLD, [query[1:], shares]) for query in queries)
+    assert one == other
+    assert not any("without friction" in sentence or "to rest" in sentence for sentence in one)

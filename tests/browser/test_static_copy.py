@@ -93,6 +93,18 @@ def test_rebounds(states, told, solved):
         assert abs(found["out"] - exact.psi_out) <= 1e-6, state
 
 
+@pytest.mark.parametrize("restitution", RESTITUTIONS)
+def test_rebounds_of_tiny_velocities(offline, restitution):
+    """psi_2/psi_1, which the table holds, where psi_2 itself is below 1e-6."""
+    states = [
+        (psi, chi, restitution) for psi in (1e-7, 1e-4, 9e-4) for chi in (0.5, 1.44, 2.5, 3.0)
+    ]
+    found = offline.evaluate("all => all.map(each => Carom.rebound.of(...each))", states)
+    for (psi, chi, e), out in zip(states, found, strict=True):
+        exact = carom.rebound(psi, chi, losses=losses_of(e))
+        assert out / psi == pytest.approx(exact / psi, abs=5e-4)
+
+
 def test_histories(states, told, solved):
     for state, found, exact in zip(states, told, solved, strict=True):
         history = exact.history(201)
@@ -277,6 +289,8 @@ REFUSED = {
     "restitution=0.95": ("restitution", "1, 0.9, 0.7 only"),
     "angle=95": ("angle", "must be a number from 0 to 89.9 deg, not '95'"),
     "speed=fast": ("speed", "not 'fast'"),
+    "radius=3 cm": ("radius", "not '3 cm'; this copy takes mm only"),
+    "given=numbers&friction=0": ("friction", "must be above 0"),
     "speed=": ("speed", "it is empty"),
     "against=cup&second_radius=2": ("second_radius", "must be above 5 mm"),
     "against=sphere&second_material=rigid": ("second_material", "density"),
@@ -296,6 +310,20 @@ def test_refusals(offline):
     assert "answer" in unused
     (twice,) = offline.evaluate(ANSWER, ["angle=95&angle=40&pace=5"])
     assert twice["answer"]["query"] == "angle=40"
+
+
+def test_links_that_say_a_number_otherwise(offline):
+    """The copy knows few restitutions; 0.90 is one of them. What it does not know is told."""
+    ask = """query => {
+      const odd = Carom.fields.set(new URLSearchParams(query));
+      return [Carom.fields.value("restitution"), odd];
+    }"""
+    assert offline.evaluate(ask, "restitution=0.90") == ["0.9", []]
+    assert offline.evaluate(ask, "restitution=1.0") == ["1", []]
+    shown, (odd,) = offline.evaluate(ask, "restitution=0.95")
+    assert (shown, "0.95; this copy has 1, 0.9, 0.7 only, and 1 is shown" in odd) == ("1", True)
+    shown, (odd,) = offline.evaluate(ask, "data=kharaz2001")
+    assert (shown, odd.endswith("not fitted in this copy")) == ("1", True)
 
 
 def test_what_needs_the_library_says_so(offline):

@@ -18,7 +18,7 @@ from carom.quantities.arrays import Array
 BEFORE = AFTER = 0.6  # of the contact's duration that is shown besides
 DEEPEST, WIDEST = 0.3, 6.0  # radii that the bodies may approach, and travel sideways
 STEEPEST = 0.7  # angle by which a body may travel around another, in rad
-BENT = {"plane": "", "cup": ", paths bent", "sphere": ", paths bent about the centre of mass"}
+BENT = {"plane": "", "cup": ", paths bent", "sphere": ", paths bent, centre of mass at rest"}
 
 
 @dataclass(frozen=True, eq=False)

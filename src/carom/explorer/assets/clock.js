@@ -85,9 +85,11 @@ Carom.clock = (() => {
     tell();
   }
 
+  // To an instant as a link holds it, not before the change.
   function jump(to) {
+    const held = Number((Math.ceil(to / SAME) * SAME).toFixed(6));
     pause();
-    set(Math.ceil(to / SAME) * SAME); // not before it when a link rounds
+    set(held < to ? held + SAME : held);
   }
 
   // The changes of phase of all impacts that are shown, as shares of the duration.

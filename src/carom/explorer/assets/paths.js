@@ -5,7 +5,7 @@ window.Carom = window.Carom || {};
 Carom.paths = (() => {
   const BEYOND = 0.6; // of the contact's duration that is shown before and after
   const [DEEPEST, WIDEST] = [0.3, 6]; // radii that the bodies may approach, and travel sideways
-  const BENT = { plane: "", cup: ", paths bent", sphere: ", paths bent about the centre of mass" };
+  const BENT = { plane: "", cup: ", paths bent", sphere: ", paths bent, centre of mass at rest" };
   const STEEPEST = 0.7; // angle by which a body may travel around another
   const ROLLS = 2 / 7; // of the impulse on the contact point of a solid sphere, the centre's part
   const SOLID = 4 / 7; // kappa/chi of a solid sphere

@@ -162,7 +162,8 @@ Carom.stage = (() => {
     const fits = (text, room) => canvas.widthOf(pen, text, NOTE) <= room;
     const whole = width - 2 * EDGE;
     if (fits(note, whole - key - 2 * EDGE)) return { lines: 1, notes: [note] };
-    const [main, more] = note.split(", ");
+    const [main, ...others] = note.split(", ");
+    const more = [others.join(", "), ...others].find((text) => fits(text, whole));
     const short = [main, main.replace(/^motion /, "")].filter((text) => fits(text, whole)).slice(0, 1);
     const parts = height < ROOMY || !more ? short : [...short, more];
     const notes = fits(note, whole) ? [note] : parts;
