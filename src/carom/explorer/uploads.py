@@ -91,7 +91,8 @@ def _fitted(file: Path, name: str, view: View | None) -> dict[str, Any]:
     given = [Given(head, own, str(column.unit)) for head, (own, column) in pairs]
     if table.case is None and (view is None or view.in_numbers):
         _check(table)
-        read_problem(file, View().pair)  # of which no bodies make a fit, that says why
+        if not any(column.is_result for column in given):
+            read_problem(file, View().pair)  # no bodies make a fit of it: say why
         asked = ASKED.format(name=name)
         return {"asks": "bodies", "name": name, "message": asked, "columns": taken(given)}
     pair: Pair | None = view.pair if table.case is None and view is not None else None
