@@ -82,9 +82,8 @@ def _parts(progress: Progress) -> dict[str, bytes]:
 def _replace(real: Path, parts: dict[str, bytes]) -> None:
     """Write all beside its place, then put it there; a folder that exists stays the same one."""
     existed = real.exists()
-    with tempfile.TemporaryDirectory(
-        prefix=".carom-", dir=real if existed else real.parent
-    ) as room:
+    beside = real if existed else real.parent
+    with tempfile.TemporaryDirectory(prefix=".carom-", dir=beside) as room:
         made, old = Path(room, "new"), Path(room, "old")
         for name, content in parts.items():
             place = made / name

@@ -15,8 +15,8 @@ Carom.source = (() => {
       const json = answer.headers.get("Content-Type") === "application/json";
       const told = await (json ? answer.json() : answer[answer.ok ? kind : "text"]());
       if (answer.ok || json) return told;
-      if (answer.status !== 503 || tries === 1)
-        return { field: "", message: told.replace(/^carom: /, "").trim() };
+      const refusal = { field: "", message: told.replace(/^carom: /, "").trim() };
+      if (answer.status !== 503 || tries === 1) return refusal;
     } catch (error) {
       if (error.name === "AbortError") throw error;
       if (tries === 1) throw GONE;
