@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.collisions.records import SKEW, CollisionStatus, Inertia
-from carom.dimensionless.numerics.arrays import Codes, Vector
+from carom.dimensionless.numerics.arrays import ArrayType, Codes, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.dimensionless.numerics.threads import available_cores
 from carom.laws.rules import LARGEST, Rule, one_plus_beta
 from carom.quantities.arrays import Array
 
-Flat = Annotated[NDArray[np.floating], 1]  # x, y, z of one pair after the other
-Panels = Annotated[NDArray[np.int32], 1]
+Flat = Annotated[NDArray[np.floating], ArrayType(np.floating, 1)]  # x, y, z of one pair after the other
+Panels = Annotated[NDArray[np.int32], ArrayType(np.int32, 1)]
 
 CHUNK = 256  # pairs whose numbers stay in the nearest cache
 BLOCK = 65536  # pairs that a thread takes at once

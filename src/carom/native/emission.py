@@ -26,9 +26,10 @@ from numba.core.compiler_lock import global_compiler_lock
 from numba.core.dispatcher import _FunctionCompiler  # type: ignore[attr-defined]
 
 from carom.dimensionless.numerics import jit
+from carom.dimensionless.numerics.arrays import ArrayType
 from carom.dimensionless.numerics.jit import OPTIONS
 from carom.dimensionless.numerics.kernels import ENTRIES, Kernel
-from carom.dimensionless.numerics.signatures import ArrayType, Group, Signature
+from carom.dimensionless.numerics.signatures import Group, Signature
 
 Library = codegen.CPUCodeLibrary
 CODE = attrgetter("library")  # of what numba has compiled

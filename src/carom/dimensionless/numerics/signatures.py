@@ -9,19 +9,14 @@ import ctypes
 import struct
 from collections.abc import Callable, Iterator, Mapping
 from types import NoneType
-from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, NamedTuple, get_args, get_origin, get_type_hints
 
 import numpy as np
 
+from carom.dimensionless.numerics.arrays import ArrayType
+
 CODES: dict[Any, str] = {float: "d", int: "q", bool: "q"}  # of the struct module
 BYTE = ctypes.c_char
-
-
-class ArrayType(NamedTuple):
-    """The type of an array: that of its items, and the number of its dimensions."""
-
-    dtype: Any
-    ndim: int
 
 
 class Group(NamedTuple):
@@ -65,10 +60,9 @@ def signature_of(function: Callable[..., Any], floats: str = "float64") -> Signa
 
 def _plain(hint: Any, floating: Any) -> Any:
     """Return a type as it is used here: of a number, an array, or a group of them."""
-    if hasattr(hint, "__metadata__"):
-        kind = get_args(get_args(hint.__origin__)[1])[0]
-        dtype = floating if kind is np.floating else np.dtype(kind)
-        return ArrayType(dtype, hint.__metadata__[0])
+    if get_origin(hint) is Annotated:
+        _, kind = get_args(hint)
+        return ArrayType(floating if kind.dtype is np.floating else np.dtype(kind.dtype), kind.ndim)
     if get_origin(hint) is tuple:
         return Group(tuple, tuple(_plain(each, floating) for each in get_args(hint)))
     if hasattr(hint, "_fields"):
