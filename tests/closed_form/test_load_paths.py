@@ -314,8 +314,10 @@ def test_two_directions_on_one_line_are_exact(tangential):
 
 
 def test_a_path_of_two_directions_goes_in_and_out(tmp_path):
-    """Shapes; its dataset is stored, and taken as what drives the next path."""
+    """Shapes; what drove it comes back to the bit, is stored, and drives the next path."""
     bent = load_path(PAIR, normal_force="20 N", displacement=[["0.2 um", "0 um"], [2e-7, 1e-7]])
+    assert bent.displacement[1].tolist() == [2e-7, 1e-7]
+    assert bent.normal_force.tolist() == [20.0, 20.0]
     assert bent.displacement.shape == bent.tangential_force.shape == (2, 2)
     kept = read(save(bent, tmp_path / "bent.nc"))
     assert kept["tangential_force"].dims == ("step", "direction")
@@ -328,6 +330,27 @@ def test_a_path_of_two_directions_goes_in_and_out(tmp_path):
     np.testing.assert_allclose(longer.tangential_force, bent.tangential_force, rtol=1e-12)
     one = load_path(PAIR, normal_force=[10.0, 20.0, 30.0], tangential_force=[[0.1, 0.2]])
     assert one.displacement.shape == (3, 2)
+
+
+def test_controls_come_back_to_the_bit():
+    """Of any size, in one direction or two: a path is driven by what another one tells of itself."""
+    rng = np.random.default_rng(44)
+    for _ in range(100):
+        loads = 10.0 ** rng.uniform(-6.0, 4.0, 5)
+        limits = MU * np.minimum.accumulate(loads)[:, None]
+        forces = 0.9 * limits * rng.uniform(-0.2, 0.2, (5, 2))
+        for given in (forces, forces[:, 0]):
+            pushed = load_path(PAIR, normal_force=loads, tangential_force=given)
+            np.testing.assert_array_equal(pushed.normal_force, loads)
+            np.testing.assert_array_equal(pushed.tangential_force, given)
+            driven = load_path(
+                PAIR, penetration=pushed.penetration, displacement=pushed.displacement
+            )
+            np.testing.assert_array_equal(driven.penetration, pushed.penetration)
+            np.testing.assert_array_equal(driven.displacement, pushed.displacement)
+            size = 1e-9 * MU * loads.max()
+            np.testing.assert_allclose(driven.tangential_force, given, rtol=0.0, atol=size)
+            np.testing.assert_allclose(driven.normal_force, loads, rtol=1e-14)
 
 
 def test_what_two_directions_cannot_be():

@@ -29,16 +29,17 @@ def followed(
         else:
             results, refused = turning.follow_path(depths, targets, by_force, advance)
             moved, force, rest = results[:, :2], results[:, 2:4], results[:, 4:]
-        depths = np.maximum(depths, 0.0)
-        normal = depths**1.5 * scales.force
         if refused != paths.INSIDE:
-            raise _refused(steps, refused, pair.friction, float(normal[refused]))
+            raise _refused(steps, refused, pair.friction)
         energy = scales.tangential_force * scales.tangential_length
+        moved, force = steps.as_given(
+            moved * scales.tangential_length, force * scales.tangential_force
+        )
         columns = {
-            "displacement": moved * scales.tangential_length,
-            "normal_force": normal,
-            "tangential_force": force * scales.tangential_force,
-            "contact_radius": np.sqrt(depths) * scales.radius,
+            "displacement": moved,
+            "normal_force": steps.normal_force,
+            "tangential_force": force,
+            "contact_radius": np.sqrt(np.maximum(depths, 0.0)) * scales.radius,
             "stick_radius": rest[:, 0] * scales.radius,
             "tangential_elastic_energy": rest[:, 1] * energy,
             "frictional_work": rest[:, 2] * energy,
@@ -48,8 +49,9 @@ def followed(
     return scales, columns
 
 
-def _refused(steps: Steps, n: int, friction: float, normal: float) -> InputError:
-    wanted, most = steps.target[n], friction * normal
+def _refused(steps: Steps, n: int, friction: float) -> InputError:
+    wanted, normal = steps.target[n], float(steps.normal_force[n])
+    most = friction * normal
     limit, pressed = text(most, "N"), text(normal, "N")
     allowed = f"step {n}: Coulomb's law allows at most {limit} at F_z = {pressed}"
     if float(np.linalg.norm(wanted)) <= most * (1.0 + ROUNDING):

@@ -16,12 +16,14 @@ Given = ArrayLike | str | None
 
 
 class Steps(NamedTuple):
-    """Steps of a path: penetrations in m, and displacements in m or, by force, forces in N.
+    """Steps of a path: penetrations in m with the normal forces in N, and what moves it sideways.
 
-    Targets have the shape (n,) or, in two directions, (n, 2).
+    Targets are displacements in m or, by force, forces in N, of shape (n,) or, in two directions,
+    (n, 2).
     """
 
     penetration: Array
+    normal_force: Array
     target: Array
     by_force: NDArray[np.bool_]
 
@@ -32,19 +34,24 @@ class Steps(NamedTuple):
             targets = [t if t.ndim == 2 else t[:, None] * [1.0, 0.0] for t in targets]
         return Steps(
             np.append(self.penetration, more.penetration),
+            np.append(self.normal_force, more.normal_force),
             np.concatenate(targets),
             np.append(self.by_force, more.by_force),
         )
 
     def first(self, n: int) -> "Steps":
         """Return the first n steps."""
-        return Steps(self.penetration[:n], self.target[:n], self.by_force[:n])
+        return Steps(*(values[:n] for values in self))
 
-    def dimensionless(self, scales: ContactScales) -> "Steps":
-        """Return the steps as plain numbers: penetrations d, displacements U and forces Q."""
+    def dimensionless(self, scales: ContactScales) -> tuple[Array, Array, NDArray[np.bool_]]:
+        """Return penetrations d, displacements U or forces Q, and where these are forces."""
         unit = np.where(self.by_force, scales.tangential_force, scales.tangential_length)
-        target = (self.target.T / unit).T
-        return Steps(self.penetration / scales.length, target, self.by_force)
+        return self.penetration / scales.length, (self.target.T / unit).T, self.by_force
+
+    def as_given(self, moved: Array, force: Array) -> tuple[Array, Array]:
+        """Return displacements and tangential forces: those that were given to the bit."""
+        by_force = self.by_force.reshape(-1, *[1] * (self.target.ndim - 1))
+        return np.where(by_force, moved, self.target), np.where(by_force, self.target, force)
 
 
 def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved: Given) -> Steps:
@@ -63,15 +70,18 @@ def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved
         allowed = f"must have {across[1].size} values as {across[0]}, or a single one"
         raise refusal(along[0], f"an array of {len(along[1])} values", allowed)
     n = max(sizes, default=1)
-    d = np.broadcast_to(across[1], n).copy()
+    given = np.broadcast_to(across[1], n).copy()
     target = np.broadcast_to(along[1], (n, *along[1].shape[1:])).copy()
-    if across[0] == "normal_force":
-        if np.any(d < 0.0):
-            at = int(np.argmax(d < 0.0))
-            raise refusal("normal_force", float(d[at]), f"step {at}: it must not be negative")
-        unit = pair.contact_scales(1.0).force
-        d = np.cbrt(d / unit) ** 2
-    return Steps(d, target, np.full(n, along[0] == "tangential_force"))
+    unit = pair.contact_scales(1.0).force
+    if across[0] == "penetration":
+        with np.errstate(over="ignore"):
+            depth, force = given, np.maximum(given, 0.0) ** 1.5 * unit
+    else:
+        if np.any(given < 0.0):
+            at = int(np.argmax(given < 0.0))
+            raise refusal("normal_force", float(given[at]), f"step {at}: it must not be negative")
+        depth, force = np.cbrt(given / unit) ** 2, given
+    return Steps(depth, force, target, np.full(n, along[0] == "tangential_force"))
 
 
 def _directions_last(given: Given) -> Given:
