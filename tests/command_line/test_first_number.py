@@ -35,7 +35,7 @@ FIRST = {
     "'friction': 0.2}, carom.Grid({'angle': [0.1, 0.2]}), progress=False, workers=1)",
     "fit": "str(carom.fit(carom.datasets.path('kharaz2001')))",
 }
-if find_spec("dash"):
+if find_spec("flask"):
     FIRST["page"] = "__import__('carom.explorer').explorer.explorer(port=0).close()"
 
 
@@ -83,16 +83,19 @@ def test_the_command_gives_the_number_of_python(loss):
         assert result[name] == value, name
 
 
-def test_who_waits_for_compilers_is_told_once_and_why(tmp_path):
-    """On a terminal; nothing is written where nobody watches."""
+@pytest.mark.parametrize("kept", [True, False])
+def test_who_waits_for_compilers_is_told_once_and_why(kept, tmp_path):
+    """Also where nobody watches; and whether one will have to wait again."""
     script = (
         "from carom.dimensionless.numerics import jit, shared_library; "
-        "jit.is_watched = lambda: True; jit.PATIENCE = 0.0; "
+        f"jit.waiting.kept = {kept}; jit.PATIENCE = 0.0; "
         "shared_library.reason = lambda: 'no compiler'; "
         "from carom.dimensionless.numerics import hertz as h; "
         "print(*h.penetration_and_speed(h.HALF))"
     )
     ran = python(script, NUMBA_CACHE_DIR=str(tmp_path))
-    assert ran.stderr.count("Carom is compiling its solver") == 1
-    assert "(no compiler)." in ran.stderr
+    assert ran.stderr.startswith("Carom is compiling its solver")
+    assert ran.stderr.count("\n") == 1
+    assert "no compiler" in ran.stderr
+    assert ("at every start" in ran.stderr) == ("set NUMBA_CACHE_DIR" in ran.stderr) == (not kept)
     assert [float(text) for text in ran.stdout.split()] == [1.0, 0.0]

@@ -15,6 +15,7 @@ from carom.dimensionless.numerics.shared_library import CONTENTS
 from carom.native import building
 
 needs_library = pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())
+NONE = "there is no compiled library; install carom again, with a C compiler"
 FIRST = "import carom, sys; print(carom.rebound(0.5, 1.44), 'numba' in sys.modules)"
 
 
@@ -84,7 +85,7 @@ def test_a_bit_turned(folder):
 def test_gone(folder):
     for path in folder.glob("libcarom*"):
         path.unlink()
-    assert shared_library.reason() == "carom was installed without its compiled library"
+    assert shared_library.reason() == NONE
 
 
 @needs_library
@@ -98,14 +99,14 @@ def test_its_contents_damaged(folder, text):
 def test_made_from_other_sources(folder):
     contents = json.loads((folder / CONTENTS).read_text())
     (folder / CONTENTS).write_text(json.dumps(contents | {"sources": "0" * 64}))
-    assert shared_library.reason() == "the compiled library was built from other sources"
+    assert shared_library.reason().startswith("the compiled library was built from other sources")
 
 
 def test_none_at_all(tmp_path, monkeypatch):
     monkeypatch.setattr(shared_library, "FOLDER", tmp_path)
     shared_library.opened.cache_clear()
-    assert shared_library.reason() == "carom was installed without its compiled library"
-    with pytest.raises(RuntimeError, match="without its compiled library"):
+    assert shared_library.reason() == NONE
+    with pytest.raises(RuntimeError, match=NONE):
         carom.get_library()
     shared_library.opened.cache_clear()
 

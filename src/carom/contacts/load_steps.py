@@ -41,7 +41,8 @@ class Steps(NamedTuple):
 
     def first(self, n: int) -> "Steps":
         """Return the first n steps."""
-        return Steps(*(values[:n] for values in self))
+        depth, force, target, by_force = self
+        return Steps(depth[:n], force[:n], target[:n], by_force[:n])
 
     def dimensionless(self, scales: ContactScales) -> tuple[Array, Array, NDArray[np.bool_]]:
         """Return penetrations d, displacements U or forces Q, and where these are forces."""

@@ -1,10 +1,11 @@
 """Building the shared library of compiled kernels, when the package is built.
 
-    python -m carom.native.building FOLDER [LEVEL ...]
+    python -m carom.native.building [FOLDER [LEVEL ...]]
 
 Groups of kernels become object files side by side, and the C compiler links them with the functions
-for other languages. Levels are those of x86-64, 1 to 4; without one it is that of this processor.
-What was built is kept by a checksum of all that it was made from, so that it is made once.
+for other languages. Without a folder the library is for this package itself. Levels are those of
+x86-64, 1 to 4; without one it is that of this processor. What was built is kept by a checksum of
+all that it was made from, so that it is made once.
 """
 
 import ctypes
@@ -24,7 +25,7 @@ from pathlib import Path
 from typing import Any
 
 from carom.dimensionless.numerics.kernels import ENTRIES, VARIABLE
-from carom.dimensionless.numerics.shared_library import CONTENTS, PACKAGE, digest
+from carom.dimensionless.numerics.shared_library import CONTENTS, FOLDER, PACKAGE, digest
 from carom.native.c_header import kernels_h
 
 HERE = Path(__file__).parent
@@ -120,8 +121,10 @@ def _put(path: Path, folder: Path) -> None:
 
 def kept_in() -> Path:
     """Return the folder in which libraries are kept, from one build to the next."""
-    told = os.environ.get(CACHE)
-    return Path(told) if told else Path.home() / ".cache" / "carom" / "build"
+    try:
+        return Path(os.environ.get(CACHE) or Path.home() / ".cache/carom/build")
+    except RuntimeError:  # a user without a home: nothing can be kept
+        return Path(os.devnull)
 
 
 def _objects(modules: Sequence[str], level: int, scratch: Path) -> list[Path]:
@@ -170,7 +173,7 @@ def _link(target: Path, parts: Sequence[Path]) -> None:
     own = os.environ.get("CC", "").split()
     compiler = own or [found for name in COMPILERS if (found := shutil.which(name))][:1]
     if not compiler:
-        raise NotBuilt("there is no C compiler")
+        raise NotBuilt("there is no C compiler; install one, and then carom again")
     folders = [f"-I{folder}" for folder in (INCLUDE, target.parent)]
     _run([*compiler, *FLAGS, *folders, "-o", *map(str, (target, *parts)), "-lm"], os.environ)
 
@@ -193,7 +196,7 @@ def _ending() -> str:
 
 def main(arguments: Sequence[str]) -> int:
     """Build into the folder that is told; say in a line why not."""
-    folder, *levels = arguments
+    folder, *levels = arguments or [str(FOLDER)]
     try:
         build(Path(folder), [int(level) for level in levels])
     except NotBuilt as error:

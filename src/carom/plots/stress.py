@@ -99,8 +99,7 @@ def plot_stress(
 
 def _contours(axis: Axes, x: Array, z: Array, values: Array, signed: bool) -> ContourSet:
     low, high = values.min(), values.max()
-    levels = MaxNLocator(CONTOURS).tick_values(low, high)
-    levels = levels[(levels > low) & (levels < high)]
+    levels = [at for at in MaxNLocator(CONTOURS).tick_values(low, high) if low < at < high]
     dark = ["white" if level < 0.5 * (low + high) else "black" for level in levels]
     colors: Any = "0.25" if signed else dark
     return axis.contour(

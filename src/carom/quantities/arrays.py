@@ -78,9 +78,9 @@ def _read(given: Any, reading: _Reading) -> Array:
 
 
 def floats(name: str, values: NDArray[Any]) -> Array:
-    """Return a copy of real numbers in double precision, or raise InputError if it overflows."""
+    """Return a contiguous copy of real numbers in double precision, or raise if one overflows."""
     with np.errstate(all="ignore"):
-        found = values.astype(np.float64)
+        found = values.astype(np.float64, order="C")
     if values.dtype.itemsize > found.itemsize and np.any(np.isinf(found) & np.isfinite(values)):
         raise refusal(name, values, CANNOT_HOLD)
     return found

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 class ArrayType(NamedTuple):
     """The type of an array: that of its items, and the number of its dimensions.
 
-    Annotations of kernels carry it themselves, since what NumPy's own annotations consist of changes
-    from one version to the next. Items of type `np.floating` may be of any floating type.
+    Annotations of kernels carry it themselves, since NumPy's own have changed their inner form from
+    one version to the next. Items of type `np.floating` may be of any floating type.
     """
 
     dtype: Any

@@ -7,7 +7,7 @@ kink is not known, panels are halved until both halves agree with the whole.
 """
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +32,7 @@ class Pulse(NamedTuple):
 
     def transform(self, frequencies: Array) -> Complex:
         """Return the Fourier integral of every row at frequencies, shape (rows, frequencies)."""
-        weighted = (self.weights * self.values).T
+        weighted: Any = (self.weights * self.values).T
         parts = [
             np.exp(-2j * np.pi * np.outer(part, self.times)) @ weighted
             for part in np.array_split(

@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Callable
-from pathlib import Path
+from multiprocessing import parent_process
 from time import monotonic
 from typing import Any
 
@@ -20,30 +20,26 @@ def dispatcher(function: Callable[..., Any]) -> Any:
     try:
         return numba.njit(cache=True, **OPTIONS)(function)
     except RuntimeError:  # no folder that can be written to
+        waiting.kept = False
         return numba.njit(**OPTIONS)(function)
 
 
-def message() -> str:
-    """Return the message for users who wait, with the reason."""
-    why = f" ({shared_library.reason()})" if shared_library.reason() else ""
-    return f"Carom is compiling its solver. This happens once and takes up to a minute{why}."
-
-
-class Teller(event.Listener):  # type: ignore[misc]
-    """Says so once, on a terminal or in a notebook, when kernels of this package take long."""
+class Waiting(event.Listener):  # type: ignore[misc]
+    """Says once why one has to wait, when kernels of this package take long to compile."""
 
     def __init__(self) -> None:
         self.begun: list[float] = []
         self.spent = 0.0
-        self.said = False
+        self.said = parent_process() is not None  # by the process that started this one
+        self.kept = True
 
     def on_start(self, happened: Any) -> None:
         """Speak up when compiling has taken longer than one would wait."""
         self.begun.append(monotonic())
         own = happened.data["dispatcher"].py_func.__module__.startswith("carom.")
         waited = self.spent + self.begun[-1] - self.begun[0]
-        if own and not self.said and waited > PATIENCE and is_watched():
-            print(message(), file=sys.stderr, flush=True)
+        if own and not self.said and waited > PATIENCE:
+            print(self.message(), file=sys.stderr, flush=True)
             self.said = True
 
     def on_end(self, happened: Any) -> None:
@@ -52,11 +48,16 @@ class Teller(event.Listener):  # type: ignore[misc]
         if not self.begun:
             self.spent += monotonic() - begun
 
+    def message(self) -> str:
+        """Return what happens, for how long, how often and why."""
+        often = "once" if self.kept else "at every start"
+        why = [shared_library.reason()] if shared_library.reason() else []
+        if not self.kept:
+            why.append("no folder can be written to; set NUMBA_CACHE_DIR to one that can")
+        told = f"This happens {often} and takes up to a minute"
+        reasons = f" ({'; '.join(why)})" if why else ""
+        return f"Carom is compiling its solver. {told}{reasons}."
 
-def is_watched() -> bool:
-    """Return whether somebody waits: in a notebook, on a terminal, or for a command."""
-    told = "ipykernel" in sys.modules or Path(sys.argv[0]).stem == "carom"
-    return told or bool(sys.stderr and sys.stderr.isatty())
 
-
-event.register("numba:compile", Teller())
+waiting = Waiting()
+event.register("numba:compile", waiting)

@@ -17,7 +17,8 @@ from carom.dimensionless.numerics.signatures import Signature, caller
 
 PACKAGE = Path(__file__).parents[2]
 FOLDER = PACKAGE / "lib"
-CONTENTS = "kernels.json"  # beside the libraries: what they are, and from what they were made
+CONTENTS = "kernels.json"  # beside the libraries: what they are, from what; or why there are none
+REBUILD = "install carom again, with a C compiler"
 
 
 class Opened(NamedTuple):
@@ -61,7 +62,7 @@ def get_library() -> str:
     Raises
     ------
     RuntimeError
-        If there is no library, because Carom was installed without a C compiler or as editable.
+        If there is no library that can be used; the message says why and what to do.
 
     Examples
     --------
@@ -115,11 +116,13 @@ def opened() -> Opened:
     """Return the best of the libraries, opened, or raise Unusable."""
     try:
         contents = json.loads((FOLDER / CONTENTS).read_text(encoding="utf-8"))
+        if "failure" in contents:
+            raise Unusable(f"the compiled library could not be built: {contents['failure']}")
         if digest(PACKAGE / name for name in contents["files"]) != contents["sources"]:
-            raise Unusable("the compiled library was built from other sources")
+            raise Unusable(f"the compiled library was built from other sources; {REBUILD}")
         return _best(contents)
     except FileNotFoundError:
-        raise Unusable("carom was installed without its compiled library") from None
+        raise Unusable(f"there is no compiled library; {REBUILD}") from None
     except (OSError, ValueError, KeyError, TypeError):
         raise Unusable("the compiled library is damaged; install carom again") from None
 

@@ -144,5 +144,6 @@ class _Writer:
 def _address(array: Any, dtype: Any) -> int:
     """Return where an array lies; slower, for those that are empty or cannot be written."""
     if array.dtype != dtype or not array.flags.c_contiguous:
-        raise TypeError(f"a kernel takes contiguous arrays of {dtype}, not of {array.dtype}")
+        order = "contiguous" if array.flags.c_contiguous else "strided"
+        raise TypeError(f"a kernel takes contiguous arrays of {dtype}, not {order} {array.dtype}")
     return int(array.ctypes.data)
