@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
 import pytest
@@ -159,12 +160,78 @@ def test_no_library_is_built_without_a_compiler(compiler, words, tmp_path):
     assert not list(tmp_path.rglob("libcarom*"))
 
 
+@pytest.fixture
+def hook(tmp_path):
+    """The hook of the build, of a copy of the sources."""
+    path = Path(__file__).parents[2] / "hatch_build.py"
+    spec = spec_from_file_location("hatch_build", path)
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    leave = shutil.ignore_patterns("__pycache__", "lib")
+    shutil.copytree(shared_library.PACKAGE, tmp_path / "src/carom", ignore=leave)
+    return module.CompiledKernels(str(tmp_path), {}, None, None, "", "wheel")
+
+
+BROKEN = "raise IndexError('tuple index out of range')"
+
+
+@pytest.mark.parametrize("version", ["standard", "editable"])
+@pytest.mark.parametrize(
+    ("line", "compiler", "reason"),
+    [
+        (BROKEN, "cc", "IndexError: tuple index out of range"),
+        ("import os; os._exit(3)", "cc", "exit status 3"),
+        ("", "/nowhere/cc", "cc has failed: [Errno 2] No such file or directory: '/nowhere/cc'"),
+    ],
+)
+def test_a_failed_build_is_told_at_the_first_call(
+    version, line, compiler, reason, hook, tmp_path, monkeypatch, capfd
+):
+    """Whatever fails: the installation goes on, and the library says why it is not there."""
+    with (tmp_path / "src/carom/native/__init__.py").open("a") as file:
+        file.write(f"\n{line}\n")
+    monkeypatch.setenv("CC", compiler)
+    data = {"force_include": {}}
+    hook.initialize(version, data)
+    included = {target: Path(source) for source, target in data["force_include"].items()}
+    if version == "editable":
+        included = {f"carom/lib/{CONTENTS}": tmp_path / "src/carom/lib" / CONTENTS}
+    assert list(included) == [f"carom/lib/{CONTENTS}"]
+    assert "tag" not in data
+    assert reason.startswith("exit") or reason in capfd.readouterr().err  # for pip --verbose
+    monkeypatch.setattr(shared_library, "FOLDER", included[f"carom/lib/{CONTENTS}"].parent)
+    shared_library.opened.cache_clear()
+    assert shared_library.reason() == f"the compiled library could not be built: {reason}"
+    shared_library.opened.cache_clear()
+    hook.finalize(version, data, "")
+
+
+@needs_library
+@pytest.mark.slow
+def test_editable_sources_get_their_library(hook, tmp_path):
+    hook.initialize("editable", {})
+    program = "import carom; print(carom.__file__, carom.get_library(), carom.rebound(0.5, 1.44))"
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path / "src")}
+    command = [sys.executable, "-c", program]
+    run = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    file, library, value = run.stdout.split()
+    assert Path(library).parent == Path(file).parent / "lib" == tmp_path / "src/carom/lib"
+    assert float(value) == carom.rebound(0.5, 1.44)
+
+
 def test_libraries_are_kept_in_the_home_unless_told_otherwise(tmp_path, monkeypatch):
     monkeypatch.setenv("HOME", str(tmp_path))
     monkeypatch.delenv(building.CACHE, raising=False)
     assert building.kept_in() == tmp_path / ".cache/carom/build"
     monkeypatch.setenv(building.CACHE, str(tmp_path))
     assert building.kept_in() == tmp_path
+
+
+def test_without_a_home_nothing_is_kept(monkeypatch):
+    monkeypatch.delenv(building.CACHE, raising=False)
+    monkeypatch.setattr(Path, "home", lambda: (_ for _ in ()).throw(RuntimeError))
+    with pytest.raises(OSError):
+        building.kept_in().joinpath("deeper").mkdir(parents=True, exist_ok=True)
 
 
 LOCKED = 'mount --bind "$0" "$0" && mount -o remount,bind,ro "$0" && exec "$@"'
