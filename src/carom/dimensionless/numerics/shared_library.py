@@ -18,7 +18,6 @@ from carom.dimensionless.numerics.signatures import Signature, caller
 PACKAGE = Path(__file__).parents[2]
 FOLDER = PACKAGE / "lib"
 CONTENTS = "kernels.json"  # beside the libraries: what they are, from what; or why there are none
-REBUILD = "install carom again, with a C compiler"
 
 
 class Opened(NamedTuple):
@@ -119,10 +118,11 @@ def opened() -> Opened:
         if "failure" in contents:
             raise Unusable(f"the compiled library could not be built: {contents['failure']}")
         if digest(PACKAGE / name for name in contents["files"]) != contents["sources"]:
-            raise Unusable(f"the compiled library was built from other sources; {REBUILD}")
+            raise Unusable("the compiled library was built from other sources; install carom again")
         return _best(contents)
     except FileNotFoundError:
-        raise Unusable(f"there is no compiled library; {REBUILD}") from None
+        allowed = "install carom again, with a C compiler"
+        raise Unusable(f"there is no compiled library; {allowed}") from None
     except (OSError, ValueError, KeyError, TypeError):
         raise Unusable("the compiled library is damaged; install carom again") from None
 
