@@ -38,7 +38,7 @@ def test_rebounds_are_as_near_as_promised(springs, steps, e, bound):
     assert 0.2 * bound < worst(springs, steps, e) <= bound
 
 
-@pytest.mark.parametrize("springs", [16, 32, 64, 128])
+@pytest.mark.parametrize("springs", [16, 32, 64])
 @pytest.mark.parametrize(("chis", "promised"), [((0.3, 2.5), 1.0), ((2.5, 10.0), 8.0)])
 def test_errors_are_within_the_range_of_chi_that_is_stated(springs, chis, promised):
     """1/N^2 up to chi = 2.5, 8/N^2 up to 10, at the ends of the range and at random in between."""
