@@ -205,8 +205,8 @@ def test_oblique_loading_below_the_critical_angle(share):
 
 @pytest.mark.parametrize("share", [0.1, 0.9])
 def test_the_secant_stiffness_of_loading_in_one_direction_is_two_thirds_of_mindlins(share):
-    """F_x/U = (2/3) 2 G* b, equation (15) of Di Renzo & Di Maio (2005): the force grows as b^3 while
-    the tangent stiffness is 2 G* b, so U = int dF/(2 G* b). MercuryDPM takes it for a stiffness."""
+    """F_x/U = (2/3) 2 G* b, equation (15) of Di Renzo & Di Maio (2005): the force grows as b^3, the
+    tangent stiffness is 2 G* b, so U = int dF/(2 G* b). MercuryDPM takes it for a stiffness."""
     normal = np.linspace(0.0, 20.0, 30)[1:]
     path = load_path(PAIR, normal_force=normal, tangential_force=share * MU * normal)
     secant = path.tangential_force / path.displacement
