@@ -4,10 +4,11 @@
 The energy that friction takes from a sphere, calculated and measured, against its incidence.
 
 Points: 5 mm alumina spheres on glass at 3.9 m/s (Kharaz, Gorham & Salman 2001, Powder Technol.
-120:281). Their tangential restitution gives the energy without a model of the contact, and nothing
-is fitted. The formula for rigid bodies, which slide or roll at last, is 22 % too high at 20
-degrees, where the contact sticks and springs back. Right: the angle from the surface at which
-friction takes most. Metals erode most at 20 to 30 degrees (Hutchings 1981, Wear 70:269).
+120:281). Their tangential restitution gives the energy without a model of the contact; only
+friction is fitted, where they slide. The formula for rigid bodies, which slide or roll at last, is
+22 % too high at 20 degrees, where the contact sticks and springs back. Right: the angle from the
+surface at which friction takes most. Metals erode most at 20 to 30 degrees (Hutchings 1981, Wear
+70:269).
 """
 
 from pathlib import Path

@@ -6,7 +6,7 @@ Angle, spin and restitution of 5 mm alumina balls on glass at 3.9 m/s, calculate
 Where the ball slides throughout, from :math:`\psi_1 = 4\chi - 1` on, friction acts on all impacts
 alike: :math:`\tan\theta' = \tan\theta - 2\mu` and :math:`\omega = 5\mu V_1/R`. At smaller angles
 the ball sticks for a while, and the slip ring decides how much it is turned and thrown back.
-Nothing is fitted: :math:`\mu` is the friction measured in sliding.
+Only :math:`\mu` is fitted, to the impacts that slide; those at smaller angles are the test.
 
 Kharaz, Gorham & Salman (2001), Powder Technol. 120:281, as digitised, see data/.
 """

@@ -222,20 +222,20 @@ def softer() -> str:
 
 
 def gains() -> str:
-    """Return the table of the energy that elastic laws make, of solid spheres of any nu."""
+    """Return by how much |psi_2| exceeds psi_1 with elastic laws, of solid spheres of any nu."""
     psi, chi = np.geomspace(1e-3, 7.0, 80), np.linspace(CHIS[0], CHIS[2], 15)[:, np.newaxis]
 
     def rows() -> Iterator[str]:
         for label, law, _ in CATALOGUE:
             if law.name in ("LIGGGHTS hertz", "EDEM Hertz-Mindlin", "YADE Mindlin"):
                 continue  # those of LAMMPS again where e = 1
-            ratio = (law.rebound(psi, chi) / psi) ** 2
-            row, column = np.unravel_index(np.argmax(ratio), ratio.shape)
-            if ratio[row, column] > 1.0 + 1e-6:
-                gain = f"{100.0 * (ratio[row, column] - 1.0):.1f} %"
-                yield f"{label} | {gain} | {psi[column]:.3f} | {chi[row, 0]:.3f}"
+            gain = np.abs(law.rebound(psi, chi)) - psi
+            row, column = np.unravel_index(np.argmax(gain), gain.shape)
+            if gain[row, column] > 1e-6:
+                place = f"{psi[column]:.3f} | {chi[row, 0]:.3f}"
+                yield f"{label} | {gain[row, column]:.4f} | {place}"
 
-    return table("law | energy gained | at psi_1 | chi", rows())
+    return table("law | gain | at psi_1 | chi", rows())
 
 
 LAWS: dict[str, Callable[[], str]] = {

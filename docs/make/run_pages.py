@@ -1,11 +1,14 @@
 """Run the code of the manual's pages, and draw the figures that it makes.
 
-python docs/make/run_pages.py [PAGE ...]    where none is named, all pages for users
+python docs/make/run_pages.py [PAGE ...]    where none is named, all pages that have code
 
-The blocks of a page run in order, in one namespace and an empty folder:
+The blocks of a page run in order, in one namespace and a folder that holds `examples` alone:
 
-- `python` is executed; in `sh`, lines that begin with `carom ` or `python ` are, and must exit with
-  0, or what a comment "exit code 1" says; `console` is shown only;
+- `python` is executed, and what it prints must be shown by the `text` that follows;
+- in `sh`, lines that begin with `carom ` or `python ` are executed, and must exit with 0, or what a
+  comment "exit code 1" says;
+- in `console`, lines that begin with `$ carom ` or `$ python ` are, and must print what follows;
+  those of `NOT_RUN`, and what stands behind them, are shown only;
 - `toml`, `text` or `python` whose first line is "# NAME.EXT" is a file, written under that name;
 - any other `text` is what the block before it must have printed, "..." standing for anything.
 
@@ -14,6 +17,7 @@ A picture in figures/STEM/ of page STEM is one that the page's code must have st
 
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -21,6 +25,7 @@ from collections.abc import Iterator
 from contextlib import chdir, redirect_stdout
 from doctest import ELLIPSIS, OutputChecker
 from io import StringIO
+from itertools import pairwise, takewhile
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -31,8 +36,16 @@ sys.path.append(str(DOCS.parent / "studies"))
 
 from small_pictures import store_small  # noqa: E402
 
-OTHERS = (DOCS / "choosing.md", DOCS / "glossary.md", DOCS / "input.md")
-PAGES = (DOCS / "tutorial.md", *sorted(DOCS.glob("how-to/*.md")), *OTHERS)
+NOT_RUN = {  # beginnings of commands: what they need that is not here, and where they are tested
+    "carom explore": "a server that goes on: tests/browser",
+    "carom lammps build": "a place for the plugin: tests/lammps/test_building.py",
+    "carom liggghts build": "the sources of LIGGGHTS: tests/liggghts/test_building.py",
+    "carom sweep examples/sweep.toml --store result.zarr --scheduler": "a cluster",
+    "carom verify lammps --law carom": "the plugin: tests/lammps/test_bench.py",
+    "carom verify score bench/wall": "results of the reader's code",
+    "python -m pytest": "minutes",
+    "python studies/bulk_": "hours",
+}
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 NAMED = re.compile(r"# ([\w-]+\.\w+)\n")
 
@@ -60,6 +73,27 @@ def blocks(page: Path) -> list[Block]:
     ]
 
 
+def commands(block: Block) -> list[tuple[str, str]]:
+    """Return the commands of a block that are run, each with what is shown below it."""
+    if block.language == "sh":
+        lines = [(line, "") for line in block.text.splitlines()]
+    elif block.language == "console":
+        parts = re.split(r"^\$ ", block.text, flags=re.MULTILINE)[1:]
+        lines = [tuple(part.split("\n", 1)) for part in parts]
+    else:
+        return []
+    here = takewhile(lambda line: not line[0].startswith(tuple(NOT_RUN)), lines)
+    return [line for line in here if line[0].startswith(("carom ", "python "))]
+
+
+def has_code(page: Path) -> bool:
+    """Return whether anything of a page is executed."""
+    return any(block.language == "python" or commands(block) for block in blocks(page))
+
+
+PAGES = tuple(filter(has_code, (DOCS.parent / "README.md", *sorted(DOCS.rglob("*.md")))))
+
+
 def as_promised(line: str) -> bool:
     """Run a command; return whether its exit code is that of a comment "exit code N", else 0."""
     told = re.search(r"# .*exit code (\d)", line)
@@ -67,36 +101,52 @@ def as_promised(line: str) -> bool:
     if program == "carom":
         code = command(words)
     else:
-        code = subprocess.run([sys.executable, *words], check=False).returncode
+        ended = subprocess.run([sys.executable, *words], check=False, stdout=subprocess.PIPE)
+        print(ended.stdout.decode(), end="")
+        code = ended.returncode
     return code == int(told[1] if told else 0)
 
 
-def printed(block: Block, page: Path, names: dict[str, Any]) -> str:
-    """Run a block where we are, and return what it printed."""
-    caught = StringIO()
-    with redirect_stdout(caught):
-        if block.language == "python":  # behind empty lines, so that errors name lines of the page
-            source = "\n" * (block.line - 1) + block.text
-            exec(compile(source, str(page), "exec"), names)
-        for line in block.text.splitlines() if block.language == "sh" else ():
-            if line.startswith(("carom ", "python ")) and not as_promised(line):
-                raise RuntimeError(f"{page}, line {block.line}: failed, {line}")
+def executed(block: Block, page: Path, names: dict[str, Any]) -> str:
+    """Run Python where we are, and return what it printed; errors name lines of the page."""
+    with redirect_stdout(StringIO()) as caught:
+        source = "\n" * (block.line - 1) + block.text
+        exec(compile(source, str(page), "exec"), names)
     return caught.getvalue()
+
+
+def answers(block: Block, page: Path) -> Iterator[tuple[str, str]]:
+    """Run the commands of a block where we are; yield what is shown below each, and what came."""
+    for line, shown in commands(block):
+        with redirect_stdout(StringIO()) as caught:
+            if not as_promised(line):
+                raise RuntimeError(f"{page}, line {block.line}: failed, {line}")
+        yield shown, caught.getvalue()
 
 
 def run(page: Path, folder: Path) -> Iterator[tuple[int, str, str]]:
     """Run a page in a folder; yield the line, what was expected and what came where they differ."""
     names: dict[str, Any] = {"__name__": "__main__"}
+    shutil.copytree(DOCS.parent / "examples", folder / "examples", dirs_exist_ok=True)
     checker, came = OutputChecker(), ""
     with chdir(folder):
-        for block in blocks(page):
+        for block, following in pairwise([*blocks(page), Block("", "", 0)]):
+            compared = []
             if block.file:
                 Path(block.file).write_text(block.text, encoding="utf-8")
             elif block.language == "text":
-                if not checker.check_output(block.text, came, ELLIPSIS):
-                    yield block.line, block.text, came
-            elif block.language in ("python", "sh"):
-                came = printed(block, page, names)
+                compared = [(block.text, came)]
+            elif block.language == "python":
+                came = executed(block, page, names)
+                if following.language != "text" or following.file:
+                    compared = [("", came)]
+            elif block.language == "console":
+                compared = list(answers(block, page))
+            elif block.language == "sh":
+                came = "".join(found for _, found in answers(block, page))
+            for shown, found in compared:
+                if not checker.check_output(shown, found, ELLIPSIS):
+                    yield block.line, shown, found
 
 
 def pictures(page: Path) -> list[Path]:

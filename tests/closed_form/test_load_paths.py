@@ -203,6 +203,17 @@ def test_oblique_loading_below_the_critical_angle(share):
         assert np.all(path.frictional_work < 1e-16 * MU**2 / KAPPA * 20.0 * depth(20.0))
 
 
+@pytest.mark.parametrize("share", [0.1, 0.9])
+def test_the_secant_stiffness_of_loading_in_one_direction_is_two_thirds_of_mindlins(share):
+    """F_x/U = (2/3) 2 G* b, equation (15) of Di Renzo & Di Maio (2005): the force grows as b^3, the
+    tangent stiffness is 2 G* b, so U = int dF/(2 G* b). MercuryDPM takes it for a stiffness."""
+    normal = np.linspace(0.0, 20.0, 30)[1:]
+    path = load_path(PAIR, normal_force=normal, tangential_force=share * MU * normal)
+    secant = path.tangential_force / path.displacement
+    mindlin = 2.0 * PAIR.effective_shear_modulus * path.contact_radius
+    np.testing.assert_allclose(secant / mindlin, 2.0 / 3.0, rtol=1e-12)
+
+
 @pytest.mark.parametrize("excess", [1e-6, 0.5])
 def test_oblique_loading_beyond_the_critical_angle(excess):
     """U/d = k mu/kappa, k > 1: all slides, F_x = mu P, W = 0.4 (k - 1) mu^2 P d/kappa."""

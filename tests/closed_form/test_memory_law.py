@@ -38,6 +38,18 @@ def test_rebounds_are_as_near_as_promised(springs, steps, e, bound):
     assert 0.2 * bound < worst(springs, steps, e) <= bound
 
 
+@pytest.mark.parametrize("springs", [16, 32, 64])
+@pytest.mark.parametrize(("chis", "promised"), [((0.3, 2.5), 1.0), ((2.5, 10.0), 8.0)])
+def test_errors_are_within_the_range_of_chi_that_is_stated(springs, chis, promised):
+    """1/N^2 up to chi = 2.5, 8/N^2 up to 10, at the ends of the range and at random in between."""
+    rng = np.random.default_rng(springs)
+    law, largest = carom.MemoryLaw(springs), 0.0
+    for chi in (*chis, *np.exp(rng.uniform(*np.log(chis), 10))):
+        psi = np.linspace(0.0, 4.0 * chi + 0.5, 101)
+        largest = max(largest, np.abs(law.rebound(psi, chi) - carom.rebound(psi, chi)).max())
+    assert 0.5 * promised < largest * springs**2 <= promised
+
+
 @pytest.mark.parametrize("e", [1.0, 0.7])
 def test_the_order_is_the_second_in_steps_and_springs(e):
     by_steps = [worst(1024, steps, e) for steps in (25, 400)]

@@ -230,7 +230,7 @@ def test_figures_are_drawn_from_what_is_stored(tmp_path):
             points = result.points
             near = np.abs(points.psi_in) <= 2.0 * np.maximum(1.0, 4.0 * points.chi - 1.0)
             notes = [text.get_text() for axis in lower.figure.axes for text in axis.texts]
-            assert any(f"{np.sum(~near)} results beyond" in text for text in notes) != near.all()
+            assert any(f"{np.sum(~near)} more at larger" in text for text in notes) != near.all()
             error = error[near]
         np.testing.assert_allclose(drawn.get_ydata(), error, rtol=1e-12, atol=1e-15)
         assert sum(line.get_ydata()[0] == 0.01 for line in lower.lines) == 1

@@ -1,15 +1,17 @@
 """`carom impact` and `carom sweep` with losses, as a user would type them."""
 
 import json
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.main import get_command
 
 import carom
 from carom import plots
-from carom.bodies.cases import losses_of
-from carom.cli import main
+from carom.bodies.cases import LOSSES, MOTION, RATIO, losses_of
+from carom.cli import app, main
 
 BALL = ["impact", "--radius", "5 mm", "--material", "steel", "--friction", "0.2"]
 SPEED = ["--speed", "2", "--angle", "30 deg"]
@@ -147,9 +149,66 @@ def test_without_a_yield_strength_there_is_no_yield_velocity(run):
 
 def test_commands_about_elastic_impacts_refuse_a_case_with_losses(run):
     """They say where it stands, rather than to leave it aside."""
-    code, _, err = run("verify", "tune", "case.toml")
+    code, _, err = run("verify", "lammps", "--case", "case.toml")
     assert (code, err.count("\n")) == (2, 1)
     assert "loss_time: not used in case.toml, line 4; this is for elastic impacts" in err
+
+
+VALUES = {"friction": "0.3", "speed": "1 m/s", "angle": "20 deg", "normal_speed": "0.9 m/s"}
+VALUES |= {"tangential_speed": "0.3 m/s", "spin": "100 rpm", "spin2": "50 rpm"}
+VALUES |= {"restitution": "0.8", "loss_time": "3 us", "yield_velocity": "0.2 m/s"}
+VALUES |= {"relaxation_time": "20 us", "modulus_ratio": "1.5"}
+WITH = {  # what a key goes with; by default friction, speed, angle
+    "normal_speed": ("friction", "tangential_speed"),
+    "tangential_speed": ("friction", "normal_speed"),
+    "relaxation_time": ("friction", "speed", "angle", "modulus_ratio"),
+    "modulus_ratio": ("friction", "speed", "angle", "relaxation_time"),
+}
+FIRST = '[first]\nradius = "5 mm"\nmaterial = "steel"\n[second]\nkind = "sphere"\n'
+
+
+def keys_with_flags(command=None, path=()):
+    """The keys of a case file for which a command that reads one has a flag, as (command, key)."""
+    command = command or get_command(app)
+    for name, below in getattr(command, "commands", {}).items():
+        yield from keys_with_flags(below, (*path, name))
+    names = {option.name for option in command.params}
+    if "case" in names:
+        yield from ((path, key) for key in VALUES if key in names)
+
+
+def test_every_key_of_a_case_is_tried():
+    assert set(VALUES) == {"friction", *MOTION, *LOSSES, RATIO}
+
+
+@pytest.mark.parametrize(
+    ("path", "key"),
+    [pytest.param(*one, id=" ".join((*one[0], one[1]))) for one in keys_with_flags()],
+)
+def test_a_key_of_the_case_does_what_the_flag_does(run, monkeypatch, path, key):
+    """Of every command that has both: whoever has one file for all commands is not sent away."""
+    few = partial(carom.verify.tune, [carom.LinearSpring(), carom.HardSphere(0.4)])
+    monkeypatch.setattr(carom.verify, "tune", few)
+    Path("data.csv").write_text("psi_in,psi_out\n1,-0.2\n2,-0.8\n3,-1.3\n")
+    words = ("data.csv", "--case", "case.toml") if path[-1] == "score" else ("case.toml",)
+    others = [name for name in WITH.get(key, ("friction", "speed", "angle")) if name != key]
+    lines = [f'{name} = "{VALUES[name]}"\n' for name in others]
+    Path("case.toml").write_text("".join(lines) + FIRST)
+    plain = run(*path, *words, "--json")
+    flagged = run(*path, *words, f"--{key.replace('_', '-')}", VALUES[key], "--json")
+    Path("case.toml").write_text("".join(lines) + f'{key} = "{VALUES[key]}"\n' + FIRST)
+    assert run(*path, *words, "--json") == flagged != plain
+    assert flagged[0] in (0, 1)
+    assert flagged[1]
+
+
+def test_a_fit_says_how_a_known_restitution_is_given(run):
+    """The case of `carom impact` is not that of a fit, which finds the restitution."""
+    Path("data.csv").write_text("angle,speed,spin_out\n0.2,1,1\n0.4,1,2\n0.6,1,3\n")
+    code, _, err = run("fit", "data.csv", "--case", "case.toml")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "loss_time" in err
+    assert "--fix restitution=0.98" in err
 
 
 def test_scores_refuse_a_case_whose_losses_depend_on_the_speed(run):

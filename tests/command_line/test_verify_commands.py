@@ -159,6 +159,18 @@ def test_tune_a_case_between_angles(run):
 
 
 @pytest.mark.usefixtures("few_laws")
+@pytest.mark.parametrize("e", [1.0, 0.5])
+def test_tune_names_the_exact_law(run, e):
+    """Those who cannot change their law should know that some codes can; in LIGGGHTS e is 1."""
+    Path("ball.toml").write_text(CASE)
+    out = run("tune", "ball.toml", "--restitution", e)[1]
+    told = json.loads(run("tune", "ball.toml", "--restitution", e, "--json")[1])["exact_law"]
+    assert "pair_style carom in LAMMPS" in out
+    assert told["LAMMPS"] == "pair_style carom"
+    assert ("tangential carom in LIGGGHTS" in out) == ("LIGGGHTS" in told) == (e == 1.0)
+
+
+@pytest.mark.usefixtures("few_laws")
 def test_tune_a_case_without_motion(run):
     """Where the case has no speed the inputs are for 1 m/s, and that is said."""
     Path("ball.toml").write_text(CASE.replace("speed", "#").replace("angle", "#"))

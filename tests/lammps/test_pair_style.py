@@ -89,6 +89,45 @@ def test_losses_by_restitution_at_a_speed_and_by_time(lammps):
     np.testing.assert_allclose(by_time, by_e, atol=1e-6)
 
 
+UNLIKE = """boundary f f f
+newton off
+atom_modify map array
+neighbor 0.001 bin
+region b block -1 1 -1 1 -1 1
+create_box 2 b
+create_atoms {low} single 0 0 0
+create_atoms {high} single 0 0 0.0100000001
+set group all diameter 0.01
+set group all density 7850
+group ball id 2
+velocity ball set 0.2 0 -1
+pair_style carom precision double
+pair_coeff 1 1 young 70e9 poisson 0.3 friction 0.1
+pair_coeff 2 2 young 210e9 poisson 0.3 friction 0.1
+fix 1 all nve/sphere
+timestep 2e-8
+run 4000
+write_dump all custom out.txt id omegay modify sort id format float %.17g
+"""
+
+
+@pytest.mark.parametrize("first", [1, 2])
+def test_the_softer_of_two_spheres_has_the_shorter_lever(lammps, first):
+    """R - d_i, the flattening in proportion to (1 - nu^2)/E: 3/4 and 1/4 of d here. The spins of
+    equal spheres are as their levers, of which the mean of d is between half and all of d_max."""
+    other = 3 - first
+    printed = lammps(HEAD + UNLIKE.format(low=first, high=other))
+    assert "ERROR" not in printed, printed[-800:]
+    spins = dict(
+        zip((first, other), np.loadtxt(lammps.folder / "out.txt", skiprows=9)[:, 1], strict=True)
+    )
+    solids = [carom.Material(young=young, poisson=0.3, density=7850.0) for young in (70e9, 210e9)]
+    balls = [carom.Sphere(radius=RADIUS, material=solid) for solid in solids]
+    flat = carom.impact(carom.Pair(*balls, friction=0.1), speed=1.0, angle=0.0).max_penetration
+    shorter = (1.0 - spins[1] / spins[2]) / (0.5 * flat / RADIUS)
+    assert 0.5 < shorter < 1.0
+
+
 def test_newton_and_precision_change_nothing_much(lammps):
     plain, _ = rebounds(lammps, style="precision double")
     other, _ = rebounds(lammps, style="precision double", newton="on")

@@ -17,14 +17,16 @@ PSI = np.linspace(0.0, 6.0, 64)
 HEAD = "units si\natom_style sphere\ncomm_modify vel yes\nboundary f f f\nneighbor 0.001 bin\n"
 
 
-def rebounds(lammps, region, bottom=0.0, steps=100, sliding=0.0, losses=""):
+def rebounds(
+    lammps, region, bottom=0.0, steps=100, sliding=0.0, losses="", speed=SPEED, wall=SOLID
+):
     """Return psi_2 and e of spheres that fall on the bottom of a region, which slides along x."""
-    step = DURATION * PAIR.scales(SPEED).time / steps
-    gap = SPEED * step * (2.0 + np.arange(PSI.size) % 4 / 4.0)
-    along = PSI * FRICTION * SPEED / PAIR.kappa + sliding
+    step = DURATION * PAIR.scales(speed).time / steps
+    gap = speed * step * (2.0 + np.arange(PSI.size) % 4 / 4.0)
+    along = PSI * FRICTION * speed / PAIR.kappa + sliding
     rows = range(PSI.size)
     atoms = [f"{k + 1} 1 0.01 7850 {0.1 * k} 0 {bottom + RADIUS + gap[k]!r}" for k in rows]
-    moves = [f"{k + 1} {along[k]!r} 0 {-SPEED!r} 0 0 0" for k in rows]
+    moves = [f"{k + 1} {along[k]!r} 0 {-speed!r} 0 0 0" for k in rows]
     text = f"fall\n\n{PSI.size} atoms\n1 atom types\n-1 7 xlo xhi\n-1 1 ylo yhi\n-1 1 zlo zhi\n"
     text += "\nAtoms # sphere\n\n" + "\n".join(atoms) + "\n\nVelocities\n\n" + "\n".join(moves)
     (lammps.folder / "fall.data").write_text(
@@ -33,14 +35,14 @@ def rebounds(lammps, region, bottom=0.0, steps=100, sliding=0.0, losses=""):
     printed = lammps(
         f"{HEAD}read_data fall.data\ntimestep {step!r}\npair_style carom\n"
         f"pair_coeff * * {SOLID} {losses}\nvariable way equal {sliding!r}*step*dt\n"
-        f"region w {region}\nfix w all wall/carom {SOLID} {losses} region w\n"
+        f"region w {region}\nfix w all wall/carom {wall} {losses} region w\n"
         f"fix 1 all nve/sphere\nrun {int(1.5 * steps) + 10}\n"
         "write_dump all custom out.txt id vx vz omegay modify sort id format float %.17g\n"
     )
     assert "ERROR" not in printed, printed[-800:]
     _, x, z, spin = np.loadtxt(lammps.folder / "out.txt", skiprows=9).T
-    psi = (x - RADIUS * spin - sliding) * PAIR.kappa / (FRICTION * SPEED)
-    return psi, z / SPEED
+    psi = (x - RADIUS * spin - sliding) * PAIR.kappa / (FRICTION * speed)
+    return psi, z / speed
 
 
 @pytest.mark.parametrize(
@@ -60,6 +62,21 @@ def test_walls_that_slide_and_walls_that_lose_energy(lammps):
     exact = carom.rebound(PSI, PAIR.chi, losses=carom.KelvinVoigt(0.8))
     assert np.abs(psi - exact).max() < 1.5e-3
     np.testing.assert_allclose(e, 0.8, atol=1e-3)
+
+
+def test_the_lever_at_a_wall_is_shorter_by_what_the_sphere_is_flattened(lammps):
+    """d/2 on the same material, d on a wall that hardly gives way; psi_2 differs in proportion."""
+    speed, off = 0.6, []
+    for young, share in ((210e9, 0.5), (210e14, 1.0)):
+        wall = f"young {young} poisson 0.3 friction {FRICTION}"
+        slow, fast = (
+            rebounds(lammps, "plane 0 0 0 0 0 1", speed=v, wall=wall)[0] for v in (SPEED, speed)
+        )
+        plane = carom.HalfSpace(material=carom.Material(young=young, poisson=0.3, density=1.0))
+        pair = carom.Pair(BALL, plane, friction=FRICTION)
+        off.append((fast - slow) / (share * pair.scales(speed).length / RADIUS))
+    np.testing.assert_allclose(off[1], off[0], atol=0.4)
+    assert np.abs(off[0]).max() > 3.0
 
 
 HEAP = """lattice sc 0.0102

@@ -4,6 +4,7 @@ Full solutions of impacts by boundary elements, over the whole domain of the bou
 differ by from the theory, which is exact at nu = 0.
 """
 
+import re
 import sys
 from pathlib import Path
 
@@ -126,6 +127,75 @@ def test_rows_are_those_of_the_code(label):
     )
     assert again.psi_out == pytest.approx(stored[impact].psi_2, abs=2e-5)
     assert again.restitution == pytest.approx(stored[impact].restitution, abs=1e-6)
+
+
+SERIES = (*tables.SERIES, *tables.APART, *tables.APART_SPIN)
+TELLING = ("README.md", "docs/halfspace.md", "docs/halfspace_study.md", "paper/paper.md")
+
+
+def test_prose_counts_impacts_as_the_table_does():
+    """Rows are solutions on several grids: the impacts that are judged are fewer, and those with a
+    comma in their number are no others."""
+    judged = {label: len(study.judged(label)) for label in SERIES}
+    solved = {impact._replace(label="", case="", elements=0, steps=0) for impact in load(TABLE)}
+    known = {
+        "impacts were solved and compared": sum(judged.values()),
+        "of them with spin": sum(n for label, n in judged.items() if "spin" in label),
+        "impacts": len(solved),
+        "of them at": sum(one.kappa == 1.0 and not one.beta for one in solved),
+        "solutions": len(load(TABLE)),
+    }
+    page = " ".join(PAGE.split())
+    for words, count in known.items():
+        if words != "impacts":
+            assert f"{count:,} {words}" in page, words
+    assert f"the study has {len(solved):,} impacts" in page
+    for name in TELLING:
+        text = " ".join((STUDIES.parent / name).read_text(encoding="utf-8").split())
+        counts = set(re.findall(r"(\d,\d{3}) (?:impacts|full|solutions)", text))
+        assert f"{sum(judged.values()):,}" in counts, name
+        allowed = {f"{count:,}" for count in known.values()} if "_study" in name else set()
+        assert counts <= allowed | {f"{sum(judged.values()):,}"}, name
+
+
+def test_prose_tells_the_largest_differences_of_the_table():
+    """Differences, not bounds, of each kind of bodies without spin: README and pages."""
+
+    def largest(*labels):
+        found = [case for label in labels for case in study.cases(label)]
+        return max((abs(study.difference(case).value), case) for case in found)
+
+    solid, like, pair, unlike = (
+        largest(*labels)
+        for labels in (("solid",), ("like", "apart like"), ("pair",), ("unlike", "apart unlike"))
+    )
+    readme = " ".join((STUDIES.parent / "README.md").read_text(encoding="utf-8").split())
+    assert (
+        f"{solid[0]:.4f} for solid spheres of like materials, {like[0]:.4f} for other bodies of "
+        f"like materials, {pair[0]:.2f} for five real pairs of unlike materials, {unlike[0]:.1f} "
+    ) in readme
+    page, one = " ".join(PAGE.split()), study.finest(like[1])[0]
+    assert f"by {1e3 * like[0]:.1f}e-3 at $\\chi$ = {one.chi:.1f}" in page
+    one = study.finest(unlike[1])[0]
+    said = (
+        rf"-{unlike[0]:.2f}, for $\beta$ = {one.beta:.2g}, friction {one.friction:.2g} and $\chi$ "
+    )
+    assert f"{said}= {one.chi:.1f} at $\\psi_1$ = {one.psi_1:.1f}" in page
+    # in units of nu^2, as the pages of the theory have it; the bound is 0.011 chi nu^2
+    shares = [
+        abs(study.difference(case).value) / poisson(study.finest(case)[0]) ** 2
+        for case in study.cases("solid")
+        if poisson(study.finest(case)[0])
+    ]
+    for name in ("docs/theory.md", "docs/theory/full_contact.md"):
+        text = (STUDIES.parent / name).read_text(encoding="utf-8")
+        (said,) = re.findall(r"at most \$(0\.\d+) (?:\\, )?\\nu\^2\$", text)
+        assert said == f"{max(shares):.3f}"
+
+
+def poisson(impact):
+    """Poisson's ratio of like materials with this kappa."""
+    return 2.0 * (1.0 - impact.kappa) / (2.0 - impact.kappa)
 
 
 def test_the_page_tells_what_the_table_holds():

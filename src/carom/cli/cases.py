@@ -80,7 +80,9 @@ def merged(case: "Case", flags: Mapping[str, Any]) -> "Case":
     result = {key: dict(value) if isinstance(value, dict) else value for key, value in case.items()}
     given = {name for name, value in flags.items() if value is not None}
     polar, cartesian = {"speed", "angle"}, {"normal_speed", "tangential_speed"}
-    for one, other in ((polar, cartesian), (cartesian, polar), (set(LOSSES), {*LOSSES, RATIO})):
+    relaxing = {"relaxation_time"}  # whose ratio of moduli stays
+    losses = (relaxing, {*LOSSES}), ({*LOSSES} - relaxing, {*LOSSES, RATIO})
+    for one, other in ((polar, cartesian), (cartesian, polar), *losses):
         if given & one:
             result = {name: value for name, value in result.items() if name not in other}
     for name in given:

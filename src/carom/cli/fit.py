@@ -166,10 +166,17 @@ def _source(data: Path | None, dataset: str | None) -> Path:
 
 def _pair(case: Path | None) -> "Pair | None":
     """Return the bodies of a case file, whose friction may be left out."""
-    from carom.bodies.cases import pair_of
+    from carom.bodies.cases import LOSSES, RATIO, pair_of
     from carom.fitting.reading import START
 
-    return None if case is None else pair_of({"friction": START, **told_case(case)})
+    if case is None:
+        return None
+    content = told_case(case, losses=True)
+    for name in (*LOSSES, RATIO):
+        if name in content:
+            hint = "a fit finds the restitution; if you know it, leave it out of the case and give"
+            raise refusal(name, content[name], f"{hint} --fix, e.g. --fix restitution=0.98")
+    return pair_of({"friction": START, **content})
 
 
 def _sampled(found: "Fit", target: str, steps: int, seed: int) -> Path:

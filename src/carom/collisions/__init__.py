@@ -93,8 +93,8 @@ def collide(
     the collision v_1' = v_1 - J/M_1, v_2' = v_2 + J/M_2, omega_i' = omega_i - (R_i/I_i) n x J. The
     law gives e and beta = -V_t'/V_t. By default e = 1, and beta is that of the exact rebound, to
     1e-9 (Maw, Barber & Fawcett 1976; for rigid rough spheres Walton 1993). For losses pass
-    `law=ReboundLaw(pair.chi, losses=KelvinVoigt(restitution=e))`, which takes a second or two to
-    make, once.
+    `law=ReboundLaw(pair.chi, losses=KelvinVoigt(restitution=e))`, which takes 0.1 to 0.3 s to make,
+    once.
 
     Parameters
     ----------

@@ -71,8 +71,9 @@ def _points(dataset: xr.Dataset) -> Figure:
     whole, dataset = dataset, _near(dataset)
     psi = dataset["psi_in"].values
     if left_out := whole["psi_in"].size - psi.size:
-        note = f"{left_out} results beyond"
-        lower.annotate(note, (1.0, 1.03), xycoords="axes fraction", ha="right", va="bottom")
+        note = rf"{left_out} more at larger $|\psi_1|$"
+        place: Any = {"xytext": (0, -18), "textcoords": "offset points", "ha": "right", "va": "top"}
+        lower.annotate(note, (1.0, 0.0), xycoords="axes fraction", **place)
     low, high = min(0.0, psi.min()), max(0.0, psi.max())
     room = MARGIN * (high - low) or 1.0
     low -= room * (low < 0.0)

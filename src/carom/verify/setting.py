@@ -7,8 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.bodies.cases import motion_of, pair_of, read_case
+from carom.bodies.cases import losses_of, motion_of, pair_of, read_case
 from carom.bodies.kinematics import approach, slope
+from carom.bodies.losses import KelvinVoigt, LossLaw
 from carom.bodies.pairs import Pair
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.laws.dem.damping import damped_restitution
@@ -38,15 +39,17 @@ def setting_of(
     kappa: str | None,
     start: str,
     stop: str | None,
-    restitution: str,
+    restitution: str | None,
 ) -> Setting:
     """Return what a tuning is for, from a case file and angles, or from chi and psi_1.
+
+    A restitution takes the place of that of the case; without either it is 1.
 
     Raises InputError if neither or both are given, or a range is empty.
     """
     if case is None and chi is None:
         raise InputError("case: missing; give a case file, or --chi, e.g. --chi 1.44")
-    wanted = damped_restitution("restitution", restitution)
+    wanted = damped_restitution("restitution", "1" if restitution is None else restitution)
     if case is None:
         if wanted != 1.0:
             raise refusal(
@@ -59,7 +62,9 @@ def setting_of(
     for name, value in (("chi", chi), ("kappa", kappa)):
         if value is not None:
             raise refusal(name, value, "it follows from the case; leave it out")
-    content = read_case(case)
+    content = read_case(case, losses=True)
+    if restitution is None and (told := constant_restitution(losses_of(content))) is not None:
+        wanted = damped_restitution("restitution", told)
     pair, motion = pair_of(content), motion_of(content)
     if pair.friction == 0.0:
         raise refusal(
@@ -72,6 +77,18 @@ def setting_of(
     psi = _range(per_slope * tan(slope(start)), last, start, stop)
     duration = DURATION * pair.scales(speed).time
     return Setting(pair.chi, pair.kappa, psi, wanted, pair, speed, duration)
+
+
+def constant_restitution(losses: LossLaw | None) -> float | None:
+    """Return the restitution of a law of losses, None without losses.
+
+    Raises InputError if it depends on the speed.
+    """
+    if losses is None:
+        return None
+    if isinstance(losses, KelvinVoigt) and losses.restitution is not None:
+        return float(losses.restitution)
+    raise refusal("losses", losses, "give a restitution that is the same at all speeds")
 
 
 def _range(first: float, last: float, start: str, stop: str | None) -> NDArray[np.float64]:

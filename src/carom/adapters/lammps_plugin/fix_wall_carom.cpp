@@ -162,7 +162,7 @@ void FixWallCarom::act(int i, int k, double *memory) {
     batch.count = 1;
     batch.memories[0] = memory;
     batch.pairs[0] = pair_of(i, met.radius, memory);
-    const carom::Encounter now = carom::encounter(sphere, wall, update->dt);
+    const carom::Encounter now = carom::encounter(sphere, wall, update->dt, bodies[atom->type[i]].share);
     for (int lane = 0; lane < carom::lanes; ++lane) carom::set_one(batch.meetings, lane, now);
     carom_step(kind, batch, update->setupflag);
     if (batch.statuses[0] != carom::Status::ok)

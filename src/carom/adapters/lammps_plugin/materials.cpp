@@ -63,6 +63,7 @@ bool carom_combine(const CaromMaterial &one, const CaromMaterial &other, const C
     }
     found.pair = carom::pair_of(solid(one), solid(other), {1.0, 1.0}, {1.0, 1.0}, friction,
                                 std::max(mixed.retardation, 0.0));
+    found.share = carom::share_of(solid(one), solid(other));
     found.loss = mixed.restitution >= 0.0 ? carom_loss(mixed.restitution) : 0.0;
     found.speed = mixed.speed;
     return true;

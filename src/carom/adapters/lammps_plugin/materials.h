@@ -22,6 +22,7 @@ struct CaromMaterial {
 /// Two materials: their bodies, and the loss (0 for none) that restitution at a speed stands for.
 struct CaromBodies {
     carom::Pair pair{};
+    double share = 0.5;  // of the penetration, by which the first is flattened
     double loss = 0.0, speed = 0.0;
 };
 

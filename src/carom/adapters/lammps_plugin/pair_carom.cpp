@@ -230,6 +230,7 @@ double PairCarom::init_one(int i, int j) {
                    "pair_coeff {} {} a restitution and speed, or a retardation",
                    i, j, i, j);
     bodies[j][i] = bodies[i][j];
+    bodies[j][i].share = 1.0 - bodies[i][j].share;
     return radii[i] + radii[j];
 }
 
@@ -312,9 +313,13 @@ void PairCarom::meet(Meetings &met) {
         met.one[k] = met.one[k - 1];
         met.other[k] = met.other[k - 1];
     }
+    const auto known_of = [&](int k) -> const CaromBodies & {
+        return bodies[atom->type[met.one[k]]][atom->type[met.other[k]]];
+    };
     for (int k = 0; k < batch.count; k += carom::lanes)
         batch.meetings[k / carom::lanes] =
-            carom::encounter(spheres.in_lanes(met.one + k), spheres.in_lanes(met.other + k), dt);
+            carom::encounter(spheres.in_lanes(met.one + k), spheres.in_lanes(met.other + k), dt,
+                             carom::Wide::each([&](int lane) { return known_of(k + lane).share; }));
     for (int k = 0; k < batch.count; ++k) {
         const int i = met.one[k], j = met.other[k];
         double *memory = batch.memories[k];
@@ -322,7 +327,7 @@ void PairCarom::meet(Meetings &met) {
             error->one(FLERR, "pair_style carom: contacts remember other springs, another "
                               "precision, ledger or losses; give pair_style and pair_coeff as "
                               "they were");
-        const CaromBodies &known = bodies[atom->type[i]][atom->type[j]];
+        const CaromBodies &known = known_of(k);
         batch.pairs[k] = known.pair;
         batch.pairs[k].radius = spheres.radius_of(i, j);
         if (!*met.touches[k]) {  // what matters at the first touch

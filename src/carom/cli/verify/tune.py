@@ -43,8 +43,12 @@ def tune_command(
         ),
     ] = None,
     restitution: Annotated[
-        str, typer.Option(help="Normal coefficient of restitution that the dampings shall give.")
-    ] = "1",
+        str | None,
+        typer.Option(
+            help="Normal coefficient of restitution that the dampings shall give (default: that of "
+            "the case, or 1)."
+        ),
+    ] = None,
     measure: Annotated[
         str,
         typer.Option(help="Error in psi_2 to minimise over the incidences: its max or its rms."),
@@ -56,7 +60,7 @@ def tune_command(
     Use this command if you cannot change the contact law of your DEM code. It finds the parameter
     with which each law comes closest to the exact psi_2. With a case file it also prints what to
     write into the inputs of DEM codes: stiffnesses, dampings for the restitution that you want, and
-    time steps with the errors that they cause.
+    time steps with the errors that they cause. LAMMPS and LIGGGHTS can have the exact law instead.
 
     \b
     Example: carom verify tune examples/steel_ball.toml --from "5 deg" --to "60 deg"
@@ -65,13 +69,14 @@ def tune_command(
     from carom.verify.setting import setting_of
 
     if case is not None:
-        told_case(case)
+        told_case(case, losses=True)
     setting = setting_of(case, chi, kappa, start, stop, restitution)
     tuning = carom.verify.tune(
         chi=setting.chi, kappa=setting.kappa, psi=setting.psi, measure=measure
     )
     given = {"normal_speed": setting.normal_speed, "duration": setting.duration}
-    record = tuning.to_dict() | {"inputs": _inputs(setting, tuning)} | given
+    inputs = {"inputs": _inputs(setting, tuning), "exact_law": _exact_law(setting.restitution)}
+    record = tuning.to_dict() | inputs | given
     typer.echo(json.dumps(record, indent=2) if as_json else _text(tuning, record))
 
 
@@ -89,6 +94,12 @@ def _inputs(setting: "Setting", tuning: "Tuning") -> dict[str, str]:
     return carom.verify.recipes(bodies, speed, restitution, spring=spring, mindlin=mindlin)
 
 
+def _exact_law(restitution: float) -> dict[str, str]:
+    """Return what the exact law is called in codes that have it; that in LIGGGHTS is elastic."""
+    elastic = {"LIGGGHTS": "tangential carom"} if restitution == 1.0 else {}
+    return {"LAMMPS": "pair_style carom", **elastic, "C++": "carom/contact.hpp"}
+
+
 def _text(tuning: "Tuning", record: dict[str, Any]) -> str:
     lines = [str(tuning)]
     speed, duration = record["normal_speed"], record["duration"]
@@ -100,4 +111,6 @@ def _text(tuning: "Tuning", record: dict[str, Any]) -> str:
         )
         lines.append("Inputs of DEM codes with these stiffnesses:")
         lines += [f"  {code:26s} {text}" for code, text in record["inputs"].items()]
+    exact = ", ".join(f"{law} in {code}" for code, law in record["exact_law"].items())
+    lines.append(f"The exact law itself needs no tuning: {exact}.")
     return "\n".join(lines)

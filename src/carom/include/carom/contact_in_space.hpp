@@ -5,7 +5,8 @@
 //     carom::Pair pair = carom::pair_of(steel, glass, {r_1, m_1}, {r_2, m_2}, friction);
 //     carom::ContactInSpace<32> contact{};
 //     carom::Action action{};
-//     carom::advance(contact, pair, carom::encounter(one, other, step), action);
+//     const double share = carom::share_of(steel, glass);
+//     carom::advance(contact, pair, carom::encounter(one, other, step, share), action);
 //
 // `action` holds the force on the first sphere, and the torque on either.
 #ifndef CAROM_CONTACT_IN_SPACE_HPP
@@ -32,10 +33,21 @@ struct ContactInSpace : Contact<N, Real, P> {
     Real axis[3];
 };
 
+namespace springs {
+
+inline double soft(Material m) { return (1.0 - m.poisson * m.poisson) / m.young; }
+
+}  // namespace springs
+
+/// Return the part of the penetration by which the first of two bodies is flattened.
+inline double share_of(Material one, Material other) {
+    return springs::soft(one) / (springs::soft(one) + springs::soft(other));
+}
+
 /// Return the pair of two bodies (Hertz 1882; Mindlin 1949).
 inline Pair pair_of(Material one, Material other, Size first, Size second, double friction,
                     double retardation = 0.0) {
-    const auto soft = [](Material m) { return (1.0 - m.poisson * m.poisson) / m.young; };
+    using springs::soft;
     const auto lax = [](Material m) {
         return (2.0 - m.poisson) * (1.0 + m.poisson) / (2.0 * m.young);
     };

@@ -86,23 +86,29 @@ template <template <class> class Of> void set_one(Of<Wide::Type>* all, int k, co
         std::memcpy(lane + i * lanes, reinterpret_cast<const char*>(&one) + i, sizeof(double));
 }
 
-/// Return what a contact sees of two spheres.
+/// Return what a contact sees of two spheres. Each is flattened by its part of the penetration, at
+/// the centre of Hertz's contact; `share_of` is that of the first one, 1/2 for like materials.
 template <class T>
-EncounterOf<T> encounter(const BodyOf<T>& one, const BodyOf<T>& other, double step) {
+EncounterOf<T> encounter(const BodyOf<T>& one, const BodyOf<T>& other, double step, T share) {
     EncounterOf<T> e;
     const Triple<T> apart = plus(one.position, -1.0, other.position);
     const T distance = springs::root(dot(apart, apart)), none{};
     e.normal = times(1.0 / distance, apart);
     e.penetration = one.radius + other.radius - distance;
     // both points are one, so that angular momentum is kept
-    e.other_arm = other.radius > none ? other.radius - 0.5 * e.penetration : none;
-    e.arm = distance - e.other_arm;
+    e.arm = one.radius - share * e.penetration;
+    e.other_arm = other.radius > none ? distance - e.arm : none;
     e.velocity = plus(one.velocity, -1.0, other.velocity);
     e.velocity = plus(e.velocity, -e.arm, cross(one.spin, e.normal));
     e.velocity = plus(e.velocity, -e.other_arm, cross(other.spin, e.normal));
     e.spin = 0.5 * (dot(one.spin, e.normal) + dot(other.spin, e.normal));
     e.step = none + step;
     return e;
+}
+
+template <class T>
+EncounterOf<T> encounter(const BodyOf<T>& one, const BodyOf<T>& other, double step) {
+    return encounter(one, other, step, 0.5 + T{});
 }
 
 /// Set the torques that a force has on the bodies.

@@ -15,6 +15,7 @@ from carom.impacts.solve import impact
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import number, positive
 from carom.verify import errors
+from carom.verify.setting import constant_restitution
 
 ROUNDED = 0.01  # part of chi by which a number that is told may be rounded
 
@@ -99,12 +100,7 @@ def _told(case: Any) -> float | None:
     if case is None or isinstance(case, Pair):
         return None
     losses = case.losses if isinstance(case, Impact) else losses_of(_content(case))
-    if losses is None:
-        return 1.0 if isinstance(case, Impact) else None
-    if isinstance(losses, KelvinVoigt) and losses.restitution is not None:
-        return float(losses.restitution)
-    allowed = "a score needs a restitution that is the same at all speeds; give that instead"
-    raise refusal("losses", losses, allowed)
+    return 1.0 if losses is None and isinstance(case, Impact) else constant_restitution(losses)
 
 
 def _content(case: Any) -> Mapping[str, Any]:
