@@ -146,6 +146,7 @@ class Law(ABC):
 def _parts(chi: Array, kappa: Array) -> list[NDArray[np.intp]]:
     """Return the places of impacts of the same bodies, some for each thread."""
     bodies, members = np.unique(np.stack([chi, kappa]), axis=1, return_inverse=True)
+    members = members.ravel()  # NumPy 2.0 gives it two dimensions
     order = np.argsort(members, kind="stable")
     groups = np.split(order, np.cumsum(np.bincount(members, minlength=bodies.shape[1]))[:-1])
     return [group[i : i + BLOCK] for group in groups for i in range(0, group.size, BLOCK)]
