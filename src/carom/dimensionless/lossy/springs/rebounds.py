@@ -4,7 +4,7 @@ import numpy as np
 
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.law import FAR, Loss, LossNumbers, why_not
+from carom.dimensionless.lossy.law import FAR, Loss, LossNumbers, keep_energy, why_not
 from carom.dimensionless.lossy.springs.march import march
 from carom.dimensionless.lossy.springs.work import MOST_SPRINGS, Arrays
 from carom.dimensionless.numerics.arrays import Codes, Matrix, Vector
@@ -45,6 +45,7 @@ def run(
             numbers[j] += (numbers[j] - work.coarse[j]) / ((many / few) ** 2 - 1.0)
             if not np.isfinite(numbers[j]):
                 status = Status.UNRESOLVED.value
+        keep_energy(speed, numbers)
         numbers[layout.PSI_OUT] += abs(psi) - speed
         numbers[layout.PSI_OUT] *= np.copysign(1.0, psi)
     if status != Status.SOLVED.value:
