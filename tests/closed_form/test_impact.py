@@ -288,3 +288,28 @@ def test_catalogue():
             assert (getattr(stuff, key) is not None) == (key in sources), (name, key)
             assert len(sources.get(key, "long enough")) > 8
     assert carom.material("  Mild Steel ") == carom.material("steel")
+
+
+@pytest.mark.parametrize(
+    ("losses", "close"),
+    [
+        (None, 1e-12),
+        (carom.KelvinVoigt(restitution=0.7), 1e-12),
+        (carom.ElasticPlastic(yield_velocity="0.5 m/s"), 1e-4),
+    ],
+)
+def test_impulse_of_sliding_with_next_to_no_friction(losses, close):
+    """J_t = mu J_n, and the spin that it gives, however little mu V_n is beside V_x."""
+    ball = carom.Sphere(radius="5 mm", material="steel")
+    for friction in (1e-2, 1e-6, 1e-12, 1e-17, 1e-30, 1e-200):
+        pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=friction)
+        for angle in ("60 deg", "-60 deg"):
+            hit = carom.impact(pair, speed=2.0, angle=angle, losses=losses)
+            push = pair.normal_mass * (1.0 + hit.normal_restitution) * hit.normal_speed
+            pull = friction * push * np.sign(hit.tangential_speed)
+            assert hit.tangential_impulse == pytest.approx(pull, rel=close, abs=0.0)
+            spin = -pull * ball.radius / (0.4 * ball.mass * ball.radius**2)
+            assert hit.spin_out == pytest.approx(spin, rel=close, abs=0.0)
+            mean = 0.5 * (hit.contact_velocity + hit.contact_velocity_out)
+            lost = hit.dissipated_energy + hit.shear_lost_energy
+            assert lost == pytest.approx(pull * mean, rel=close, abs=0.0)

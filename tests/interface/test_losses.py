@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.text import Text
 from scipy.optimize import brentq
 from scipy.special import beta
 
@@ -12,7 +13,9 @@ import carom
 from carom.bodies.losses import LossLaw, yield_velocity
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.explorer.figures import NumbersImpact
 from carom.impacts.validity import judge_losses
+from carom.io.labels import spheres
 from carom.quantities.refusals import InputError
 
 STEEL = carom.Pair(
@@ -259,3 +262,51 @@ def test_other_solids_of_one_restitution_are_as_near_as_validity_says(chi: float
     told = judge_losses(LossNumbers(Loss.VISCOUS, 0.1), e, chi).verdict
     most = float(told.rpartition(" ")[2])
     assert 0.5 * most < off <= most
+
+
+LOSSES = {
+    "none": None,
+    "Kelvin-Voigt": carom.KelvinVoigt(restitution=0.8),
+    "loss time": carom.KelvinVoigt(loss_time="2 us"),
+    "yielding": carom.ElasticPlastic(yield_velocity="0.1 m/s"),
+    "relaxing": carom.StandardLinearSolid(modulus_ratio=1.5, relaxation_time="20 us"),
+}
+NOT_TITLES = ("elastic, normal", "elastic, tangential")  # energies that are stored
+
+
+def texts(figure: Any) -> list[str]:
+    """Return all that is written in a figure, names of energies apart."""
+    found = [text.get_text() for text in figure.findobj(Text)]
+    return [text for text in found if text not in NOT_TITLES]
+
+
+@pytest.mark.parametrize("law", LOSSES.values(), ids=LOSSES.keys())
+def test_titles_call_bodies_elastic_only_if_they_are(law: LossLaw | None) -> None:
+    """All datasets of an impact, those in a sweep and in curves, and all figures of them."""
+    found, loss = hit(law), {} if law is None else law.describe()
+    case = {"friction": 0.2, "speed": 2.0, "first": {"radius": "5 mm", "material": "steel"}, **loss}
+    datasets = [found.history(5), carom.sweep(case, carom.Grid({"angle": [0.1, 0.2]}))]
+    titles = [str(dataset.attrs["title"]) for dataset in datasets]
+    assert all(("elastic" in title) == (law is None) for title in titles), titles
+    assert all(("with losses" in title) == (law is not None) for title in titles), titles
+    others, drawn = [found.spectrum(n=3)], [carom.plots.plot_spectrum(found.spectrum(n=9))]
+    drawn += [draw(found) for draw in (carom.plots.plot_forces, carom.plots.plot_radii)]
+    drawn.append(carom.plots.plot_impact(found))
+    if isinstance(law, carom.KelvinVoigt) or law is None:  # fields are known
+        time, first = 0.3 * found.duration, found.wear()
+        others += [found.fields(time), found.radial(time), found.stress(time), first]
+        drawn += [carom.plots.plot_patch(found.fields(time)), carom.plots.plot_wear(first)]
+        drawn += [carom.plots.plot_contact(found), carom.plots.plot_profiles(found.radial(time))]
+    if isinstance(law, carom.KelvinVoigt) and law.restitution:
+        others.append(carom.curve(1.44, [0.5, 1.0], losses=law))
+    told = [str(dataset.attrs["title"]) for dataset in others]
+    told += [text for figure in drawn for text in texts(figure)]
+    assert not [text for text in told if "elastic" in text]
+
+
+@pytest.mark.parametrize("restitution", [0.8, 1.0])
+def test_figures_without_units_know_of_losses(restitution: float) -> None:
+    """The page's figures of psi_1 and chi."""
+    losses = None if restitution == 1.0 else carom.KelvinVoigt(restitution=restitution)
+    title = NumbersImpact(carom.solve(1.5, 1.44, losses=losses)).history(5).attrs["title"]
+    assert title == f"oblique impact of {spheres(losses is not None)}"

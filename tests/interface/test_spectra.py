@@ -39,6 +39,29 @@ def test_variables_tell_unit_and_meaning(hit):
     np.testing.assert_allclose(found.moment_spectrum, radius * found.tangential_spectrum)
 
 
+@pytest.mark.parametrize("law", [1e-3, 0.01, 0.3, 0.46, 0.48, 0.9, 1.0, "yields", "no friction"])
+def test_corners_are_numbers_or_say_why_not(hit, law):
+    """A spectrum without a minimum has no notch, and its figure no line for it."""
+    losses, pair = None, hit.pair
+    if law == "yields":
+        losses = carom.ElasticPlastic(yield_velocity="1 mm/s")
+    elif law == "no friction":
+        pair = carom.Pair(pair.first, pair.second, friction=0.0)
+    else:
+        losses = carom.KelvinVoigt(restitution=law)
+    found = carom.impact(pair, speed=2.0, angle="30 deg", losses=losses).spectrum(n=1201)
+    corners = [found[name] for name in found.data_vars if str(name).endswith("_frequency")]
+    assert len(corners) == 6
+    assert all(np.isfinite(corner) or corner.attrs["comment"] for corner in corners)
+    falls = np.all(np.diff(found.normal_spectrum.values) < 0.0)  # up to 6 over the duration
+    notch = found.normal_notch_frequency
+    assert np.isnan(notch) == falls == (notch.attrs.get("comment", "").startswith("the amplitude"))
+    _, names = plots.plot_spectrum(found).axes[0].get_legend_handles_labels()
+    assert ("first minimum" in names) == (not falls)
+    if law == "no friction":
+        assert found.tangential_peak_frequency.comment == "there is no tangential force"
+
+
 @pytest.mark.parametrize(
     ("asked", "said"),
     [

@@ -277,3 +277,32 @@ def test_compiled_equals_uncompiled():
         for more in ({}, {"CAROM_KERNELS": "python"})
     )
     assert np.all(np.abs(compiled - plain) <= 1e-13 * (1.0 + np.abs(plain)))
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.float64])
+@pytest.mark.parametrize("friction", [0.0, 1e-9, 0.3, 1e6])
+@pytest.mark.parametrize("how", ["slides", "rolls", "grazes", "all slow"])
+def test_slow_rates_make_no_energy(how, friction, kind):
+    """Of sliding beside the approach, of approach beside the sliding, of all: from 1e-30 to 1."""
+    rng, count = np.random.default_rng(30), 5000
+    pair = carom.Pair(BALL, SHELL, friction=friction)
+    normal = rng.normal(size=(count, 3))
+    normal /= size(normal)[:, None]
+    across = np.cross(normal, rng.normal(size=(count, 3)))
+    slow = 10.0 ** rng.uniform(-30.0, 0.0, (count, 1))
+    velocity, spin = normal + across, np.zeros((count, 3))
+    if how == "slides":
+        velocity = normal + slow * across
+    elif how == "rolls":  # V_t is what is left: rounding, or slow
+        spin = np.cross(across, normal) / BALL.radius * (1.0 + slow)
+    elif how == "grazes":
+        velocity = slow * normal + across
+    else:
+        velocity, spin = slow * velocity, slow * across / BALL.radius
+    names = ("velocity1", "spin1", "normal")
+    motion = dict(zip(names, (each.astype(kind) for each in (velocity, spin, normal)), strict=True))
+    after = [each.astype(float) for each in parts(carom.collide(pair, **motion))]
+    zero = np.zeros((count, 3))
+    before = energy((BALL, SHELL), [*(motion[name].astype(float) for name in names[:2]), zero, zero])
+    assert np.all(np.isfinite(after))
+    assert np.all(energy((BALL, SHELL), after) <= before * (1.0 + 8.0 * np.finfo(kind).eps))

@@ -200,6 +200,32 @@ def test_small_steps_do_not_drift():
     assert len(loop.stack) < 8
 
 
+def resting_walk(rng, steps):
+    """Depths that rest, exactly or to rounding, or change at a rate from 1e-30 on; U likewise."""
+    d, u = np.ones(steps), np.zeros(steps)
+    for i in range(1, steps):
+        rate = rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-30.0, -1.0)
+        ulps = 1.0 + rng.integers(-4, 5) * np.finfo(float).eps
+        d[i] = rng.choice([d[i - 1], d[i - 1] * ulps, d[i - 1] * (1.0 + rate), rng.uniform(0.2, 1)])
+        rate = rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-30.0, 0.0)
+        u[i] = rng.choice([u[i - 1], u[i - 1] + rate, u[i - 1] + 0.3, rng.uniform(-2.0, 2.0)])
+    return d, u
+
+
+def test_paths_that_rest_to_rounding():
+    """Friction takes energy, within Coulomb's law; depths that are equal to rounding are equal."""
+    rng = np.random.default_rng(10)
+    for _ in range(400):
+        d, u = resting_walk(rng, 30)
+        path, even = moved(d, u), d.copy()
+        for i in range(1, d.size):
+            even[i] = even[i - 1] if abs(d[i] / even[i - 1] - 1.0) < 1e-13 else d[i]
+        results = path.results[:, COLUMNS]
+        assert np.min(np.diff(results[:, 3], prepend=0.0)) >= -1e-14
+        assert np.all(np.abs(results[:, 1]) <= 2.0 / 3.0 * d**1.5 * (1.0 + 1e-15) + 1e-16)
+        np.testing.assert_allclose(results, moved(even, u).results[:, COLUMNS], rtol=0, atol=1e-11)
+
+
 @pytest.mark.parametrize("g", [0.0, 0.5, -1.0])
 def test_contact_laid_along_a_line_is_one_annulus(g):
     """And at the limit all along if abs(g) = 1: none of it is inside its limits."""

@@ -176,6 +176,19 @@ def test_single_precision_stays_single(library):
     assert max(errors(*parts)) < 1e-5
 
 
+@pytest.mark.parametrize("slow", [1e-12, 1e-24, 1e-30])
+def test_slow_motion_in_single_precision(library, slow):
+    """Collisions know no scale of speed, though the squares of such speeds vanish in float32."""
+    pair = against_sphere()
+    fast = {name: each[50:].astype(np.float32) for name, each in motions(pair).items()}
+    scaled = {name: each * np.float32(slow if name in NAMES else 1) for name, each in fast.items()}
+    want = collided(NUMPY, pair, {name: each.astype(np.float64) for name, each in fast.items()})
+    got = collided(library, pair, scaled)
+    np.testing.assert_array_equal(got["status"], want["status"])
+    up = {name: got[name].astype(np.float64) / slow for name in NAMES}
+    assert max(errors(up, want, fast)) < 1e-5
+
+
 @pytest.mark.parametrize("kind", [np.float32, np.float64])
 def test_pairs_beyond_use_are_left_alone(library, kind):
     """They get the status of the compiled path and keep every bit; the others never notice."""

@@ -134,7 +134,8 @@ class ElasticPlastic:
     At high speeds e falls as V_1^(-1/4). The contact is divided into springs that yield one by one;
     its radius is sqrt(R* d) while loading and sqrt(R_p (d - d_p)) while unloading. The springs in
     shear are elastic, and each bears at most mu times the load of the spring in compression. psi_2
-    is within 0.05 of a solution by rings of traction up to V_1 = 10 V_y.
+    is within 0.05 of a solution by rings of traction up to V_1 = 10 V_y, and within
+    3e-5 max(1, psi_1) of what springs converge to up to V_1 = 100 V_y for chi from 0.3 to 8.
 
     Parameters
     ----------

@@ -88,7 +88,9 @@ class NumbersImpact:
             "shear_loss": told.shear_lost,
         }
         numbers = {"friction": 1.0, "max_pressure": solution.max_pressure}
-        given = {"psi_in": solution.psi_in, "chi": solution.chi}
+        given: dict[str, Any] = {"psi_in": solution.psi_in, "chi": solution.chi}
+        if isinstance(solution, LossySolution):
+            given["losses"] = solution.losses._asdict()
         return _in_theory(labelled(columns, numbers, solution.phases, given))
 
     def fields(self, time: float) -> xr.Dataset:

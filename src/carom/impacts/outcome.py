@@ -8,8 +8,9 @@ from carom.bodies.kinematics import Kinematics, Tangential
 from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Scales
 from carom.bodies.shapes import describe
+from carom.dimensionless.lossy.law import FAR
 from carom.impacts.history import PAIR, RESULTS, Solved
-from carom.quantities.elementwise import isfinite, where
+from carom.quantities.elementwise import copysign, isfinite, where
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,13 +50,25 @@ class Outcome(Kinematics):
     @property
     def tangential_impulse(self) -> float:
         """Impulse of the tangential force on the first body, against +x, in N s."""
-        return self.pair.tangential_mass * (self.contact_velocity - self.contact_velocity_out)
+        return self.pair.tangential_mass * self._slowed
+
+    @cached_property
+    def _slowed(self) -> float:
+        """By how much friction slows the contact point, in m/s; where all slides by Coulomb's law.
+
+        Far into sliding the difference of velocities is nothing but rounding.
+        """
+        pair, psi = self.pair, self.psi_in
+        slides = isfinite(psi) & (abs(psi) > FAR * (1.0 + pair.chi))
+        push = (1.0 + self.normal_restitution) * self.normal_speed * pair.normal_mass
+        most = copysign(pair.friction * push / pair.tangential_mass, psi)
+        return where(slides, most, self.contact_velocity - self.contact_velocity_out)
 
     @property
     def dissipated_energy(self) -> float:
         """Energy lost to friction, in J."""
         before, after = self.contact_velocity, self.contact_velocity_out
-        lost = 0.5 * self.pair.tangential_mass * (before - after) * (before + after)
+        lost = 0.5 * self.pair.tangential_mass * self._slowed * (before + after)
         return lost - self.shear_lost_energy
 
     @property

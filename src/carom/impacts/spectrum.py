@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import isnan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -12,7 +13,7 @@ from carom.bodies.pairs import Scales
 from carom.dimensionless.numerics.corners import corners, widest
 from carom.dimensionless.numerics.fourier import Pulse, sampled
 from carom.impacts.history import InTime
-from carom.io.labels import labelled_dataset
+from carom.io.labels import attributes, labelled_dataset
 from carom.quantities.arrays import Array, numbers
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError, refusal
@@ -94,12 +95,22 @@ def spectrum_dataset(
         for name, spectrum in spectra.items()
         for part, values in _parts(spectrum).items()
     }
-    numbers = {"duration": source.duration, **more, **corner_frequencies(source)}
+    numbers = {"duration": source.duration, **more}
+    found = {
+        name: ((), value, attributes(name) | ({"comment": _why_none(name)} if isnan(value) else {}))
+        for name, value in corner_frequencies(source).items()
+    }
     return labelled_dataset(
-        {**columns, **numbers},
+        {**columns, **numbers, **found},
         {"frequency": frequencies},
         {"title": "spectra of the forces of an oblique impact", "inputs": inputs},
     )
+
+
+def _why_none(name: str) -> str:
+    if name == "normal_notch_frequency":
+        return f"the amplitude has no minimum up to {WIDTH:g} over the duration"
+    return "there is no tangential force"
 
 
 def _parts(spectrum: Any) -> dict[str, Array]:
@@ -110,7 +121,7 @@ def corner_frequencies(source: Source) -> dict[str, float]:
     """Return the corner frequencies of both forces by name, in Hz."""
     duration = source.duration
     pulse = source.pulse(WIDTH / duration)
-    reach = widest(pulse, duration, FARTHEST / duration)
+    reach = np.maximum(widest(pulse, duration, FARTHEST / duration), WIDTH / duration)
     if reach.max() > WIDTH / duration:
         pulse = source.pulse(float(reach.max()))
     normal, tangential = (corners(pulse, row, duration, float(reach[row])) for row in range(2))

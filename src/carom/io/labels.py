@@ -113,8 +113,13 @@ def labelled(
     return labelled_dataset(
         along_time | dict(scalars) | _phase_variables(phases) | along_phase,
         {"time": time},
-        {"title": "oblique impact of elastic spheres", "inputs": inputs},
+        {"title": f"oblique impact of {spheres('losses' in inputs)}", "inputs": inputs},
     )
+
+
+def spheres(loses: bool) -> str:
+    """Return what titles call the bodies."""
+    return "spheres with losses" if loses else "elastic spheres"
 
 
 def _phase_variables(phases: "Sequence[Phase]") -> dict[str, Any]:

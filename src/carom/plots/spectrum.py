@@ -81,7 +81,8 @@ def plot_spectrum(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     for symbol, label in MARKS.values():
         axis.plot([], [], symbol, color=style.BLACK, mfc="white", label=label)
     notch = times * float(shown["normal_notch_frequency"])
-    axis.axvline(notch, color="0.5", lw=0.8, ls=":", label="first minimum")
+    if np.isfinite(notch):
+        axis.axvline(notch, color="0.5", lw=0.8, ls=":", label="first minimum")
     axis.set(xscale="log", yscale="log", ylim=(LOWEST * largest * scale, 2.0 * largest * scale))
     style.span(axis, frequency)
     axis.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.io.labels import labelled_dataset
+from carom.io.labels import labelled_dataset, spheres
 from carom.quantities.refusals import refusal
 from carom.sweeps.blocks import Box, Values, boxes
 from carom.sweeps.problem import SweepProblem
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
 MOST = 50_000_000  # points in memory: some GB
 LONG = 1000  # values of an axis; the dataset has them as its coordinate
-TITLE = "sweep of oblique impacts of elastic spheres"
-LOSSY_TITLE = "sweep of oblique impacts of spheres with losses"
 
 
 class SweepStopped(RuntimeError):
@@ -67,7 +65,8 @@ def blank_dataset(
         name: (problem.design.dims, values, known[name].attributes)
         for name, values in (arrays or {}).items()
     }
-    attributes = {"title": LOSSY_TITLE if problem.loses else TITLE, "inputs": identity(problem)}
+    title = f"sweep of oblique impacts of {spheres(problem.loses)}"
+    attributes = {"title": title, "inputs": identity(problem)}
     return labelled_dataset(variables, problem.design.coords(), attributes)
 
 

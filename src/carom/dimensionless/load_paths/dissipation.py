@@ -36,7 +36,9 @@ def work_in(stack: Array, k: int, low: float, high: float, sign: int, step: Step
     for n in range(NODES.size):
         s = (middle + half * NODES[n]) ** 2
         start = (before - s - sign * shift_at(stack, k, s)) / fall
-        end = (s - step.d0) / deepening if s > step.d1 else 1.0
+        end = 1.0
+        if s > step.d1 and deepening < 0.0:  # by rounding also where nothing leaves
+            end = min(max((s - step.d0) / deepening, 0.0), 1.0)
         start = min(max(start, 0.0), end)
         mean = step.d0 + 0.5 * deepening * (start + end) - s
         total += WEIGHTS[n] * fall * (end - start) * mean

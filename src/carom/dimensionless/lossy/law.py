@@ -6,6 +6,8 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from carom.dimensionless.elastic.phases import Status
+from carom.dimensionless.lossy import layout
+from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.kernels import kernel
 from carom.quantities.refusals import refusal
 
@@ -53,6 +55,18 @@ def checked_law(losses: Any, method: str) -> Any:
 def largest_pressure(loss: int, force: Any, radius: Any) -> Any:
     """Return Hertz's pressure at the largest force, of a yielded sphere on its true radius."""
     return force / radius**2 if loss == Loss.PLASTIC else np.cbrt(force)
+
+
+@kernel
+def keep_energy(speed: float, numbers: Array) -> None:
+    """Cut what an impact comes to where rounding or steps would let friction give energy.
+
+    |psi_2| is at most |psi_1|, and shear loses at most the rest of the energy.
+    """
+    out = min(max(numbers[layout.PSI_OUT], -speed), speed)
+    numbers[layout.PSI_OUT] = out
+    rest = 0.5 * (speed - out) * (speed + out)
+    numbers[layout.SHEAR_LOST] = min(numbers[layout.SHEAR_LOST], rest)
 
 
 @kernel

@@ -27,7 +27,7 @@ SHORTEST = 10.0  # steps to the shortest phase that is told
 
 @dataclass(frozen=True, eq=False)
 class MarchedSolution(LossySolution):
-    """An impact marched over springs, states to 1e-5, energies to 1e-4; see LossySolution.
+    """An impact marched over springs, states to 3e-5, energies to 1e-4; see LossySolution.
 
     psi_out, extrapolated in the number of springs, is closer than the history.
     """

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.law import FAR, Loss, LossNumbers, largest_pressure
+from carom.dimensionless.lossy.law import FAR, Loss, LossNumbers, keep_energy, largest_pressure
 from carom.dimensionless.lossy.layout import PSI_OUT
 from carom.dimensionless.lossy.panels.plans import TOLERANCE
 from carom.dimensionless.lossy.panels.record import Trace, new_record
@@ -61,7 +61,8 @@ def outgoing(
 ) -> tuple[int, int]:
     """Run a viscoelastic impact of any psi_1; return its status and the number of panels.
 
-    Below LINEAR psi_2/psi_1 is linear in psi_1, beyond FAR psi_1 - psi_2 is the same.
+    Below LINEAR psi_2/psi_1 is linear in psi_1, and friction's share of the loss the same; beyond
+    FAR psi_1 - psi_2 is the same.
     """
     speed, bent, other = abs(psi), False, 0.0
     given = chi, alpha, tolerance, NEVER, work, numbers, record
@@ -70,11 +71,14 @@ def outgoing(
         bent, other = twice == Status.SOLVED.value, 0.5 * numbers[PSI_OUT] / LINEAR
     near = min(max(speed, LINEAR), FAR) if np.isfinite(psi) else psi
     status, panels = viscoelastic.run(near, *given)
+    keep_energy(near, numbers)
     if speed < LINEAR:
         ratio = numbers[PSI_OUT] / LINEAR
         more = (ratio - other) * (1.0 - speed / LINEAR) if bent else 0.0
+        lost, solved_lost = 1.0 - (ratio + more) ** 2, 1.0 - ratio**2
         numbers[PSI_OUT] = speed * (ratio + more)
-        numbers[layout.SHEAR_LOST] *= (speed / LINEAR) ** 2
+        share = lost / solved_lost if solved_lost > 0.0 else 1.0
+        numbers[layout.SHEAR_LOST] *= share * (speed / LINEAR) ** 2
     elif speed > FAR:
         numbers[PSI_OUT] += speed - FAR
     numbers[PSI_OUT] *= np.copysign(1.0, psi)

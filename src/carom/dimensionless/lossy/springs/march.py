@@ -47,9 +47,10 @@ def march(
     psi: float, chi: float, law: LossNumbers, count: int, work: Arrays, rows: Array, numbers: Array
 ) -> int:
     """March an impact over so many springs; return the number of steps, 0 if it does not end."""
-    loading, motion, springs, state = PER_SPRING * count, work.motion, work.springs, work.state
-    h = lay_motion(law, count, motion)
-    lay_springs(motion, count, springs)
+    per_spring, motion, springs, state = steps_of(law.loss), work.motion, work.springs, work.state
+    loading = per_spring * count
+    h = lay_motion(law, loading, motion)
+    lay_springs(motion, per_spring, count, springs)
     state[:] = 0.0
     state[PSI], touching = psi, 0
     if rows.shape[0] > 0:
@@ -58,7 +59,7 @@ def march(
         met = touching
         if i == loading and law.loss == Loss.PLASTIC.value:
             state[FORCE] = thornton.turn(motion[i], springs, count)
-        touching = press(law, i, h, motion, springs, count, touching)
+        touching = press(law, i, loading, h, motion, springs, count, touching)
         let_go(springs, touching, met, chi, law.extra, state)
         kick_and_stretch(law, chi, motion[i], motion[i + 1], springs, touching, state)
         if rows.shape[0] > 0:
@@ -70,21 +71,34 @@ def march(
 
 
 @kernel
-def lay_motion(law: LossNumbers, count: int, motion: Array) -> float:
+def steps_of(loss: int) -> int:
+    """Return the steps of the loading to a spring: more where the normal motion is marched, too."""
+    return 1 if loss == Loss.PLASTIC.value else PER_SPRING
+
+
+@kernel
+def lay_motion(law: LossNumbers, loading: int, motion: Array) -> float:
     """Fill in the loading, of a yielding sphere the whole motion; return a step of the clock."""
     if law.loss == Loss.PLASTIC.value:
-        thornton.lay_motion(law.parameter, count, motion)
+        thornton.lay_motion(law.parameter, loading, motion)
         return 0.0
-    return relaxing.lay_loading(law.extra, law.parameter, PER_SPRING * count, motion)
+    return relaxing.lay_loading(law.extra, law.parameter, loading, motion)
 
 
 @kernel
 def press(
-    law: LossNumbers, i: int, h: float, motion: Array, springs: Array, last: int, touching: int
+    law: LossNumbers,
+    i: int,
+    loading: int,
+    h: float,
+    motion: Array,
+    springs: Array,
+    last: int,
+    touching: int,
 ) -> int:
     """Fill in what springs bear before and after a step; return how many do after it."""
-    loading, before, after = PER_SPRING * last, motion[i], motion[i + 1]
-    still = min(i // PER_SPRING + 1, last) if i < loading else touching
+    before, after = motion[i], motion[i + 1]
+    still = i * last // loading + 1 if i < loading else touching
     if law.loss != Loss.PLASTIC.value:
         if i >= loading:
             still = relaxing.unload(law.extra, law.parameter, h, before, after, springs, last)

@@ -4,13 +4,13 @@ import numpy as np
 
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.law import FAR, Loss, LossNumbers, why_not
+from carom.dimensionless.lossy.law import FAR, Loss, LossNumbers, keep_energy, why_not
 from carom.dimensionless.lossy.springs.march import march
 from carom.dimensionless.lossy.springs.work import MOST_SPRINGS, Arrays
 from carom.dimensionless.numerics.arrays import Codes, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
-YIELDING, RELAXING = 200, MOST_SPRINGS  # springs, for 1e-5 and 1e-6
+YIELDING, RELAXING = (100, 300), (MOST_SPRINGS // 2, MOST_SPRINGS)  # springs, for 3e-5 and 1e-6
 
 
 @kernel
@@ -20,8 +20,8 @@ def law_of(loss: int, parameter: float, extra: float) -> LossNumbers:
 
 
 @kernel
-def springs_of(loss: int) -> int:
-    """Return how many springs the contact is cut into."""
+def springs_of(loss: int) -> tuple[int, int]:
+    """Return how many springs the contact is cut into, first coarsely."""
     return YIELDING if loss == Loss.PLASTIC.value else RELAXING
 
 
@@ -31,20 +31,21 @@ def run(
 ) -> int:
     """Run an impact of any psi_1; return its status. Beyond FAR psi_1 - psi_2 is the same.
 
-    Numbers are Richardson's (1911), of all springs and half of them.
+    Numbers are Richardson's (1911), of two numbers of springs.
     """
     status = why_not(psi, chi)
     if status == Status.SOLVED.value:
-        law, count = law_of(loss, parameter, extra), springs_of(loss)
+        law, (few, many) = law_of(loss, parameter, extra), springs_of(loss)
         speed = min(abs(psi), FAR)
-        half = march(speed, chi, law, count // 2, work, work.no_rows, work.coarse)
-        whole = march(speed, chi, law, count, work, work.no_rows, numbers)
-        if half == 0 or whole == 0:
+        coarse = march(speed, chi, law, few, work, work.no_rows, work.coarse)
+        fine = march(speed, chi, law, many, work, work.no_rows, numbers)
+        if coarse == 0 or fine == 0:
             status = Status.UNRESOLVED.value
         for j in range(numbers.size):
-            numbers[j] += (numbers[j] - work.coarse[j]) / 3.0
+            numbers[j] += (numbers[j] - work.coarse[j]) / ((many / few) ** 2 - 1.0)
             if not np.isfinite(numbers[j]):
                 status = Status.UNRESOLVED.value
+        keep_energy(speed, numbers)
         numbers[layout.PSI_OUT] += abs(psi) - speed
         numbers[layout.PSI_OUT] *= np.copysign(1.0, psi)
     if status != Status.SOLVED.value:

@@ -17,7 +17,6 @@ from carom.dimensionless.lossy.springs.work import (
     LIMIT,
     LOAD,
     NEXT,
-    PER_SPRING,
     RATE,
     SOFTER,
     SPEED,
@@ -44,30 +43,26 @@ def hertzian(angle: float) -> tuple[float, float, float]:
 
 
 @kernel
-def lay_motion(y: float, springs: int, motion: Array) -> None:
-    """Fill in the motion: as many steps before yield as after it, and all of them unloading."""
-    part = PER_SPRING * springs // 2
-    first = np.arcsin(y)
-    for i in range(part):
-        b, v, time = hertzian(first * i / part)
-        motion[i, TIME], motion[i, DEPTH], motion[i, SPEED] = time, b * b, v
-        motion[i, EDGE], motion[i, LOAD] = b, b * b * b
-    _yielding(y, part, motion[part:])
-    _unloading(2 * part, motion[2 * part :])
+def lay_motion(y: float, steps: int, motion: Array) -> None:
+    """Fill in the motion: so many steps of loading, by time before yield and after it, and back.
 
-
-@kernel
-def _yielding(y: float, steps: int, motion: Array) -> None:
-    """P = peak sin(omega t + phase), as P'' = -(15/8) y P."""
+    After yield P = peak sin(omega t + phase), as P'' = -(15/8) y P.
+    """
     v, omega = np.sqrt(1.0 - y**5), np.sqrt(1.875 * y)
     peak, phase = np.sqrt(1.2 * y - 0.2 * y**6), np.arctan2(y**3, 1.5 * y * v / omega)
-    began = hertz.time(y * y, v)
+    began, left = hertz.time(y * y, v), 0.5 * np.pi - phase
+    share = steps * began / (began + left / omega)
     for i in range(steps + 1):
-        ahead = (0.5 * np.pi - phase) * i / steps
-        load, rate = peak * np.sin(phase + ahead), peak * omega * np.cos(phase + ahead)
-        depth = y * y + (load - y**3) / (1.5 * y)
-        motion[i, TIME], motion[i, DEPTH] = began + ahead / omega, depth
-        motion[i, SPEED], motion[i, EDGE], motion[i, LOAD] = rate / (1.5 * y), np.sqrt(depth), load
+        if i < share:
+            b, motion[i, SPEED], motion[i, TIME] = hertzian(np.arcsin(y) * i / share)
+            motion[i, DEPTH], motion[i, EDGE], motion[i, LOAD] = b * b, b, b * b * b
+        else:
+            ahead = left * (i - share) / (steps - share)
+            load, rate = peak * np.sin(phase + ahead), peak * omega * np.cos(phase + ahead)
+            depth = y * y + (load - y**3) / (1.5 * y)
+            motion[i, TIME], motion[i, SPEED] = began + ahead / omega, rate / (1.5 * y)
+            motion[i, DEPTH], motion[i, EDGE], motion[i, LOAD] = depth, np.sqrt(depth), load
+    _unloading(steps, motion[steps:])
 
 
 @kernel

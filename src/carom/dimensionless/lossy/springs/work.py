@@ -9,7 +9,7 @@ from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
 from carom.dimensionless.numerics.kernels import kernel
 
 MOST_SPRINGS = 800
-PER_SPRING = 2  # steps of the loading to a spring
+PER_SPRING = 2  # steps of the loading to a spring, at most
 LONGEST = 5  # whole impact, in times of that many steps
 
 # Columns of the motion, a row at the end of each step.
@@ -55,14 +55,14 @@ def share(near: float, far: float) -> float:
 
 
 @kernel
-def lay_springs(motion: Array, count: int, springs: Array) -> None:
-    """Place a spring where the edge is after every other step of the loading, and weigh them.
+def lay_springs(motion: Array, per_spring: int, count: int, springs: Array) -> None:
+    """Place springs where the edge is after so many steps of the loading each, and weigh them.
 
     The weights integrate what is linear in x^2 between springs and zero at the edge.
     """
     springs[:] = 0.0
     for j in range(count + 1):
-        springs[X, j] = motion[PER_SPRING * j, EDGE]
+        springs[X, j] = motion[per_spring * j, EDGE]
         springs[S, j] = springs[X, j] ** 2
     for j in range(count):
         here = springs[X, j]
