@@ -72,9 +72,8 @@ def test_a_cell_that_is_no_number_is_never_read_as_one(calls, rng, mutated):
         cells = [*good[:place], cell, *good[place + 1 :]]
         try:
             given = carom.Table({"angle [deg]": cells}).inputs((slice(0, len(good)),))["angle"]
-        except carom.InputError as error:  # a unit alone, or a first row of words
+        except carom.InputError:  # a unit alone, or a first row of words
             assert not any(letter in "0123456789" for letter in cell)
-            assert "without a number" in str(error) or "has no number" in str(error)
             continue
         expected = np.radians([float(text) for text in good])
         expected[place] = given[place]

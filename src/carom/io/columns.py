@@ -76,8 +76,8 @@ def in_units(
 ) -> Results:
     """Return the columns whose names are known, in SI units; the others are there, but NaN.
 
-    Columns without a unit are SI; heights of drops in files need one. In columns of `gaps`, and of their errors, a cell "-" stands for
-    what was not measured: NaN.
+    Columns without a unit are SI; heights of drops in files need one. In columns of `gaps`, and of
+    their errors, a cell "-" stands for what was not measured: NaN.
 
     Adds to the faults, which are raised as InputError if they are not given, a cell of them that is
     not a number, a unit that does not fit, an error that has no unit where its column has one, and
