@@ -67,11 +67,11 @@ def checked_scales(pair: "Pair", normal_speed: float, *tangential: float) -> Sca
     except (OverflowError, ZeroDivisionError):
         fits = False
     if not fits:
-        sliding = f", {text(tangential[0], 'm/s')} along the surface" if any(tangential) else ""
+        along = f", {text(tangential[0], 'm/s')} along the surface" if any(tangential) else ""
         raise InputError(
-            f"speed: {text(normal_speed, 'm/s')}{sliding}, at a radius of "
-            f"{text(pair.first.radius, 'm')} and a friction of {pair.friction:g}, "
-            "gives numbers that floating point cannot hold; check the units"
+            f"speed: {text(normal_speed, 'm/s')} at a radius of {text(pair.first.radius, 'm')}, a "
+            f"friction of {pair.friction:g}{along} gives numbers that floating point cannot hold; "
+            "check the units"
         )
     return pair.scales(normal_speed)
 
