@@ -3,6 +3,7 @@
 import json
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.integrate import solve_ivp
 
@@ -186,6 +187,47 @@ REFUSED = {
     },
     "data: no measured response": {"drop_height": [0.1, 0.2]},
 }
+
+
+CENTIMETRES = {"drop_height": [8.0, 10.1, 17.9, 29.9], "rebound_height": [7.4, 8.8, 15.8, 25.0]}
+
+
+def written(path, columns, heads="{}"):
+    """A file of these columns; the heads as a pattern, which may add a unit."""
+    rows = ["".join(f"{cell}," for cell in row)[:-1] for row in zip(*columns.values(), strict=True)]
+    path.write_text("\n".join([",".join(heads.format(name) for name in columns), *rows]) + "\n")
+    return path
+
+
+def test_heights_without_a_unit_are_asked_for(tmp_path):
+    """In a file whatever they are; in Python, where bare numbers are in m, if they are large."""
+    metres = {name: np.array(values) / 100.0 for name, values in CENTIMETRES.items()}
+    expected = carom.fit(metres, pair=PAIR).restitution.value
+    path = tmp_path / "drops.csv"
+    asked = r"drop_height: no unit.* 'drop_height \[m\]' or 'drop_height \[cm\]'"
+    sources = [written(path, CENTIMETRES), CENTIMETRES, pd.DataFrame(CENTIMETRES)]
+    sources += [{name: [str(cell) for cell in cells] for name, cells in CENTIMETRES.items()}]
+    for source in sources:
+        with pytest.raises(carom.InputError, match=asked):
+            carom.fit(source, pair=PAIR)
+    for bare in (metres, {**metres, "drop_height": ["8 cm", *metres["drop_height"][1:]]}):
+        with pytest.raises(carom.InputError, match=asked):
+            carom.fit(written(path, bare), pair=PAIR)
+    told = {name: [f"{cell} cm" for cell in cells] for name, cells in CENTIMETRES.items()}
+    with_gap = {**told, "rebound_height": [*told["rebound_height"][:3], "-"]}
+    carom.fit(written(path, with_gap), pair=PAIR)
+    named = {f"{name} [cm]": cells for name, cells in CENTIMETRES.items()}
+    for source in (written(path, CENTIMETRES, "{} [cm]"), written(path, told), told, named):
+        found = carom.fit(source, pair=PAIR).restitution.value
+        assert found == pytest.approx(expected, rel=1e-9)
+
+
+def test_errors_of_heights_have_units_too(tmp_path):
+    table = {f"{name} [cm]": cells for name, cells in CENTIMETRES.items()}
+    table["rebound_height_error"] = [0.1] * 4
+    for source in (written(tmp_path / "drops.csv", table), table):
+        with pytest.raises(carom.InputError, match="rebound_height_error: no unit"):
+            carom.fit(source, pair=PAIR)
 
 
 @pytest.mark.parametrize(("words", "data"), REFUSED.items(), ids=REFUSED)

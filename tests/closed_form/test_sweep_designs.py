@@ -1,8 +1,10 @@
 """Designs of sweeps: grids, Latin hypercubes and tables hold the points that they promise."""
 
 import math
+import re
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from carom import InputError, sweep
@@ -128,6 +130,44 @@ def test_a_decimal_comma_in_a_cell_is_not_dropped():
     points = table.inputs((slice(0, 2),))
     np.testing.assert_array_equal(points["friction"], [np.nan, 0.25])
     np.testing.assert_array_equal(points["speed"], [np.nan, 1.5])
+
+
+BELOW = {  # the head: rows below it that are none of numbers, then rows of numbers
+    "speed,angle\nmm/s,rad\n1000,0.1\n2000,0.2\n": "speed: 'mm/s' in line 2 .*'speed \\[mm/s\\]'",
+    "speed;angle\n[mm/s];[deg]\n1000;10\n": "2 faults: .*'mm/s' in line 2 .*'deg' in line 2",
+    "speed\t angle\n(km/h)\t°\n10\t20\n": "speed: 'km/h' in line 2 .* head of the column",
+    "friction,angle\n%,-\n20,0.1\n": "friction: '%' in line 2 is a unit without a number",
+    "friction,angle\n-,deg\n0.2,10\n": "angle: 'deg' in line 2 is a unit without a number",
+    "friction,angle\n0.2,10\n0.2,deg\n": "angle: 'deg' in line 3 is a unit without a number",
+    "first.radius,friction\nmm,1\n5,0.2\n": "first.radius: 'mm' in line 2 is a unit",
+    "first.material.density,friction\nkg/m3,1\n7850,0.2\n": "density: 'kg/m3' in line 2",
+    "speed,angle\nvelocity,incidence\n1,0.2\n": "table, line 2: 'velocity, incidence' .* no number",
+    "speed,angle\n(set),\n1,0.2\n": "table, line 2: '\\(set\\)' .* no number",
+    "speed,first.material\nm/h,steel\n1,glass\n": "speed: 'm/h' in line 2",
+}
+
+
+@pytest.mark.parametrize(("text", "words"), BELOW.items())
+def test_a_row_below_the_head_without_numbers_is_no_case(text, words, tmp_path):
+    """Units there would be passed over, and what stands below be read in others."""
+    path = tmp_path / "cases.csv"
+    path.write_text(text)
+    frame = pd.read_csv(path, sep=None, engine="python").rename(columns=str.strip)
+    for source in (path, frame, {name: list(column) for name, column in frame.items()}):
+        expected = words if source is path else re.sub(r"line (\d)", _row, words)
+        with pytest.raises(InputError, match=expected):
+            Table(source)
+
+
+def _row(line):
+    return f"row {int(line[1]) - 1}"
+
+
+def test_rows_that_hold_numbers_may_have_units_of_their_own():
+    table = Table({"speed": ["1000 mm/s", 2.0, "-"], "angle": ["", "20 deg", "0.1"]})
+    points = table.inputs((slice(0, 3),))
+    np.testing.assert_allclose(points["speed"], [1.0, 2.0, np.nan], rtol=1e-15)
+    np.testing.assert_allclose(points["angle"], [np.nan, np.radians(20.0), 0.1], rtol=1e-15)
 
 
 def test_cells_of_lists():

@@ -368,6 +368,65 @@ def compiled():
                 function(**valid)
 
 
+class Lengths(np.ndarray):
+    """An array with a unit, as astropy and unyt make them; functions of NumPy drop it."""
+
+    unit = "mm"
+
+    def __array_wrap__(self, array, context=None, return_scalar=False):
+        return np.asarray(array)
+
+
+class Length(float):
+    """A number with a unit."""
+
+    units = "mm"
+
+
+def with_unit(value):
+    """What bears a unit instead of a valid argument, or of the numbers in it; None of others."""
+    if isinstance(value, dict):
+        return [{**value, k: each} for k, v in value.items() for each in with_unit(v)]
+    if isinstance(value, bool | str) or value is None:
+        return []
+    if isinstance(value, int | float):
+        return [np.asarray(value).view(Lengths), Length(value)]
+    try:
+        numbers = np.asarray(value)
+    except ValueError:
+        return []
+    if numbers.dtype.kind not in "if":
+        return []
+    return [numbers.view(Lengths), [Length(each) for each in numbers.ravel()]]
+
+
+def refused_or_told(name, function, given):
+    """What is wrong if a call takes numbers with a unit of which nothing is known as bare ones."""
+    try:
+        function(**given)
+    except carom.InputError:
+        return ""
+    except Exception as error:
+        return f"{name}: {type(error).__name__}: {error}"
+    return f"{name}: read as bare numbers"
+
+
+@pytest.mark.usefixtures("compiled")
+def test_quantities_of_other_libraries_are_never_bare_numbers():
+    """Every argument of every function that takes numbers."""
+    cheap, costly = tables()
+    wrong = []
+    for name, (function, valid) in (cheap | costly).items():
+        for argument, value in valid.items():
+            if argument in ("initial_state", "progress"):  # which may be anything
+                continue
+            for strange in with_unit(value):
+                given = {**valid, argument: strange}
+                told = refused_or_told(f"{name}, {argument}={strange!r:.80}", function, given)
+                wrong += [told] if told else []
+    assert not wrong, "\n".join(wrong)
+
+
 @pytest.mark.usefixtures("compiled")
 def test_hostile_calls(calls):
     cheap, costly = tables()

@@ -70,7 +70,11 @@ def test_a_cell_that_is_no_number_is_never_read_as_one(calls, rng, mutated):
     for _ in range(calls // 2):
         place, cell = rng.randrange(len(good)), mutated(rng.choice(["30", "-7.5", "1e1", "30 deg"]))
         cells = [*good[:place], cell, *good[place + 1 :]]
-        given = carom.Table({"angle [deg]": cells}).inputs((slice(0, len(good)),))["angle"]
+        try:
+            given = carom.Table({"angle [deg]": cells}).inputs((slice(0, len(good)),))["angle"]
+        except carom.InputError:  # a unit alone, or a first row of words
+            assert not any(letter in "0123456789" for letter in cell)
+            continue
         expected = np.radians([float(text) for text in good])
         expected[place] = given[place]
         np.testing.assert_allclose(given, expected, rtol=1e-15)

@@ -30,6 +30,8 @@ TEXTS += [
     "1e-6 s",
     "30°",
 ]
+TEXTS += ["7850 kg/m3", "2.1×10^5 N/mm2", "20 rad.s-1", "5×10⁻³ m", "600 RPM", "30º", "2 Pascal"]
+RAISED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
 UNITS = sorted({entry.unit for entry in GLOSSARY.values()})
 BLANKS = "\u00a0\u2009\u202f"
 
@@ -44,6 +46,9 @@ def twin(text, unit, registry):
     for blank in BLANKS:
         text = text.replace(blank, " ")
     text = text.strip(" \t").replace("\u2212", "-").replace("·", "*").replace("⋅", "*")
+    if power := re.search(r"[ \t]*×[ \t]*10(?:\^([+-]?[0-9]+)|([⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))", text):
+        digits = (power[1] or power[2]).translate(RAISED)
+        text = f"{text[: power.start()]}e{digits}{text[power.end() :]}"
     for end in range(len(text), 0, -1):
         try:
             value = float(text[:end])
@@ -51,7 +56,10 @@ def twin(text, unit, registry):
         except ValueError:
             continue
     assert all(letter in "0123456789.+-eE" for letter in text[:end].strip())
-    rest = text[end:].strip(" \t").replace("°", "degree").replace("rev", "turn")
+    rest = re.sub("[°º˚]", "degree", text[end:].strip(" \t")).replace("rev", "turn")
+    rest = rest.replace("RPM", "rpm").replace("Pascal", "pascal")
+    rest = re.sub(r"\.(?=[^\W\d_])", "*", rest)  # a full stop between names
+    rest = re.sub(r"(?<=[^\W\d_])([23])", r"**\1", rest)  # "m3"
     if not rest:
         return value
     rest = re.sub(r"(?<=[^\W\d_])([+-][0-9])", r"**\1", rest)  # "s-1" of CF

@@ -178,3 +178,59 @@ def test_normal_impacts_tell_restitution_if_nothing_else_is_asked():
     data = {"angle": np.zeros(4), "normal_restitution": [0.9, 0.91, 0.89, 0.9]}
     found = fit(data, pair=PAIR, vary="restitution")
     assert found.restitution.value == pytest.approx(0.9, abs=1e-6)
+
+
+BOUNCING = GOOD | {"normal_restitution": [0.8, 0.79, 0.81, 0.8, 0.8]}
+FALLING = {"angle [deg]": [0.0] * 5, "normal_restitution": [0.8, 0.79, 0.81, 0.8, 0.8]}
+BARE = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.0)
+
+
+@pytest.mark.parametrize(
+    "vary", ["friction", "kappa", ("friction", "kappa"), ["chi"], ["friction", "chi"]]
+)
+@pytest.mark.parametrize("by_speeds", [False, True])
+def test_a_restitution_that_was_measured_is_not_held_at_one(vary, by_speeds):
+    """It was 0.8 throughout, and friction came out 10 % too small without a word."""
+    data = dict(BOUNCING)
+    if by_speeds:
+        data |= {"normal_speed": [2.0] * 5, "normal_speed_out": [1.6] * 5}
+        del data["normal_restitution"]
+    measured = "normal_speed_out" if by_speeds else "normal_restitution"
+    with pytest.raises(carom.InputError, match=f"^restitution: {measured} is in the data") as line:
+        fit(data, pair=PAIR, vary=vary)
+    assert "fixed={'restitution': 0.98}" in str(line.value)
+    for given in ({"vary": vary, "fixed": {"restitution": 0.8}}, {}):
+        held = fit(data, pair=PAIR, **given).restitution.value
+        assert held == pytest.approx(0.8, abs=0.01)
+
+
+@pytest.mark.parametrize("case", [None, "file"])
+def test_a_friction_that_nobody_has_given_is_not_held(case, tmp_path):
+    """It was a guess of 0.3, which the fit called "not varied"."""
+    path = tmp_path / "data.csv"
+    bodies = {name: part for name, part in case_of(PAIR).items() if name != "friction"}
+    rows = "\n".join(f"{a},{b}" for a, b in zip(*GOOD.values(), strict=True))
+    path.write_text(f"# case: {json.dumps(bodies)}\nangle [deg],contact_beta\n{rows}\n")
+    given = (GOOD, BARE) if case is None else (path, None)
+    for vary in ("kappa", "restitution"):
+        with pytest.raises(carom.InputError, match=r"^friction: the bodies have none, but it is"):
+            fit(given[0], pair=given[1], vary=vary, fixed={} if vary != "kappa" else RESTING)
+        told = {"friction": 0.12} | (RESTING if vary == "kappa" else {})
+        assert fit(given[0], pair=given[1], vary=vary, fixed=told).friction.value == 0.12
+    assert fit(FALLING, pair=BARE).restitution.value == pytest.approx(0.8, abs=0.01)
+    assert fit(BOUNCING, pair=PAIR, vary="restitution").friction.value == 0.12
+
+
+RESTING = {"restitution": 1.0}
+
+
+@pytest.mark.parametrize("name", ["psi_in", "psi_out"])
+def test_what_is_in_units_of_friction_needs_it(name):
+    """A friction of 0.3 to four digits came out of data that do not tell any."""
+    psi = np.array([0.5, 1.0, 1.5, 2.5, 4.0])
+    out = carom.rebound(psi, PAIR.chi)
+    columns = {"psi_in": {"psi_in": psi, "contact_beta": -out / psi}}
+    columns["psi_out"] = {"angle [deg]": ANGLES, "psi_out": out}
+    with pytest.raises(carom.InputError, match=f"friction: missing; {name} is in units"):
+        fit(columns[name], pair=BARE)
+    fit(columns["psi_in"], pair=PAIR, fixed=RESTING)

@@ -153,6 +153,101 @@ def test_what_is_no_pure_number_is_refused(call, psi):
     refused(lambda: call(psi), "psi: ", "cannot be used")
 
 
+@pytest.mark.parametrize("key", ["units", "unit", "Units", "Unit", "UNITS", "UNIT"])
+@pytest.mark.parametrize("told", ["mm/s", b"mm/s"])
+def test_units_are_heeded_however_the_attribute_is_written(key, told):
+    """In one number, in an axis, in a column of a dataset: everywhere 2 mm/s or so, never 2 m/s."""
+    speeds = xr.DataArray([1.0, 2.0], dims="row", attrs={key: told})
+    assert carom.impact(PAIR, speed=speeds[1], angle=0.1).normal_speed < 2.001e-3
+    assert carom.Grid({"speed": speeds}).coords()["speed"][1] == pytest.approx([1e-3, 2e-3])
+    for source in (xr.Dataset({"speed": speeds}), {"speed": speeds}):
+        given = carom.Table(source).inputs((slice(0, 2),))["speed"]
+        assert given == pytest.approx([1e-3, 2e-3], rel=1e-15)
+    known = {"normal_speed": speeds, "tangential_speed": speeds}
+    assert carom.convert(PAIR, known=known, wanted="speed")[0] < 2e-3
+
+
+@pytest.mark.parametrize("key", ["unit", "Units", "UNITS"])
+def test_two_attributes_must_tell_one_unit(key):
+    one = xr.DataArray(5.0, attrs={"units": "mm", key: "mm"})
+    assert carom.Sphere(radius=one, material="steel").radius == 0.005
+    two = xr.DataArray(5.0, attrs={"units": "mm", key: "m"})
+    refused(lambda: carom.Sphere(radius=two, material="steel"), "radius: it has two units")
+    refused(lambda: carom.Table({"first.radius": two.expand_dims("row")}), "two units, mm and m")
+    alone = xr.DataArray(UNITS.Quantity([5.0], "mm"), attrs={key: "m"})
+    refused(lambda: carom.Grid({"first.radius": alone}), "radius: it has two units")
+
+
+@pytest.mark.parametrize("key", ["scale_factor", "add_offset"])
+def test_packed_numbers_of_a_file_are_refused(key):
+    packed = xr.DataArray([5, 6], dims="row", attrs={"units": "m/s", key: 0.01})
+    for source in ({"speed": packed}, xr.Dataset({"speed": packed})):
+        refused(lambda source=source: carom.Table(source), "speed: ", key, "decode_cf")
+    refused(lambda: carom.Grid({"speed": packed}), "speed: ", key)
+
+
+ALONG = {
+    "rebound": lambda a, b: carom.rebound(a, b),
+    "contact law": lambda a, b: carom.LinearSpring().rebound(a, b),
+    "contact law, kappa": lambda a, b: carom.LinearSpring().rebound(a, 1.44, kappa=b),
+    "mixture": lambda a, b: carom.MixtureLaw(1.2, 1.3)(a, b),
+    "convert": lambda a, b: carom.convert(
+        PAIR, known={"angle": a, "contact_beta": b, "normal_restitution": 1.0}, wanted="psi_out"
+    ),
+    "load path": lambda a, b: carom.load_path(PAIR, normal_force=a, tangential_force=0.01 * b),
+    "classical": lambda a, b: carom.classical.cattaneo_mindlin(
+        PAIR, normal_force=a, tangential_force=0.01 * b
+    ),
+    "wear": lambda a, b: carom.wear(PAIR, speed=a, angle=b, progress=False, n=3),
+    "sweep": lambda a, b: carom.Table({"angle": a, "friction": b}),
+    "fit": lambda a, b: carom.fit({"angle": a, "contact_beta": b, "speed": a}, pair=PAIR),
+    "score": lambda a, b: carom.verify.score({"psi_1": a, "psi_2": b}, chi=1.44),
+    "experiment": lambda a, b: carom.verify.Experiment(
+        pair=PAIR, law=carom.LammpsMindlin(), normal_speed=0.1, tangential_speed=a, spin=b, steps=99
+    ),
+    "collide": lambda a, b: carom.collide(PAIR, velocity1=_vectors(a), normal=_vectors(b)),
+}
+LABELLED = {
+    "xarray": lambda labels: xr.DataArray([0.5, 0.6, 0.7], coords={"shot": labels}),
+    "pandas": lambda labels: pd.Series([0.5, 0.6, 0.7], index=labels),
+}
+
+
+def _vectors(values):
+    if isinstance(values, xr.DataArray):
+        return values.expand_dims({"direction": 3}, axis=-1)
+    columns = dict.fromkeys("xyz", values)
+    return pd.DataFrame(columns)
+
+
+@pytest.mark.parametrize("labelled", LABELLED.values(), ids=LABELLED)
+@pytest.mark.parametrize("name", ALONG)
+@pytest.mark.filterwarnings("ignore:.*left alone")  # vectors that are no normals
+def test_what_has_other_labels_is_not_combined_by_place(name, labelled):
+    first = labelled([0, 1, 2])
+    for other in ([5, 6, 7], [2, 1, 0], [0, 1, 3], ["a", "b", "c"]):
+        words = ("their labels along", "differ", "align them")
+        refused(lambda other=other: ALONG[name](first, labelled(other)), *words)
+    for same in (labelled([0, 1, 2]), np.array([0.5, 0.6, 0.7])):
+        if name not in ("fit", "score"):  # which need other numbers
+            ALONG[name](first, same)
+
+
+IN_SPACE = {
+    "load path": lambda moved: carom.load_path(PAIR, normal_force=10.0, displacement=moved),
+    "collide": lambda moved: carom.collide(PAIR, velocity1=moved, normal=[0.0, 0.0, 1.0]),
+}
+
+
+@pytest.mark.parametrize(("name", "order"), [("load path", "yx"), ("collide", "zxy")])
+def test_directions_have_an_order(name, order):
+    """Components are read by place; labels that give another order are not passed over."""
+    plain = xr.DataArray(1e-7 * np.ones((2, len(order))), dims=("step", "direction"))
+    moved = plain.assign_coords(direction=list(order))
+    refused(lambda: IN_SPACE[name](moved), "put direction into the order x, y, z")
+    IN_SPACE[name](moved.sortby("direction"))
+
+
 def test_a_masked_point_is_a_point_without_number():
     psi = np.ma.masked_array([0.5, 0.7], [False, True])
     out, status = carom.rebound(psi, 1.44, return_status=True)

@@ -5,8 +5,11 @@ Texts that were once read as something else are marked by what they were read as
 
 import json
 import math
+import re
 import time
 import tomllib
+from contextlib import suppress
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -165,10 +168,32 @@ REFUSED = [  # text, quantity, part of the message
     ("5 dB", "friction", "not known"),
     ("5 mm^1.5", "radius", "not a unit"),
     ("5 mm^12", "radius", "not a unit"),
-    ("5 m2", "radius", "not a unit"),
+    ("5 m2", "radius", "not a value in m"),
     ("3 kg/m s^2", "young", "one unit may follow '/', as in"),
     ("3 kg/m/s^2", "young", "one unit may follow '/', as in"),
     ("3 m m m m m", "radius", "not a unit"),
+    ("30 % %", "friction", "'%' stands alone"),  # 0.003
+    ("20 % mm/m", "friction", "'%' stands alone"),
+    ("20 ppm2", "friction", "'ppm' stands alone"),
+    ("20 percent^2", "friction", "'percent' stands alone"),
+    ("20 % mm", "radius", "'%' stands alone"),
+    ("5 mm mm m^-1", "radius", "'mm' is given twice"),
+    ("5 mm millimeter m^-1", "radius", "'mm' is given twice"),
+    ("30 deg deg rad^-1", "angle", "'deg' is given twice"),
+    ("30 deg deg", "angle", "not a value in rad"),
+    ("5 mm mm", "radius", "not a value in m"),
+    ("5 m^0", "friction", "not a unit"),  # 5
+    ("5 mm m-0", "radius", "not a unit"),
+    ("2 m.s", "speed", "not a value in m/s"),
+    ("2 m..s-1", "speed", "not a unit"),
+    ("2 m. s-1", "speed", "not a unit"),
+    ("5×103 mm", "radius", "write powers of ten as in 5e3 or 5×10^3"),
+    ("5e3×10^3 mm", "radius", "write powers of ten"),
+    ("5×10^3.5 mm", "radius", "not a unit"),
+    ("5×10^400 mm", "radius", "floating point"),
+    ("5×10^-400 mm", "radius", "floating point"),
+    ("×10^3 mm", "radius", "give a number"),
+    ("5 MBAR", "young", "'MBAR' is not known"),  # mbar or Mbar
     ("5 kg", "radius", "not a value in m"),
     ("30 deg", "friction", "a pure number is needed"),
     ("0.3 rad", "friction", "a pure number is needed"),
@@ -210,6 +235,45 @@ def test_all_else_is_refused_in_one_line(text, name, words):
         assert len(message) < 400
     missing, _ = column_in_si(name, GLOSSARY[name].unit, "", [text])
     assert np.isnan(missing[0])
+
+
+def spellings():
+    """The rows of the manual's table: what is written, whether it is read, the right spelling."""
+    text = (Path(__file__).parents[2] / "docs/input.md").read_text(encoding="utf-8")
+    for row in re.findall(r"^\| (`.*`) \| (read as|refused) \| `(.*)` \|$", text, re.MULTILINE):
+        for written in row[0][1:-1].split("`, `"):
+            yield written, row[1] == "read as", row[2]
+
+
+def kinds_of(text):
+    """The units of the glossary in which a text is a quantity."""
+    for unit in sorted({entry.unit for entry in GLOSSARY.values()}):
+        with suppress(Unreadable):
+            read_text(text, unit)
+            yield unit
+
+
+@pytest.mark.parametrize(("written", "is_read", "right"), [*spellings()])
+def test_spellings_are_as_the_manual_says(written, is_read, right):
+    """What is read is what the right spelling is, in every unit; what is refused names that one."""
+    kinds = list(kinds_of(right))
+    assert kinds
+    if is_read:
+        assert list(kinds_of(written)) == kinds
+    for unit in kinds:
+        if is_read:
+            expected = pytest.approx(read_text(right, unit), rel=4e-16)
+            assert read_text(written, unit) == expected
+            assert column_in_si("x", unit, "", [written])[0][0] == expected
+            continue
+        with pytest.raises(Unreadable, match="write") as refused:
+            read_text(written, unit)
+        number_of_it, _, unit_of_it = right.partition(" ")
+        assert repr(unit_of_it) in str(refused.value) or number_of_it in str(refused.value)
+
+
+def test_the_table_of_spellings_is_as_long_as_it_should_be():
+    assert len(list(spellings())) >= 60
 
 
 UNITS = {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "km": 1e3, "": 1.0}

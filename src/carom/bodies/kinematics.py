@@ -77,8 +77,11 @@ class Tangential(NamedTuple):
 
     def contact_velocity(self, pair: Pair) -> float:
         """Return the velocity of the contact point, V_x = v_t + R omega + R_2 omega_2, in m/s."""
-        carried = (body.radius * spin for body, spin in zip(pair.moving, self[1:], strict=False))
-        return self.tangential_speed + sum(carried)
+        return self.tangential_speed + sum(self.carried(pair))
+
+    def carried(self, pair: Pair) -> list[float]:
+        """Return the parts of that velocity that are due to spins, R omega and R_2 omega_2."""
+        return [body.radius * spin for body, spin in zip(pair.moving, self[1:], strict=False)]
 
     def spin_energy(self, pair: Pair) -> float:
         """Return the kinetic energy of the spins, (1/2) sum I omega^2, in J."""

@@ -2,18 +2,20 @@
 
 from dataclasses import dataclass
 from functools import cached_property, reduce
-from math import inf, pi
+from math import pi
 from operator import and_
 
 from carom.bodies.materials import Material
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
-from carom.quantities.elementwise import isfinite, quotient, sqrt, where
+from carom.quantities.elementwise import quotient, sqrt, where
 from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import Value, not_negative
 
 Counterbody = Sphere | HalfSpace | Cup
+LEAST, MOST = 1e-100, 1e100  # of the numbers of an impact
+OF_FRICTION = ("tangential_length", "tangential_force", "tangential_speed")  # zero without it
 SAME = 1e-6  # part by which numbers of the same bodies may differ: they are written in few digits
 
 
@@ -38,26 +40,40 @@ class Scales(ContactScales):
     tangential_speed: float
 
 
-def representable(scales: Scales, contact_velocity: float) -> bool:
-    """Return whether these scales are numbers that floating point can hold."""
-    finite = [isfinite(value) for value in (*vars(scales).values(), contact_velocity)]
-    sizes = (scales.length, scales.radius, scales.force, scales.pressure)
-    return reduce(and_, [*finite, *(size > 0.0 for size in sizes)])
+def _holds(value: float, *, or_zero: bool = False) -> bool:
+    """Return whether floating point holds this and products of three such numbers, with quotients.
+
+    Squares of speeds and cubes of radii are among them, which overflow without a word.
+    """
+    size = abs(value)
+    return ((size >= LEAST) & (size <= MOST)) | (or_zero & (size == 0.0))
 
 
-def checked_scales(pair: "Pair", normal_speed: float, contact_velocity: float = 0.0) -> Scales:
+def representable(pair: "Pair", normal_speed: float, *tangential: float) -> bool:
+    """Return whether floating point holds what an impact is calculated from, and its products.
+
+    `tangential` are the tangential velocity of the contact point and its parts.
+    """
+    scales = vars(pair.scales(normal_speed))
+    of_friction = [pair.friction, *(scales.pop(name) for name in OF_FRICTION), *tangential]
+    sizes = [_holds(size) for size in (*pair.constants, normal_speed, *scales.values())]
+    return reduce(and_, [*sizes, *(_holds(value, or_zero=True) for value in of_friction)])
+
+
+def checked_scales(pair: "Pair", normal_speed: float, *tangential: float) -> Scales:
     """Return the scales of an impact, or raise InputError if floating point cannot hold them."""
     try:
-        scales = pair.scales(normal_speed)
-        fits = representable(scales, contact_velocity)
+        fits = representable(pair, normal_speed, *tangential)
     except (OverflowError, ZeroDivisionError):
         fits = False
     if not fits:
+        along = f", {text(tangential[0], 'm/s')} along the surface" if any(tangential) else ""
         raise InputError(
-            f"speed: {text(normal_speed, 'm/s')} at a radius of {text(pair.first.radius, 'm')} "
-            "gives numbers that floating point cannot hold; check the units"
+            f"speed: {text(normal_speed, 'm/s')} at a radius of {text(pair.first.radius, 'm')}, a "
+            f"friction of {pair.friction:g}{along} gives numbers that floating point cannot hold; "
+            "check the units"
         )
-    return scales
+    return pair.scales(normal_speed)
 
 
 def alike(one: "Pair", other: "Pair", *, friction: bool = False) -> bool:
@@ -68,15 +84,11 @@ def alike(one: "Pair", other: "Pair", *, friction: bool = False) -> bool:
 
 
 def _representable(pair: "Pair") -> bool:
-    """Return whether masses and stiffnesses of two bodies together are positive numbers."""
+    """Return whether floating point holds masses and stiffnesses of two bodies together."""
     try:
-        values = (
-            *(pair.effective_modulus, pair.effective_shear_modulus, pair.effective_radius),
-            *(pair.normal_mass, pair.tangential_mass, pair.kappa, pair.chi),
-        )
+        return all(map(_holds, pair.constants))
     except (OverflowError, ZeroDivisionError):
         return False
-    return all(0.0 < value < inf for value in values)
 
 
 @dataclass(frozen=True, init=False)
@@ -176,6 +188,14 @@ class Pair:
     def chi(self) -> float:
         """Ratio (kappa/2)(m_n/m_t), the only parameter of the dimensionless elastic impact."""
         return 0.5 * self.kappa * self.normal_mass / self.tangential_mass
+
+    @property
+    def constants(self) -> tuple[float, ...]:
+        """E*, G*, R*, m_n, m_t, kappa and chi, and M and K^2/R^2 of the spheres; all positive."""
+        moduli = self.effective_modulus, self.effective_shear_modulus
+        masses = self.normal_mass, self.tangential_mass, *(body.mass for body in self.moving)
+        ratios = self.kappa, self.chi, *(body.gyration_ratio for body in self.moving)
+        return *moduli, self.effective_radius, *masses, *ratios
 
     @property
     def dundurs_beta(self) -> float:

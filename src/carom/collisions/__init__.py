@@ -26,6 +26,7 @@ from carom.collisions.records import (
 from carom.laws.exact import law_of
 from carom.laws.portable import is_foreign
 from carom.laws.rules import Rule
+from carom.quantities.arrays import along_the_same
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag, refusal
 from carom.quantities.units import threads_or_none
@@ -149,6 +150,7 @@ def collide(
     threads, inplace = threads_or_none(threads), flag("inplace", inplace)
     rule = _rule(law, pair)
     given = (velocity1, spin1, velocity2, spin2, normal)
+    along_the_same(**dict(zip(NAMES, given, strict=True)))
     if flag("judge", judge):
         met = _incidence(pair, given, law)
         found = _collide_numpy(given, inertia_of(pair), rule, inplace, threads)

@@ -19,6 +19,8 @@ from carom.quantities.arrays import Array
 Flat = Annotated[NDArray[np.floating], ArrayType(np.floating, 1)]
 Panels = Annotated[NDArray[np.int32], ArrayType(np.int32, 1)]
 
+SMALLEST = 2.0**-960  # of |V_t|^2: less has lost digits, so that V_t is enlarged
+ENLARGED = 2.0**500
 CHUNK = 256  # pairs whose numbers stay in the nearest cache
 BLOCK = 65536  # pairs that a thread takes at once
 
@@ -80,7 +82,11 @@ def contact_velocity(
         scratch.axis[x], scratch.axis[y], scratch.axis[z] = nx, ny, nz
         scratch.sliding[x], scratch.sliding[y], scratch.sliding[z] = tx, ty, tz
         scratch.closing[i] = closing
-        scratch.slope[i] = min(scale * np.sqrt(square) / closing, LARGEST)
+        wx, wy, wz = ENLARGED * tx, ENLARGED * ty, ENLARGED * tz
+        held = square >= SMALLEST
+        root = np.sqrt(square if held else wx * wx + wy * wy + wz * wz)
+        root = root if held else root / ENLARGED
+        scratch.slope[i] = min(scale * root / closing, LARGEST)
         code = 0 if closing > 0.0 else CollisionStatus.SEPARATING.value
         code = code if abs(skew) <= SKEW else CollisionStatus.NORMAL_NOT_UNIT.value
         finite = abs(closing) + square + abs(skew) < np.inf

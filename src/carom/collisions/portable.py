@@ -121,11 +121,12 @@ def _status(approach: Approach, xp: Any) -> Any:
 def _impulses(approach: Approach, inertia: records.Inertia, rule: Rule, xp: Any) -> tuple[Any, Any]:
     """Return the impulse J on the second body and n x J, where all pairs collide."""
     axis, closing = approach.axis, approach.closing
-    largest = xp.max(xp.abs(approach.sliding), axis=-1, keepdims=True)  # whose square may vanish
-    one = xp.ones_like(largest)
-    unit = approach.sliding / xp.where(largest > 0.0, largest, one)
-    square = xp.where(largest > 0.0, _dot(unit, unit, xp), one)  # the root has a slope at zero, too
-    speed = rule.scale * largest * xp.sqrt(square)
+    largest = xp.max(xp.abs(approach.sliding), axis=-1, keepdims=True)
+    moves, one = largest > 0.0, xp.ones_like(largest)
+    unit = xp.where(moves, largest, one)  # squares of single precision vanish early
+    square = _dot(approach.sliding / unit, approach.sliding / unit, xp)
+    root = unit * xp.sqrt(xp.where(moves, square, one))  # has a slope at zero, too
+    speed = rule.scale * xp.where(moves, root, xp.zeros_like(root))
     drag = inertia.tangential_mass * part_lost(speed, closing, rule, xp) * approach.sliding
     push = (1.0 + rule.restitution) * inertia.normal_mass * closing * axis
     return push + drag, _cross(axis, drag, xp)

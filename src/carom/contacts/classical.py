@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.bodies.pairs import Pair
-from carom.quantities.arrays import Array, numbers, together
+from carom.quantities.arrays import Array, along_the_same, numbers, together
 from carom.quantities.refusals import refusal
 
 
@@ -154,6 +154,7 @@ def _share(pair: Pair, normal: ArrayLike, tangential: ArrayLike) -> tuple[Array,
     """Return T/(mu P), and mu P in N."""
     _check_pair(pair)
     allowed = "must be finite numbers in N, shapes that broadcast"
+    along_the_same(normal_force=normal, tangential_force=tangential)
     load = numbers("normal_force", normal, allowed)
     across = numbers("tangential_force", tangential, allowed)
     if not np.all((load > 0.0) & np.isfinite(load)):

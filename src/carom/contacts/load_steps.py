@@ -58,6 +58,8 @@ class Steps(NamedTuple):
 def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved: Given) -> Steps:
     """Return the steps that the four controls describe, or raise InputError."""
     tangential, moved = _directions_last(tangential), _directions_last(moved)
+    along_the_same(tangential_force=tangential)  # each with its directions
+    along_the_same(displacement=moved)
     along_the_same(
         normal_force=normal,
         penetration=depth,

@@ -50,14 +50,17 @@ def fit(
         motion after give any of normal_restitution, normal_speed_out, tangential_restitution,
         tangential_speed_out, rebound_speed, rebound_angle, spin_out, contact_restitution,
         contact_beta, contact_rebound_angle, impulse_ratio, psi_out. For vertical drops give
-        drop_height and rebound_height instead. Standard deviations are in columns `<name>_error`,
-        also for the motion before; where none are given they come from the scatter. "-" means not
-        measured.
+        drop_height and rebound_height instead, in a file with their unit. Standard deviations are
+        in columns `<name>_error`, also for the motion before; where none are given they come from
+        the scatter. "-" means not measured.
     pair : Pair, optional
         The bodies, by default those in the comment "# case:" of the file.
     vary : names, optional
         Parameters to fit, of friction, kappa (or chi), restitution and spin_offset; by default the
-        first three, or restitution alone if all impacts are normal ones.
+        first three, or restitution alone if all impacts are normal ones. The others are held: at
+        what `fixed` says, else friction and kappa at those of the pair, restitution at 1, the
+        offset at 0. A restitution that was measured, or a friction that the bodies do not have,
+        must be varied or fixed.
     fixed : mapping, optional
         Values of parameters that are known, e.g. {"restitution": 0.98}.
     robust : bool

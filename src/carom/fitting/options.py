@@ -12,6 +12,7 @@ from carom.quantities.refusals import InputError, clipped, nearest, refusal
 from carom.quantities.units import number
 
 NAMES = ("friction", "kappa", "chi", "restitution", OFFSET)
+EXAMPLES = {"friction": 0.2, "restitution": 0.98}
 FIRST = ("friction", "kappa", "restitution")  # varied unless something else is said
 
 
@@ -46,9 +47,25 @@ def read_options(
         )
     if not wanted:
         raise InputError("vary: nothing is left to fit; fix fewer parameters")
+    _refuse_assumed(problem, {*wanted, *held})
     pair = problem.pair
     start = {"friction": pair.friction, "kappa": pair.kappa, "restitution": 1.0, OFFSET: 0.0}
     return Options(tuple(wanted), {**start, **held})
+
+
+def _refuse_assumed(problem: FitProblem, told: Collection[str]) -> None:
+    """Raise InputError for a parameter that would be held at a value that nobody has given."""
+    measured = [name for name in NORMAL if name in problem.responses]
+    why = {"restitution": f"{measured[0]} is in the data" if measured else ""}
+    if not problem.knows_friction and not problem.is_normal and {*problem.responses} - {*NORMAL}:
+        why["friction"] = "the bodies have none"
+    for name, reason in why.items():
+        if reason and name not in told:
+            example = f"fixed={{'{name}': {EXAMPLES[name]}}}"
+            raise InputError(
+                f"{name}: {reason}, but it is neither varied nor fixed; add it to vary, or fix it, "
+                f"e.g. {example}"
+            )
 
 
 def checked_confidence(value: Any) -> float:

@@ -26,7 +26,7 @@ class FitProblem:
     """Measured rebounds in SI units: `measured` and `errors` have the shape (rows, responses).
 
     NaN stands for what was not measured, and for errors that are not known; `doi` is that of the
-    publication, if the data tell it.
+    publication, if the data tell it. If nobody `knows_friction`, that of the pair is a guess.
     """
 
     pair: Pair
@@ -37,6 +37,7 @@ class FitProblem:
     errors: Array
     rows: Results
     ignored: tuple[str, ...] = ()
+    knows_friction: bool = True
     doi: str = ""
 
     @property

@@ -59,7 +59,7 @@ def _problem(table: Cells, pair: Pair | None, faults: Faults) -> FitProblem:
             f"data: there is no value in {', '.join(measured)}; '-' means not measured"
         )
     empty = (f"{name} (no value in it)" for name in measured if name not in responses)
-    bodies = _bodies(pair, table.case)
+    bodies, knows_friction = _bodies(pair, table.case)
     if "drop_height" in rows.columns and len(bodies.moving) > 1:
         raise InputError(
             "drop_height: the second body flies off, too, so that the heights of the first do not "
@@ -67,6 +67,10 @@ def _problem(table: Cells, pair: Pair | None, faults: Faults) -> FitProblem:
             "normal_speed and normal_speed_out"
         )
     before = {name: rows[name] for name in BEFORE if name in rows.columns}
+    if (scaled := {*before, *responses} & {"psi_in", "psi_out"}) and not knows_friction:
+        raise InputError(
+            f"friction: missing; {min(scaled)} is in units of it, so give that of the bodies"
+        )
     _check_sizes(rows, bodies)
     _check_before(rows, before, responses)
     faults.settle()
@@ -79,6 +83,7 @@ def _problem(table: Cells, pair: Pair | None, faults: Faults) -> FitProblem:
         errors=np.stack([_errors(rows, name) for name in responses], axis=-1),
         rows=rows,
         ignored=(*ignored, *empty),
+        knows_friction=knows_friction,
         doi=table.comments.get("doi", ""),
     )
     _check_responses(problem.rows, problem.motion, problem.contact_velocity)
@@ -86,7 +91,8 @@ def _problem(table: Cells, pair: Pair | None, faults: Faults) -> FitProblem:
     return problem
 
 
-def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> Pair:
+def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> tuple[Pair, bool]:
+    """Return the bodies, and whether their friction is known; otherwise it is a guess."""
     own = None if case is None else _bodies_of(case)
     if pair is not None:
         if not isinstance(pair, Pair):
@@ -109,12 +115,13 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> Pair:
             f"pair: a chi of {bodies.chi:.3g} cannot be fitted, only one from {LEAST_CHI:.2g} to "
             f"{MOST_CHI:.2g}; check radii and gyration_radius"
         )
-    return bodies if bodies.friction > 0.0 else Pair(bodies.first, bodies.second, START)
+    known = bodies.friction > 0.0
+    return bodies if known else Pair(bodies.first, bodies.second, START), known
 
 
 def _bodies_of(case: Mapping[str, Any]) -> Pair:
     check_case(case)
-    return pair_of({"friction": START, **case})
+    return pair_of({"friction": 0.0, **case})
 
 
 def _errors(rows: Results, name: str) -> Array:

@@ -6,10 +6,9 @@ from typing import Any
 
 from carom.bodies.kinematics import Kinematics, Tangential
 from carom.bodies.losses import LossLaw
-from carom.bodies.pairs import Scales
+from carom.bodies.pairs import Scales, representable
 from carom.bodies.shapes import describe
-from carom.dimensionless.lossy.law import FAR
-from carom.impacts.history import PAIR, RESULTS, Solved
+from carom.impacts.history import FAST, PAIR, RESULTS, Solved
 from carom.quantities.elementwise import copysign, isfinite, where
 
 
@@ -32,6 +31,12 @@ class Outcome(Kinematics):
         return Tangential(self.tangential_speed, self.spin, self.spin2)
 
     @property
+    def fits(self) -> bool:
+        """Whether floating point holds the numbers of this impact."""
+        parts = self.tangential_speed, *self._before.carried(self.pair)
+        return representable(self.pair, self.normal_speed, self.contact_velocity, *parts)
+
+    @property
     def normal_restitution(self) -> float:
         """Normal coefficient of restitution, normal velocity after over before; 1 if elastic."""
         return self.solution.restitution
@@ -47,28 +52,26 @@ class Outcome(Kinematics):
         """Dimensionless velocity kappa V_x/(mu V_1) after; infinite without friction."""
         return where(isfinite(self.psi_in), self.solution.psi_out, self.psi_in)
 
+    @cached_property
+    def _slowed_by(self) -> float:
+        """V_x - V_x'; in fast gross slip, where that difference loses digits, by its closed form.
+
+        It is 2 chi (1 + e) mu V_1/kappa there, by Coulomb's law.
+        """
+        before, lost = self.contact_velocity, self.contact_velocity - self.contact_velocity_out
+        most = 2.0 * self.pair.chi * (1.0 + self.normal_restitution) * self.scales.tangential_speed
+        return where(abs(before) > FAST * most, copysign(most, before), lost)
+
     @property
     def tangential_impulse(self) -> float:
         """Impulse of the tangential force on the first body, against +x, in N s."""
-        return self.pair.tangential_mass * self._slowed
-
-    @cached_property
-    def _slowed(self) -> float:
-        """By how much friction slows the contact point, in m/s; where all slides by Coulomb's law.
-
-        Far into sliding the difference of velocities is nothing but rounding.
-        """
-        pair, psi = self.pair, self.psi_in
-        slides = isfinite(psi) & (abs(psi) > FAR * (1.0 + pair.chi))
-        push = (1.0 + self.normal_restitution) * self.normal_speed * pair.normal_mass
-        most = copysign(pair.friction * push / pair.tangential_mass, psi)
-        return where(slides, most, self.contact_velocity - self.contact_velocity_out)
+        return self.pair.tangential_mass * self._slowed_by
 
     @property
     def dissipated_energy(self) -> float:
         """Energy lost to friction, in J."""
-        before, after = self.contact_velocity, self.contact_velocity_out
-        lost = 0.5 * self.pair.tangential_mass * self._slowed * (before + after)
+        twice_mean = self.contact_velocity + self.contact_velocity_out
+        lost = 0.5 * self.pair.tangential_mass * self._slowed_by * twice_mean
         return lost - self.shear_lost_energy
 
     @property

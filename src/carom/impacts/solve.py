@@ -143,7 +143,8 @@ def impact(
     if second_spin and not isinstance(pair.second, Sphere):
         raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
     motion = Tangential(tangential, first_spin, second_spin)
-    checked_scales(pair, approaching, motion.contact_velocity(pair))
+    velocity = motion.contact_velocity(pair)
+    checked_scales(pair, approaching, velocity, tangential, *motion.carried(pair))
     if isinstance(method, str) and method == "exact":
         return solve_exactly(pair, approaching, motion, losses, about_normal)
     elements = _elements(method, losses)

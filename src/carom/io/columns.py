@@ -24,6 +24,8 @@ Mask = NDArray[np.bool_]
 ERROR = "_error"  # ends the name of a column of standard deviations
 DELETE = "correct or delete it"
 EMPTY = ("", "nan")
+HEIGHTS = ("drop_height", "rebound_height")  # which are measured in cm and mm as well
+HIGHEST = 3.0  # m, of a drop that is given without a unit
 NEAR = 0.8  # similarity of names from which a column is taken for a misspelt one
 UNITS = {"_deg": "deg", "_rad_s": "rad/s", "_rad": "rad", "_rpm": "rpm", "_m_s": "m/s"}  # in names
 
@@ -74,8 +76,8 @@ def in_units(
 ) -> Results:
     """Return the columns whose names are known, in SI units; the others are there, but NaN.
 
-    Columns without a unit are SI. In columns of `gaps`, and of their errors, a cell "-" stands for
-    what was not measured: NaN.
+    Columns without a unit are SI; heights of drops in files need one. In columns of `gaps`, and of
+    their errors, a cell "-" stands for what was not measured: NaN.
 
     Adds to the faults, which are raised as InputError if they are not given, a cell of them that is
     not a number, a unit that does not fit, an error that has no unit where its column has one, and
@@ -99,6 +101,8 @@ def in_units(
         try:
             _check_error_unit(name, units)
             columns[name] = _column(name, table, entry(name) in gaps)
+            if entry(name) in HEIGHTS:
+                _check_height(name, table, columns[name])
         except InputError as error:
             results.faults.add(str(error))
     for name in read:
@@ -174,6 +178,16 @@ def _check_error_unit(name: str, units: Mapping[str, str]) -> None:
         raise InputError(
             f"{name}: no unit, but {whole} is in {units[whole]}; write '{name} [{units[whole]}]'"
         )
+
+
+def _check_height(name: str, table: Cells, values: Array) -> None:
+    """Raise InputError for heights whose unit can only be guessed: of files, and large ones."""
+    unit, cells = table.column(name)
+    bare = not isinstance(cells, list) or any(str(cell).strip()[-1:].isdigit() for cell in cells)
+    guessed = table.word == "line" or bool(np.any(np.abs(values) > HIGHEST))
+    if bare and guessed and not str(unit):
+        heads = " or ".join(f"'{name} [{each}]'" for each in ("m", "cm", "mm"))
+        raise InputError(f"{name}: no unit, and heights may be in m, cm or mm; write {heads}")
 
 
 def _check_angle(results: Results, name: str, unit: str) -> None:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from carom.io.csv_cells import MOST_COLUMNS, read_csv
 from carom.io.paths import checked_path
-from carom.quantities.arrays import floats
+from carom.quantities.arrays import along_the_same, floats
 from carom.quantities.refusals import InputError, clipped, nearest, refusal
 from carom.quantities.texts import LONGEST, UNCHANGED
 from carom.quantities.units import REAL, factor_of, finite_or_text, told_unit, two_units
@@ -139,6 +139,7 @@ def _columns_of(what: str, source: Any) -> tuple[list[tuple[str, Column]], dict[
         raise refusal(what, source, "must be the name of a CSV file, or columns by name")
     if len(source.keys()) > MOST_COLUMNS:
         raise refusal(what, f"{len(source.keys())} columns", f"{MOST_COLUMNS} are read at most")
+    along_the_same(**{str(name): values for name, values in source.items()})
     return [(str(name), _column(str(name), values)) for name, values in source.items()], {}
 
 

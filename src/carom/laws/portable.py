@@ -13,22 +13,22 @@ import numpy as np
 from carom.laws.rules import Rule
 from carom.quantities.arrays import pure_numbers
 from carom.quantities.refusals import refusal
+from carom.quantities.units import bears_unit
 
 ALLOWED = "must be a real number, or an array of them"
 
 
 def is_foreign(values: Any) -> bool:
-    """Return whether this is an array of another library than NumPy."""
+    """Return whether this is an array of another library than NumPy, without units."""
     numpy_own = isinstance(values, np.ndarray | np.generic)
-    return array_api_compat.is_array_api_obj(values) and not numpy_own
+    return array_api_compat.is_array_api_obj(values) and not numpy_own and not bears_unit(values)
 
 
 def is_floats(values: Any) -> bool:
-    """Return whether these are NumPy's floating-point numbers, of which none is masked."""
-    plain = isinstance(values, np.ndarray | np.generic) and not isinstance(
-        values, np.ma.MaskedArray
-    )
-    return plain and values.dtype in (np.float32, np.float64)
+    """Return whether these are NumPy's floating-point numbers, none masked, without units."""
+    if not isinstance(values, np.ndarray | np.generic) or isinstance(values, np.ma.MaskedArray):
+        return False
+    return values.dtype in (np.float32, np.float64) and not bears_unit(values)
 
 
 def applied(function: Callable[[Any, Any], Any], name: str, values: Any) -> Any:

@@ -1,7 +1,7 @@
 """Reading arrays that users give: numbers, points, the lines of a grid."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from math import prod
 from typing import Any, NamedTuple
 
@@ -19,6 +19,7 @@ REALS = "give real numbers, one or an array of them"
 WIDE = 2**63  # integers that NumPy holds
 AT_ONCE = 10**8  # points of a batch
 PLACES = 1_000_000  # points of fields, which take half a minute
+AXES = {"x", "y", "z"}
 ASCII = re.compile(r"[0-9.+\-eE \t]*")  # of which NumPy reads the numbers of the grammar alone
 
 
@@ -154,7 +155,7 @@ def together(given: Mapping[str, Array], most: int = AT_ONCE) -> tuple[int, ...]
 
 
 def along_the_same(**given: Any) -> None:
-    """Raise InputError for arrays of xarray's whose dimensions have different names.
+    """Raise InputError for arrays of xarray's or pandas' whose dimensions or labels differ.
 
     Examples
     --------
@@ -167,10 +168,29 @@ def along_the_same(**given: Any) -> None:
     """
     named = {name: getattr(value, "dims", ()) for name, value in given.items()}
     found = {name: tuple(map(str, dims)) for name, dims in named.items() if dims}
-    if len(set(found.values())) > 1:
+    longest = max(found.values(), key=len, default=())
+    if any(dims != longest[-len(dims) :] for dims in found.values()):
         words = " and ".join(dict.fromkeys(", ".join(dims) for dims in found.values()))
         allowed = f"their dimensions are {words}; give arrays along the same ones"
         raise InputError(f"{', '.join(found)}: {allowed}")
+    seen: dict[Any, tuple[str, Any]] = {}
+    for name, value in given.items():
+        for dim, labels in _labels(value):
+            other, known = seen.setdefault((dim, len(labels)), (name, labels))
+            if not known.equals(labels):
+                ends = f"{known[0]} to {known[-1]} and {labels[0]} to {labels[-1]}"
+                words = f"their labels along {dim} differ, {ends}"
+                raise InputError(f"{other}, {name}: {words}; align them, or give plain arrays")
+            if 1 < len(labels) <= len(AXES) and {*labels} <= AXES and [*labels] != sorted(labels):
+                raise refusal(name, ", ".join(labels), f"put {dim} into the order x, y, z")
+
+
+def _labels(value: Any) -> Iterable[tuple[Any, Any]]:
+    """Return what names the elements along the dimensions of an array: indices of pandas'."""
+    if isinstance(named := getattr(value, "indexes", None), Mapping):
+        return named.items()
+    axes = {name: getattr(value, name, None) for name in ("index", "columns")}
+    return [(name, axis) for name, axis in axes.items() if hasattr(axis, "equals")]
 
 
 def plain_numbers(texts: Sequence[str]) -> Array | None:

@@ -1,12 +1,13 @@
 """The grammar of a quantity in a text: a number, then at most one unit expression.
 
-    number = [sign] digits [. digits] [e [sign] digits]
+    number = [sign] digits [. digits] [e [sign] digits], or with a cross and 10^[sign] digits
     unit   = term {product term} [/ term],  term = name [power]
 
-Digits are ASCII, a sign is +, - or the minus U+2212, a product is a space, * or a raised dot, a
-power is ^2, **2 or raised digits, or -2 at the end of a name, as in the CF conventions. Whatever
-else stands in a text makes it unreadable, so that pint, which multiplies and drops what it does not
-understand, is asked for the names of units alone.
+Digits are ASCII, a sign is +, - or the minus U+2212, a product is a space, *, a raised dot or a
+full stop between names, a power is ^2, **2 or raised digits, -2 at the end of a name, as in the CF
+conventions, or 2 or 3 at the end of a length. Whatever else stands in a text makes it unreadable,
+so that pint, which multiplies and drops what it does not understand, is asked for the names of
+units alone. The table of spellings in docs/input.md is what tests try.
 """
 
 import re
@@ -20,18 +21,25 @@ CANNOT_HOLD = "floating point cannot hold it"
 
 BLANKS = " \t\u00a0\u2009\u202f"  # no-break and thin spaces, too
 MINUS = "\u2212"
+CROSS = "\u00d7"  # of powers of ten
 SIGN = rf"[+\-{MINUS}]?"
-NUMBER = re.compile(rf"{SIGN}(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE]{SIGN}[0-9]+)?")
 LOWERED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹" + MINUS, "+-0123456789-")
 RAISED_DIGITS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
-NAME = rf"[^\W\d{RAISED_DIGITS}]+|[%‰°]"
-SPACED = rf"[{BLANKS}]*(?:\^|\*\*)[{BLANKS}]*({SIGN}[0-9])"  # pint writes blanks around **
-CF = rf"(?<=[^\W\d_])([{MINUS}-][0-9])"
-POWER = rf"{SPACED}|([⁺⁻]?[{RAISED_DIGITS}])|{CF}"
+MANTISSA = rf"{SIGN}(?:[0-9]+\.?[0-9]*|\.[0-9]+)"
+TIMES = rf"[{BLANKS}]*{CROSS}[{BLANKS}]*10(?:\^({SIGN}[0-9]+)|([⁺⁻]?[{RAISED_DIGITS}]+))"
+NUMBER = re.compile(rf"({MANTISSA})(?:[eE]({SIGN}[0-9]+)|{TIMES})?")
+OTHER_TIMES = re.compile(  # without raised digits it may have lost them
+    rf"[{BLANKS}]*(?:[{CROSS}·⋅*][{BLANKS}]*10|x[{BLANKS}]*10[⁺⁻^{RAISED_DIGITS}])"
+)
+LENGTH_END = r"(?:(?<=m)|(?<=in)|(?<=ft))"
+NAME = rf"[^\W\d{RAISED_DIGITS}]+|[%‰°˚]"
+SPACED = rf"[{BLANKS}]*(?:\^|\*\*)[{BLANKS}]*({SIGN}[1-9])"  # pint writes blanks around **
+CF = rf"(?<=[^\W\d_])([{MINUS}-][1-9])"
+POWER = rf"{SPACED}|([⁺⁻]?[{RAISED_DIGITS[1:]}])|{CF}|{LENGTH_END}([23])"
 TERM = re.compile(rf"({NAME})(?:{POWER})?(?![0-9{RAISED_DIGITS}^])")
-PRODUCT = re.compile(rf"[{BLANKS}]*[*·⋅][{BLANKS}]*|[{BLANKS}]+")
+PRODUCT = re.compile(rf"[{BLANKS}]*[*·⋅][{BLANKS}]*|[{BLANKS}]+|\.(?=[^\W\d_])")
 SLASH = re.compile(rf"[{BLANKS}]*/[{BLANKS}]*")
-SPELT = {"°": "degree", "rev": "turn", "revs": "turn"}
+SPELT = {"rev": "turn", "revs": "turn", "RPM": "rpm", **dict.fromkeys("°º˚", "degree")}
 OTHER_KIND = {
     "1": "it has a unit, but a pure number is needed",
     "rad/s": "a spin is not in {0}; write rad/s or rpm",
@@ -54,35 +62,31 @@ COMMON = {  # of most texts: for these pint, which takes a quarter of a second, 
     "rad/s": {"rad/s": 1.0, "rpm": pi / 30.0},
     "s": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6},
     "N": {"N": 1.0, "mN": 1e-3, "kN": 1e3},
-    "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9},
+    "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "N/mm^2": 1e6},
     "Hz": {"Hz": 1.0, "kHz": 1e3, "MHz": 1e6},
     "kg/m^3": {"kg/m^3": 1.0, "g/cm^3": 1e3},
     "1": {"%": 1e-2},
 }
 TOUGHNESS = "Pa m^0.5"  # the only unit with half a power: read as it is usually written, no other
 SIZES = {"": 1.0, "k": 1e3, "M": 1e6}
-ROOTS = (
-    " m^0.5",
-    " m^(1/2)",
-    " m^1/2",
-    " m**0.5",
-    " sqrt(m)",
-    "√m",
-    " √m",
-    "*sqrt(m)",
-    "*m^0.5",
-    "·m^0.5",
-)
+JOINTS = (" ", "*", "·", ".")
+ROOTS = ("m^0.5", "m^(1/2)", "m^1/2", "m1/2", "m½", "m**0.5", "sqrt(m)", "√m")
 WEAR = "m^2/N"
+CUBES = {"mm^3": 1e-9, "mm³": 1e-9, "mm3": 1e-9, "m^3": 1.0, "m³": 1.0, "m3": 1.0}
+WORKS = ("/(N m)", "/(N*m)", "/(N·m)", "/(N.m)", "/(Nm)", "/Nm", "/N/m")
 SPELT_OUT = {  # as people write them, which the grammar has no words for
-    TOUGHNESS: {f"{k}Pa{root}": size for k, size in SIZES.items() for root in ROOTS},
+    TOUGHNESS: {
+        f"{k}Pa{joint}{root}": size
+        for k, size in SIZES.items()
+        for root in ROOTS
+        for joint in (*JOINTS, *([""] if root == "√m" else []))
+    },
     WEAR: {
-        **dict.fromkeys(("mm^3/(N m)", "mm^3/(N*m)", "mm^3/(Nm)", "mm^3/Nm", "mm³/(N·m)"), 1e-9),
-        **dict.fromkeys(("mm³/(N m)", "mm³/(Nm)", "mm³/Nm", "mm^3/N/m", "mm³/N/m"), 1e-9),
-        **dict.fromkeys(("m^3/(N m)", "m^3/(Nm)", "m^3/Nm", "1/Pa"), 1.0),
-        **{"1/MPa": 1e-6, "1/GPa": 1e-9},
+        **{f"{cube}{work}": size for cube, size in CUBES.items() for work in WORKS},
+        **{"1/Pa": 1.0, "1/MPa": 1e-6, "1/GPa": 1e-9},
     },
 }
+FOLDED = str.maketrans("", "", BLANKS + "^*·⋅.(){}")
 
 
 class Unreadable(ValueError):
@@ -152,13 +156,15 @@ def split(text: str) -> tuple[float, str]:
     found = NUMBER.match(plain)
     if found is None:
         raise Unreadable() if plain else Unreadable("it is empty")
-    digits = found[0].replace(MINUS, "-")
-    value = float(digits)
-    if isinf(value) or (value == 0.0 and re.search("[1-9]", digits.lower().split("e")[0])):
+    mantissa = found[1].replace(MINUS, "-")
+    value = float(f"{mantissa}e{(found[2] or found[3] or found[4] or '0').translate(LOWERED)}")
+    if isinf(value) or (value == 0.0 and re.search("[1-9]", mantissa)):
         raise Unreadable(CANNOT_HOLD, enough=True)
     rest = plain[found.end() :]
     if rest.startswith(","):
         raise Unreadable("numbers need a decimal point, not a comma", enough=True)
+    if OTHER_TIMES.match(rest):
+        raise Unreadable(f"write powers of ten as in 5e3 or 5{CROSS}10^3", enough=True)
     return value, rest.strip(BLANKS)
 
 
@@ -169,7 +175,7 @@ def factor(expression: str, unit: str) -> Factor:
     """
     found = _factor(expression, unit)
     if isinstance(found, Unreadable):
-        raise Unreadable(str(found))
+        raise Unreadable(str(found), enough=found.enough)
     return found
 
 
@@ -181,11 +187,15 @@ def _factor(expression: str, unit: str) -> Factor | Unreadable:
     if unit == TOUGHNESS:
         return Unreadable(f"{expression!r} is not a unit of fracture toughness")
     try:
-        given, wanted = _root(_terms(expression)), _root(_terms("" if unit == "1" else unit))
+        terms = _terms(expression)
+        given, wanted = _root(terms), _root(_terms("" if unit == "1" else unit))
         if given[1] == wanted[1]:
-            return as_factor(given[0] / wanted[0])
+            found = as_factor(given[0] / wanted[0])
+            _refuse_doubled(terms)
+            return found
     except Unreadable as error:
-        return error
+        meant = _spelling(expression, unit)
+        return Unreadable(f"{error}; write {meant!r}", enough=True) if meant else error
     except ArithmeticError:
         return Unreadable(CANNOT_HOLD)
     words = OTHER_KIND.get(unit, "that is not a value in {1}")
@@ -202,7 +212,7 @@ def _terms(expression: str) -> tuple[tuple[str, int], ...]:
         found = TERM.match(expression, place)
         if found is None or len(terms) == TERMS:
             raise Unreadable(f"{expression!r} is not a unit")
-        power = (found[2] or found[3] or found[4] or "1").translate(LOWERED)
+        power = next(filter(None, found.groups()[1:]), "1").translate(LOWERED)
         terms.append((found[1], sign * int(power)))
         place = found.end()
         if place == len(expression):
@@ -227,13 +237,35 @@ def _root(terms: tuple[tuple[str, int], ...]) -> tuple[float, Any]:
     return float(found[0]), found[1]
 
 
+def _refuse_doubled(terms: tuple[tuple[str, int], ...]) -> None:
+    """Raise Unreadable for a unit that is repeated, and for a ratio beside another unit."""
+    sides = [(_whole_name(name), power > 0) for name, power in terms]
+    for (name, _), (whole, above) in zip(terms, sides, strict=True):
+        if whole in RATIOS.split() and terms != ((name, 1),):
+            raise Unreadable(f"{name!r} stands alone, without another unit and without a power")
+        if sides.count((whole, above)) > 1:
+            raise Unreadable(f"unit {name!r} is given twice; leave one out, or write a power")
+
+
+def _spelling(expression: str, unit: str) -> str:
+    """Return how a common unit is written that stands here in other letters, or nothing."""
+    plain = expression.lower().translate(LOWERED).translate(FOLDED)
+    known = (*COMMON.get(unit, ()), *SPELT_OUT.get(unit, ()))
+    return next((each for each in known if each.lower().translate(FOLDED) == plain), "")
+
+
 @lru_cache(maxsize=1024)
 def _whole_name(name: str) -> str:
-    """Return pint's name of a unit, with its prefix, or raise Unreadable if there is none."""
-    known = _registry().parse_unit_name(SPELT.get(name, name))
-    if not known or known[0][1] not in UNITS:
-        raise Unreadable(f"unit {name!r} is not known")
-    return str(known[0][0] + known[0][1])
+    """Return pint's name of a unit, with its prefix, or raise Unreadable if there is none.
+
+    Capital letters are taken for small ones in names that are written out, such as Pascal.
+    """
+    parse, small = _registry().parse_unit_name, name.lower()
+    for each, ends in ((SPELT.get(name, name), ()), (small, (small, small.removesuffix("s")))):
+        for prefix, unit, _ in parse(each)[:1]:
+            if unit in UNITS and prefix + unit in (ends or (prefix + unit,)):
+                return str(prefix + unit)
+    raise Unreadable(f"unit {name!r} is not known")
 
 
 @lru_cache(maxsize=1)

@@ -27,6 +27,8 @@ MOST = 1_000_000  # of what is counted, where nothing else is said
 MOST_THREADS = 1024
 WHOLE = re.compile(r"[+-]?[0-9]{1,40}")
 REAL = "iuf"  # kinds of NumPy's types
+BEARING = ("unit", "units", "Units", "dimension", "dimensionality")  # attributes of quantities
+PACKED = ("scale_factor", "add_offset")  # attributes by which numbers of files are still to change
 PURE = ("1", "-", "dimensionless")  # how tables and attributes call the unit of pure numbers
 
 HINTS = {
@@ -132,17 +134,37 @@ def told_unit(name: str, given: Any, unit: str = "") -> tuple[Any, Any]:
         return given.magnitude, given.units
     attributes = getattr(given, "attrs", None)
     if isinstance(attributes, Mapping):
-        within: Any = getattr(given, "data", None)
-        own, inner = attributes.get("units"), hasattr(within, "to_root_units")
-        if own is None or own == "":
-            return (within.magnitude, within.units) if inner else (given, None)
-        if inner:
-            raise two_units(name, own, within.units)
-        return given.values, str(own)
-    if hasattr(given, "unit") or hasattr(given, "units"):
+        own, within = _told_by_attributes(name, attributes), getattr(given, "data", None)
+        if hasattr(within, "to_root_units"):
+            if own:
+                raise two_units(name, own, within.units)  # type: ignore[union-attr]
+            return within.magnitude, within.units  # type: ignore[union-attr]
+        if own:
+            return (given.values if hasattr(given, "values") else given[()]), own
+    elif bears_unit(given):
         plain = f"plain numbers in {unit}" if unit not in ("", "1") else "plain numbers"
         raise refusal(name, given, f"give {plain}, or a quantity of pint's")
     return given, None
+
+
+def bears_unit(given: Any) -> bool:
+    """Tell whether this is a quantity of some library: its bare numbers may be in any unit."""
+    dimensions = getattr(given, "dimensions", ())  # of files they are the names of axes
+    return any(hasattr(given, name) for name in BEARING) or not isinstance(dimensions, tuple)
+
+
+def _told_by_attributes(name: str, attributes: Mapping[Any, Any]) -> str:
+    """Return the unit that the attributes of an array tell, or raise InputError for two."""
+    told = [v for key, v in attributes.items() if str(key).lower() in ("unit", "units")]
+    texts = [value.decode() if isinstance(value, bytes) else str(value) for value in told]
+    units = list(dict.fromkeys(filter(None, texts)))
+    if len(units) > 1:
+        raise two_units(name, *units[:2])
+    for key in PACKED:
+        if key in attributes:
+            allowed = "its numbers are packed; unpack them, e.g. by xarray.decode_cf"
+            raise refusal(name, f"an array with the attribute {key}", allowed)
+    return units[0] if units else ""
 
 
 def two_units(name: str, one: Any, other: Any) -> InputError:

@@ -11,7 +11,7 @@ from carom.bodies.cases import RATIO, law_of
 from carom.bodies.kinematics import components
 from carom.bodies.losses import SMALLEST_RESTITUTION, STIFFEST, LossLaw
 from carom.bodies.materials import STRENGTHS, Material, unchecked
-from carom.bodies.pairs import Counterbody, Pair, representable
+from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import LossNumbers
@@ -96,8 +96,7 @@ def evaluate(
         count = 1 if loss is None else len(BlockSolution._fields)
         solution = BlockSolution(*np.full((count, size), np.nan))
         outcome = _outcome(columns, kind, solution)  # which is filled before it is asked for
-        fits = representable(outcome.scales, outcome.contact_velocity)
-        lost = (status == PointStatus.SOLVED) & np.logical_not(fits)
+        lost = (status == PointStatus.SOLVED) & np.logical_not(outcome.fits)
         status[lost] = PointStatus.BEYOND_FLOATING_POINT
         if loss is None:
             solve_elastic(outcome, solution, status, threads)

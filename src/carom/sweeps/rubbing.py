@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from carom.bodies.kinematics import Tangential, components
 from carom.bodies.losses import LossLaw
-from carom.bodies.pairs import Pair, representable
+from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.impacts.outcome import Outcome
 from carom.impacts.wear import rubbed
@@ -131,8 +131,7 @@ def _fill(pair: Pair, losses: LossLaw | None, block: Many) -> None:
 def _status(columns: Mapping[str, Array], counts: Array, outcome: Outcome) -> Codes:
     """Return what is known before solving; of two faults the one that is marked later."""
     status = np.full(counts.size, PointStatus.SOLVED, dtype=np.int8)
-    fits = representable(outcome.scales, outcome.contact_velocity)
-    status[~np.broadcast_to(fits, status.shape)] = PointStatus.BEYOND_FLOATING_POINT
+    status[~np.broadcast_to(outcome.fits, status.shape)] = PointStatus.BEYOND_FLOATING_POINT
     status[~(counts >= 0.0)] = PointStatus.OUT_OF_RANGE
     status[~approaches(columns)] = PointStatus.NOT_APPROACHING
     for values in (*columns.values(), counts):

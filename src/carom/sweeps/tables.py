@@ -1,6 +1,7 @@
 """Tables of cases: columns of numbers with units, or of names, from a CSV file or a mapping."""
 
 import hashlib
+import re
 from collections.abc import Hashable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
@@ -12,10 +13,11 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from carom.io.columns import column_in_si
-from carom.io.tables import read_table
+from carom.io.tables import Cells, read_table
 from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, refusal
+from carom.quantities.texts import Unreadable, factor
 from carom.sweeps.blocks import Box
 from carom.sweeps.designs import Design
 from carom.sweeps.inputs import (
@@ -30,6 +32,8 @@ from carom.sweeps.inputs import (
     read_choice,
     refuse_contradictions,
 )
+
+GAPS = ("", "-", "nan")  # cells of what is not told
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -99,10 +103,35 @@ def _read(
                 else:
                     key = leaf(name)
                     inputs[name] = column_in_si(key, GLOSSARY[key].unit, unit, cells)[0]
+                    _refuse_units(table, name, inputs[name])
             except InputError as error:
                 faults.add(str(error))
         refuse_contradictions(table.names)
+        faults.settle()
+        _refuse_words(table, [name for name in inputs if name not in CHOSEN])
     return choices, inputs
+
+
+def _refuse_units(table: Cells, name: str, values: NDArray[Any]) -> None:
+    """Raise InputError for a cell that is a unit: what stands below it would be read without."""
+    cells = table.columns[name].cells
+    for place in np.flatnonzero(np.isnan(values)) if isinstance(cells, list) else ():
+        text = str(cells[place]).strip("[]() ")
+        with suppress(Unreadable):
+            if text and factor(text, GLOSSARY[leaf(name)].unit):
+                raise InputError(
+                    f"{name}: {text!r} in {table.one(int(place))} is a unit without a number; "
+                    f"write it into the head of the column, '{name} [{text}]'"
+                )
+
+
+def _refuse_words(table: Cells, names: list[str]) -> None:
+    """Raise InputError if the first row is none: words where there are numbers below."""
+    first = [table.columns[name].cells[0] for name in names]
+    words = [cell for cell in first if isinstance(cell, str) and cell.strip().lower() not in GAPS]
+    if words and not re.search(r"\d", "".join(map(str, first))):
+        allowed = "it has no number; leave it out, and write units into the head, 'speed [mm/s]'"
+        raise refusal(f"table, {table.one(0)}", ", ".join(words), allowed)
 
 
 def _chosen(name: str, cells: Any) -> tuple[NDArray[Any], tuple[Choice, ...]]:

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from copy import deepcopy
 from dataclasses import KW_ONLY, dataclass
 from inspect import signature
-from math import isfinite
+from math import isfinite, isnan
 from typing import Any, ClassVar
 
 import numpy as np
@@ -27,7 +27,7 @@ from carom.laws.dem.status import Codes, LawStatus, status_of
 from carom.laws.dem.stepping import HISTORY
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError, clipped, one_of, refusal
-from carom.quantities.units import number, positive
+from carom.quantities.units import bears_unit, number, positive
 
 CONVERGED = 2000  # steps where none are asked for
 FORCE, REBOUND = "def law(contact, state)", "def rebound(psi, chi)"
@@ -261,13 +261,14 @@ def _answer(function: Callable[..., Any], *given: Any) -> Any:
 
 
 def _is_finite(value: Any) -> bool:
-    return isinstance(value, float) and isfinite(value)
+    plain = type(value) is float or (isinstance(value, float) and not bears_unit(value))
+    return plain and isfinite(value)
 
 
 def _number(name: str, value: Any, unit: str) -> float:
     """Return what a function has returned as a finite number in a unit, or raise Fault."""
     try:
-        found = value if isinstance(value, float) else number(name, value, unit)
+        found = value if isinstance(value, float) and isnan(value) else number(name, value, unit)
     except InputError:
         shown = clipped(repr(value))
         raise Fault(LawStatus.NOT_A_NUMBER, f"returned {shown} as the {name}") from None

@@ -13,7 +13,7 @@ from carom.bodies.pairs import Pair, Scales, checked_scales
 from carom.bodies.shapes import HalfSpace, Sphere
 from carom.dimensionless.numerics import hertz
 from carom.laws.dem import ContactLaw
-from carom.quantities.arrays import Array, finite_line, numbers
+from carom.quantities.arrays import Array, along_the_same, finite_line, numbers
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import counted, positive
 
@@ -83,6 +83,7 @@ class Experiment:
         _refuse_bodies(self.pair)
         if not isinstance(self.law, ContactLaw):
             raise refusal("law", self.law, "must be a contact law, e.g. carom.LammpsMindlin()")
+        along_the_same(tangential_speed=self.tangential_speed, spin=self.spin)
         speeds = _column("tangential_speed", self.tangential_speed)
         spins = _column("spin", self.spin) or (0.0,) * len(speeds)
         if not speeds:
