@@ -248,7 +248,7 @@ def test_store_whose_chunks_have_no_seals_is_read(whole, copy):
     (copy / SEALED).unlink()
     lines = (copy / FROZEN).read_text().splitlines(keepends=True)
     (copy / FROZEN).write_text("".join(x for x in lines if not x.endswith(f"  {SEALED}\n")))
-    for name in OUTPUTS + ["status"]:
+    for name in [*OUTPUTS, "status"]:
         for file in chunks(copy, name):
             file.write_bytes(file.read_bytes()[:-40])
     assert carom.read(copy).load().identical(whole[1])

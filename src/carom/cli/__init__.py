@@ -54,6 +54,10 @@ def run() -> None:
     except KeyboardInterrupt:
         code = _told("the command was interrupted", INTERRUPTED)
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # once more ends it without a word
+    if code == FAILED:  # what stdout did not take is dropped
+        with suppress(OSError):
+            sys.stdout.flush()
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     sys.exit(code)
 
 
@@ -62,14 +66,10 @@ def _run() -> int:
         number = getattr(signal, name, None)  # Windows has no SIGHUP
         if number is not None and signal.getsignal(number) is signal.SIG_DFL:
             signal.signal(number, _end)
-    closed = sys.stdout is None
     _open_all()
     os.environ["MPLBACKEND"] = "agg"  # for files: no screen, and no backend that is not there
     _quieten()
-    code = main()
-    if closed and code == 0:
-        return _told("the output cannot be written; standard output is closed", FAILED)
-    return code
+    return main()
 
 
 def _end(number: int, _: object) -> Never:
@@ -77,14 +77,17 @@ def _end(number: int, _: object) -> Never:
 
 
 def _open_all() -> None:
-    """Let no file that is written take the place of a standard stream that is closed."""
+    """Let no file that is written take the place of a standard stream that is closed.
+
+    What is printed to stdout then fails, as that to a full disk does.
+    """
     for descriptor in range(3):
         try:
             os.fstat(descriptor)
-        except OSError:
-            os.open(os.devnull, os.O_RDWR)  # the lowest number that is free
-    sys.stdout = sys.stdout or open(os.devnull, "w")  # noqa: SIM115
-    sys.stderr = sys.stderr or open(os.devnull, "w")  # noqa: SIM115
+        except OSError:  # a new file takes the lowest number that is free
+            os.open(os.devnull, os.O_RDONLY if descriptor == 1 else os.O_RDWR)
+    sys.stdout = sys.stdout or open(1, "w", closefd=False)  # noqa: SIM115
+    sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
 
 
 def _told(message: str, code: int) -> int:

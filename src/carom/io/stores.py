@@ -2,8 +2,9 @@
 
 What is written once, when the store is made, has its SHA-256 in a list. Chunks end with a seal: the
 SHA-256 of a text that tells the store, of their place in it and of their bytes, in a frame that
-readers of zstd skip. So a chunk of another place, or of another store, is damage. Stores without a list, or
-with chunks that have no seals but zstd's own checksum, are older, and are read as they are.
+readers of zstd skip. So a chunk of another place, or of another store, is damage. Stores without a
+list, or with chunks that have no seals but zstd's own checksum, are older, and are read as they
+are.
 """
 
 import warnings

@@ -20,7 +20,7 @@ from carom.io.citations import IMPACT, VISCOUS, bibtex
 from carom.laws.panels import LARGEST_CHI, panel_ends, panels
 from carom.laws.portable import applied, lost
 from carom.laws.rules import DEGREE, Rule, frozen
-from carom.quantities.arrays import Array
+from carom.quantities.arrays import Array, pure_numbers
 from carom.quantities.keywords import renamed_keyword
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import positive
@@ -249,7 +249,7 @@ class ReboundLaw:
         True
         """
         try:
-            edges, rows = (np.array(table[name], float) for name in ("edges", "coefficients"))
+            edges, rows = (pure_numbers(name, table[name]) for name in ("edges", "coefficients"))
             chi = positive("chi", table["chi"])
             e = _restitution_of(KelvinVoigt(restitution=table.get("restitution", 1.0)))
             whole = _is_whole(chi, e, edges, rows)
