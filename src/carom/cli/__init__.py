@@ -11,11 +11,7 @@ import signal
 import sys
 import warnings
 from contextlib import suppress
-from typing import Never
-
-import lazy_loader
-
-__getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs={"commands": ["app"]})
+from typing import Any, Never
 
 UNWRITTEN = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
 FAILED, REFUSED, INTERRUPTED = 1, 2, 130  # exit codes
@@ -70,6 +66,14 @@ def _run() -> int:
     os.environ["MPLBACKEND"] = "agg"  # for files: no screen, and no backend that is not there
     _quieten()
     return main()
+
+
+def __getattr__(name: str) -> Any:
+    if name != "app":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from carom.cli.commands import app
+
+    return app
 
 
 def _end(number: int, _: object) -> Never:

@@ -17,6 +17,7 @@ from carom.cli.cases import (
     file_argument,
     named_values,
     outputs,
+    require_some,
     stored,
     tell,
     told_case,
@@ -107,6 +108,7 @@ def sweep_command(
     if store is None and file is None:
         advice = "add --output sweep.nc or --store sweep.zarr to keep them"
         typer.echo(f"Carom has not stored the results; {advice}.", err=True)
+    require_some(result.solved, result.points)
 
 
 def _file(content: "Case") -> str | None:

@@ -118,7 +118,7 @@ def read_text(what: str, path: Path) -> str:
     """
     try:
         with opened(checked_path(what, path), encoding="utf-8-sig") as file:
-            text = file.read(LONGEST_TEXT + 1)
+            text: str = file.read(LONGEST_TEXT + 1)
     except OSError as error:
         reason = error.strerror or error
         raise InputError(f"{what}: {str(path)!r} cannot be read; {reason}") from None

@@ -34,7 +34,7 @@ def write_netcdf(dataset: "xr.Dataset", where: Path) -> None:
 
     HDF5 makes the file in memory: it crashes where a disk is full, or a file may not grow.
     """
-    import h5netcdf
+    import h5netcdf  # type: ignore[import-untyped]
     from xarray.backends import H5NetCDFStore
 
     # what has no missing values declares none: CF forbids it of coordinates

@@ -45,7 +45,7 @@ def checked_path(what: str, path: str | Path, kind: str = "file") -> Path:
     return Path(path)
 
 
-def opened(path: Path, mode: str = "r", **how: Any) -> IO[Any]:
+def opened(path: Path, mode: str = "r", **how: Any) -> Any:
     """Return an open file; raises OSError as `open`, and for a pipe that has no other end."""
     if not path.is_fifo():
         return path.open(mode, **how)
@@ -138,7 +138,7 @@ def _pour(source: Path, target: Path) -> None:
         shutil.copyfileobj(content, stream)
 
 
-def _opened(target: Path) -> IO[bytes]:
+def _opened(target: Path) -> Any:
     descriptor = _descriptor(target)  # which, opened by its name, is written from its start
     return opened(target, "wb") if descriptor is None else open(os.dup(descriptor), "wb")
 
