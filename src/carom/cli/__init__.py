@@ -15,7 +15,10 @@ from typing import Any, Never
 
 UNWRITTEN = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
 FAILED, REFUSED, INTERRUPTED = 1, 2, 130  # exit codes
-ENDING = ("SIGTERM", "SIGHUP")  # signals after which a command still removes its temporary files
+ENDING = ("SIGINT", "SIGTERM", "SIGHUP")
+
+
+_heard: list[int] = []  # signals that are to end this process
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -23,24 +26,30 @@ def main(arguments: list[str] | None = None) -> int:
 
     It is 1 for a failure, and 130 if somebody has interrupted the command.
     """
-    refused: tuple[type[Exception], ...] = ()
     try:
-        from carom.quantities.refusals import InputError
-
-        refused = (InputError,)
         from carom.cli.commands import answer
 
         code = answer(arguments)
         sys.stdout.flush()
         return code
-    except refused as error:
-        return _told(str(error), REFUSED)
     except KeyboardInterrupt as error:
         return _told(str(error) or "the command was interrupted", INTERRUPTED)
     except Exception as error:  # the last resort: a line instead of a traceback
-        if isinstance(error, OSError) and error.errno in UNWRITTEN:
-            return _told(f"the output cannot be written; {error.strerror}", FAILED)
-        return _told(f"the command failed, {type(error).__name__}: {error}", FAILED)
+        return _failed(error)
+
+
+def _failed(error: Exception) -> int:
+    if _heard:  # C code makes other errors of what ends a process
+        return _told("the command was interrupted", 128 + _heard[0])
+    from carom.quantities.refusals import InputError
+
+    if isinstance(error, InputError):
+        return _told(str(error), REFUSED)
+    if isinstance(error, BrokenPipeError):  # whoever has read the output has gone
+        return FAILED
+    if isinstance(error, OSError) and error.errno in UNWRITTEN:
+        return _told(f"the output cannot be written; {error.strerror}", FAILED)
+    return _told(f"the command failed, {type(error).__name__}: {error}", FAILED)
 
 
 def run() -> None:
@@ -60,12 +69,21 @@ def run() -> None:
 def _run() -> int:
     for name in ENDING:
         number = getattr(signal, name, None)  # Windows has no SIGHUP
-        if number is not None and signal.getsignal(number) is signal.SIG_DFL:
+        usual = signal.SIG_DFL, signal.default_int_handler
+        if number is not None and signal.getsignal(number) in usual:  # not ignored, as by nohup
             signal.signal(number, _end)
     _open_all()
     os.environ["MPLBACKEND"] = "agg"  # for files: no screen, and no backend that is not there
     _quieten()
     return main()
+
+
+def _end(number: int, _: object) -> Never:
+    """End this process, so that it still removes its temporary files."""
+    _heard.append(number)
+    if number == signal.SIGINT:
+        raise KeyboardInterrupt
+    sys.exit(128 + number)
 
 
 def __getattr__(name: str) -> Any:
@@ -74,10 +92,6 @@ def __getattr__(name: str) -> Any:
     from carom.cli.commands import app
 
     return app
-
-
-def _end(number: int, _: object) -> Never:
-    sys.exit(128 + number)
 
 
 def _open_all() -> None:
