@@ -11,7 +11,8 @@ from typing import Any
 from typer.main import get_command
 
 import carom
-from carom.cli import app, main
+from carom.cli import main
+from carom.cli.commands import app
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SETUP = """\

@@ -10,7 +10,8 @@ import pandas as pd
 import pytest
 
 import carom
-from carom.cli import app, main
+from carom.cli import main
+from carom.cli.commands import app
 
 BALL = ["impact", "--radius", "5 mm", "--material", "steel", "--friction", "0.2"]
 SPEED = ["--speed", "2", "--angle", "30 deg"]

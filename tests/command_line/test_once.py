@@ -3,7 +3,8 @@
 import pytest
 import typer.main
 
-from carom.cli import app, main
+from carom.cli import main
+from carom.cli.commands import app
 
 LISTS = {"--chi": "curve", "--psi": "laws", "--fix": "fit", "--column": "fit"}
 

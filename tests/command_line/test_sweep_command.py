@@ -249,7 +249,7 @@ def test_interrupted_it_says_what_is_safe_and_how_to_go_on(run, monkeypatch):
     with monkeypatch.context() as pressed:
         pressed.setattr("carom.sweeps.stores.write_chunk", interrupted)
         code, out, err = run("case.toml", "--store", "sweep.zarr")
-    assert (code, out) == (1, "")
+    assert (code, out) == (130, "")
     assert err == (
         "carom: the sweep was stopped; 0 of 1 blocks are safe in sweep.zarr; "
         "--resume (resume=True) continues there\n"

@@ -22,6 +22,8 @@ import xarray as xr
 
 import carom
 from carom import classical, verify
+from carom.io.tables import read_table
+from carom.sweeps.problem import SweepProblem
 
 SECONDS = 5.0  # of a call
 TOLD = ("give NaN", "left alone")  # in warnings that say what became of some points
@@ -37,6 +39,7 @@ SCALARS = (
     *(np.timedelta64(5, "s"), UNITS.Quantity(0.5, "mm"), UNITS.Quantity(2.0, "s")),
     *(UNITS.Quantity(0.5, ""), UNITS.Quantity(20.0, "degC"), 10**5000, 5e-324, 1.7e308),
 )
+RECORDS = np.array([(0.5, 0.1), (1.0, -0.2)], [("psi_1", "f8"), ("psi_2", "f8")])
 MANY = (
     *([], [0.5], [0.5, 1.0], [[0.5, 1.0], [1.0, 2.0]], [[1.0], [1.0, 2.0]], ["1 mm", "2 mm"]),
     *([True, 1.0], [None], ["a"], [b"1"], [NAN, 1.0], [INF], [1j], (), {}, {"a": 1}, {1.0}),
@@ -47,6 +50,21 @@ MANY = (
     *(UNITS.Quantity([0.5, 1.0], "mm"), UNITS.Quantity([0.5, 1.0], "N"), pd.Series([0.5, 1.0])),
     *(xr.DataArray([0.5, 1.0]), xr.DataArray([0.5, 1.0], attrs={"units": "mm"}), range(3)),
     *(xr.Dataset({"a": 1.0}), pd.DataFrame({"a": [1.0]}), [0.5, [1.0, [2.0]]], bytearray(b"12")),
+    *(
+        RECORDS,
+        RECORDS[0],
+        RECORDS.view(np.recarray),
+        np.ma.masked_array(RECORDS),
+        RECORDS.reshape(2, 1),
+    ),
+    *(
+        np.zeros(2, "V8"),
+        np.zeros(2, [("psi_1", "f8", 2), ("psi_2", "f8")]),
+        [{}],
+        [[]],
+        [["psi_out"]],
+    ),
+    *([np.array(["psi_out"])], pd.Series(["psi_out"]), ("psi_out",), {"psi_out"}, [pd.NA], pd.NA),
 )
 THINGS = (
     int,
@@ -143,6 +161,10 @@ def tables():
         "impulse": (LAW.impulse, {"psi": [0.5, 2.0]}),
         "dissipation": (LAW.dissipation, {"psi": [0.5, 2.0]}),
         "from_dict": (carom.ReboundLaw.from_dict, {"table": LAW.to_dict()}),
+        "from_dict, items": (lambda **table: carom.ReboundLaw.from_dict(table), LAW.to_dict()),
+        "from_dict, one item": (_with_one(LAW), {"item": LAW.edges[1]}),
+        "outputs": (lambda outputs: SweepProblem(CASE, GRID, outputs), {"outputs": ["psi_out"]}),
+        "table": (read_table, {"source": RECORDS, "columns": None}),
         "mixture": (MIXED, {"psi": [0.5, 2.0], "chi": 1.25, "return_status": False}),
         "SmoothLaw": (carom.SmoothLaw, {"restitution": 0.9}),
         "RoughLaw": (carom.RoughLaw, {"restitution": 0.9}),
@@ -271,6 +293,17 @@ OPEN = {  # NaN or infinity that the docstring tells
     *("RoughLaw", "sweep", "force_error", "force_error, own", "memory", "Entry", "rank, own"),
     *("hit.spectrum", "hit.spectrum, n", "strength", "wear", "wear, components"),
 }
+
+
+def _with_one(law):
+    """A function that reads the table of a law with another item in the place of one."""
+
+    def read(item):
+        table = law.to_dict()
+        table["edges"][1] = item
+        return carom.ReboundLaw.from_dict(table)
+
+    return read
 
 
 class TooLong(BaseException):

@@ -1,6 +1,7 @@
 """Fits and files are made in processes that are killed at their limits; the page goes on."""
 
 import os
+import signal
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -15,7 +16,7 @@ from carom.explorer.refused import Refused
 from carom.explorer.worker import Desk, Worker
 
 ECHO = """\
-import json, os, sys
+import json, os, sys, time
 print(json.dumps({"ready": True}), flush=True)
 for line in sys.stdin:
     asked = json.loads(line)["what"]
@@ -23,6 +24,8 @@ for line in sys.stdin:
         9 ** 9 ** 9  # no other thread gets a turn, and no signal of Python is heard
     if asked == "die":
         os._exit(1)
+    if asked == "slow":
+        time.sleep(0.6)
     told = {"refuse": {"refused": "no", "field": "angle"}, "busy": {"busy": True}}
     print(json.dumps(told.get(asked, {"told": asked, "process": os.getpid()})), flush=True)
 """
@@ -67,9 +70,27 @@ def test_refusals_failures_and_crashes_are_told_apart(desk):
     assert refused.value.field == "angle"
     with pytest.raises(Busy):
         desk.ask(what="busy")
-    with pytest.raises(RuntimeError, match="has ended"):
+    with pytest.raises(Busy, match="has ended; try again"):
         desk.ask(what="die")
     assert desk.ask(what="again")["told"] == "again"
+
+
+@pytest.mark.parametrize("when", ["between", "at once", "at work"])
+def test_a_question_is_asked_again_if_its_process_was_killed(desk, when):
+    """As the system does where memory is short; whoever asks does not notice."""
+    process = desk.ask(what="one")["process"]
+    if when != "at work":
+        os.kill(process, signal.SIGKILL)
+        assert when == "at once" or desk._process.wait(PATIENCE) == -signal.SIGKILL
+        assert desk.ask(what="two")["told"] == "two"
+        return
+    with ThreadPoolExecutor(1) as visitor:
+        asked = visitor.submit(desk.ask, what="slow")
+        time.sleep(0.3)
+        os.kill(process, signal.SIGKILL)
+        found = asked.result(PATIENCE)
+    assert found["told"] == "slow"
+    assert found["process"] != process
 
 
 def test_a_few_wait_and_the_rest_is_told_that_the_page_is_busy(desk):

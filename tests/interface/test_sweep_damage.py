@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 import carom
-from carom.io.stores import FROZEN
+from carom.io.stores import FROZEN, SEALED
 
 CASE = {"first": {"radius": "5 mm", "material": "steel"}, "speed": 1.0, "angle": 0.4}
 AXES = {
@@ -205,3 +205,59 @@ def test_folder_of_something_else_is_never_touched(tmp_path):
             swept(other, resume=resume)
     assert [file.name for file in other.iterdir()] == ["mine.txt"]
     assert np.all([file.read_text() == "mine" for file in other.iterdir()])
+
+
+MISPLACED = {
+    "from another block": ("psi_out", 2),
+    "from another variable": ("rebound_speed", 1),
+    "from another sweep": None,
+}
+
+
+@pytest.mark.parametrize("how", MISPLACED)
+@pytest.mark.parametrize("name", ["status", "psi_out", "chi"])
+def test_chunk_of_another_place_is_found(name, how, whole, copy, tmp_path):
+    """Each is sound in itself; it belongs elsewhere, and is never read as numbers."""
+    target = chunks(copy, name)[1]
+    if MISPLACED[how] is None:
+        other = carom.Grid(AXES | {"friction": {"from": 0.06, "to": 0.5, "points": 50}})
+        swept(tmp_path / "other.zarr", other, resume=False)
+        source = tmp_path / "other.zarr" / target.relative_to(copy)
+    else:
+        array, block = MISPLACED[how]
+        source = chunks(copy, array if "variable" in how else name)[block]
+    shutil.copyfile(source, target)
+    key = str(target.relative_to(copy))
+    with pytest.raises(carom.InputError, match=f"{key} is damaged; --resume"):
+        carom.read(copy).load()
+    assert swept(copy).load().identical(whole[1])
+
+
+def test_chunks_exchanged_are_found(whole, copy):
+    one, other = chunks(copy, "psi_out")[:2]
+    kept = one.read_bytes()
+    one.write_bytes(other.read_bytes())
+    other.write_bytes(kept)
+    with pytest.raises(carom.InputError, match=r"psi_out/c/0/\d is damaged"):
+        carom.read(copy).load()
+    assert swept(copy).load().identical(whole[1])
+
+
+def test_store_whose_chunks_have_no_seals_is_read(whole, copy):
+    """As they were before chunks had them: with a list of what is written once."""
+    (copy / SEALED).unlink()
+    lines = (copy / FROZEN).read_text().splitlines(keepends=True)
+    (copy / FROZEN).write_text("".join(x for x in lines if not x.endswith(f"  {SEALED}\n")))
+    for name in [*OUTPUTS, "status"]:
+        for file in chunks(copy, name):
+            file.write_bytes(file.read_bytes()[:-40])
+    assert carom.read(copy).load().identical(whole[1])
+    damage(chunks(copy, "psi_out")[0], "bit within")
+    with pytest.raises(carom.InputError, match="psi_out/c/0/0 is damaged"):
+        carom.read(copy).load()
+    assert swept(copy).load().identical(whole[1])
+
+
+def test_programs_that_know_no_seals_read_a_store(whole, copy):
+    """They pass over them, as they do over any frame that zstd skips."""
+    assert xr.open_zarr(copy, chunks=None).psi_out.equals(whole[1].psi_out)

@@ -44,11 +44,12 @@ SIZES: dict[str, Callable[[str, Any], float]] = {
 BODY = (*SIZES, "material")
 MATERIAL = (*VALUES, "name")
 OUTPUT = ("plot", "animation", "data", "spectrum")
-TABLES = {"first": BODY, "second": ("kind", *BODY), "output": OUTPUT}
+SWEEP = "sweep"  # the table of a sweep, which `carom.sweeps` reads
+SWEPT = ("samples", "seed", "table", "columns", "outputs", "axes")
+TABLES = {"first": BODY, "second": ("kind", *BODY), "output": OUTPUT, SWEEP: SWEPT}
 KINDS = ("half-space", "sphere", "cup")
 SHAPES = (HalfSpace, Sphere, Cup)
 DEEP = re.compile(r"(?<![\w\"'-])(?:[\w\"'-]++\s*+\.\s*+){20}")  # a dotted key of that many tables
-SWEEP = "sweep"  # the table of a sweep, which `carom.sweeps` reads
 
 
 def read_case(path: Path, *, losses: bool = False) -> Case:
@@ -96,7 +97,7 @@ def check_case(
             if key in case:
                 where = place(key, "")
                 faults.add(f"{key}: not used{where}; this is for elastic impacts, leave it out")
-        check(case, ("friction", *MOTION, *LOSSES, RATIO, *TABLES, SWEEP), "")
+        check(case, ("friction", *MOTION, *LOSSES, RATIO, *TABLES), "")
         for name, allowed in TABLES.items():
             table = case.get(name, {})
             if not isinstance(table, Mapping):
@@ -113,7 +114,8 @@ def _place(path: Path, text: str, key: str, table: str) -> str:
 def line_of(key: str, text: str, table: str) -> int:
     """Return the line of a key, searched from the header of its table on."""
     word = re.escape(key)
-    pattern = re.compile(rf"^\s*+\[?+\s*+[\"']?{word}[\"']?\s*[=\].]|[{{,]\s*{word}\s*=")
+    outer = rf"(?:{table}\s*+\.\s*+)?" if table else ""
+    pattern = re.compile(rf"^\s*+\[?+\s*+{outer}[\"']?{word}[\"']?\s*[=\].]|[{{,]\s*{word}\s*=")
     header = re.compile(rf"^\s*+\[?+\s*+{table}\b") if table else re.compile("")
     inside = False
     for row, line in enumerate(text.splitlines(), 1):

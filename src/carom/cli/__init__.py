@@ -1,113 +1,123 @@
 """The commands. No physics here: they read, call the library, and print.
 
-Imports inside functions are for what only one command needs, so that `carom --help` is quick; in
-the rest of the package, for third-party packages that are heavy or optional.
+This file is how a command begins and ends. It loads next to nothing, so that a signal finds it
+ready. Imports inside functions are for what only one command needs, so that `carom --help` is
+quick; in the rest of the package, for third-party packages that are heavy or optional.
 """
 
-import logging
+import errno
 import os
+import signal
 import sys
 import warnings
+from contextlib import suppress
+from typing import Any, Never
 
-import typer
-
-import carom
-from carom.cli.curve import curve_command
-from carom.cli.explore import explore_command
-from carom.cli.fit import fit_command
-from carom.cli.impact import impact_command
-from carom.cli.lammps import app as lammps_app
-from carom.cli.liggghts import app as liggghts_app
-from carom.cli.materials import materials_command
-from carom.cli.once import Commands
-from carom.cli.sweep import sweep_command
-from carom.cli.verify import app as verify_app
-from carom.quantities.refusals import InputError, nearest
-from carom.quantities.symbols import meant, remark
-
-app = Commands(
-    name="carom",
-    help="Carom computes how an elastic sphere leaves an oblique impact, and what happens inside "
-    "the contact.\n\n"
-    "Begin with carom impact for one impact, carom sweep for many, carom fit for measured "
-    "rebounds, carom verify for contact laws of DEM codes, or carom explore for a page in the "
-    "browser. carom COMMAND --help describes a command. The exit code is 0, 2 for input that "
-    "cannot be used, or 1 for a failure.\n\n\b\n"
-    'Example: carom impact --radius "5 mm" --material steel --friction 0.2 --speed 2 '
-    '--angle "30 deg"',
-    no_args_is_help=True,
-    add_completion=False,
-    rich_markup_mode=None,
-    pretty_exceptions_enable=False,
-)
-app.command("impact")(impact_command)
-app.command("curve")(curve_command)
-app.command("sweep")(sweep_command)
-app.command("fit")(fit_command)
-app.command("explore")(explore_command)
-app.command("materials")(materials_command)
-app.add_typer(verify_app)
-app.add_typer(lammps_app)
-app.add_typer(liggghts_app)
+UNWRITTEN = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
+FAILED, REFUSED, INTERRUPTED = 1, 2, 130  # exit codes
+ENDING = ("SIGINT", "SIGTERM", "SIGHUP")
 
 
-@app.callback(invoke_without_command=True)
-def _common(
-    version: bool = typer.Option(False, "--version", help="Print the version and exit."),
-) -> None:
-    if version:
-        typer.echo(carom.__version__)
-        raise typer.Exit
+_heard: list[int] = []  # signals that are to end this process
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run a command; return 0, 2 for bad input (one line on stderr), or 1 for a failure."""
+    """Run a command; return 0, or after one line on stderr 2 for bad input, 1 or 130.
+
+    It is 1 for a failure, and 130 if somebody has interrupted the command.
+    """
     try:
-        return int(app(arguments, standalone_mode=False) or 0)
-    except InputError as error:
-        return _refuse(str(error))
-    except typer.TyperException as error:
-        if type(error).__name__ == "NoArgsIsHelpError":  # no command: the message is the help
-            typer.echo(error.format_message())
-            return error.exit_code
-        asked = _option_meant(error) or "see carom --help or carom COMMAND --help"
-        return _refuse(f"{error.format_message().rstrip('.')}; {asked}")
-    except typer.Abort:
-        typer.echo("carom: the command was interrupted", err=True)
-        return 1
+        from carom.cli.commands import answer
+
+        code = answer(arguments)
+        sys.stdout.flush()
+        return code
+    except KeyboardInterrupt as error:
+        return _told(str(error) or "the command was interrupted", INTERRUPTED)
     except Exception as error:  # the last resort: a line instead of a traceback
-        typer.echo(f"carom: the command failed, {type(error).__name__}: {error}", err=True)
-        return 1
+        return _failed(error)
 
 
-def _option_meant(error: typer.TyperException) -> str:
-    """Return a hint at the option that one stands for which the command does not have."""
-    word = str(getattr(error, "option_name", "")).strip("-").replace("-", "_")
-    context = getattr(error, "ctx", None)
-    if not word or context is None:
-        return ""
-    options = [name for each in context.command.params for name in each.opts]
-    known = {name.strip("-").replace("-", "_"): name for name in options}
-    name = meant(word, known)
-    if name:
-        return f"write {known[name]}{remark(word, name).removeprefix(name)}"
-    return nearest(word.replace("_", "-"), [option.strip("-") for option in options])
+def _failed(error: Exception) -> int:
+    if _heard:  # C code makes other errors of what ends a process
+        return _told("the command was interrupted", 128 + _heard[0])
+    from carom.quantities.refusals import InputError
 
-
-def _refuse(message: str) -> int:
-    typer.echo(f"carom: {' '.join(message.split())}", err=True)
-    return 2
+    if isinstance(error, InputError):
+        return _told(str(error), REFUSED)
+    if isinstance(error, BrokenPipeError):  # whoever has read the output has gone
+        return FAILED
+    if isinstance(error, OSError) and error.errno in UNWRITTEN:
+        return _told(f"the output cannot be written; {error.strerror}", FAILED)
+    return _told(f"the command failed, {type(error).__name__}: {error}", FAILED)
 
 
 def run() -> None:
     """Run a command from the shell, in a process of its own."""
+    try:
+        code = _run()
+    except KeyboardInterrupt:
+        code = _told("the command was interrupted", INTERRUPTED)
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # once more ends it without a word
+    if code == FAILED:  # what stdout did not take is dropped
+        with suppress(OSError):
+            sys.stdout.flush()
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    sys.exit(code)
+
+
+def _run() -> int:
+    for name in ENDING:
+        number = getattr(signal, name, None)  # Windows has no SIGHUP
+        usual = signal.SIG_DFL, signal.default_int_handler
+        if number is not None and signal.getsignal(number) in usual:  # not ignored, as by nohup
+            signal.signal(number, _end)
+    _open_all()
     os.environ["MPLBACKEND"] = "agg"  # for files: no screen, and no backend that is not there
     _quieten()
-    sys.exit(main())
+    return main()
+
+
+def _end(number: int, _: object) -> Never:
+    """End this process, so that it still removes its temporary files."""
+    _heard.append(number)
+    if number == signal.SIGINT:
+        raise KeyboardInterrupt
+    sys.exit(128 + number)
+
+
+def __getattr__(name: str) -> Any:
+    if name != "app":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from carom.cli.commands import app
+
+    return app
+
+
+def _open_all() -> None:
+    """Let no file that is written take the place of a standard stream that is closed.
+
+    What is printed to stdout then fails, as that to a full disk does.
+    """
+    for descriptor in range(3):
+        try:
+            os.fstat(descriptor)
+        except OSError:  # a new file takes the lowest number that is free
+            os.open(os.devnull, os.O_RDONLY if descriptor == 1 else os.O_RDWR)
+    sys.stdout = sys.stdout or open(1, "w", closefd=False)  # noqa: SIM115
+    sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
+
+
+def _told(message: str, code: int) -> int:
+    with suppress(OSError):  # stderr is full, too
+        print(f"carom: {' '.join(message.split())}", file=sys.stderr, flush=True)
+    return code
 
 
 def _quieten() -> None:
     """Show the warnings of this package in one line each, and none of the packages it uses."""
+    import logging
+
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # of its folders and its fonts
     if sys.warnoptions:  # somebody looks for them
         return

@@ -97,6 +97,13 @@ def tell(doubts: Iterable[str]) -> None:
         typer.echo(f"carom: {doubt}", err=True)
 
 
+def require_some(solved: int, points: int) -> None:
+    """Exit with 1, after a line, if fewer than one point in ten is solved."""
+    if 10 * solved < points:
+        tell([f"{solved} of {points} points are solved, the others are NaN; give other values"])
+        raise typer.Exit(1)
+
+
 def tell_sweep(case: "Case") -> None:
     """Tell that the table [sweep] of a case is left out, if there is one."""
     if "sweep" in case:

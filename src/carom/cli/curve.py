@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import carom
-from carom.cli.cases import Json, Plot, check_outputs, stored, whole_option
+from carom.cli.cases import Json, Plot, check_outputs, require_some, stored, whole_option
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import finite, or_none, positive, whole
 
@@ -93,6 +93,8 @@ def curve_command(
     if plot is not None:
         stored(carom.plots.save_figure(carom.plots.plot_curve(dataset), plot))
     typer.echo(json.dumps(_record(dataset), indent=2) if as_json else _table(dataset))
+    found = dataset["contact_restitution"]
+    require_some(int(found.count()), found.size)
 
 
 def _losses(restitution: str | None) -> "KelvinVoigt | None":

@@ -10,8 +10,19 @@ from typer.core import TyperCommand, TyperOption
 from carom.quantities.refusals import InputError
 
 
+class Interrupted(Exception):
+    """A command was interrupted, as by Ctrl-C; typer drops what such an exception says."""
+
+
 class Once(TyperCommand):
     """A command that refuses an option given twice, unless it is one of several values."""
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the command; raises Interrupted for a KeyboardInterrupt."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt as error:
+            raise Interrupted(*error.args) from None
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Read the arguments, after a look at how often each option is among them."""

@@ -17,6 +17,7 @@ from carom.cli.cases import (
     file_argument,
     named_values,
     outputs,
+    require_some,
     stored,
     tell,
     told_case,
@@ -107,6 +108,7 @@ def sweep_command(
     if store is None and file is None:
         advice = "add --output sweep.nc or --store sweep.zarr to keep them"
         typer.echo(f"Carom has not stored the results; {advice}.", err=True)
+    require_some(result.solved, result.points)
 
 
 def _file(content: "Case") -> str | None:
@@ -120,15 +122,17 @@ def _file(content: "Case") -> str | None:
 
 @contextmanager
 def _stopping() -> Iterator[None]:
-    """If a sweep stops, say in one line why and what is safe, and exit with 1."""
+    """If a sweep stops, say in one line why and what is safe; exit with 1 if it cannot go on."""
     from carom.sweeps.records import SweepStopped
 
     try:
         yield
-    except (SweepStopped, KeyboardInterrupt) as error:
-        stopped = "the sweep was stopped; " if isinstance(error, KeyboardInterrupt) else ""
-        typer.echo(f"carom: {stopped}{error}", err=True)
+    except SweepStopped as error:
+        typer.echo(f"carom: {error}", err=True)
         raise typer.Exit(1) from None
+    except KeyboardInterrupt as error:
+        safe = f"; {error}" if error.args else ""
+        raise KeyboardInterrupt(f"the sweep was stopped{safe}") from None
 
 
 def _record(result: "Summary", store: str | None, output: str | None) -> dict[str, Any]:

@@ -27,8 +27,10 @@ REQUEST_SECONDS = 60.0  # from the connection until the answer is taken
 class Busy(RuntimeError):
     """Others keep the page busy with what is asked for."""
 
+    said = "the page is busy; try again"
+
     def __init__(self) -> None:
-        super().__init__("the page is busy; try again")
+        super().__init__(self.said)
 
 
 class Turns:

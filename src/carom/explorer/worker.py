@@ -30,6 +30,12 @@ LATE = {
 }
 
 
+class Ended(Busy):
+    """A process ended before it answered."""
+
+    said = "the process that works for the page has ended; try again"
+
+
 class Desk:
     """A process that does one kind of work, one piece at a time.
 
@@ -52,6 +58,8 @@ class Desk:
         with self._guard:
             if self._closed or (self._process is not None and self._process.poll() is None):
                 return
+            if self._process is not None:
+                _end(self._process)
             if self._folder is None:
                 self._folder = TemporaryDirectory(prefix="carom-")
             paths = json.dumps([abspath(path) for path in sys.path])
@@ -79,11 +87,15 @@ class Desk:
     def ask(self, **asked: Any) -> dict[str, Any]:
         """Return what the process answers.
 
-        Raises Refused, for what takes too long as well, Busy if others wait already, and
-        RuntimeError if it fails.
+        Raises Refused, for what takes too long as well, Busy if others wait already, or if the
+        process is killed twice, and RuntimeError if it fails.
         """
+        question = json.dumps(asked) + "\n"
         with self._turns:
-            answer = self._answer(json.dumps(asked) + "\n")
+            try:
+                answer = self._answer(question)
+            except Ended:  # killed, perhaps by the system for want of memory: once more
+                answer = self._answer(question)
         if "failed" in answer:
             raise RuntimeError(answer["failed"])
         if "busy" in answer:
@@ -102,7 +114,7 @@ class Desk:
             if not self._ready:
                 self._ready = _exchanged(process, START_SECONDS) == READY
             return _exchanged(process, self._seconds, question)
-        except (TimeoutError, RuntimeError) as error:
+        except (TimeoutError, Ended) as error:
             if self._closed or process is None:
                 raise Busy from None
             _end(process)
@@ -143,7 +155,7 @@ def _exchanged(
 ) -> dict[str, Any]:
     """Return what the process writes next.
 
-    Raises TimeoutError if it was killed after that time, RuntimeError if it ended.
+    Raises TimeoutError if it was killed after that time, Ended if it ended before.
     """
     assert process.stdin is not None
     assert process.stdout is not None
@@ -157,7 +169,7 @@ def _exchanged(
         found: dict[str, Any] = json.loads(process.stdout.readline())
     except (OSError, ValueError):
         if monotonic() < end:
-            raise RuntimeError("the process that works for the page has ended") from None
+            raise Ended from None
         raise TimeoutError from None
     finally:
         limit.cancel()

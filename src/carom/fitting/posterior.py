@@ -19,7 +19,6 @@ WALKERS = 8  # per parameter
 BURN = 0.25  # part of the steps that is left out
 FEWEST_STEPS, MOST_STEPS = 100, 100_000
 MOST_SEED = 2**63 - 1  # that a file can hold
-CHUNK = 50  # steps between two words of progress
 LONG = 50.0  # autocorrelation times that a chain should have (emcee's documentation)
 
 
@@ -46,11 +45,17 @@ def sample(fit: FitRecord, steps: int, seed: int | None, progress: Progress) -> 
     low, high = best.model.bounds
     residuals = best.model.residuals(best.weights, best.loss)
 
+    stopped: list[BaseException] = []
+
     def log_probability(at: Array) -> Array:
-        inside = np.all((at >= low) & (at <= high), axis=1)
-        values = residuals(np.clip(at, low, high))
-        loss = np.einsum("bm,bm->b", values, values)
-        return np.where(inside, -0.5 * loss / best.spread, -np.inf)
+        try:
+            inside = np.all((at >= low) & (at <= high), axis=1)
+            values = residuals(np.clip(at, low, high))
+            loss = np.einsum("bm,bm->b", values, values)
+            return np.where(inside, -0.5 * loss / best.spread, -np.inf)
+        except BaseException as error:  # which emcee would print, Ctrl-C as well
+            stopped.append(error)
+            return np.full(len(at), -np.inf)
 
     free = len(best.model.free)
     generator = np.random.default_rng(seed)
@@ -60,11 +65,11 @@ def sample(fit: FitRecord, steps: int, seed: int | None, progress: Progress) -> 
     moves = [(emcee.moves.DEMove(), 0.9), (emcee.moves.DEMove(gamma0=1.0), 0.1)]
     sampler = emcee.EnsembleSampler(len(start), free, log_probability, vectorize=True, moves=moves)
     sampler.random_state = np.random.RandomState(generator.integers(2**31)).get_state()
-    state = start
     with advancing("sampling the posterior", count, progress, unit="steps") as advance:
-        for done in range(0, count, CHUNK):
-            state = sampler.run_mcmc(state, min(CHUNK, count - done))
-            advance(min(CHUNK, count - done))
+        for _ in sampler.sample(start, iterations=count):
+            if stopped:
+                raise stopped[0]
+            advance(1)
     chain = sampler.get_chain(discard=int(BURN * count), flat=True)
     times = sampler.get_autocorr_time(tol=0)
     return _dataset(fit, chain, times, count, seed)

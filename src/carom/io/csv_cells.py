@@ -13,6 +13,7 @@ from warnings import catch_warnings, simplefilter
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.io.paths import opened
 from carom.io.progress import advancing
 from carom.quantities.arrays import plain_numbers
 from carom.quantities.refusals import InputError, refusal
@@ -103,7 +104,7 @@ def read_csv(what: str, path: Path, fewest: int = 2) -> CsvCells:
     or has fewer columns than are allowed.
     """
     try:
-        with path.open(encoding="utf-8-sig") as text:
+        with opened(path, encoding="utf-8-sig") as text:
             return _read(_File(what, path, text), fewest)
     except OSError as error:
         reason = error.strerror or error

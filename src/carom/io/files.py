@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from carom.io.csv_format import as_csv, from_csv
 from carom.io.netcdf_format import read_netcdf, write_netcdf
-from carom.io.paths import checked_output, checked_path, ending_of, replace_whole
+from carom.io.paths import checked_output, checked_path, ending_of, opened, replace_whole
 from carom.io.storable import storable
 from carom.io.stores import read_store
 from carom.quantities.refusals import InputError, refusal
@@ -117,8 +117,8 @@ def read_text(what: str, path: Path) -> str:
     UTF-8.
     """
     try:
-        with checked_path(what, path).open(encoding="utf-8-sig") as file:
-            text = file.read(LONGEST_TEXT + 1)
+        with opened(checked_path(what, path), encoding="utf-8-sig") as file:
+            text: str = file.read(LONGEST_TEXT + 1)
     except OSError as error:
         reason = error.strerror or error
         raise InputError(f"{what}: {str(path)!r} cannot be read; {reason}") from None

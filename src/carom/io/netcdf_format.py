@@ -4,12 +4,10 @@ A program that changes such a file drops what is behind the end, so that a check
 is one of the file as it was stored.
 """
 
-import errno
-import os
 import re
-import shutil
 import struct
 from hashlib import sha256
+from io import BytesIO
 from mmap import ACCESS_READ, mmap
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -27,21 +25,26 @@ END = {0: 40, 1: 44, 2: 28, 3: 28}  # where HDF5 says how long a file is, by the
 SHORTEST = 52  # bytes of such a head
 SEAL = "\n# carom sha256 {}\n"
 SEALED = re.compile(SEAL.format("([0-9a-f]{64})").encode())
-OVERHEAD = 200_000  # bytes of a NetCDF file besides its values
 AS_STORED = {"decode_times": False, "mask_and_scale": False}  # whatever attributes may say
 DAMAGED = "it is damaged, or not NetCDF-4"
 
 
 def write_netcdf(dataset: "xr.Dataset", where: Path) -> None:
-    """Write a dataset; raises OSError if there is no room for it."""
-    _require_room(where, dataset.nbytes)
+    """Write a dataset; raises OSError if there is no room for it.
+
+    HDF5 makes the file in memory: it crashes where a disk is full, or a file may not grow.
+    """
+    import h5netcdf  # type: ignore[import-untyped]
+    from xarray.backends import H5NetCDFStore
+
     # what has no missing values declares none: CF forbids it of coordinates
     plain = {name: {"_FillValue": None} for name in dataset.variables}
-    dataset.drop_encoding().to_netcdf(where, engine="h5netcdf", encoding=plain)
-    with where.open("rb+") as file, mmap(file.fileno(), 0, access=ACCESS_READ) as content:
-        digest = sha256(content).hexdigest()
-        file.seek(0, os.SEEK_END)
-        file.write(SEAL.format(digest).encode())
+    content = BytesIO()
+    with h5netcdf.File(content, "w") as file:
+        dataset.drop_encoding().dump_to_store(H5NetCDFStore(file), encoding=plain)
+    with where.open("wb") as file, content.getbuffer() as whole:
+        file.write(whole)
+        file.write(SEAL.format(sha256(whole).hexdigest()).encode())
 
 
 def read_netcdf(path: Path) -> "xr.Dataset":
@@ -85,12 +88,3 @@ def _is_sealed(path: Path) -> bool:
             if seal is None or sha256(stored).hexdigest().encode() != seal[1]:
                 raise InputError("it is damaged; it has changed since it was stored")
     return True
-
-
-def _require_room(where: Path, size: int) -> None:
-    """Raise OSError if a NetCDF file of this size does not fit: HDF5 crashes on a full disk."""
-    needed = size + size // 20 + OVERHEAD
-    if shutil.disk_usage(where.parent).free < needed:
-        raise OSError(
-            errno.ENOSPC, f"{os.strerror(errno.ENOSPC)}, {needed / 1e6:.2g} MB are needed"
-        )

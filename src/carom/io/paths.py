@@ -1,9 +1,10 @@
-"""Names of files that users give, and writing them: whole or not at all, or into a stream.
+"""Names of files that users give, opening them, and writing them: whole or not at all.
 
 A link is followed, so that the file it points to is written and the link stays. A stream is what
 cannot be replaced: a pipe, a device, and whatever /dev/stdout is at the moment.
 """
 
+import errno
 import os
 import shutil
 import sys
@@ -12,11 +13,14 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
 from stat import S_ISDIR, S_ISREG
+from threading import Thread
+from typing import IO, Any
 
 from carom.quantities.refusals import InputError, refusal
 
 DESCRIPTORS = ("/dev/fd", "/proc/self/fd")  # folders in which a name is an open file
 STREAMED = (".csv", ".png", ".gif", ".h")  # formats of what goes into a stream without an ending
+PATIENCE = 5.0  # seconds that somebody has to open the other end of a pipe
 LINKS = 40  # that are followed, as the system does
 
 
@@ -39,6 +43,28 @@ def checked_path(what: str, path: str | Path, kind: str = "file") -> Path:
     except ValueError:  # NUL, or half of a character
         raise refusal(what, str(path), "no file can have such a name; give another") from None
     return Path(path)
+
+
+def opened(path: Path, mode: str = "r", **how: Any) -> Any:
+    """Return an open file; raises OSError as `open`, and for a pipe that has no other end."""
+    if not path.is_fifo():
+        return path.open(mode, **how)
+    found: list[IO[Any]] = []
+
+    def wait() -> None:
+        with suppress(OSError):
+            found.append(path.open(mode, **how))
+
+    waiting = Thread(target=wait, daemon=True)
+    waiting.start()
+    waiting.join(PATIENCE)
+    if found:
+        return found[0]
+    os.close(os.open(path, os.O_RDWR | os.O_NONBLOCK))  # lets the thread go
+    waiting.join()
+    for file in found:
+        file.close()
+    raise OSError(errno.ENXIO, "nobody opens the other end of this pipe")
 
 
 def checked_output(path: str | Path, endings: Sequence[str]) -> Path:
@@ -108,14 +134,13 @@ def _pour(source: Path, target: Path) -> None:
     """Write the content of a file into a stream, behind what this process has printed."""
     with suppress(AttributeError, ValueError):  # there is none, or it is closed
         sys.stdout.flush()
-    with source.open("rb") as content, open(_opened(target), "wb") as stream:
+    with source.open("rb") as content, _opened(target) as stream:
         shutil.copyfileobj(content, stream)
 
 
-def _opened(target: Path) -> int | Path:
-    """Return what `open` takes; an open file, opened by its name, is written from its start."""
-    descriptor = _descriptor(target)
-    return target if descriptor is None else os.dup(descriptor)
+def _opened(target: Path) -> Any:
+    descriptor = _descriptor(target)  # which, opened by its name, is written from its start
+    return opened(target, "wb") if descriptor is None else open(os.dup(descriptor), "wb")
 
 
 def _descriptor(target: Path) -> int | None:

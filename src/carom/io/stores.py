@@ -1,17 +1,19 @@
 """Reading the Zarr store of a sweep, in which a damaged chunk is reported and never read.
 
-Chunks have the checksum of zstd inside. All else is written once, when the store is made, and has
-its SHA-256 in a list; stores without that list are older, and are read as they are.
+What is written once, when the store is made, has its SHA-256 in a list. Chunks end with a seal: the
+SHA-256 of a text that tells the store, of their place in it and of their bytes, in a frame that
+readers of zstd skip. So a chunk of another place, or of another store, is damage. Stores without a
+list, or with chunks that have no seals but zstd's own checksum, are older, and are read as they
+are.
 """
 
 import warnings
-from collections.abc import Mapping
 from functools import cache
 from hashlib import sha256
 from math import prod
 from pathlib import Path
 from textwrap import shorten
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -24,6 +26,8 @@ if TYPE_CHECKING:
 
 STATUS = "status"  # of the points of a sweep
 FROZEN = f"{STATUS}/.sha256sums"  # a place that zarr does not list; `sha256sum -c` reads it
+SEALED = f"{STATUS}/.sealed"  # what a store is called in the seals of its chunks
+FRAME = b"\x50\x2a\x4d\x18\x20\x00\x00\x00"  # begins a frame of 32 bytes that zstd skips
 LEVEL = 1  # of compression: floating-point numbers gain nothing from more
 METADATA = "zarr.json"
 MISSING = "missing"
@@ -39,7 +43,7 @@ def read_store(path: Path) -> "xr.Dataset":
 
     if (path / METADATA).is_file():
         _check_frozen(path)
-    store = _checked(path, {})
+    store = _checked(path, Chunks({}, b""))
 
     try:
         with warnings.catch_warnings():
@@ -56,36 +60,53 @@ def read_store(path: Path) -> "xr.Dataset":
         if "flag_values" in variable.attrs:
             flags = np.asarray(variable.attrs["flag_values"], variable.dtype)
             variable.attrs["flag_values"] = flags
-    store.sizes.update({name: chunk_size(item) for name, item in dataset.data_vars.items()})
+    store.chunks = chunks_of(dataset, path)
     return dataset
 
 
-def chunk_size(variable: "xr.DataArray") -> int:
-    """Return the number of bytes of each chunk of a variable of a store."""
-    return int(prod(variable.encoding["chunks"]) * variable.dtype.itemsize)
+class Chunks(NamedTuple):
+    """How large the chunks of a store are, by the names of its arrays, and what it is sealed by."""
+
+    sizes: dict[str, int]
+    store: bytes  # empty for an older one, without seals
+
+    def decoded(self, key: str, content: bytes) -> bytes | None:
+        """Return the values of a chunk, or None if it is damaged or not of this place."""
+        end = len(content) - len(seal(self.store, "", b""))
+        if content[end:] != seal(self.store, key, content[:end]):
+            return None
+        try:
+            values = bytes(extra("numcodecs.zstd", "a store").Zstd(LEVEL).decode(content))
+        except (RuntimeError, ValueError):
+            return None
+        return values if len(values) == self.sizes[key.partition("/c/")[0]] else None
 
 
-def read_chunk(file: Path, size: int) -> bytes | None:
-    """Return the bytes of a chunk of so many, or None if the file is missing or damaged."""
+def chunks_of(dataset: "xr.Dataset", path: Path) -> Chunks:
+    """Return how the chunks of the dataset of a store are."""
+    sizes = {str(name): _chunk_size(item) for name, item in dataset.data_vars.items()}
     try:
-        return _decoded(file.read_bytes(), size)
-    except OSError:
-        return None
+        return Chunks(sizes, (path / SEALED).read_bytes())
+    except FileNotFoundError:
+        return Chunks(sizes, b"")
+
+
+def seal(store: bytes, key: str, content: bytes) -> bytes:
+    """Return what ends a chunk, which zstd skips; nothing in a store without seals."""
+    digest = sha256(store + key.encode() + b"\0" + content).digest()
+    return FRAME + digest if store else b""
+
+
+def _chunk_size(variable: "xr.DataArray") -> int:
+    return int(prod(variable.encoding["chunks"]) * variable.dtype.itemsize)
 
 
 def freeze(path: Path) -> None:
     """List the checksums of all files of a store that has just been made."""
+    (path / SEALED).write_text(_digest(path / METADATA), encoding="utf-8")
     names = sorted(str(file.relative_to(path)) for file in path.rglob("*") if file.is_file())
     lines = (f"{_digest(path / name)}  {name}\n" for name in names)
     (path / FROZEN).write_text("".join(lines), encoding="utf-8", newline="\n")
-
-
-def _decoded(content: bytes, size: int) -> bytes | None:
-    try:
-        values = bytes(extra("numcodecs.zstd", "a store").Zstd(LEVEL).decode(content))
-    except (RuntimeError, ValueError):
-        return None
-    return values if len(values) == size else None
 
 
 def _digest(file: Path) -> str:
@@ -114,10 +135,10 @@ def _check_frozen(path: Path) -> None:
             raise refusal("store", str(path), allowed)
 
 
-def _checked(path: Path, sizes: Mapping[str, int]) -> Any:
-    """Return a store of zarr that reads no chunk of these arrays that is missing or damaged."""
+def _checked(path: Path, chunks: Chunks) -> Any:
+    """Return a store of zarr that reads no chunk that is missing or damaged."""
     store = _checked_store()(path, read_only=True)
-    store.sizes = dict(sizes)
+    store.chunks = chunks
     return store
 
 
@@ -126,7 +147,7 @@ def _checked_store() -> Any:
     local: Any = extra("zarr.storage", "a store").LocalStore
 
     class CheckedStore(local):  # type: ignore[misc]
-        """Files of a store, for reading; `sizes` are the bytes of the chunks of its arrays."""
+        """Files of a store, for reading; `chunks` says how its chunks are."""
 
         async def get(self, key: str, *args: Any, **options: Any) -> Any:
             return self._sound(key, await super().get(key, *args, **options))
@@ -136,18 +157,18 @@ def _checked_store() -> Any:
 
         def _sound(self, key: str, found: Any) -> Any:
             name, _, corner = key.partition("/c/")
-            if name not in self.sizes or not corner:
+            if name not in self.chunks.sizes or not corner:
                 return found
             if found is None:  # of a block that is not finished, unless its status is there
                 damaged = name != STATUS and (self.root / STATUS / "c" / corner).is_file()
             else:
-                damaged = _decoded(found.to_bytes(), self.sizes[name]) is None
+                damaged = self.chunks.decoded(key, found.to_bytes()) is None
             if damaged:
                 allowed = f"{key} is damaged; --resume (resume=True) computes it again"
                 raise refusal("store", str(self.root), allowed)
             return found
 
         def __reduce__(self) -> tuple[Any, ...]:
-            return _checked, (self.root, self.sizes)
+            return _checked, (self.root, self.chunks)
 
     return CheckedStore

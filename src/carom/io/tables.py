@@ -95,7 +95,7 @@ class Cells(Rows):
 def read_table(
     source: Any, columns: Mapping[str, str] | None = None, *, what: str = "results", fewest: int = 2
 ) -> Cells:
-    """Return the cells of a CSV file, a mapping of columns, a data frame or an xarray dataset.
+    """Return the cells of a CSV file, columns by name, a data frame, a structured array, a dataset.
 
     A file has a header, at least so many columns separated by commas, semicolons or tabs, and
     comments after #. `columns` tells what heads stand for, {"omega [rpm]": "spin_out"}.
@@ -133,6 +133,8 @@ def _columns_of(what: str, source: Any) -> tuple[list[tuple[str, Column]], dict[
     if hasattr(source, "data_vars"):
         comments = {name: str(source.attrs[name]) for name in KEPT if name in source.attrs}
         return list(_of_dataset(source)), comments
+    if fields := getattr(getattr(source, "dtype", None), "names", None):
+        source = {name: source[name] for name in fields}  # of a structured array
     if any(name is not None for name in getattr(getattr(source, "index", None), "names", ())):
         source = _with_index(what, source)
     if not hasattr(source, "items"):  # which a data frame has, too
@@ -278,6 +280,8 @@ def _of_array(name: str, values: Any, gaps: bool) -> Any:
     array = np.asanyarray(values)
     if real and array.dtype.kind not in REAL:  # with pandas' own sign of what is missing
         array = np.asarray(values, dtype=np.float64)
+    if array.dtype.kind == "V":  # of records
+        return None
     cells = floats(name, np.ma.getdata(array)) if real else list(np.ma.getdata(array))
     gone = np.ma.getmaskarray(array)
     if gaps:

@@ -16,12 +16,11 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from carom.bodies.cases import SWEEP, Case, line_of
-from carom.quantities.refusals import InputError, clipped, hint, refusal
+from carom.bodies.cases import SWEEP, Case
+from carom.quantities.refusals import InputError, clipped, refusal
 from carom.sweeps.designs import Design, Grid, LatinHypercube
 from carom.sweeps.tables import Table
 
-KEYS = ("samples", "seed", "table", "columns", "outputs", "axes")
 EXAMPLE = 'angle = {from = "0 deg", to = "85 deg", points = 86}'
 
 
@@ -32,13 +31,11 @@ def plan(
 
     `columns` tells what heads of its table stand for, beside what the file tells.
 
-    Raises InputError if there is no [sweep], for what is unknown, and for what does not fit
-    together.
+    Raises InputError if there is no [sweep], and for what does not fit together.
     """
     given = case.get(SWEEP)
     if not isinstance(given, Mapping):
         raise InputError(f"{SWEEP}: missing in {path}; add [sweep.axes] with {EXAMPLE}")
-    _check_keys(given, path)
     outputs = given.get("outputs")
     if "outputs" in given and not isinstance(outputs, list):
         raise refusal("outputs", outputs, 'must be a list of names, e.g. ["rebound_angle"]')
@@ -64,14 +61,6 @@ def _design(given: Mapping[str, Any], path: Path, columns: Mapping[str, str]) ->
         return LatinHypercube(_flat(axes), samples=given["samples"], seed=given.get("seed", 0))
     _refuse(given, ("seed",), "a grid")
     return Grid(_flat(axes))
-
-
-def _check_keys(given: Mapping[str, Any], path: Path) -> None:
-    text = path.read_text(encoding="utf-8-sig")
-    for key in given:
-        if key not in KEYS:
-            line = max(line_of(key, text, SWEEP), line_of(f"{SWEEP}.{key}", text, ""))
-            raise InputError(f"{key}: unknown key in {path}, line {line}; {hint(key, KEYS)}")
 
 
 def _refuse(given: Mapping[str, Any], names: Iterable[str], kind: str) -> None:

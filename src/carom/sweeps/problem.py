@@ -89,11 +89,12 @@ class SweepProblem:
             raise refusal("design", design, "must be a Grid, LatinHypercube or Table")
         if not isinstance(case, Mapping):
             raise refusal("case", case, "must be a mapping like a case file, {'friction': 0.2}")
-        needed = needed_strengths(outputs or ())
+        wanted = None if outputs is None else _checked(outputs, design.names)
+        needed = needed_strengths(wanted or ())
         self.design, self._common = design, common(dict(case), design, needed)
         usual = tuple(n for n in OUTPUTS if n != "spin2_out" or "sphere" in self._common.kinds)
         usual += OF_LOSSES if self.loses else ()
-        self.outputs = usual if outputs is None else _checked(outputs, design.names)
+        self.outputs = usual if wanted is None else wanted
         self._refuse_unknown()
 
     @property
@@ -192,6 +193,8 @@ def _checked(outputs: Sequence[str], names: Sequence[str]) -> tuple[str, ...]:
     if not isinstance(outputs, list | tuple) or not outputs:
         raise refusal("outputs", outputs, "must be a list of names, e.g. ['rebound_angle']")
     for name in outputs:
+        if not isinstance(name, str):
+            raise refusal("outputs", name, "must be the name of a result, e.g. 'rebound_angle'")
         if name not in known:
             raise InputError(f"outputs: {name!r} is not a result of an impact; {hint(name, known)}")
         if name in names or list(outputs).count(name) > 1:

@@ -26,7 +26,7 @@ from carom.dimensionless.numerics.threads import available_cores
 from carom.io.extras import extra
 from carom.io.files import STORE
 from carom.io.paths import checked_path
-from carom.io.stores import LEVEL, STATUS, chunk_size, freeze, read_chunk, read_store
+from carom.io.stores import LEVEL, STATUS, chunks_of, freeze, read_store, seal
 from carom.io.version import __version__
 from carom.quantities.refusals import refusal
 from carom.sweeps.blocks import Box, Values, boxes
@@ -51,13 +51,17 @@ def codecs() -> dict[str, Any]:
     }
 
 
-def chunk_file(array: Path, corner: Sequence[int]) -> Path:
-    """Return the file of the chunk with this index in the folder of an array."""
-    return array.joinpath("c", *map(str, corner))
+def key_of(name: str, corner: Sequence[int]) -> str:
+    """Return the place in a store of the chunk with this index of an array."""
+    return "/".join((name, "c", *map(str, corner)))
 
 
 def write_chunk(
-    array: Path, corner: Sequence[int], chunk: Sequence[int], values: NDArray[Any]
+    array: Path,
+    corner: Sequence[int],
+    chunk: Sequence[int],
+    values: NDArray[Any],
+    store: bytes = b"",
 ) -> None:
     """Write the values of a chunk, which may be cut by the end of the array.
 
@@ -69,17 +73,20 @@ def write_chunk(
         Index of the chunk, and the shape that chunks have.
     values : ndarray
         What the chunk has inside the array.
+    store : bytes
+        What tells the store from others, for the seal.
     """
     zstd = extra("numcodecs.zstd", "a store").Zstd(LEVEL, checksum=True)
     whole = np.zeros(chunk, values.dtype.newbyteorder("<"))
     whole[tuple(slice(length) for length in values.shape)] = values
-    target = chunk_file(array, corner)
+    key, content = key_of(array.name, corner), zstd.encode(whole)
+    target = array.parent / key
     target.parent.mkdir(parents=True, exist_ok=True)
     partial = target.with_name(f"{target.name}.partial")
     try:
-        partial.write_bytes(zstd.encode(whole))
+        partial.write_bytes(content + seal(store, key, content))
         os.replace(partial, target)
-    except OSError:
+    except BaseException:
         partial.unlink(missing_ok=True)
         raise
 
@@ -91,9 +98,9 @@ class StoreRecord:
         self.path = path
         self._names = list(names)
         there = read_store(path)
-        self._sizes = {name: chunk_size(there[name]) for name in self._names}
-        self._chunks = there[STATUS].encoding["chunks"]
-        blocks = list(boxes(there[STATUS].shape, self._chunks))
+        self._chunks = chunks_of(there, path)
+        self._shape = there[STATUS].encoding["chunks"]
+        blocks = list(boxes(there[STATUS].shape, self._shape))
         with ThreadPoolExecutor(available_cores()) as pool:
             finished = list(pool.map(self._is_finished, blocks))
         self.todo = [box for box, whole in zip(blocks, finished, strict=True) if not whole]
@@ -107,18 +114,21 @@ class StoreRecord:
         return all(self._read(name, box) is not None for name in self._names)
 
     def _read(self, name: str, box: Box) -> bytes | None:
-        file = chunk_file(self.path / name, self._corner(box))
-        return read_chunk(file, self._sizes[name])
+        key = key_of(name, self._corner(box))
+        try:
+            return self._chunks.decoded(key, (self.path / key).read_bytes())
+        except OSError:
+            return None
 
     def _corner(self, box: Box) -> list[int]:
-        return [part.start // size for part, size in zip(box, self._chunks, strict=True)]
+        return [part.start // size for part, size in zip(box, self._shape, strict=True)]
 
     def write(self, box: Box, values: Values) -> None:
         """Write a block, its status last; raises SweepStopped if that fails."""
-        corner, chunks = self._corner(box), self._chunks
+        corner, store = self._corner(box), self._chunks.store
         try:
             for name in sorted(values, key=STATUS.__eq__):
-                write_chunk(self.path / name, corner, chunks, values[name])
+                write_chunk(self.path / name, corner, self._shape, values[name], store)
         except OSError as error:
             advice = "; free some space" if error.errno in FULL else ""
             raise SweepStopped(f"{self.path}: {error.strerror}{advice}") from None

@@ -31,6 +31,7 @@ class Summary(NamedTuple):
     sizes: dict[str, int]
     statuses: dict[str, int]
     ranges: dict[str, tuple[float, float]]  # of what is finite; NaN if nothing is
+    solved: int  # points
 
     @property
     def points(self) -> int:
@@ -50,7 +51,8 @@ def summary(dataset: "xr.Dataset", names: Sequence[str] | None = None) -> Summar
         for name in shown:
             ranges[name] = _extended(ranges[name], dataset[name][box].values)
     statuses = {PointStatus(value).message: n for value, n in sorted(counts.items())}
-    return Summary({str(n): size for n, size in dataset.sizes.items()}, statuses, ranges)
+    solved = counts[PointStatus.SOLVED] + counts[PointStatus.STRENGTH_NOT_KNOWN]
+    return Summary({str(n): size for n, size in dataset.sizes.items()}, statuses, ranges, solved)
 
 
 def _extended(span: tuple[float, float], values: NDArray[Any]) -> tuple[float, float]:

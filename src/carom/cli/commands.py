@@ -1,0 +1,83 @@
+"""All commands, and what they answer to arguments that cannot be used."""
+
+import typer
+
+import carom
+from carom.cli import INTERRUPTED
+from carom.cli.curve import curve_command
+from carom.cli.explore import explore_command
+from carom.cli.fit import fit_command
+from carom.cli.impact import impact_command
+from carom.cli.lammps import app as lammps_app
+from carom.cli.liggghts import app as liggghts_app
+from carom.cli.materials import materials_command
+from carom.cli.once import Commands, Interrupted
+from carom.cli.sweep import sweep_command
+from carom.cli.verify import app as verify_app
+from carom.quantities.refusals import InputError, nearest
+from carom.quantities.symbols import meant, remark
+
+app = Commands(
+    name="carom",
+    help="Carom computes how an elastic sphere leaves an oblique impact, and what happens inside "
+    "the contact.\n\n"
+    "Begin with carom impact for one impact, carom sweep for many, carom fit for measured "
+    "rebounds, carom verify for contact laws of DEM codes, or carom explore for a page in the "
+    "browser. carom COMMAND --help describes a command. The exit code is 0, 2 for input that "
+    "cannot be used, 1 for a failure, or 130 after Ctrl-C.\n\n\b\n"
+    'Example: carom impact --radius "5 mm" --material steel --friction 0.2 --speed 2 '
+    '--angle "30 deg"',
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+app.command("impact")(impact_command)
+app.command("curve")(curve_command)
+app.command("sweep")(sweep_command)
+app.command("fit")(fit_command)
+app.command("explore")(explore_command)
+app.command("materials")(materials_command)
+app.add_typer(verify_app)
+app.add_typer(lammps_app)
+app.add_typer(liggghts_app)
+
+
+@app.callback(invoke_without_command=True)
+def _common(
+    version: bool = typer.Option(False, "--version", help="Print the version and exit."),
+) -> None:
+    if version:
+        typer.echo(carom.__version__)
+        raise typer.Exit
+
+
+def answer(arguments: list[str] | None) -> int:
+    """Run a command and return its exit code; raises InputError for bad input."""
+    try:
+        code = int(app(arguments, standalone_mode=False) or 0)
+    except typer.TyperException as error:
+        if type(error).__name__ == "NoArgsIsHelpError":  # no command: the message is the help
+            typer.echo(error.format_message())
+            return error.exit_code
+        asked = _option_meant(error) or "see carom --help or carom COMMAND --help"
+        raise InputError(f"{error.format_message().rstrip('.')}; {asked}") from None
+    except (Interrupted, typer.Abort) as error:
+        raise KeyboardInterrupt(*error.args) from None
+    if code == INTERRUPTED:  # what typer makes of Ctrl-C
+        raise KeyboardInterrupt
+    return code
+
+
+def _option_meant(error: typer.TyperException) -> str:
+    """Return a hint at the option that one stands for which the command does not have."""
+    word = str(getattr(error, "option_name", "")).strip("-").replace("-", "_")
+    context = getattr(error, "ctx", None)
+    if not word or context is None:
+        return ""
+    options = [name for each in context.command.params for name in each.opts]
+    known = {name.strip("-").replace("-", "_"): name for name in options}
+    name = meant(word, known)
+    if name:
+        return f"write {known[name]}{remark(word, name).removeprefix(name)}"
+    return nearest(word.replace("_", "-"), [option.strip("-") for option in options])

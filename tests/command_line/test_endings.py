@@ -1,0 +1,286 @@
+"""How commands end: in one line and with an exit code, whatever signal or full disk ends them.
+
+Signals come where they do most harm: at an import, where C code makes other errors of them, and
+while temporary files are written. Each runs in a process of its own, from the first line of `run`.
+"""
+
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+BALL = ["--radius", "5 mm", "--material", "steel", "--friction", "0.2"]
+IMPACT = ["impact", *BALL, "--speed", "2", "--angle", "30 deg"]
+SWEEP = """
+friction = 0.2
+speed = 2.0
+[first]
+radius = "5 mm"
+material = "steel"
+[sweep.axes]
+angle = {from = "1 deg", to = "85 deg", points = 400}
+spin = {from = -10.0, to = 10.0, points = 200}
+"""
+RUN = "from carom.cli import run; run()"
+AT_IMPORT = """
+import os, signal, sys
+from carom.cli import run
+def hook(event, given):
+    if event == "import" and given[0] == {module!r}:
+        os.kill(os.getpid(), signal.{number})
+sys.addaudithook(hook)
+run()
+"""
+WRITTEN = """
+import os, signal, sys
+from carom.cli import run
+def hook(event, given):  # the temporary file that is put in its place has been written
+    if event == "os.rename" and ".carom-" in os.fspath(given[0]):
+        os.kill(os.getpid(), signal.{number})
+sys.addaudithook(hook)
+run()
+"""
+STOPPED = "carom: the command was interrupted\n"
+CODES = {"SIGINT": 130, "SIGTERM": 143, "SIGHUP": 129}
+
+
+@pytest.fixture
+def there(tmp_path):
+    (tmp_path / "sweep.toml").write_text(SWEEP)
+    return tmp_path
+
+
+def ended(folder, program, arguments, **how):
+    """Return exit code, what is printed, and what is told."""
+    known = {"cwd": folder, "capture_output": True, "text": True, "timeout": 120} | how
+    done = subprocess.run([sys.executable, "-c", program, *arguments], check=False, **known)
+    return done.returncode, done.stdout, done.stderr
+
+
+def left(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+MODULES = {
+    "typer": IMPACT,
+    "unicodedata": IMPACT,  # while the parser of Python needs it, which makes a SyntaxError of it
+    "carom.bodies.cases": IMPACT,
+    "numpy": IMPACT,
+    "numpy._core._multiarray_umath": IMPACT,
+    "xarray": [*IMPACT, "--output", "hit.nc"],
+    "h5py": [*IMPACT, "--output", "hit.nc"],
+    "matplotlib": [*IMPACT, "--plot", "hit.png"],
+    "matplotlib.backends._backend_agg": [*IMPACT, "--plot", "hit.png"],
+    "pandas": [*IMPACT, "--output", "hit.csv"],
+    "emcee": ["fit", "--dataset", "kharaz2001", "--posterior", "chain.csv", "--steps", "100"],
+    "zarr.core.array": ["sweep", "sweep.toml", "--store", "sweep.zarr"],
+}
+
+
+@pytest.mark.parametrize(
+    ("number", "module"),
+    [*(("SIGINT", module) for module in MODULES), ("SIGTERM", "unicodedata"), ("SIGTERM", "h5py")],
+)
+def test_a_signal_at_an_import_ends_in_one_line(number, module, there):
+    program = AT_IMPORT.format(module=module, number=number)
+    code, out, err = ended(there, program, MODULES[module])
+    assert (code, out) == (CODES[number], "")
+    if number == "SIGINT" and module == "zarr.core.array":
+        assert re.fullmatch("carom: the sweep was stopped(; .*)?\n", err)
+    else:
+        assert err in ({"SIGINT": [STOPPED], "SIGTERM": ["", STOPPED]}[number])
+    assert left(there) == ["sweep.toml"]
+
+
+@pytest.mark.parametrize(
+    ("number", "arguments"),
+    [
+        ("SIGINT", [*IMPACT, "--output", "hit.nc"]),
+        ("SIGHUP", [*IMPACT, "--output", "hit.nc"]),
+        ("SIGTERM", [*IMPACT, "--output", "hit.csv"]),
+        ("SIGTERM", [*IMPACT, "--plot", "hit.png"]),
+        ("SIGTERM", ["curve", "--chi", "1.44", "--export", "c", "--output", "rebound.h"]),
+        ("SIGTERM", ["verify", "pack", "bench"]),
+    ],
+    ids=str,
+)
+def test_a_signal_leaves_no_temporary_file(number, arguments, there):
+    """What was there before is there as it was."""
+    if arguments[-1] != "bench":
+        (there / arguments[-1]).write_text("older")
+    before = left(there)
+    code, _, err = ended(there, WRITTEN.format(number=number), arguments)
+    assert code == CODES[number]
+    assert err == (STOPPED if number == "SIGINT" else "")
+    assert left(there) == before
+    assert all((there / name).read_text() in ("older", SWEEP) for name in before)
+
+
+def test_ctrl_c_in_sampling_is_told_in_one_line(there):
+    """The sampler would print what was interrupted, with a traceback, among the results."""
+    program = AT_IMPORT.format(module="", number="SIGINT").replace(
+        "sys.addaudithook(hook)",
+        """\
+import carom.dimensionless.interpolation as rebounds
+from carom.fitting import posterior
+sampled, read = posterior.sample, rebounds.table
+def interrupted():
+    signal.raise_signal(signal.SIGINT)
+    return read()
+def sample(*given):
+    rebounds.table = interrupted
+    return sampled(*given)
+posterior.sample = sample
+import carom.fitting.result
+carom.fitting.result.sample = sample
+""",
+    )
+    arguments = ["fit", "--dataset", "kharaz2001", "--posterior", "chain.csv", "--json"]
+    assert ended(there, program, arguments) == (130, "", STOPPED)
+    assert left(there) == ["sweep.toml"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", ["SIGINT", "SIGTERM"])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [*IMPACT, "--plot", "hit.png", "--output", "hit.nc"],
+        ["sweep", "sweep.toml", "--store", "sweep.zarr", "--resume"],
+        ["fit", "--dataset", "kharaz2001", "--posterior", "chain.csv", "--steps", "5000"],
+    ],
+    ids=lambda words: words[0],
+)
+def test_a_signal_at_any_time_ends_in_one_line(arguments, number, there):
+    """From when Python runs `run`, which is told, through the first seconds."""
+    program = "import carom.cli as c; print('ready', flush=True); c.run()"
+    for delay in (0.0, 0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.5, 0.8, 1.2, 1.7, 2.3, 3.0):
+        process = subprocess.Popen(
+            [sys.executable, "-c", program, *arguments],
+            cwd=there,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        assert process.stdout.readline() == "ready\n"
+        time.sleep(0.005 + delay)
+        process.send_signal(getattr(signal, number))
+        _, err = process.communicate(timeout=60)
+        if process.returncode == 0:  # it was quicker
+            break
+        assert process.returncode == CODES[number], (delay, err)
+        stored = [line for line in err.splitlines() if line.startswith("Carom has stored")]
+        told = err.splitlines()[len(stored) :]
+        assert len(told) == 1 or (number == "SIGTERM" and not told), (delay, err)
+        assert "Traceback" not in err
+        assert not [name for name in left(there) if name.startswith(".carom-")]
+        assert not list(there.rglob("*.partial"))
+
+
+PRINTING = {
+    "impact": IMPACT,
+    "json": [*IMPACT, "--json"],
+    "curve": ["curve", "--chi", "1.44"],
+    "header": ["curve", "--chi", "1.44", "--export", "c"],
+    "sweep": ["sweep", "sweep.toml"],
+    "fit": ["fit", "--dataset", "kharaz2001"],
+    "template": ["fit", "--template"],
+    "materials": ["materials"],
+    "laws": ["verify", "laws", "--law", "mindlin", "--json"],
+    "explore": ["explore", "--no-open", "--port", "0"],
+    "help": ["--help"],
+    "help of a command": ["fit", "--help"],
+    "help of a group": ["verify"],
+    "version": ["--version"],
+}
+
+
+@pytest.mark.parametrize("what", PRINTING)
+def test_output_that_cannot_be_written_is_told_in_one_line(what, there):
+    """A full disk; a stream that is closed; a reader that has gone, of which nothing is said."""
+    told = "carom: the output cannot be written; "
+    words = " ".join(f"'{word}'" for word in PRINTING[what])
+    line = f"{sys.executable} -c '{RUN}' {words}"
+    for into, reason in {
+        "> /dev/full": "No space left on device",
+        ">&-": "Bad file descriptor",
+        "| true; exit ${PIPESTATUS[0]}": None,
+    }.items():
+        shell = ["bash", "-c", f"{line} {into}"]
+        done = subprocess.run(shell, cwd=there, capture_output=True, text=True, timeout=120)
+        assert done.returncode == 1, (into, done.stderr)
+        if reason is not None:
+            assert [x for x in done.stderr.splitlines() if x != UNSTORED] == [f"{told}{reason}"]
+        else:
+            assert done.stderr.replace(f"{UNSTORED}\n", "") == ""
+
+
+UNSTORED = (
+    "Carom has not stored the results; add --output sweep.nc or --store sweep.zarr to keep them."
+)
+
+
+def test_streams_that_are_closed_take_no_place_of_a_file(there):
+    """What is told goes nowhere; the file that takes the number of stderr is not written into."""
+    line = f"{sys.executable} -c '{RUN}' curve --chi 1 --output curve.csv 2>&- >/dev/null <&-"
+    assert subprocess.run(["bash", "-c", line], cwd=there, timeout=120).returncode == 0
+    assert (there / "curve.csv").read_text().startswith("# carom table 1\n")
+    line = f"{sys.executable} -c '{RUN}' curve --chi nothing 2>&- >&- <&-"
+    assert subprocess.run(["bash", "-c", line], cwd=there, timeout=120).returncode == 2
+
+
+LIMITED = {
+    "hit.nc": [*IMPACT, "--output"],
+    "hit.csv": [*IMPACT, "--output"],
+    "hit.png": [*IMPACT, "--plot"],
+    "hit.pdf": [*IMPACT, "--plot"],
+    "hit.svg": [*IMPACT, "--plot"],
+    "hit.gif": [*IMPACT, "--animate"],
+    "hit.mp4": [*IMPACT, "--animate"],
+    "spectrum.nc": [*IMPACT, "--spectrum"],
+    "rebound.h": ["curve", "--chi", "1.44", "--export", "c", "--output"],
+    "chain.nc": ["fit", "--dataset", "kharaz2001", "--steps", "300", "--posterior"],
+    "sweep.nc": ["sweep", "sweep.toml", "--output"],
+    "sweep.zarr": ["sweep", "sweep.toml", "--store"],
+    "bench": ["verify", "pack"],
+    "page": ["explore", "--export"],
+}
+
+
+@pytest.mark.parametrize("name", LIMITED)
+def test_a_file_that_may_not_grow_leaves_nothing_behind(name, there):
+    """One line, no temporary file, an older file as it was; HDF5 would take the process down."""
+    if name.endswith(".mp4") and shutil.which("ffmpeg") is None:
+        pytest.skip("there is no ffmpeg")
+    if "." in name and name != "sweep.zarr":
+        (there / name).write_text("older")
+    before = left(there)
+    words = " ".join(f"'{word}'" for word in [*LIMITED[name], name])
+    for limit in (1, 4, 12) if name == "hit.nc" else (4,):  # kB
+        line = f"ulimit -f {limit}; {sys.executable} -c '{RUN}' {words}"
+        shell = ["bash", "-c", line]
+        done = subprocess.run(shell, cwd=there, capture_output=True, text=True, timeout=120)
+        assert done.returncode in (1, 2), (limit, done.stderr)
+        told = [line for line in done.stderr.splitlines() if "The chain is short" not in line]
+        assert len(told) == 1, (limit, done.stderr)
+        assert re.match(r"carom: .*File too large", told[0]), (limit, done.stderr)
+        assert left(there) == before
+        assert name not in before or (there / name).read_text() == "older"
+
+
+def test_a_store_that_may_not_grow_stays_whole(there):
+    """Its first chunks are too large for the limit; nothing of them is left."""
+    (there / "sweep.toml").write_text(SWEEP.replace("400", "4000"))
+    arguments = ["sweep", "sweep.toml", "--store", "sweep.zarr", "--resume"]
+    arguments += ["--quantities", "psi_out"]
+    words = " ".join(arguments)
+    shell = ["bash", "-c", f"ulimit -f 40; {sys.executable} -c '{RUN}' {words}"]
+    done = subprocess.run(shell, cwd=there, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 1
+    assert re.fullmatch("carom: sweep.zarr: File too large; .* are safe in .*\n", done.stderr)
+    assert not list(there.rglob("*.partial"))
+    assert "status/.sealed" in (there / "sweep.zarr/status/.sha256sums").read_text()
