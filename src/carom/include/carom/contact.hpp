@@ -31,7 +31,7 @@ inline void keep(Contact<N, Real, P>& c, const Now& now, double edge, double sca
         c.drag_x = static_cast<Real>(now.drag_x);
         c.drag_y = static_cast<Real>(now.drag_y);
         if constexpr ((P & ledger) != 0) {  // dashpots in compression: tau d'^2 of every spring
-            const double power = scale * (now.limit - now.depth) * std::sqrt(edge) * now.approach;
+            const double power = scale * now.excess * std::sqrt(edge) * now.approach * now.unit;
             load.viscosity += 0.5 * m.step * (power + c.power);
             c.power = static_cast<Real>(power);
         }
@@ -122,7 +122,7 @@ inline void settle(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, St
 template <int N, class Real, unsigned P>
 inline Status advance(Contact<N, Real, P>& contact, const Pair& pair, const Motion& motion,
                       Load& load) {
-    const Status status = status_of(pair, motion);
+    const Status status = status_of<Real>(pair, motion);
     if (status != Status::ok) return status;
     load = Load{};
     if (motion.penetration <= 0.0) {

@@ -162,7 +162,7 @@ inline void advance_batch(ContactInSpace<N, Real, P>* const contacts[], const Pa
         Motion& motion = batch.motions[k];
         motion = {in_lane(e.penetration, lane), in_lane(plane.approach, lane),
                   in_lane(plane.slide_x, lane), in_lane(plane.slide_y, lane), in_lane(e.step, lane)};
-        statuses[k] = status_of(pairs[k], motion);
+        statuses[k] = status_of<Real>(pairs[k], motion);
         if (statuses[k] == Status::ok && motion.penetration > 0.0) {
             batch.pressed[batch.count++] = k;
         } else {
