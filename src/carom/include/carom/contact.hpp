@@ -96,21 +96,22 @@ inline void settle(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, St
                    Load& load) {
     const Now& now = stage.now;
     load = Load{};
-    load.normal = stage.scale * larger(stage.root * (now.limit - stage.edge * (1.0 / 3.0)), 0.0);
-    trim(c, now, stage.edge, stage.root, stage.sums);
+    Sums& sums = stage.sums;
+    const double most = larger(stage.root * (now.limit - stage.edge * (1.0 / 3.0)), 0.0);
     const double scale = stage.scale * pair.friction;
-    load.x = scale * stage.sums.x;
-    load.y = scale * stage.sums.y;
-    const double most = pair.friction * load.normal;
-    if (load.x * load.x + load.y * load.y > most * most) {  // by rounding
-        const double part = cut(load.x, load.y, most);
-        load.x *= part;
-        load.y *= part;
+    trim(c, now, stage.edge, stage.root, sums);
+    if (sums.x * sums.x + sums.y * sums.y > most * most) {  // by rounding
+        const double part = cut(sums.x, sums.y, most);
+        sums.x *= part;
+        sums.y *= part;
     }
+    load.normal = stage.scale * most;
+    load.x = scale * sums.x;
+    load.y = scale * sums.y;
     if constexpr ((P & ledger) != 0) {
         const double energy = scale * now.unit * pair.friction / pair.stiffness_ratio;
-        load.friction = energy * stage.sums.friction;
-        load.viscosity = energy * stage.sums.viscosity;
+        load.friction = energy * sums.friction;
+        load.viscosity = energy * sums.viscosity;
     }
     keep(c, now, stage.edge, stage.scale, m, load);
     enter(c, m, load);

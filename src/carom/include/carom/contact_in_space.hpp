@@ -35,7 +35,7 @@ struct ContactInSpace : Contact<N, Real, P> {
 /// Return the pair of two bodies (Hertz 1882; Mindlin 1949).
 inline Pair pair_of(Material one, Material other, Size first, Size second, double friction,
                     double retardation = 0.0) {
-    const auto soft = [](Material m) { return (1.0 - m.poisson * m.poisson) / m.young; };
+    const auto soft = [](Material m) { return (1.0 - m.poisson) * (1.0 + m.poisson) / m.young; };
     const auto lax = [](Material m) {
         return (2.0 - m.poisson) * (1.0 + m.poisson) / (2.0 * m.young);
     };

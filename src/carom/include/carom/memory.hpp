@@ -59,11 +59,13 @@ inline void begin(Contact<N, Real, P>& c, const Pair& pair, const Motion& m) {
     const double energy = 0.9375 * pair.mass * m.approach * m.approach;
     const double deepest = std::pow(energy / (pair.modulus * std::sqrt(pair.radius)), 0.4);
     const double least = 1e-12 * pair.radius;  // below it single precision has no squares
-    const double reach = margin * std::max(std::max(std::min(deepest, pair.radius), m.penetration), least);
+    const double expected = std::min(std::max(deepest, m.penetration), pair.radius);
+    const double reach = margin * std::max(expected, least);
     c.spacing = static_cast<Real>(std::sqrt(pair.radius * reach) / N);
     if constexpr ((P & viscous) != 0) {
         // bodies that begin pressed have been so for long
-        const double before = std::max(m.penetration - m.approach * m.step, 0.0);
+        const double from = m.penetration - m.approach * m.step;
+        const double before = std::min(std::max(from, 0.0), pair.radius);
         const double edge = before * pair.radius / (double(c.spacing) * c.spacing);
         c.edge = static_cast<Real>(edge);
         for (int k = 0; k < N; ++k)

@@ -50,28 +50,28 @@ inline const char* message(Status status) {
 }
 
 // Within these no product of numbers leaves the range of double precision.
-constexpr double most = 1e30, most_ratio = 1e6;
+constexpr double largest = 1e30, largest_ratio = 1e6;
 
 // A sum is small enough if all of its parts are; the least is large enough if all are.
 inline bool is_good(const Pair& p) {
     const double all = p.modulus + p.radius + p.mass + p.retardation +
-                       (p.stiffness_ratio + p.friction) * (most / most_ratio);
+                       (p.stiffness_ratio + p.friction) * (largest / largest_ratio);
     const double least = std::min(std::min(p.modulus, p.radius),
-                                  std::min(p.mass, p.stiffness_ratio * (most_ratio / most)));
-    return all <= most && least >= 1.0 / most && std::min(p.friction, p.retardation) >= 0.0;
+                                  std::min(p.mass, p.stiffness_ratio * (largest_ratio / largest)));
+    return all <= 8.0 * largest && least >= 1.0 / largest && std::min(p.friction, p.retardation) >= 0.0;
 }
 
 inline bool is_good(const Motion& m, double radius, double shortest) {
     const double all = m.approach * m.approach + m.slide_x * m.slide_x + m.slide_y * m.slide_y +
                        m.penetration * m.penetration + m.step * m.step;
-    return all <= most * most && m.step >= shortest && m.penetration < radius;
+    return all <= largest * largest && m.step >= shortest && m.penetration < radius;
 }
 
 /// Whether a step can be taken, by numbers of this precision.
 template <class Real> Status status_of(const Pair& pair, const Motion& motion) {
     if (!is_good(pair)) return Status::bad_pair;
     const double part = sizeof(Real) < sizeof(double) ? 1e-12 : 0.0;
-    const double shortest = std::max(1.0 / most, part * pair.retardation);
+    const double shortest = std::max(1.0 / largest, part * pair.retardation);
     return is_good(motion, pair.radius, shortest) ? Status::ok : Status::bad_motion;
 }
 

@@ -49,7 +49,8 @@ inline void look(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, Now&
     const bool is_rising = now.rises > 1e-12 * (now.depth + 1.0);
     now.least = is_rising ? 0.0 : 1.0;
     now.most = is_rising ? now.rises : 1.0;
-    const double slope = per_unit * pair.stiffness_ratio / (std::max(pair.friction, 1.0 / most) * now.most);
+    const double friction = std::max(pair.friction, 1.0 / largest);
+    const double slope = per_unit * pair.stiffness_ratio / (friction * now.most);
     if (pair.friction > 0.0) {
         now.moved_x = slope * m.slide_x * m.step;
         now.moved_y = slope * m.slide_y * m.step;
@@ -60,7 +61,7 @@ inline void look(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, Now&
             const double mean = mean_at_end(now.depth, now.before, 0.5 * approach * m.step);
             now.approach = mean * approach;
             now.excess = std::min(pair.retardation * now.approach, farthest<Real>);
-            now.limit += now.excess;
+            now.limit = std::max(now.limit + now.excess, 0.0);
             now.fade = -std::expm1(-m.step / pair.retardation);
             if (pair.friction > 0.0 && pair.viscous_shear) {
                 const double drag = slope * now.most * pair.retardation * mean;
@@ -84,7 +85,7 @@ inline double edge_of(const Contact<N, Real, P>& c, const Now& now) {
         return now.depth;
     } else {
         double edge = c.edge;
-        if (now.limit < edge) return static_cast<Real>(std::max(now.limit, 0.0));
+        if (now.limit < edge) return static_cast<Real>(now.limit);
         const double keep = 1.0 - now.fade, was = now.before - edge;
         double here = was > 0.0 ? now.rises + was * now.fade : now.depth - edge;
         for (int k = static_cast<int>(std::sqrt(edge)); here > 0.0; ++k) {
