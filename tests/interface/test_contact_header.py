@@ -440,7 +440,7 @@ def test_no_friction_and_no_slide_is_too_large_or_too_small_to_be_squared(loads,
 
 @pytest.mark.parametrize("kind", KINDS[2:])
 def test_short_steps_move_springs_in_single_precision(loads, kind):
-    """What slides for a time t has springs deflected by 1 - exp(-t/tau) of the limit, and keeps it."""
+    """After a time t of sliding, springs are at 1 - exp(-t/tau) of the limit, and stay there."""
     for part in (1e-2, 1e-4, 1e-6):
         steps = round(0.7 / part)
         ((_, along, _),) = loads(
@@ -452,7 +452,7 @@ def test_short_steps_move_springs_in_single_precision(loads, kind):
 
 @pytest.mark.parametrize("alpha", [0.0, 0.2])
 def test_interface_and_twin_have_the_same_friction_at_any_rate(functions, alpha):
-    """F = 2 G* a (U + tau U') in the units of Hertz's impact, d from one just touched to pressed."""
+    """F = 2 G* a (U + tau U'), in the units of Hertz's impact, just touched or pressed."""
     for rate in RATES:
         for d in (1e-3, 0.3, 0.7654321):
             if abs(rate) > d:

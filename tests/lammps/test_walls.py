@@ -75,7 +75,8 @@ def on_the_floor(
     radius, density, g, depth = 0.1, 1000.0, 9.81, 0.1 - 0.09684310469878493
     made = (
         "region b block 0 4 0 4 -0.2 1\ncreate_box 1 b\n"
-        f"create_atoms 1 single 0.1 0.1 {radius - depth!r}\nset group all diameter 0.2 density 1000\n"
+        f"create_atoms 1 single 0.1 0.1 {radius - depth!r}\n"
+        "set group all diameter 0.2 density 1000\n"
         f"velocity all set {speed} 0 0\nreset_timestep {first}\n"
     )
     printed = lammps(
@@ -114,7 +115,7 @@ def test_a_ball_that_slides_on_a_level_floor_is_braked_until_it_rolls(lammps, pr
 
 
 def test_a_moving_floor_is_the_same_from_any_first_step(lammps):
-    """LAMMPS finds a wall's velocity from its displacement, in the first step from that since step 0."""
+    """LAMMPS finds its velocity from its way in a step, in a first step from that since step 0."""
     floor = "plane 0 0 0 0 0 1 move v_along NULL NULL"
     first = on_the_floor(lammps, "run 200", floor, 0.0)
     later = on_the_floor(lammps, "run 200", floor, 0.0, first=100_000)

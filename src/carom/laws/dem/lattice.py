@@ -261,9 +261,10 @@ def impact(
 ) -> tuple[int, float]:
     """Return how many rows of the record are filled and psi_2; -1 if the bodies do not part.
 
-    The same if steps are too long for dashpots, which would give energy: as they act on velocities
-    that are extrapolated by half a step, no step may damp more than all of it. Velocity Verlet, as
-    `stepping.stepped`; memory has the places of `places`, load six: forces, and room for the motion.
+    The same if steps are too long for dashpots, which would give energy: they act on velocities
+    that are extrapolated by half a step, so that a step must not damp more than all of them.
+    Velocity Verlet, as `stepping.stepped`; memory has the places of `places`, load six: forces, and
+    room for the motion.
     """
     dt = DURATION / steps
     memory[:], load[:] = 0.0, 0.0
