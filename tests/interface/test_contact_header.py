@@ -438,6 +438,16 @@ def test_no_friction_and_no_slide_is_too_large_or_too_small_to_be_squared(loads,
     assert np.all(np.abs(across) <= 1e-6 * along)
 
 
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_first_touch_has_coulombs_friction_however_shallow(loads, kind):
+    """By a small part of the first cell of springs, which bears nothing that is not rounding."""
+    rows = [(0.3, RETARDATION, 10.0**power, 1.0, 1e3, STEP, 1, 0) for power in range(-27, -5)]
+    normal, along, across = loads(kind, rows)
+    assert np.all(normal > 0.0)
+    np.testing.assert_allclose(along, 0.3 * normal, rtol=1e-6)
+    assert np.all(np.abs(across) <= 1e-6 * along)
+
+
 @pytest.mark.parametrize("kind", KINDS[2:])
 def test_short_steps_move_springs_in_single_precision(loads, kind):
     """After a time t of sliding, springs are at 1 - exp(-t/tau) of the limit, and stay there."""

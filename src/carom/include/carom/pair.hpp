@@ -44,8 +44,8 @@ inline const char* message(Status status) {
         return "modulus, radius and mass must be from 1e-30 to 1e30, stiffness_ratio from 1e-6 to "
                "1e6, friction from 0 to 1e6, retardation from 0 to 1e30";
     if (status == Status::bad_motion)
-        return "the motion must be within 1e30, the penetration below the radius, the step at least "
-               "1e-30 and, in single precision, 1e-12 of the retardation";
+        return "the motion must be within 1e30, the penetration below the radius, the step at "
+               "least 1e-30 and, in single precision, 1e-12 of the retardation";
     return "ok";
 }
 
@@ -58,7 +58,8 @@ inline bool is_good(const Pair& p) {
                        (p.stiffness_ratio + p.friction) * (largest / largest_ratio);
     const double least = std::min(std::min(p.modulus, p.radius),
                                   std::min(p.mass, p.stiffness_ratio * (largest_ratio / largest)));
-    return all <= 8.0 * largest && least >= 1.0 / largest && std::min(p.friction, p.retardation) >= 0.0;
+    return all <= 8.0 * largest && least >= 1.0 / largest &&
+           std::min(p.friction, p.retardation) >= 0.0;
 }
 
 inline bool is_good(const Motion& m, double radius, double shortest) {

@@ -31,8 +31,8 @@ inline double mean_at_end(double depth, double before, double half) {
     if (!(half > 0.0)) return 1.0;
     const double back = std::min(before > 0.0 ? half : 2.0 * half, depth);
     const double to = std::sqrt(depth + half), from = std::sqrt(depth - back);
-    return (back + half) * (to * (to + from) + from * from) /
-           (3.0 * half * (to + from) * std::sqrt(depth));
+    const double there = std::sqrt(std::max(depth, 1e-40 * half));
+    return (back + half) * (to * (to + from) + from * from) / (3.0 * half * (to + from) * there);
 }
 
 /// Velocities at the end of the step follow from those of its middle and of the one before.
@@ -77,8 +77,8 @@ inline void look(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, Now&
     shorten<Real>(now.moved_x, now.moved_y, now.most);
 }
 
-/// Return s at the edge, as it is kept: it grows to where surfaces meet, and never beyond where they
-/// press.
+/// Return s at the edge, rounded as it is kept: it grows to where surfaces meet, and not beyond
+/// where they press.
 template <int N, class Real, unsigned P>
 inline double edge_of(const Contact<N, Real, P>& c, const Now& now) {
     if constexpr ((P & viscous) == 0) {
