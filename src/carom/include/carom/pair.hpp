@@ -71,8 +71,8 @@ inline bool is_good(const Motion& m, double radius, double shortest) {
 /// Whether a step can be taken, by numbers of this precision.
 template <class Real> Status status_of(const Pair& pair, const Motion& motion) {
     if (!is_good(pair)) return Status::bad_pair;
-    const double part = sizeof(Real) < sizeof(double) ? 1e-12 : 0.0;
-    const double shortest = std::max(1.0 / largest, part * pair.retardation);
+    double shortest = 1.0 / largest;
+    if (sizeof(Real) < sizeof(double)) shortest += 1e-12 * pair.retardation;
     return is_good(motion, pair.radius, shortest) ? Status::ok : Status::bad_motion;
 }
 

@@ -39,12 +39,11 @@ inline double mean_at_end(double depth, double before, double half) {
 template <int N, class Real, unsigned P>
 inline void look(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, Now& now) {
     now.fade = 1.0;
-    now.excess = now.approach = now.moved_x = now.moved_y = now.drag_x = now.drag_y = 0.0;
+    now.moved_x = now.moved_y = now.drag_x = now.drag_y = 0.0;
     now.unit = double(c.spacing) * c.spacing / pair.radius;
     const double per_unit = pair.radius / (double(c.spacing) * c.spacing);
     now.rises = m.approach * m.step * per_unit;
     now.depth = m.penetration * per_unit;
-    now.before = now.depth - now.rises;
     now.limit = now.depth;
     const bool is_rising = now.rises > 1e-12 * (now.depth + 1.0);
     now.least = is_rising ? 0.0 : 1.0;
@@ -56,6 +55,8 @@ inline void look(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, Now&
         now.moved_y = slope * m.slide_y * m.step;
     }
     if constexpr ((P & viscous) != 0) {
+        now.before = now.depth - now.rises;
+        now.excess = now.approach = 0.0;
         if (pair.retardation > 0.0) {
             const double approach = (1.5 * m.approach - 0.5 * c.approach) * per_unit;
             const double mean = mean_at_end(now.depth, now.before, 0.5 * approach * m.step);
