@@ -5,9 +5,15 @@
 // prints psi_2 of each psi_1. TURNS times within the contact it becomes the other sphere's, as when
 // one of the two crosses a border; the slide is along y and z at once. COHESION is the part of the
 // normal force that a model of cohesion takes away.
+//
+//     in_liggghts SPRINGS held SLIDE RATE...
+//
+// prints the force on spheres that slide in one step, pressed and at each rate of approach, against
+// the slide and in parts of Coulomb's limit.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 #include "tangential_model_carom.h"
 
@@ -75,6 +81,16 @@ struct Impact {
         }
     }
 
+    double held(double slide, double rate) {
+        const double depth = 0.3 * deepest;
+        lammps.update.dt = 1e-3;
+        const double limit = friction * 4.0 / 3.0 * modulus * std::sqrt(0.5 * radius) *
+                             std::pow(depth, 1.5);
+        Vector f{}, t{};
+        force(1.0, 2.0 * radius - depth, {-rate, slide, 0.0}, {}, f, t);
+        return -f[1] / limit;
+    }
+
     double rebound(double psi, int steps, int turns) {
         const double dt = lammps.update.dt = duration / steps, slide = psi * friction / kappa;
         const double inertia = 0.4 * mass * radius * radius, half = std::sqrt(0.5);
@@ -100,7 +116,13 @@ struct Impact {
 };
 
 int main(int, char **given) try {
-    const double springs = std::atof(given[1]), cohesion = std::atof(given[4]);
+    const double springs = std::atof(given[1]);
+    if (std::strcmp(given[2], "held") == 0) {
+        for (char **rate = given + 4; *rate; ++rate)
+            std::printf("%.17g\n", Impact(springs, 0.0).held(std::atof(given[3]), std::atof(*rate)));
+        return 0;
+    }
+    const double cohesion = std::atof(given[4]);
     for (char **psi = given + 5; *psi; ++psi) {
         Impact impact(springs, cohesion);
         std::printf("%.17g\n", impact.rebound(std::atof(*psi), std::atoi(given[2]),

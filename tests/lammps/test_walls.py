@@ -1,5 +1,7 @@
 """fix wall/carom in LAMMPS itself: spheres against the surfaces of regions."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -79,6 +81,69 @@ def test_the_lever_at_a_wall_is_shorter_by_what_the_sphere_is_flattened(lammps):
     assert np.abs(off[0]).max() > 3.0
 
 
+LEVEL = "young 1e6 poisson 0.3 friction 0.3 retardation 1e-3"
+
+
+def on_the_floor(
+    lammps, then, floor="plane 0 0 0 0 0 1", speed=1.0, first=0, precision="double", start=None
+):
+    """A ball in balance on a level floor; returns rows of step, v_x, omega_y and the energy, which
+    is that of the motion, of weight and of Hertz's contact."""
+    radius, density, g, depth = 0.1, 1000.0, 9.81, 0.1 - 0.09684310469878493
+    made = (
+        "region b block 0 4 0 4 -0.2 1\ncreate_box 1 b\n"
+        f"create_atoms 1 single 0.1 0.1 {radius - depth!r}\n"
+        "set group all diameter 0.2 density 1000\n"
+        f"velocity all set {speed} 0 0\nreset_timestep {first}\n"
+    )
+    printed = lammps(
+        f"{HEAD.replace('f f f', 'p p f')}newton off\n{start or made}"
+        f"pair_style carom precision {precision}\npair_coeff * * {LEVEL}\n"
+        "variable along equal 0.2*step*dt\nvariable turn equal step*dt\n"
+        f"region w {floor}\nfix w all wall/carom {LEVEL} region w\nfix 1 all nve/sphere\n"
+        f"fix g all gravity {g} vector 0 0 -1\ntimestep 2e-5\n"
+        "compute s all property/atom vx omegay vz z\n"
+        "compute o all reduce sum c_s[1] c_s[2] c_s[3] c_s[4]\nthermo_style custom step c_o[*]\n"
+        f"thermo_modify format float %.15g\nthermo 1\n{then}\n"
+    )
+    assert "ERROR" not in printed, printed[-800:]
+    table = re.findall(r"^ *\d+(?: +[-\d.e]+){4} *$", printed, re.MULTILINE)
+    step, x, spin, z, height = np.array([row.split() for row in table], dtype=float).T
+    mass, modulus = 4.0 / 3.0 * np.pi * radius**3 * density, 1e6 / (2.0 * (1.0 - 0.3**2))
+    hertz = 8.0 / 15.0 * modulus * np.sqrt(radius) * (radius - height) ** 2.5
+    moves = 0.5 * mass * (x**2 + z**2 + 0.4 * (radius * spin) ** 2)
+    return step, x, spin, moves + hertz + mass * g * (height - radius + depth)
+
+
+@pytest.mark.parametrize("precision", ["single", "double"])
+def test_a_ball_that_slides_on_a_level_floor_is_braked_until_it_rolls(lammps, precision):
+    """To 5/7 of its speed, but for the arm R - d/2; no energy is gained in any step."""
+    step, x, spin, energy = on_the_floor(lammps, "thermo 4\nrun 40000", precision=precision)
+    arm = 0.5 * (0.1 + 0.09684310469878493)
+    rolls = 1.0 / (1.0 + 0.4 * (0.1 / arm) ** 2)
+    assert rolls == pytest.approx(5.0 / 7.0, abs=0.015)
+    braked = step < 0.3 / (0.3 * 9.81 * 2e-5)
+    np.testing.assert_allclose(x[braked], 1.0 - 0.3 * 9.81 * 2e-5 * step[braked], atol=2e-3)
+    last = step > 35000
+    assert np.mean(x[last]) == pytest.approx(rolls, abs=1e-3)
+    assert np.mean(spin[last]) == pytest.approx(rolls / arm, rel=2e-3)
+    assert energy.max() <= energy[0] * (1.0 + 1e-9)
+    assert energy[-1] < 0.73 * energy[0]
+
+
+def test_a_moving_floor_is_the_same_from_any_first_step(lammps):
+    """LAMMPS finds its velocity from its way in a step, in a first step from that since step 0."""
+    floor = "plane 0 0 0 0 0 1 move v_along NULL NULL"
+    first = on_the_floor(lammps, "run 200", floor, 0.0)
+    later = on_the_floor(lammps, "run 200", floor, 0.0, first=100_000)
+    np.testing.assert_allclose(later[1:], first[1:], rtol=1e-6, atol=1e-12)
+    assert np.all(np.diff(first[1]) >= 0.0)
+    assert first[1][-1] > 1e-3
+    rows = on_the_floor(lammps, "run 100\nwrite_restart x.rst\nrun 100", floor, 0.0, first=100_000)
+    again = on_the_floor(lammps, "run 100", floor, start="read_restart x.rst\n")
+    np.testing.assert_array_equal(np.array(again)[:, -100:], np.array(rows)[:, -100:])
+
+
 HEAP = """lattice sc 0.0102
 region box block -0.05 0.05 -0.05 0.05 0 0.2 units box
 create_box 1 box
@@ -131,10 +196,32 @@ def test_ranks_and_restarts_keep_what_walls_remember(lammps):
             f"{SOLID} restitution 0.8 speed 1.0 region w",
             "one has a restitution",
         ),
+        (
+            f"pair_style carom\npair_coeff * * {SOLID}",
+            f"{SOLID} friction 0.3 region w",
+            "friction 0.3 is given twice",
+        ),
+        (
+            f"pair_style carom\npair_coeff * * {SOLID}",
+            "young 210e9 poisson 0.3 friction 1e100 region w",
+            "friction 1e100 must be from 0 to 1e6",
+        ),
+        (
+            f"pair_style carom\npair_coeff * * {SOLID}",
+            f"{SOLID} region moving",
+            "no velocity of region moving, which joins others that move",
+        ),
+        (
+            f"pair_style carom\npair_coeff * * {SOLID} retardation 1",
+            f"{SOLID} retardation 1e9 region w",
+            "too long for precision single",
+        ),
     ],
 )
 def test_bad_input_stops_lammps_with_one_line(lammps, pair, wall, told):
     box = "region b block -1 1 -1 1 -1 1\ncreate_box 1 b\ncreate_atoms 1 single 0 0 0.5\n"
+    box += "variable way equal step*dt\nregion moves plane 0 0 0 0 0 1 move v_way NULL NULL\n"
+    box += "region still plane 0 0 -1 0 0 1\nregion moving intersect 2 moves still\n"
     printed = lammps(
         f"{HEAD}{box}set group all diameter 0.01\n{pair}\nregion w plane 0 0 0 0 0 1\n"
         f"fix w all wall/carom {wall}\nrun 1\n"

@@ -60,6 +60,18 @@ def test_model_is_the_law_of_carom(model, springs, turns):
 
 
 @compiles
+def test_friction_opposes_the_slide_at_any_rate_of_approach(model):
+    """Pressed to d = 0.3: spheres that stick have F = 2 G* a U, others reach Coulomb's limit."""
+    rates = [0.0, *(sign * 10.0**power for power in range(-30, 1) for sign in (1.0, -1.0))]
+    radius, moved = np.sqrt(0.3), 1e-9 * 1e-3
+    found = np.array(model(32, "held", 1e-9, *rates).split(), dtype=float)
+    sticking = 1.5 * radius * moved * 0.8 / 0.3 / 0.3**1.5  # of Coulomb's limit, kappa/mu = 0.8/0.3
+    np.testing.assert_allclose(found, sticking, rtol=0.025)
+    found = np.array(model(32, "held", 1e9, *rates).split(), dtype=float)
+    np.testing.assert_allclose(found, 1.0, rtol=1e-6)
+
+
+@compiles
 def test_model_refuses_other_springs(model):
     assert "springs must be 16, 32 or 64" in model(20, 100, 0, 0.0, 1.0)
 

@@ -21,7 +21,7 @@ enum { FORCE_X, ELASTIC = 3, FRICTION, VISCOSITY, SUMS };
 }  // namespace
 
 FixWallCarom::FixWallCarom(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), kind{}, style(nullptr), region(nullptr), memories(nullptr), sums{} {
+    : Fix(lmp, narg, arg), kind{}, followed(-2), style(nullptr), region(nullptr), memories(nullptr), sums{} {
     if (narg < 7 || std::string(arg[narg - 2]) != "region" || narg % 2 == 0)
         error->all(FLERR, "fix wall/carom: give young, poisson, friction and what else the material "
                           "has, each with a value, and at last region ID");
@@ -63,16 +63,21 @@ int FixWallCarom::setmask() { return FixConst::POST_FORCE; }
 void FixWallCarom::init() {
     region = domain->get_region_by_id(name);
     if (!region) error->all(FLERR, "fix wall/carom: there is no region {} any longer", name);
+    if (region->nregion > 1 && (region->dynamic || region->varshape))
+        error->all(FLERR, "fix wall/carom: LAMMPS has no velocity of region {}, which joins others "
+                          "that move; give each of them a fix of its own", name);
     style = dynamic_cast<PairCarom *>(force->pair_match("^carom", 0));
     if (!style) error->all(FLERR, "fix wall/carom needs pair_style carom, for the spheres");
     if (lossy() && !options.viscous)
         error->all(FLERR, "fix wall/carom: give pair_coeff, with its losses, before the fix");
     bodies.assign(atom->ntypes + 1, CaromBodies{});
-    for (int type = 1; type <= atom->ntypes; ++type)
+    for (int type = 1; type <= atom->ntypes; ++type) {
         if (style->materials[type][type].complete() &&
             !carom_combine(style->materials[type][type], material, CaromMaterial{}, bodies[type]))
             error->all(FLERR, "fix wall/carom: of type {} and the wall one has a restitution, the "
                               "other none", type);
+        style->check_steps("fix wall/carom", bodies[type].pair.retardation);
+    }
 }
 
 /// Whether the wall or any sphere loses energy to viscosity.
@@ -112,7 +117,7 @@ carom::Pair FixWallCarom::pair_of(int i, double curved, double *memory) const {
 void FixWallCarom::post_force(int) {
     std::fill(sums, sums + FRICTION, 0.0);
     region->prematch();
-    if (region->dynamic || region->varshape) region->set_velocity();
+    if (region->dynamic || region->varshape) follow();
     std::vector<double *> touched;
     for (int i = 0; i < atom->nlocal; ++i) {
         if (!(atom->mask[i] & groupbit)) continue;
@@ -136,6 +141,15 @@ void FixWallCarom::post_force(int) {
     }
 }
 
+/// Let LAMMPS find the velocity of the wall from where it was a step before. Where nobody has looked
+/// then, it would take the way since step 0 for that of a step; a wall starts from rest instead.
+void FixWallCarom::follow() {
+    const bigint now = update->ntimestep;
+    if (now != followed && now != followed + 1) update->ntimestep = 0;
+    region->set_velocity();
+    update->ntimestep = followed = now;
+}
+
 /// Let a sphere go; what was still stored is lost at last.
 void FixWallCarom::part(double *slot) {
     sums[options.viscous ? VISCOSITY : FRICTION] += kind.stored(slot + 1 + SPRINGS);
@@ -146,14 +160,14 @@ void FixWallCarom::act(int i, int k, double *memory) {
     const Region::Contact &met = region->contact[k];
     carom::Body wall{};
     const double *x = atom->x[i];
-    wall.position = {x[0] - met.delx, x[1] - met.dely, x[2] - met.delz};
+    wall.position = {-met.delx, -met.dely, -met.delz};  // from the sphere, to lose no digits
     if (region->dynamic || region->varshape) {
         double velocity[3] = {0.0, 0.0, 0.0}, place[3] = {x[0], x[1], x[2]};
         region->velocity_contact(velocity, place, k);
         wall.velocity = carom_vector(velocity);
         if (region->rotateflag) wall.spin = carom_vector(region->omega);
     }
-    const carom::Body sphere{carom_vector(x), carom_vector(atom->v[i]),
+    const carom::Body sphere{{0.0, 0.0, 0.0}, carom_vector(atom->v[i]),
                              carom_vector(atom->omega[i]), atom->radius[i]};
     if (memory[KIND] != 0.0 && memory[KIND] != kind.number)
         error->one(FLERR, "fix wall/carom: contacts remember other springs, another precision, ledger "

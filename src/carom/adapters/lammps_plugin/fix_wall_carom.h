@@ -36,6 +36,7 @@ class FixWallCarom : public Fix {
     bool lossy() const;
     double *slot_of(int, int);
     carom::Pair pair_of(int, double, double *) const;
+    void follow();
     void act(int, int, double *);
     void part(double *);
 
@@ -44,6 +45,7 @@ class FixWallCarom : public Fix {
     std::vector<CaromBodies> bodies;
     CaromOptions options;
     CaromKind kind;
+    bigint followed;  ///< last step at which the region was asked for its velocity
     PairCarom *style;
     class Region *region;
     double **memories;  ///< slots of each atom: the wall's number and 1, then a contact

@@ -115,7 +115,7 @@ void carom_step(const CaromKind &kind, CaromBatch &batch, bool setup) {
 }
 
 double carom_loss(double restitution) {
-    if (restitution >= 1.0) return 0.0;
+    if (restitution > 0.9999) return 1e4 * (1.0 - restitution) * carom_loss(0.9999);
     double low = 0.0, high = 1.0;
     while (rebound(high) > restitution) high *= 2.0;
     for (int i = 0; i < 40; ++i) {

@@ -17,19 +17,21 @@ std::string carom_read(CaromMaterial &given, const std::string &word, double val
         bool good;
         const char *allowed;
     };
+    const auto within = [&](double low, double high) { return value >= low && value <= high; };
     const Word known[] = {
-        {"young", &CaromMaterial::young, value > 0.0, "must be positive"},
+        {"young", &CaromMaterial::young, within(1e-20, 1e20), "must be from 1e-20 to 1e20"},
         {"poisson", &CaromMaterial::poisson, value > -1.0 && value <= 0.5, "must be above -1 and at most 0.5"},
-        {"friction", &CaromMaterial::friction, value >= 0.0, "must not be negative"},
-        {"retardation", &CaromMaterial::retardation, value >= 0.0, "must not be negative"},
-        {"restitution", &CaromMaterial::restitution, value >= 0.01 && value <= 1.0,
-         "must be from 0.01 to 1"},
-        {"speed", &CaromMaterial::speed, value > 0.0, "must be positive"},
+        {"friction", &CaromMaterial::friction, within(0.0, 1e6), "must be from 0 to 1e6"},
+        {"retardation", &CaromMaterial::retardation, within(0.0, 1e20), "must be from 0 to 1e20"},
+        {"restitution", &CaromMaterial::restitution, within(0.01, 1.0), "must be from 0.01 to 1"},
+        {"speed", &CaromMaterial::speed, within(1e-20, 1e20), "must be from 1e-20 to 1e20"},
     };
+    const CaromMaterial nothing;
     for (const Word &each : known)
         if (word == each.name) {
+            if (given.*each.place != nothing.*each.place) return "is given twice";
             given.*each.place = value;
-            return each.good && std::isfinite(value) ? "" : each.allowed;
+            return each.good ? "" : each.allowed;
         }
     return "is not known; young, poisson, friction, retardation, restitution and speed are";
 }
@@ -49,7 +51,7 @@ bool carom_combine(const CaromMaterial &one, const CaromMaterial &other, const C
                                both.poisson > -1.0 ? both.poisson : own.poisson};
     };
     const double friction =
-        both.friction >= 0.0 ? both.friction : std::sqrt(one.friction * other.friction);
+        both.friction >= 0.0 ? both.friction : std::sqrt(one.friction) * std::sqrt(other.friction);
     CaromMaterial mixed = both;
     if (both.retardation < 0.0 && both.restitution < 0.0) {
         if ((one.restitution >= 0.0) != (other.restitution >= 0.0)) return false;
@@ -70,9 +72,8 @@ bool carom_combine(const CaromMaterial &one, const CaromMaterial &other, const C
 }
 
 double carom_retardation(const CaromBodies &bodies, const carom::Pair &pair) {
-    const double energy = 0.9375 * pair.mass * bodies.speed * bodies.speed;
-    const double deepest = std::pow(energy / (pair.modulus * std::sqrt(pair.radius)), 0.4);
-    return bodies.loss * deepest / bodies.speed;
+    const double natural = 0.9375 * pair.mass / (pair.modulus * std::sqrt(pair.radius));
+    return bodies.loss * std::pow(natural, 0.4) * std::pow(bodies.speed, -0.2);
 }
 
 }  // namespace LAMMPS_NS

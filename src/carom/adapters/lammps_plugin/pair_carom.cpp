@@ -112,6 +112,8 @@ void PairCarom::settings(int narg, char **arg) {
     for (int i = 0; i < narg; i += 2) {
         const std::string name = arg[i];
         if (i + 1 >= narg) error->all(FLERR, "pair_style carom: {} wants a value", name);
+        for (int k = 0; k < i; k += 2)
+            if (name == arg[k]) error->all(FLERR, "pair_style carom: {} is given twice", name);
         const std::string value = arg[i + 1];
         if (name == "springs") {
             options.springs = utils::inumeric(FLERR, arg[i + 1], false, lmp);
@@ -221,6 +223,13 @@ void PairCarom::find_radii() {
                   world);
 }
 
+/// Single precision holds what springs of a contact move in a step, if it is not too small a part.
+void PairCarom::check_steps(const char *where, double retardation) const {
+    if (options.single && retardation > 1e7 * update->dt)
+        error->all(FLERR, "{}: retardation {} is above 1e7 time steps, too long for precision single; "
+                          "give pair_style carom precision double", where, retardation);
+}
+
 double PairCarom::init_one(int i, int j) {
     require_material(i);
     require_material(j);
@@ -229,6 +238,7 @@ double PairCarom::init_one(int i, int j) {
                    "pair_style carom: of types {} and {} one has a restitution, the other none; give "
                    "pair_coeff {} {} a restitution and speed, or a retardation",
                    i, j, i, j);
+    check_steps("pair_style carom", bodies[i][j].pair.retardation);
     bodies[j][i] = bodies[i][j];
     bodies[j][i].share = 1.0 - bodies[i][j].share;
     return radii[i] + radii[j];

@@ -44,6 +44,8 @@ class PairCarom : public Pair {
     int pack_forward_comm(int, int *, double *, int, int *) override;
     void unpack_forward_comm(int, int, double *) override;
 
+    void check_steps(const char *, double) const;
+
     /// What a sphere weighs, with the rigid body that it is part of.
     double mass_of(int i) const { return rigid.empty() ? atom->rmass[i] : masses[i]; }
 

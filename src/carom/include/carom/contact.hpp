@@ -31,7 +31,7 @@ inline void keep(Contact<N, Real, P>& c, const Now& now, double edge, double sca
         c.drag_x = static_cast<Real>(now.drag_x);
         c.drag_y = static_cast<Real>(now.drag_y);
         if constexpr ((P & ledger) != 0) {  // dashpots in compression: tau d'^2 of every spring
-            const double power = scale * (now.limit - now.depth) * std::sqrt(edge) * now.approach;
+            const double power = scale * now.excess * std::sqrt(edge) * now.approach * now.unit;
             load.viscosity += 0.5 * m.step * (power + c.power);
             c.power = static_cast<Real>(power);
         }
@@ -96,21 +96,22 @@ inline void settle(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, St
                    Load& load) {
     const Now& now = stage.now;
     load = Load{};
-    load.normal = stage.scale * larger(stage.root * (now.limit - stage.edge * (1.0 / 3.0)), 0.0);
-    trim(c, now, stage.edge, stage.root, stage.sums);
+    Sums& sums = stage.sums;
+    const double most = larger(stage.root * (now.limit - stage.edge * (1.0 / 3.0)), 0.0);
     const double scale = stage.scale * pair.friction;
-    load.x = scale * stage.sums.x;
-    load.y = scale * stage.sums.y;
-    const double most = pair.friction * load.normal;
-    if (load.x * load.x + load.y * load.y > most * most) {  // by rounding
-        const double part = cut(load.x, load.y, most);
-        load.x *= part;
-        load.y *= part;
+    trim(c, now, stage.edge, stage.root, sums);
+    if (sums.x * sums.x + sums.y * sums.y > most * most) {  // by rounding
+        const double part = cut(sums.x, sums.y, most);
+        sums.x *= part;
+        sums.y *= part;
     }
+    load.normal = stage.scale * most;
+    load.x = scale * sums.x;
+    load.y = scale * sums.y;
     if constexpr ((P & ledger) != 0) {
         const double energy = scale * now.unit * pair.friction / pair.stiffness_ratio;
-        load.friction = energy * stage.sums.friction;
-        load.viscosity = energy * stage.sums.viscosity;
+        load.friction = energy * sums.friction;
+        load.viscosity = energy * sums.viscosity;
     }
     keep(c, now, stage.edge, stage.scale, m, load);
     enter(c, m, load);
@@ -122,7 +123,7 @@ inline void settle(Contact<N, Real, P>& c, const Pair& pair, const Motion& m, St
 template <int N, class Real, unsigned P>
 inline Status advance(Contact<N, Real, P>& contact, const Pair& pair, const Motion& motion,
                       Load& load) {
-    const Status status = status_of(pair, motion);
+    const Status status = status_of<Real>(pair, motion);
     if (status != Status::ok) return status;
     load = Load{};
     if (motion.penetration <= 0.0) {

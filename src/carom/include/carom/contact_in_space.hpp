@@ -35,7 +35,7 @@ struct ContactInSpace : Contact<N, Real, P> {
 
 namespace springs {
 
-inline double soft(Material m) { return (1.0 - m.poisson * m.poisson) / m.young; }
+inline double soft(Material m) { return (1.0 - m.poisson) * (1.0 + m.poisson) / m.young; }
 
 }  // namespace springs
 
@@ -174,7 +174,7 @@ inline void advance_batch(ContactInSpace<N, Real, P>* const contacts[], const Pa
         Motion& motion = batch.motions[k];
         motion = {in_lane(e.penetration, lane), in_lane(plane.approach, lane),
                   in_lane(plane.slide_x, lane), in_lane(plane.slide_y, lane), in_lane(e.step, lane)};
-        statuses[k] = status_of(pairs[k], motion);
+        statuses[k] = status_of<Real>(pairs[k], motion);
         if (statuses[k] == Status::ok && motion.penetration > 0.0) {
             batch.pressed[batch.count++] = k;
         } else {

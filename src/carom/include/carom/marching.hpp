@@ -33,18 +33,17 @@ template <int N, class Real, unsigned P> struct March {
     static constexpr Places<N, Real> places{};
 
     V zero, half, one, tiny, faint, steep;
-    V depth, before, limit, rim, keep, kept, least, full, moved_x, moved_y, drag_x, drag_y;
+    V depth, limit, rim, fade, faded, least, full, moved_x, moved_y, drag_x, drag_y;
     V along{}, across{}, rubbed{}, dragged{};
     bool viscous_shear, turns;
 
     March(const Numbers<N, Real>& n, const Now& now, double edge, bool sheared)
         : zero(n.zero), half(n.half), one(n.one), tiny(n.tiny), faint(n.faint), steep(n.steep),
-          depth(L::of(now.depth)), before(L::of(now.before)), limit(L::of(now.limit)),
-          rim(L::of(edge)), keep(L::of(now.keep)), least(L::of(now.least)), full(L::of(now.most)),
-          moved_x(L::of(now.moved_x)), moved_y(L::of(now.moved_y)), drag_x(L::of(now.drag_x)),
-          drag_y(L::of(now.drag_y)), viscous_shear(sheared),
-          turns((P & viscous) == 0 || !sheared || !(now.keep > 0.0)) {
-        kept = turns ? zero : keep;
+          depth(L::of(now.depth)), limit(L::of(now.limit)), rim(L::of(edge)), fade(L::of(now.fade)),
+          least(L::of(now.least)), full(L::of(now.most)), moved_x(L::of(now.moved_x)),
+          moved_y(L::of(now.moved_y)), drag_x(L::of(now.drag_x)), drag_y(L::of(now.drag_y)),
+          viscous_shear(sheared), turns((P & viscous) == 0 || !sheared || !(now.fade < 1.0)) {
+        faded = turns ? one : fade;
     }
 
     /// Make nothing of what has died away: denormal numbers would last, and take long.
@@ -64,14 +63,15 @@ template <int N, class Real, unsigned P> struct March {
         V bearable = larger(pressed, zero), most = bearable, free_x = x0, free_y = y0, inverse;
         if constexpr ((P & viscous) != 0) {
             const V inside = (rim - s) * steep;  // beyond the edge springs are free
-            const V held = L::load(c.pressed + k);
-            const V is = settled(larger(larger(pressed, held * keep), zero));
-            const V grown = is - larger(larger(before - s, held), zero) * keep;
+            // by what fades: what is kept is one to rounding where steps are short
+            const V held = L::load(c.pressed + k), less = held * fade;
+            const V is = settled(larger(pressed, held - less));
+            const V grown = (is - held) + less;
             L::store(c.pressed + k, is);
             bearable = larger(smaller(limit - s, inside), zero);
             most = viscous_shear ? larger(smaller(grown, inside), zero) : bearable;
-            free_x = x0 * (one - kept);
-            free_y = y0 * (one - kept);
+            free_x = x0 * faded;
+            free_y = y0 * faded;
         }
         const V to_x = free_x + share * moved_x, to_y = free_y + share * moved_y;
         const V part = cut(to_x, to_y, most, inverse);
@@ -85,8 +85,8 @@ template <int N, class Real, unsigned P> struct March {
         }
         V bears_x = x, bears_y = y;
         if constexpr ((P & viscous) != 0) {  // with what dashpots bear
-            x = settled(x + x0 * kept);
-            y = settled(y + y0 * kept);
+            x = settled(x0 + (x - free_x));
+            y = settled(y0 + (y - free_y));
             bears_x = x + drag_x;
             bears_y = y + drag_y;
             const V bears = cut(bears_x, bears_y, bearable, inverse);
@@ -153,11 +153,14 @@ template <int N, class Real, unsigned P>
 inline void trim(const Contact<N, Real, P>& c, const Now& now, double edge, double beta,
                  Sums& sums) {
     static constexpr Places<N, Real> places;
-    const int last = std::min(static_cast<int>(beta), N - 1);
+    int last = std::min(static_cast<int>(beta), N - 1);
+    if constexpr ((P & viscous) != 0)
+        if (last > 0 && !(double(last) * last < edge)) --last;  // it is not inside
     const double width = beta - last;
     if (!(width > 0.0)) return;
     const double inner = width * (2.0 * beta + last) / (3.0 * (beta + last));  // falling to zero
-    const double less = inner - places.outer[last];
+    if (last == 0) sums.x = sums.y = 0.0;  // nothing is taken from what is equal to rounding
+    const double less = inner - (last == 0 ? 0.0 : places.outer[last]);
     if constexpr ((P & viscous) == 0) {
         sums.x += less * c.x[last];
         sums.y += less * c.y[last];

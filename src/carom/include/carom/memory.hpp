@@ -59,14 +59,21 @@ inline void begin(Contact<N, Real, P>& c, const Pair& pair, const Motion& m) {
     const double energy = 0.9375 * pair.mass * m.approach * m.approach;
     const double deepest = std::pow(energy / (pair.modulus * std::sqrt(pair.radius)), 0.4);
     const double least = 1e-12 * pair.radius;  // below it single precision has no squares
-    const double reach = margin * std::max(std::max(deepest, m.penetration), least);
+    const double expected = std::min(std::max(deepest, m.penetration), pair.radius);
+    const double reach = margin * std::max(expected, least);
     c.spacing = static_cast<Real>(std::sqrt(pair.radius * reach) / N);
     if constexpr ((P & viscous) != 0) {
+        // bodies that begin pressed have been so for long
+        const double from = m.penetration - m.approach * m.step;
+        const double before = std::min(std::max(from, 0.0), pair.radius);
+        const double edge = before * pair.radius / (double(c.spacing) * c.spacing);
+        c.edge = static_cast<Real>(edge);
+        for (int k = 0; k < N; ++k)
+            c.pressed[k] = static_cast<Real>(std::max(edge - double(k) * k, 0.0));
         c.approach = static_cast<Real>(m.approach);
         c.slide_x = static_cast<Real>(m.slide_x);
         c.slide_y = static_cast<Real>(m.slide_y);
-        if constexpr ((P & ledger) != 0) {  // bodies that begin pressed have the energy of Hertz
-            const double before = std::max(m.penetration - m.approach * m.step, 0.0);
+        if constexpr ((P & ledger) != 0) {  // the energy of Hertz
             const double stiffness = 8.0 / 15.0 * pair.modulus * std::sqrt(pair.radius);
             c.stored = static_cast<Real>(stiffness * std::pow(before, 2.5));
         }

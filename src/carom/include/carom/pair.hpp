@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace carom {
 
@@ -42,31 +41,39 @@ enum class Status { ok, bad_pair, bad_motion };
 /// One line for a status.
 inline const char* message(Status status) {
     if (status == Status::bad_pair)
-        return "modulus, radius, stiffness_ratio and mass must be positive and finite, friction "
-               "and retardation zero or positive";
+        return "modulus, radius and mass must be from 1e-30 to 1e30, stiffness_ratio from 1e-6 to "
+               "1e6, friction from 0 to 1e6, retardation from 0 to 1e30";
     if (status == Status::bad_motion)
-        return "the motion must be finite, the step positive, the penetration below the radius";
+        return "the motion must be within 1e30, the penetration below the radius, the step at "
+               "least 1e-30 and, in single precision, 1e-12 of the retardation";
     return "ok";
 }
 
-// A sum is finite if all of its parts are; the least is positive if all are.
+// Within these no product of numbers leaves the range of double precision.
+constexpr double largest = 1e30, largest_ratio = 1e6;
+
+// A sum is small enough if all of its parts are; the least is large enough if all are.
 inline bool is_good(const Pair& p) {
-    const double all = p.modulus + p.radius + p.stiffness_ratio + p.mass + p.friction + p.retardation;
-    const double least = std::min(std::min(p.modulus, p.radius), std::min(p.stiffness_ratio, p.mass));
-    return all <= std::numeric_limits<double>::max() && least > 0.0 &&
+    const double all = p.modulus + p.radius + p.mass + p.retardation +
+                       (p.stiffness_ratio + p.friction) * (largest / largest_ratio);
+    const double least = std::min(std::min(p.modulus, p.radius),
+                                  std::min(p.mass, p.stiffness_ratio * (largest_ratio / largest)));
+    return all <= 8.0 * largest && least >= 1.0 / largest &&
            std::min(p.friction, p.retardation) >= 0.0;
 }
 
-inline bool is_good(const Motion& m, double radius) {
-    const double all = m.approach + m.slide_x + m.slide_y + m.penetration + m.step;
-    return std::fabs(all) <= std::numeric_limits<double>::max() && m.step > 0.0 &&
-           m.penetration < radius;
+inline bool is_good(const Motion& m, double radius, double shortest) {
+    const double all = m.approach * m.approach + m.slide_x * m.slide_x + m.slide_y * m.slide_y +
+                       m.penetration * m.penetration + m.step * m.step;
+    return all <= largest * largest && m.step >= shortest && m.penetration < radius;
 }
 
-/// Whether a step can be taken.
-inline Status status_of(const Pair& pair, const Motion& motion) {
+/// Whether a step can be taken, by numbers of this precision.
+template <class Real> Status status_of(const Pair& pair, const Motion& motion) {
     if (!is_good(pair)) return Status::bad_pair;
-    return is_good(motion, pair.radius) ? Status::ok : Status::bad_motion;
+    double shortest = 1.0 / largest;
+    if (sizeof(Real) < sizeof(double)) shortest += 1e-12 * pair.retardation;
+    return is_good(motion, pair.radius, shortest) ? Status::ok : Status::bad_motion;
 }
 
 }  // namespace carom

@@ -65,6 +65,19 @@ template <int N, class Real> void refine(Real (&line)[N]) {
 template <class Real> Real larger(Real a, Real b) { return a > b ? a : b; }
 template <class Real> Real smaller(Real a, Real b) { return a < b ? a : b; }
 
+/// Lengths beyond it have no squares; no contact is pressed so far.
+template <class Real> constexpr double farthest = sizeof(Real) < sizeof(double) ? 4e18 : 4e153;
+
+/// Shorten a vector of which springs take parts up to this share, so that it can be squared.
+template <class Real> void shorten(double& x, double& y, double share) {
+    constexpr double far = farthest<Real>;
+    if ((x * x + y * y) * (share * share) > far * far) {
+        const double part = far / ((std::fabs(x) + std::fabs(y)) * share);
+        x *= part;
+        y *= part;
+    }
+}
+
 /// Factor that cuts a vector back to a length.
 template <class Real> Real cut(Real x, Real y, Real most) {
     const Real square = larger(x * x + y * y, std::numeric_limits<Real>::min());

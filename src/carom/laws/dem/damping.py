@@ -1,6 +1,6 @@
 """Damping for a wanted restitution, as the codes define it."""
 
-from math import exp, log, pi, sqrt
+from math import expm1, log, log1p, pi, sqrt
 from typing import Any
 
 from carom.laws.dem.coefficients import SPRING
@@ -53,7 +53,7 @@ def thornton_damping(restitution: float) -> float:
         *(-7206.864, 11494.29, -11342.18, 6276.757, -1489.915),
     )
     exponent = sum(value * restitution**power for power, value in enumerate(fit, 1))
-    return sqrt(1.0 / (1.0 - (1.0 + restitution) ** 2 * exp(exponent)) - 1.0)
+    return 1.0 / sqrt(expm1(-exponent - 2.0 * log1p(restitution)))  # nothing is taken from one
 
 
 def hertz_damping(restitution: float, rule: str = COEFF_RESTITUTION) -> float:

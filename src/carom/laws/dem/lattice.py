@@ -27,16 +27,16 @@ MOST_LEVELS = 64
 class Now(NamedTuple):
     """What all springs share at the end of a step.
 
-    `before` is d at its beginning, `depth` D; of what springs let go are pressed and deflected by,
-    the parts `left` and `kept` remain after the step.
+    `rises` is what d has grown by, `depth` D; of what springs let go are pressed and deflected by,
+    the parts `fade` and `faded` are gone after the step.
     """
 
     d: float
-    before: float
+    rises: float
     depth: float
     edge: float
-    left: float
-    kept: float
+    fade: float
+    faded: float
 
 
 def places(springs: int) -> int:
@@ -76,10 +76,19 @@ def cell(low: float, high: float) -> float:
 
 
 @kernel
-def grown_edge(memory: Array, springs: int, d: float, before: float, left: float) -> float:
-    """Return s where the surfaces meet again, those let go having recovered to this part."""
+def begin(memory: Array, springs: int, before: float) -> None:
+    """Let a contact that begins pressed have been so for long."""
+    memory[EDGE] = max(before, 0.0)
+    for k in range(springs):
+        memory[FIRST + 2 * springs + k] = max(before - (k * memory[SPACING]) ** 2, 0.0)
+
+
+@kernel
+def grown_edge(memory: Array, springs: int, d: float, rises: float, fade: float) -> float:
+    """Return s where the surfaces meet again, those let go having recovered by this part."""
     h, edge = memory[SPACING], memory[EDGE]
-    gap = d - edge - left * max(before - edge, 0.0)
+    was = d - rises - edge
+    gap = rises + fade * was if was > 0.0 else d - edge
     k = int(np.sqrt(edge) / h)
     for _ in range(springs + 1):
         if gap <= 0.0:
@@ -87,7 +96,7 @@ def grown_edge(memory: Array, springs: int, d: float, before: float, left: float
         k += 1
         s = (k * h) ** 2
         pressed = memory[FIRST + 2 * springs + k] if k < springs else 0.0
-        beyond = d - s - left * pressed
+        beyond = d - s - (1.0 - fade) * pressed
         if beyond < 0.0:
             return float(edge + (s - edge) * gap / (gap - beyond))
         edge, gap = s, beyond
@@ -127,36 +136,39 @@ def fit_lattice(memory: Array, springs: int, d: float, v: float) -> None:
 
 
 @kernel
-def mean_at_end(speed: float, d: float, before: float, dt: float) -> float:
-    """Return the mean of b around the end of the step, while loading, over b there.
+def mean_at_end(half: float, d: float, before: float) -> float:
+    """Return the mean of b around the end of the step, `half` of the way on, over b there.
 
-    So much more dashpots bear at first, where b rises like the root of the time.
+    So much more dashpots bear at first, where b rises like the root of the time; the first step
+    counts from the touch. No difference of powers is taken: they may be equal to rounding.
     """
-    if speed <= 0.0:
+    if half <= 0.0:
         return 1.0
-    low = max(d - 0.5 * speed * dt, 0.0) if before > 0.0 else 0.0
-    return float(((d + 0.5 * speed * dt) ** 1.5 - low**1.5) / (1.5 * dt * np.sqrt(d) * speed))
+    back = min(half if before > 0.0 else 2.0 * half, d)
+    high, low = np.sqrt(d + half), np.sqrt(d - back)
+    mean = (high * (high + low) + low * low) / (1.5 * (high + low) * np.sqrt(d))
+    return float(mean * (back + half) / (2.0 * half))
 
 
 @kernel
 def move(memory: Array, springs: int, now: Now, moved: tuple[float, float]) -> None:
     """Let springs follow the bodies, as far as friction allows."""
-    h, rises = memory[SPACING], now.d - now.before
+    h = memory[SPACING]
     for k in range(springs):
         s, pressed = (k * h) ** 2, FIRST + 2 * springs + k
-        was = max(now.before - s, memory[pressed], 0.0)
-        is_ = max(now.d - s, now.left * memory[pressed], 0.0)
-        memory[pressed] = is_ if now.left > 0.0 else 0.0
-        q, r = memory[FIRST + k], memory[FIRST + springs + k]
-        memory[FIRST + k], memory[FIRST + springs + k] = now.kept * q, now.kept * r
+        was = memory[pressed]
+        is_ = max(now.d - s, (1.0 - now.fade) * was)
+        memory[pressed] = is_ if now.fade < 1.0 else 0.0
+        q, r = now.faded * memory[FIRST + k], now.faded * memory[FIRST + springs + k]
+        memory[FIRST + k] -= q
+        memory[FIRST + springs + k] -= r
         if s >= now.edge:
             continue
-        share = min((now.d - s) / rises, 1.0) if rises > 0.0 else 1.0
-        most = max(is_ - now.left * was, 0.0) if now.kept > 0.0 else now.depth - s
-        q, r = (1.0 - now.kept) * q, (1.0 - now.kept) * r
+        share = min((now.d - s) / now.rises, 1.0) if now.rises > 0.0 else 1.0
+        most = max(is_ - was + now.fade * was, 0.0) if now.faded < 1.0 else now.depth - s
         x, y = q + share * moved[0], r + share * moved[1]
         part = length(x, y, most)
-        left = min(part, 0.5) * (1.0 - part) * to_right(q, r, x, y) if now.kept == 0.0 else 0.0
+        left = min(part, 0.5) * (1.0 - part) * to_right(q, r, x, y) if now.faded == 1.0 else 0.0
         memory[FIRST + k] += part * x - left * y
         memory[FIRST + springs + k] += part * y + left * x
 
@@ -173,7 +185,7 @@ def pull(memory: Array, springs: int, now: Now, drag: tuple[float, float]) -> tu
         q, r = memory[FIRST + k] + drag[0], memory[FIRST + springs + k] + drag[1]
         weight = x - (k - 1) * h - cell(x - h, x) if k > 0 else 0.0
         weight += cell(x, rim if last else x + h)
-        part = weight * (length(q, r, now.depth - x * x) if now.left > 0.0 else 1.0)
+        part = weight * (length(q, r, now.depth - x * x) if now.fade < 1.0 else 1.0)
         along += part * q
         across += part * r
         if last:
@@ -204,25 +216,28 @@ def step(
         memory[:] = 0.0
         return
     v, slide, aside = motion[0], motion[1], motion[2]
+    before, depth, fade, edge, drag = d - v * dt, d, 1.0, d, (0.0, 0.0)
     if memory[SPACING] == 0.0:
         memory[:] = 0.0
         memory[SPEED], memory[ALONG], memory[ACROSS] = v, slide, aside
-    fit_lattice(memory, springs, d, v)
-    before, depth, left, edge, drag = d - v * dt, d, 0.0, d, (0.0, 0.0)
+        fit_lattice(memory, springs, d, v)
+        begin(memory, springs, before)
+    else:
+        fit_lattice(memory, springs, d, v)
     if alpha > 0.0:
         speed = v + 0.5 * (v - memory[SPEED])
-        mean = mean_at_end(speed, d, before, dt)
+        mean = mean_at_end(0.5 * speed * dt, d, before)
         depth += alpha * mean * speed
-        left = np.exp(-dt / alpha)
+        fade = -np.expm1(-dt / alpha)
         drag = (
             shear_alpha * mean * (slide + 0.5 * (slide - memory[ALONG])),
             shear_alpha * mean * (aside + 0.5 * (aside - memory[ACROSS])),
         )
         edge = max(depth, 0.0)
         if depth >= memory[EDGE]:
-            edge = min(grown_edge(memory, springs, d, before, left), depth)
+            edge = min(grown_edge(memory, springs, d, v * dt, fade), depth)
     memory[SPEED], memory[ALONG], memory[ACROSS], memory[EDGE] = v, slide, aside, edge
-    now = Now(d, before, depth, edge, left, left if shear_alpha > 0.0 else 0.0)
+    now = Now(d, v * dt, depth, edge, fade, fade if shear_alpha > 0.0 else 1.0)
     move(memory, springs, now, (slide * dt, aside * dt))
     along, across = pull(memory, springs, now, drag)
     load[0] = 1.5 * max(np.sqrt(edge) * (depth - edge / 3.0), 0.0)
@@ -246,12 +261,15 @@ def impact(
 ) -> tuple[int, float]:
     """Return how many rows of the record are filled and psi_2; -1 if the bodies do not part.
 
-    Velocity Verlet, as `stepping.stepped`; memory has the places of `places`, load six: forces,
-    and room for the motion.
+    The same if steps are too long for dashpots, which would give energy: they act on velocities
+    that are extrapolated by half a step, so that a step must not damp more than all of them.
+    Velocity Verlet, as `stepping.stepped`; memory has the places of `places`, load six: forces, and
+    room for the motion.
     """
     dt = DURATION / steps
     memory[:], load[:] = 0.0, 0.0
     d, v, motion = 0.0, 1.0, load[3:]
+    damped = 1.5 * ELASTIC_PULL * dt * max(alpha, 2.0 * chi * shear_alpha)  # where a is one
     for i in range(PATIENCE * steps):
         if i < record.shape[0]:
             record[i, 0], record[i, 1], record[i, 2] = i * dt, d, v
@@ -263,6 +281,8 @@ def impact(
         step(memory, springs, d, motion, dt, alpha, shear_alpha, load[:3])
         if v < 0.0 and load[0] <= 0.0:
             return i + 1, psi
+        if damped * np.sqrt(memory[EDGE]) > 1.0:
+            break
         v -= 0.5 * dt * ELASTIC_PULL * load[0]
         psi -= dt * ELASTIC_PULL * chi * load[1]
     return -1, np.nan

@@ -33,7 +33,8 @@ class MemoryLaw(ContactLaw):
 
     The springs follow Barber (1979) and the method of dimensionality reduction (Popov & Hess 2015).
     The law becomes exact, with second order, for many springs and small steps. With a restitution
-    the bodies are Kelvin-Voigt solids. In C++ the law is in `carom/contact.hpp`, in the folder that
+    the bodies are Kelvin-Voigt solids; impacts whose steps are too long for that are not solved. In
+    C++ the law is in `carom/contact.hpp`, in the folder that
     `carom.get_include()` returns.
 
     Parameters
