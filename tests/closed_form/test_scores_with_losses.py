@@ -173,7 +173,10 @@ def test_the_results_tell_the_restitution_as_well(tmp_path):
         ({"case": BODIES | {"restitution": 0.9}, "restitution": 0.9}, "leave one of them out"),
         ({"case": carom.impact(PAIR, **MOTION), "restitution": 0.9}, "leave one of them out"),
         ({"case": BODIES | {"loss_time": "1 us"}}, "a restitution that is the same at all speeds"),
-        ({"case": BODIES | {"yield_velocity": "1 m/s"}}, "give a restitution that is the same at all speeds"),
+        (
+            {"case": BODIES | {"yield_velocity": "1 m/s"}},
+            "give a restitution that is the same at all speeds",
+        ),
     ],
 )
 def test_what_cannot_be_compared_is_refused(given, message):
