@@ -303,6 +303,8 @@ def test_slow_rates_make_no_energy(how, friction, kind):
     motion = dict(zip(names, (each.astype(kind) for each in (velocity, spin, normal)), strict=True))
     after = [each.astype(float) for each in parts(carom.collide(pair, **motion))]
     zero = np.zeros((count, 3))
-    before = energy((BALL, SHELL), [*(motion[name].astype(float) for name in names[:2]), zero, zero])
+    before = energy(
+        (BALL, SHELL), [*(motion[name].astype(float) for name in names[:2]), zero, zero]
+    )
     assert np.all(np.isfinite(after))
     assert np.all(energy((BALL, SHELL), after) <= before * (1.0 + 8.0 * np.finfo(kind).eps))
