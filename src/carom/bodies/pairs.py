@@ -15,6 +15,7 @@ from carom.quantities.units import Value, not_negative
 
 Counterbody = Sphere | HalfSpace | Cup
 LEAST, MOST = 1e-100, 1e100  # of the numbers of an impact
+TINIEST = 1e-300  # of what may vanish: less loses digits
 OF_FRICTION = ("tangential_length", "tangential_force", "tangential_speed")  # zero without it
 SAME = 1e-6  # part by which numbers of the same bodies may differ: they are written in few digits
 
@@ -40,34 +41,44 @@ class Scales(ContactScales):
     tangential_speed: float
 
 
-def _holds(value: float, *, or_zero: bool = False) -> bool:
+def _holds(value: float) -> bool:
     """Return whether floating point holds this and products of three such numbers, with quotients.
 
     Squares of speeds and cubes of radii are among them, which overflow without a word.
     """
-    size = abs(value)
-    return ((size >= LEAST) & (size <= MOST)) | (or_zero & (size == 0.0))
+    return (value >= LEAST) & (value <= MOST)
 
 
-def representable(pair: "Pair", normal_speed: float, *tangential: float) -> bool:
+def representable(
+    pair: "Pair", normal_speed: float, contact_velocity: float = 0.0, *parts: float
+) -> bool:
     """Return whether floating point holds what an impact is calculated from, and its products.
 
-    `tangential` are the tangential velocity of the contact point and its parts.
+    `parts` are those of the tangential velocity of the contact point, which may be tiny.
     """
     scales = vars(pair.scales(normal_speed))
-    of_friction = [pair.friction, *(scales.pop(name) for name in OF_FRICTION), *tangential]
+    of_friction = [pair.friction, *(scales.pop(name) for name in OF_FRICTION)]
     sizes = [_holds(size) for size in (*pair.constants, normal_speed, *scales.values())]
-    return reduce(and_, [*sizes, *(_holds(value, or_zero=True) for value in of_friction)])
+    sizes += [_holds(size) | (size == 0.0) for size in of_friction]
+    sizes += [abs(part) <= MOST for part in (contact_velocity, *parts)]
+    impulse = pair.tangential_mass * contact_velocity
+    turning = (impulse * body.radius for body in pair.moving)
+    for tiny in (pair.psi(contact_velocity, normal_speed), contact_velocity, impulse, *turning):
+        sizes.append((abs(tiny) >= TINIEST) | (contact_velocity == 0.0))
+    return reduce(and_, sizes)
 
 
-def checked_scales(pair: "Pair", normal_speed: float, *tangential: float) -> Scales:
+def checked_scales(
+    pair: "Pair", normal_speed: float, contact_velocity: float = 0.0, *parts: float
+) -> Scales:
     """Return the scales of an impact, or raise InputError if floating point cannot hold them."""
     try:
-        fits = representable(pair, normal_speed, *tangential)
+        fits = representable(pair, normal_speed, contact_velocity, *parts)
     except (OverflowError, ZeroDivisionError):
         fits = False
     if not fits:
-        along = f", {text(tangential[0], 'm/s')} along the surface" if any(tangential) else ""
+        sliding = contact_velocity or any(parts)
+        along = f", {text(contact_velocity, 'm/s')} along the surface" if sliding else ""
         raise InputError(
             f"speed: {text(normal_speed, 'm/s')} at a radius of {text(pair.first.radius, 'm')}, a "
             f"friction of {pair.friction:g}{along} gives numbers that floating point cannot hold; "

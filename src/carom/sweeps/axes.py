@@ -1,7 +1,7 @@
 """Values along an axis: lists of numbers or of texts with units, and ranges."""
 
 from collections.abc import Mapping
-from math import isfinite, pi
+from math import inf, isfinite, pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -76,7 +76,10 @@ def read_range(name: str, given: Any, *, apart: bool = True) -> Range:
         raise refusal(name, start, "a range must not end where it starts")
     if spacing == "log" and min(start, stop) <= 0.0:
         raise refusal(name, min(start, stop), "logarithmic spacing needs positive ends")
-    return Range(start, stop, spacing == "log")
+    log = spacing == "log"
+    if not isfinite(stop - start) or (log and not 0.0 < stop / start < inf):
+        raise refusal(name, [start, stop], "these ends are too far apart for floating point")
+    return Range(start, stop, log)
 
 
 def _as_table(name: str, given: Any) -> Mapping[str, Any]:
