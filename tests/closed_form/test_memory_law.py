@@ -144,3 +144,19 @@ def test_numbers_of_springs_that_cannot_be_are_refused(springs):
     with pytest.raises(carom.InputError, match=r"^springs: ") as error:
         carom.MemoryLaw(springs)
     assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("chi", [0.7, 1.4412, 3.0])
+@pytest.mark.parametrize("e", [1.0, 0.9, 0.5, 0.1, 0.01])
+def test_steps_that_are_too_long_are_not_solved(e, chi):
+    """What is solved has gained no energy, from the slowest on: |psi_2| <= |psi_1|."""
+    psi, law = 10.0 ** np.linspace(-30.0, 1.0, 63), carom.MemoryLaw(32, restitution=e)
+    solved = []
+    for steps in (4, 8, 16, 32, 64, 128, 256, 512):
+        out, status = law.rebound(psi, chi, steps=steps, return_status=True)
+        assert np.all(status == status[0])
+        solved.append(status[0] == carom.laws.dem.LawStatus.SOLVED)
+        assert not solved[-1] or np.all(np.abs(out) <= 1.01 * psi)
+    assert solved == sorted(solved)
+    assert solved[-1]
+    assert solved[0] == (e >= 0.9 and chi < 2.0)

@@ -261,15 +261,16 @@ def impact(
 ) -> tuple[int, float]:
     """Return how many rows of the record are filled and psi_2; -1 if the bodies do not part.
 
-    The same if steps are too long for dashpots, which would give energy: they act on velocities
-    that are extrapolated by half a step, so that a step must not damp more than all of them.
-    Velocity Verlet, as `stepping.stepped`; memory has the places of `places`, load six: forces, and
-    room for the motion.
+    The same if steps are too long, so that springs and dashpots would give energy: with velocities
+    that are extrapolated by half a step, k dt (dt/4 + tau) must be below the mass. Velocity Verlet,
+    as `stepping.stepped`; memory has the places of `places`, load six: forces, and room for the
+    motion.
     """
     dt = DURATION / steps
     memory[:], load[:] = 0.0, 0.0
     d, v, motion = 0.0, 1.0, load[3:]
-    damped = 1.5 * ELASTIC_PULL * dt * max(alpha, 2.0 * chi * shear_alpha)  # where a is one
+    late = max(0.25 * dt + alpha, 2.0 * chi * (0.25 * dt + shear_alpha))
+    moved = 1.5 * ELASTIC_PULL * dt * late  # by a contact of radius one
     for i in range(PATIENCE * steps):
         if i < record.shape[0]:
             record[i, 0], record[i, 1], record[i, 2] = i * dt, d, v
@@ -281,7 +282,7 @@ def impact(
         step(memory, springs, d, motion, dt, alpha, shear_alpha, load[:3])
         if v < 0.0 and load[0] <= 0.0:
             return i + 1, psi
-        if damped * np.sqrt(memory[EDGE]) > 1.0:
+        if moved * np.sqrt(memory[EDGE]) > 1.0:
             break
         v -= 0.5 * dt * ELASTIC_PULL * load[0]
         psi -= dt * ELASTIC_PULL * chi * load[1]
