@@ -301,7 +301,7 @@ def test_catalogue():
 def test_impulse_of_sliding_with_next_to_no_friction(losses, close):
     """J_t = mu J_n, and the spin that it gives, however little mu V_n is beside V_x."""
     ball = carom.Sphere(radius="5 mm", material="steel")
-    for friction in (1e-2, 1e-6, 1e-12, 1e-17, 1e-30, 1e-200):
+    for friction in (1e-2, 1e-6, 1e-12, 1e-17, 1e-30, 1e-90):
         pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=friction)
         for angle in ("60 deg", "-60 deg"):
             hit = carom.impact(pair, speed=2.0, angle=angle, losses=losses)

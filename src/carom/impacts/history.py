@@ -6,7 +6,7 @@ from typing import Any, Protocol
 from carom.bodies.kinematics import Tangential
 from carom.bodies.pairs import Pair
 
-FAST = 1e6  # psi_1 over the most that friction takes of it, from where on it slips throughout
+FAST = 1e4  # psi_1 over 1 and the most that friction takes of it: it slips throughout
 RESULTS = (
     *("psi_in", "psi_out"),
     *("duration", "max_penetration", "max_force", "max_radius", "max_pressure"),
@@ -56,7 +56,7 @@ class InTime(Solved, Protocol):
 def _psi_lost(pair: Pair, solution: InTime, h: Any) -> Any:
     """Return psi_1 - psi until now; in fast gross slip by its closed form, 2 chi (1 - v/V_1)."""
     most = 2.0 * pair.chi
-    if abs(solution.psi_in) > FAST * most * (1.0 + solution.restitution):
+    if abs(solution.psi_in) > FAST * (1.0 + most * (1.0 + solution.restitution)):
         return copysign(most, solution.psi_in) * (1.0 - h.speed)
     return solution.psi_in - h.psi
 

@@ -59,8 +59,9 @@ class Outcome(Kinematics):
         It is 2 chi (1 + e) mu V_1/kappa there, by Coulomb's law.
         """
         before, lost = self.contact_velocity, self.contact_velocity - self.contact_velocity_out
-        most = 2.0 * self.pair.chi * (1.0 + self.normal_restitution) * self.scales.tangential_speed
-        return where(abs(before) > FAST * most, copysign(most, before), lost)
+        unit = self.scales.tangential_speed
+        most = 2.0 * self.pair.chi * (1.0 + self.normal_restitution) * unit
+        return where(abs(before) > FAST * (unit + most), copysign(most, before), lost)
 
     @property
     def tangential_impulse(self) -> float:
