@@ -1,13 +1,12 @@
 """What a tuning is for: bodies or chi, and a range of incidence."""
 
 from math import tan
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.bodies.cases import motion_of, pair_of, read_case
+from carom.bodies.cases import Case, motion_of, pair_of
 from carom.bodies.kinematics import approach, slope
 from carom.bodies.pairs import Pair
 from carom.dimensionless.numerics.hertz import DURATION
@@ -33,14 +32,14 @@ class Setting(NamedTuple):
 
 
 def setting_of(
-    case: Path | None,
+    case: Case | None,
     chi: str | None,
     kappa: str | None,
     start: str,
     stop: str | None,
     restitution: str,
 ) -> Setting:
-    """Return what a tuning is for, from a case file and angles, or from chi and psi_1.
+    """Return what a tuning is for, from a case and angles, or from chi and psi_1.
 
     Raises InputError if neither or both are given, or a range is empty.
     """
@@ -59,8 +58,7 @@ def setting_of(
     for name, value in (("chi", chi), ("kappa", kappa)):
         if value is not None:
             raise refusal(name, value, "it follows from the case; leave it out")
-    content = read_case(case)
-    pair, motion = pair_of(content), motion_of(content)
+    pair, motion = pair_of(case), motion_of(case)
     if pair.friction == 0.0:
         raise refusal(
             "friction", 0.0, "must be positive; without friction there is nothing to tune"
