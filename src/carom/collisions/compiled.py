@@ -15,9 +15,7 @@ from carom.dimensionless.numerics.threads import available_cores
 from carom.laws.rules import LARGEST, Rule, one_plus_beta
 from carom.quantities.arrays import Array
 
-Flat = Annotated[
-    NDArray[np.floating], ArrayType(np.floating, 1)
-]  # x, y, z of one pair after the other
+Flat = Annotated[NDArray[np.floating], ArrayType(np.floating, 1)]  # x, y, z of one pair after the other
 Panels = Annotated[NDArray[np.int32], ArrayType(np.int32, 1)]
 
 CHUNK = 256  # pairs whose numbers stay in the nearest cache
