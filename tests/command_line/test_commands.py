@@ -268,3 +268,26 @@ def test_help_shows_an_example(run, command):
     code, out, _ = run(*command.split(), "--help")
     assert code == 0
     assert f"Example: carom {command}" in out
+
+
+@pytest.mark.parametrize("chi", ["1e6", "1e20", "1e300"])
+@pytest.mark.parametrize("form", [[], ["--json"]])
+def test_a_curve_that_is_hardly_solved_is_a_failure(chi, form, capsys):
+    """All impacts but that which slides throughout; what there is is printed all the same."""
+    with pytest.warns(RuntimeWarning, match="400 of 401 impacts give NaN"):
+        assert main(["curve", "--chi", chi, *form]) == 1
+    out, err = capsys.readouterr()
+    assert out
+    assert err == "carom: 1 of 401 points are solved, the others are NaN; give other values\n"
+
+
+def test_a_sweep_of_which_nothing_is_solved_is_a_failure(tmp_path, capsys):
+    case = tmp_path / "case.toml"
+    case.write_text(
+        "friction = 0.2\nspeed = 2\n[first]\nradius = '5 mm'\nmaterial = 'steel'\n"
+        "gyration_radius = '1e-6 mm'\n[sweep.axes]\nangle = [0.1, 0.2, 0.3]\n"
+    )
+    assert main(["sweep", str(case)]) == 1
+    out, err = capsys.readouterr()
+    assert "not solved as" in out
+    assert err.splitlines()[-1].startswith("carom: 0 of 3 points are solved")

@@ -282,3 +282,72 @@ def test_the_longest_name_that_a_file_can_have_is_one(tmp_path):
     """255 letters: what is written beside it has a shorter name."""
     path = tmp_path / ("x" * 251 + ".csv")
     assert carom.read(carom.save(CURVE, path)).identical(CURVE)
+
+
+@pytest.fixture
+def lonely(tmp_path, monkeypatch):
+    """A pipe of which nobody opens the other end, and commands that soon give up."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("carom.io.paths.PATIENCE", 0.3)
+    Path("sweep.toml").write_text(
+        "friction = 0.2\nspeed = 1\n[first]\nradius = 1\nmaterial = 'steel'\n"
+        "[sweep]\ntable = 'PIPE'\n"
+    )
+
+    def pipe(ending):
+        name = f"pipe{ending}"
+        os.mkfifo(name)
+        Path("sweep.toml").write_text(Path("sweep.toml").read_text().replace("PIPE", name))
+        return name
+
+    return pipe
+
+
+READ = [name for name in FILES if name not in ("pack", "store", "laws")]
+
+
+@pytest.mark.parametrize("what", [*READ, "table of a sweep"])
+def test_a_pipe_without_another_end_is_refused(what, lonely, capsys):
+    """Nobody writes into it, or reads: no command waits for ever."""
+    words, ending = FILES.get(what, (["sweep", "sweep.toml"], ".csv"))
+    if what == "sweep's output":
+        words = ["sweep", "axes.toml", "--output", "NAME"]
+        text = Path("sweep.toml").read_text().partition("[sweep]")[0]
+        Path("axes.toml").write_text(f"{text}[sweep.axes]\nangle = [0.1, 0.2]\n")
+    name, threads = lonely(ending), threading.active_count()
+    assert main([name if word == "NAME" else word for word in words]) == 2
+    err = [line for line in capsys.readouterr().err.splitlines() if "The chain" not in line]
+    assert len(err) == 1
+    assert err[0].endswith("; nobody opens the other end of this pipe")
+    assert stat.S_ISFIFO(os.stat(name).st_mode)
+    assert threading.active_count() == threads
+
+
+@pytest.mark.parametrize("what", ["impact", "sweep", "fit", "score", "tune", "table of a sweep"])
+def test_a_pipe_is_read_like_a_file(what, tmp_path, monkeypatch, capsys):
+    """Once: what a pipe gives is not there a second time."""
+    monkeypatch.chdir(tmp_path)
+    case = "friction = 0.2\nspeed = 1\n[first]\nradius = 1\nmaterial = 'steel'\n"
+    table = "psi_1,psi_2,chi\n0.5,0.1,1.44\n1.0,0.0,1.44\n2.0,-0.9,1.44\n"
+    content, words = {
+        "impact": (f"angle = 0.2\n{case}", ["impact", "NAME"]),
+        "sweep": (f"{case}[sweep.axes]\nangle = [0.1, 0.2]\n", ["sweep", "NAME"]),
+        "fit": (carom.datasets.path("kharaz2001").read_text(), ["fit", "NAME"]),
+        "score": (table, ["verify", "score", "NAME"]),
+        "tune": (f"angle = 0.2\n{case}", ["verify", "tune", "NAME"]),
+        "table of a sweep": ("angle,spin\n0.1,0\n0.2,1\n", ["sweep", "case.toml"]),
+    }[what]
+    Path("case.toml").write_text(f"{case}[sweep]\ntable = 'pipe'\n")
+    results = []
+    for make in (Path.touch, os.mkfifo):
+        pipe = Path("pipe")
+        pipe.unlink(missing_ok=True)
+        make(pipe)
+        writer = threading.Thread(target=pipe.write_text, args=(content,), daemon=True)
+        writer.start()
+        if make is Path.touch:
+            writer.join()
+        code = main(["pipe" if word == "NAME" else word for word in words])
+        results.append((code, *capsys.readouterr()))
+    assert results[0] == results[1]
+    assert results[0][0] == 0 or what == "score"

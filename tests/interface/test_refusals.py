@@ -1,6 +1,7 @@
 """Bad input to fields, stresses and animations: one clear line that names what is wrong."""
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 
@@ -126,3 +127,114 @@ def test_storing_results(hit, tmp_path):
     with pytest.raises(carom.InputError, match=r"result: 'hit' .* an impact or a load path"):
         carom.save("hit", tmp_path / "other.nc")
     assert [path.name for path in tmp_path.iterdir()] == ["hit.nc"]
+
+
+class Unequal:
+    """What is equal to nothing, not even to be asked for it."""
+
+    __hash__ = None
+
+    def __eq__(self, other):
+        raise RuntimeError
+
+
+CASE = {"first": {"radius": "5 mm", "material": "steel"}, "speed": 2.0, "friction": 0.2}
+NO_NAMES = [
+    *(1, 0, 1.5, True, NAN, b"x", "psi_out", "", object(), Unequal(), len, range(3), pd.NA),
+    *({"psi_out": 1}, {"psi_out"}, iter(["psi_out"]), (name for name in ["psi_out"])),
+    *([], (), [1], [None], [b"psi_out"], [["psi_out"]], [[]], [{}], [""], [NAN], [10**5000]),
+    *([Unequal()], [pd.NA], [np.array(["psi_out", "chi"])], ["psi_out", None], ["psi_out"] * 2),
+    *(np.array([1.0]), np.zeros(0), np.array([["psi_out"]]), np.array(["psi_out"])),
+    *(pd.Series(["psi_out"]), pd.DataFrame({"psi_out": [1]}), xr.DataArray(["psi_out"])),
+]
+
+
+@pytest.mark.parametrize("outputs", NO_NAMES, ids=[str(row) for row in range(len(NO_NAMES))])
+def test_outputs_of_a_sweep_that_are_no_list_of_names(outputs):
+    with pytest.raises(carom.InputError, match=r"^outputs: ") as error:
+        carom.sweep(CASE, carom.Grid({"angle": [0.1]}), outputs=outputs, progress=False)
+    assert "\n" not in str(error.value)
+
+
+def damaged_tables():
+    """Yield tables of a law of which a part is missing, of another kind, shape or size."""
+    law = carom.ReboundLaw(1.44)
+    for key in ("chi", "edges", "coefficients"):
+        table = law.to_dict()
+        del table[key]
+        yield table
+        for value in (*NO_NAMES, -1.0, float("inf"), 1e300, "x", [[1.0], [1.0, 2.0]]):
+            yield law.to_dict() | {key: value}
+    for value in (*NO_NAMES, -1.0, 2.0, float("inf"), 0.9):
+        if type(value) is bool or not (isinstance(value, int) and value == 1):
+            yield law.to_dict() | {"restitution": value}
+    for value in (NAN, None, "x", 10**5000, 1e300, float("inf"), np.ma.masked, [1.0], {}):
+        for row in (0, 3, -1):
+            table = law.to_dict()
+            table["edges"][row] = value
+            yield table
+            table = law.to_dict()
+            table["coefficients"][row] = value
+            yield table
+            table = law.to_dict()
+            table["coefficients"][row][5] = value
+            yield table
+    yield from (None, 1, "table", [], {}, law, np.zeros((3, 3)), iter([1]))
+
+
+def test_tables_of_a_law_that_are_damaged():
+    count = 0
+    for table in damaged_tables():
+        with pytest.raises(carom.InputError, match=r"^table: it is not a table of ReboundLaw"):
+            carom.ReboundLaw.from_dict(table)
+        count += 1
+    assert count > 200
+
+
+PSI = [(0.5, 0.1), (1.0, 0.0), (2.0, -0.9)]
+COLUMNS = np.array(PSI, [("psi_1", "f8"), ("psi_2", "f8")])
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        COLUMNS,
+        COLUMNS.view(np.recarray),
+        np.ma.masked_array(COLUMNS),
+        np.array(PSI, [("psi_1 [1]", "f4"), ("psi_2", "f8")]),
+        np.array(PSI, [("psi_1", "U8"), ("psi_2", "O")]),
+        pd.DataFrame(COLUMNS).to_records(index=False),
+        COLUMNS[::-1][::-1],
+    ],
+)
+def test_fields_of_records_are_columns(given):
+    """As numpy.genfromtxt(names=True) reads them."""
+    whole = {"psi_1": [0.5, 1.0, 2.0], "psi_2": [0.1, 0.0, -0.9]}
+    wanted = carom.verify.score(whole, chi=1.44).to_dict()
+    assert carom.verify.score(given, chi=1.44).to_dict() == wanted
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        *(COLUMNS[0], COLUMNS.reshape(3, 1), np.array(PSI[0], COLUMNS.dtype), COLUMNS[:0]),
+        np.zeros(3, [("psi_1", "f8", 2), ("psi_2", "f8")]),
+        np.zeros(3, [("psi_1", [("a", "f8")]), ("psi_2", "f8")]),
+        np.zeros(3, "V8"),
+        np.array(PSI),
+        np.array(PSI, dtype=object),
+        {"psi_1": COLUMNS, "psi_2": COLUMNS["psi_2"]},
+        {"psi_1": list(COLUMNS), "psi_2": COLUMNS["psi_2"]},
+        {"psi_1": np.array([{}, None, 1], object), "psi_2": COLUMNS["psi_2"]},
+    ],
+)
+@pytest.mark.parametrize("use", ["score", "fit", "table"])
+def test_records_that_are_no_columns(use, given):
+    call = {
+        "score": lambda given: carom.verify.score(given, chi=1.44),
+        "fit": carom.fit,
+        "table": lambda given: carom.sweep(CASE, carom.Table(given)),
+    }[use]
+    with pytest.raises(carom.InputError, match=": ") as error:
+        call(given)
+    assert "\n" not in str(error.value)

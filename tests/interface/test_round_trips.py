@@ -2,7 +2,6 @@
 
 import json
 import warnings
-from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -225,10 +224,17 @@ def test_what_cannot_be_stored_is_refused(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_netcdf_on_a_full_disk_is_refused_before_it_is_begun(tmp_path, monkeypatch):
-    """HDF5 would take the process down; nothing is left behind."""
-    full = SimpleNamespace(total=10**6, used=10**6 - 5000, free=5000)
-    monkeypatch.setattr("shutil.disk_usage", lambda folder: full)
-    with pytest.raises(carom.InputError, match=r"No space left on device, .* MB are needed"):
-        carom.save(carom.curve(1.44, [0.5, 2.0]), tmp_path / "curve.nc")
-    assert list(tmp_path.iterdir()) == []
+def test_netcdf_that_may_not_grow_leaves_the_process_and_the_older_file_alone(tmp_path):
+    """HDF5 would take the process down when it ends, if not before; nothing is left behind."""
+    resource = pytest.importorskip("resource")
+    (tmp_path / "curve.nc").write_text("older")
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    for limit in (0, 100, 4096, 8000):
+        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, before[1]))
+        try:
+            with pytest.raises(carom.InputError, match=r"cannot be written; File too large$"):
+                carom.save(carom.curve(1.44, [0.5, 2.0]), tmp_path / "curve.nc")
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        assert [path.name for path in tmp_path.iterdir()] == ["curve.nc"]
+        assert (tmp_path / "curve.nc").read_text() == "older"

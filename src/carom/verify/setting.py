@@ -1,13 +1,12 @@
 """What a tuning is for: bodies or chi, and a range of incidence."""
 
 from math import tan
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.bodies.cases import losses_of, motion_of, pair_of, read_case
+from carom.bodies.cases import Case, losses_of, motion_of, pair_of
 from carom.bodies.kinematics import approach, slope
 from carom.bodies.losses import KelvinVoigt, LossLaw
 from carom.bodies.pairs import Pair
@@ -34,14 +33,14 @@ class Setting(NamedTuple):
 
 
 def setting_of(
-    case: Path | None,
+    case: Case | None,
     chi: str | None,
     kappa: str | None,
     start: str,
     stop: str | None,
     restitution: str | None,
 ) -> Setting:
-    """Return what a tuning is for, from a case file and angles, or from chi and psi_1.
+    """Return what a tuning is for, from a case and angles, or from chi and psi_1.
 
     A restitution takes the place of that of the case; without either it is 1.
 
@@ -62,10 +61,9 @@ def setting_of(
     for name, value in (("chi", chi), ("kappa", kappa)):
         if value is not None:
             raise refusal(name, value, "it follows from the case; leave it out")
-    content = read_case(case, losses=True)
-    if restitution is None and (told := constant_restitution(losses_of(content))) is not None:
+    if restitution is None and (told := constant_restitution(losses_of(case))) is not None:
         wanted = damped_restitution("restitution", told)
-    pair, motion = pair_of(content), motion_of(content)
+    pair, motion = pair_of(case), motion_of(case)
     if pair.friction == 0.0:
         raise refusal(
             "friction", 0.0, "must be positive; without friction there is nothing to tune"

@@ -68,9 +68,8 @@ def tune_command(
     """
     from carom.verify.setting import setting_of
 
-    if case is not None:
-        told_case(case, losses=True)
-    setting = setting_of(case, chi, kappa, start, stop, restitution)
+    content = None if case is None else told_case(case, losses=True)
+    setting = setting_of(content, chi, kappa, start, stop, restitution)
     tuning = carom.verify.tune(
         chi=setting.chi, kappa=setting.kappa, psi=setting.psi, measure=measure
     )

@@ -68,12 +68,13 @@ def score(
     Parameters
     ----------
     results : str, Path, mapping, pandas.DataFrame, Law or callable
-        A CSV file with a header, comments after #; or columns by name, each of shape (n,). SI
-        units, or with a unit in the name of a column: "spin [rpm]", "angle (deg)". Speeds of two
-        spheres are relative; normal_speed is positive before and normal_speed_out after; positive
-        spin adds to the tangential speed of the contact point; tangential_force is positive
-        against V_x > 0. At least 3 points, or 20 rows with a force. Or a contact law, or a function
-        as of `carom.FunctionLaw`: its psi_2 at the 15 incidences of `rank`.
+        A CSV file with a header, comments after #; or columns by name, each of shape (n,), or the
+        fields of a structured array. SI units, or with a unit in the name of a column: "spin
+        [rpm]", "angle (deg)". Speeds of two spheres are relative; normal_speed is positive before
+        and normal_speed_out after; positive spin adds to the tangential speed of the contact point;
+        tangential_force is positive against V_x > 0. At least 3 points, or 20 rows with a force. Or
+        a contact law, or a function as of `carom.FunctionLaw`: its psi_2 at the 15 incidences of
+        `rank`.
     case : str, Path, mapping, Pair or Impact, optional
         The bodies and their friction, as in a case file for `carom impact`. They are needed unless
         the results are psi_1 and psi_2, or a comment of the file, "# case:", holds them as JSON. A
