@@ -251,7 +251,11 @@ LIMITED = {
 }
 
 
-@pytest.mark.parametrize("name", LIMITED)
+SLOW = ("hit.gif", "page")
+FILES = [pytest.param(name, marks=pytest.mark.slow) if name in SLOW else name for name in LIMITED]
+
+
+@pytest.mark.parametrize("name", FILES)
 def test_a_file_that_may_not_grow_leaves_nothing_behind(name, there):
     """One line, no temporary file, an older file as it was; HDF5 would take the process down."""
     if name.endswith(".mp4") and shutil.which("ffmpeg") is None:

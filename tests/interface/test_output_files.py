@@ -323,7 +323,13 @@ def test_a_pipe_without_another_end_is_refused(what, lonely, capsys):
     assert threading.active_count() == threads
 
 
-@pytest.mark.parametrize("what", ["impact", "sweep", "fit", "score", "tune", "table of a sweep"])
+@pytest.mark.parametrize(
+    "what",
+    [
+        *("impact", "sweep", "fit", "score", "table of a sweep"),
+        pytest.param("tune", marks=pytest.mark.slow),
+    ],
+)
 def test_a_pipe_is_read_like_a_file(what, tmp_path, monkeypatch, capsys):
     """Once: what a pipe gives is not there a second time."""
     monkeypatch.chdir(tmp_path)
