@@ -77,7 +77,10 @@ def linear_modulus(file, stiffness):
     middles, points = gather(count, SIZE, *moved), gather(count, SIZE, *moved, *turned)
     ahead = normal_stiffness[:, None, None] * along - (force / distance)[:, None, None] * aside
     sideways = (stiffness * KAPPA * normal_stiffness)[:, None, None] * aside
-    ahead, sideways = (sp.block_diag(list(blocks), format="csr") for blocks in (ahead, sideways))
+    ahead, sideways = (
+        sp.block_diag([sp.csr_array(block) for block in blocks], format="csr")
+        for blocks in (ahead, sideways)
+    )
     affine = np.zeros((count, 3))
     affine[:, 0] = gap[:, 1]  # of a unit strain
     affine = affine.ravel()
