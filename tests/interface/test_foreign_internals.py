@@ -12,6 +12,7 @@ from numba import njit
 from numba.core import codegen, compiler, cpu, dispatcher, registry
 
 import carom
+from carom.native.emission import CODE
 
 PACKAGE = Path(carom.__file__).parent
 OWN = {  # private to Carom: classes that share a file or a folder
@@ -60,7 +61,7 @@ def test_only_named_internals_are_read(name):
 def test_the_internals_of_numba_exist():
     compiled = njit(lambda x: x + 1.0)
     compiled.compile("(float64,)")
-    library = compiled.overloads[compiled.signatures[0]].library
+    library = CODE(compiled.overloads[compiled.signatures[0]])
     own = registry.cpu_target.target_context.codegen()
     read = {compiled: {"_numba_type_"}, dispatcher: {"_FunctionCompiler"}}
     read[library] = {"_codegen", "_final_module", "_get_module_for_linking", *PATCHED} - {
