@@ -22,6 +22,7 @@ from tempfile import TemporaryDirectory
 from unittest.mock import patch
 
 import numpy as np
+from lammps_dem_tests import SEGMENTS, dem_test_yaml
 from page_blocks import blocks, page_with, table
 
 import carom
@@ -32,7 +33,6 @@ from carom.verify.engines.experiments import Experiment, psi_out
 from carom.verify.engines.lammps import Lammps, coefficients
 from carom.verify.engines.lammps_twin import Contact, State, outcomes_of, trajectory
 from carom.verify.engines.lammps_unittest import unit_test_yaml
-from carom.verify.engines.lammps_unittest_dem import SEGMENTS, dem_test_yaml
 
 ROOT = Path(__file__).parents[1]
 FOLDER = ROOT / "examples" / "lammps" / "verification"

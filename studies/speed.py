@@ -43,9 +43,7 @@ BESIDE = {  # where a label goes that would cover another, in points, and how it
     "boundary elements, 16 across": (-4, 2, "right"),
     "boundary elements, 32 across": (-4, -8, "right"),
 }
-FOUND = {
-    "rebound, e = 0.9": 9e-8
-}  # by annuli and small steps, tests/convergence/test_lossy_twin.py
+FOUND = {"rebound, e = 0.9": 9e-8}  # by annuli and small steps
 SEED, RUNS = 20261121, 5
 FINE, COARSE = 5000, 1000  # steps of LAMMPS, whose difference leaves out its start
 DEM_STEPS = 50  # per contact: enough for mindlin

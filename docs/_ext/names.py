@@ -64,8 +64,8 @@ def to_page(code: nodes.literal, name: str, page: str) -> None:
 def offered(name: str) -> str:
     """Return a full name as it is offered to users, if it is.
 
-    >>> offered("carom.bodies.pairs.Pair.chi"), offered("carom.dimensionless.twins.stick")
-    ('carom.Pair.chi', 'carom.dimensionless.twins.stick')
+    >>> offered("carom.bodies.pairs.Pair.chi"), offered("carom.dimensionless.rebounds")
+    ('carom.Pair.chi', 'carom.dimensionless.rebounds')
     """
     parts = name.split(".")
     for end in range(len(parts), 1, -1):
@@ -78,7 +78,7 @@ def offered(name: str) -> str:
 def exists(name: str) -> bool:
     """Return whether a dotted name leads to something.
 
-    >>> exists("carom.dimensionless.twins.stick"), exists("carom.dimensionless.stuck")
+    >>> exists("carom.dimensionless.rebounds"), exists("carom.dimensionless.stuck")
     (True, False)
     """
     parts = name.split(".")

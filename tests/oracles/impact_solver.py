@@ -11,7 +11,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from mpmath import mp, mpf
-from power_series import Series, first_root, next_root_term, product, shifted, term
+
+from tests.oracles.power_series import Series, first_root, next_root_term, product, shifted, term
 
 ZERO = mpf(0)
 STATE = ("tau", "t", "b", "v", "psi", "U", "Q")

@@ -1,5 +1,5 @@
-"""Table of oblique elastic impacts to 30 digits: `generate_impacts.py` writes it, `--check`
-computes it anew.
+"""Table of oblique elastic impacts to 30 digits: `python -m tests.oracles.generate_impacts` writes
+it, `--check` computes it anew.
 
 The doubles nearest to psi_1 and chi are the exact input. Times in units of d_max/V_1.
 """
@@ -10,10 +10,11 @@ import argparse
 import csv
 from pathlib import Path
 
-from impact_solver import Accuracy, Impact, Solver
 from mpmath import mp, mpf
 
-TABLE = Path(__file__).with_name("impacts.csv")
+from tests.oracles.impact_solver import Accuracy, Impact, Solver
+
+TABLE = Path(__file__).parents[1] / "high_precision" / "impacts.csv"
 CHECK = Accuracy(digits=66, order=60, truncation="1e-56")
 CASES = (  # psi_1, chi, and a feature that the run must meet
     ("0.5", "0.05", "stick from the start"),

@@ -1,12 +1,22 @@
-"""The table of the study: a line for each number that a simulation gave."""
+"""A simulation of the study: its name, LAMMPS on its input, the table of what it gave."""
 
 import csv
+import subprocess
+import sysconfig
 from collections.abc import Iterable
 from pathlib import Path
+from typing import NamedTuple
 
-from bulk.experiment import Found, Run
 from carom.io.files import replace_whole
 
+LMP = Path(sysconfig.get_path("scripts"), "lmp")
+COMMON = """\
+units lj
+atom_style sphere
+newton off
+comm_modify vel yes
+neigh_modify every 1 delay 0 check yes
+"""
 TABLE = Path(__file__).parents[1] / "bulk.csv"
 HEAD = """\
 # simulations of packings, flows, drums and gases by six contact laws; docs/bulk.md
@@ -14,8 +24,43 @@ HEAD = """\
 # at: strain amplitude, inertial number, Froude number; size: spheres, of a drum its diameter;
 # step: time step over that of the study; where: time in durations of an impact, else as `at`
 """
+
+
+class Run(NamedTuple):
+    """One simulation: `at` is what is varied beside law and friction, `step` the time step over
+    that of the study."""
+
+    experiment: str
+    law: str
+    friction: float
+    restitution: float
+    at: float
+    seed: int
+    size: int
+    step: float = 1.0
+
+
+class Found(NamedTuple):
+    """A number that a simulation gave: `where` in time or strain."""
+
+    quantity: str
+    where: float
+    value: float
+
+
 COLUMNS = (*Run._fields, *Found._fields)
 Table = dict[Run, list[Found]]
+
+
+def run(text: str, folder: Path) -> str:
+    """Run an input in a folder and return what LAMMPS printed, or raise RuntimeError."""
+    command = [str(LMP), "-log", "none"]
+    done = subprocess.run(
+        command, cwd=folder, input=COMMON + text, capture_output=True, text=True, check=False
+    )
+    if done.returncode:
+        raise RuntimeError(done.stdout[-400:] + done.stderr[-400:])
+    return done.stdout
 
 
 def read() -> Table:
@@ -33,7 +78,6 @@ def read() -> Table:
 
 def write(table: Table, order: Iterable[Run]) -> None:
     """Store the table whole, in the order of the plan."""
-
     rows = [
         [*map(str, asked), found.quantity, f"{found.where:g}", f"{found.value:.6g}"]
         for asked in order

@@ -80,18 +80,6 @@ def dem_test_yaml(experiment: Experiment, *, epsilon: float) -> str:
     InputError
         If the law has damping, or LAMMPS does not have it.
 
-    Examples
-    --------
-    >>> import carom
-    >>> from carom.verify.engines.lammps_unittest_dem import dem_test_yaml
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> experiment = carom.verify.Experiment(
-    ...     pair=pair, law=carom.LammpsMindlin(), normal_speed=1e-3,
-    ...     tangential_speed=(3e-4,), steps=2000,
-    ... )
-    >>> print(dem_test_yaml(experiment, epsilon=1e-8).splitlines()[6])
-    #       1.2353      0.1642     -0.2074
     """
     tolerance = positive("epsilon", epsilon, "1")
     pair, law = experiment.pair, coefficients(experiment)
