@@ -6,9 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from carom.datasets.observables import OBSERVABLES
-from carom.io.columns import ERROR, Results, entry, in_units
+from carom.io.columns import ERROR, entry, in_units
 from carom.io.labels import attributes, labelled_dataset
-from carom.io.tables import Cells, read_table
+from carom.io.tables import read_table
+from carom.io.user_table import UserTable
 from carom.quantities.refusals import nearest, refusal
 
 if TYPE_CHECKING:
@@ -63,7 +64,7 @@ def path(name: str) -> Path:
     return _folder() / f"{name}.csv"
 
 
-def table(name: str) -> Results:
+def table(name: str) -> UserTable:
     """Return the columns of a dataset in SI units, NaN where nothing was measured.
 
     Parameters
@@ -73,7 +74,7 @@ def table(name: str) -> Results:
 
     Returns
     -------
-    Results
+    UserTable
         Arrays of shape (n,) by name in `columns`, also as `table[name]`, and the line numbers of
         the file in `rows`.
 
@@ -149,7 +150,7 @@ def column_attributes(name: str) -> dict[str, Any]:
 
 
 @lru_cache
-def _read(name: str) -> Cells:
+def _read(name: str) -> UserTable:
     return read_table(path(name))
 
 

@@ -12,7 +12,7 @@ from carom.bodies.cases import case_of
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import HalfSpace, Sphere
 from carom.io.progress import Progress, advancing
-from carom.io.tables import CASE
+from carom.io.user_table import CASE
 from carom.laws.dem import ContactLaw, Law
 from carom.quantities.arrays import finite_line
 from carom.quantities.refusals import InputError, refusal

@@ -11,8 +11,9 @@ import numpy as np
 
 from carom.bodies.pairs import Pair
 from carom.impacts.exact import Impact
-from carom.io.columns import Results, in_units, others
+from carom.io.columns import in_units, others
 from carom.io.tables import read_table
+from carom.io.user_table import UserTable
 from carom.laws.dem import Law
 from carom.quantities.arrays import Array
 from carom.quantities.faults import Faults
@@ -165,7 +166,7 @@ def _kind(names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
     )
 
 
-def _score_psi(results: Results, case: Given, chi: Any, limit: float) -> Score:
+def _score_psi(results: UserTable, case: Given, chi: Any, limit: float) -> Score:
     results.require("psi_in", "psi_out")
     results.require_rows(FEWEST)
     chis = _chis(results, case, chi)
@@ -178,7 +179,7 @@ def _score_psi(results: Results, case: Given, chi: Any, limit: float) -> Score:
     return Score("psi", limit, points, audit, notes_on(points))
 
 
-def _chis(results: Results, case: Given, chi: Any) -> Array:
+def _chis(results: UserTable, case: Given, chi: Any) -> Array:
     ways = [name for name, way in (("--chi", chi), ("--case", case.case)) if way is not None]
     if "chi" in results.columns:
         if ways:
@@ -194,13 +195,13 @@ def _chis(results: Results, case: Given, chi: Any) -> Array:
     return np.full(len(results), value)
 
 
-def _score_velocities(results: Results, case: Given, _: Any, limit: float) -> Score:
+def _score_velocities(results: UserTable, case: Given, _: Any, limit: float) -> Score:
     results.require_rows(FEWEST)
     points, audit, notes = score_velocities(results, case.pair, case.restitution, limit)
     return Score("velocities", limit, points, audit, notes, inputs=case.inputs)
 
 
-def _score_history(results: Results, case: Given, _: Any, limit: float) -> Score:
+def _score_history(results: UserTable, case: Given, _: Any, limit: float) -> Score:
     hit = case.impact
     points, audit, notes, forces = score_history(results, hit, case.restitution, limit)
     return Score("history", limit, points, audit, notes, forces, hit.inputs())
