@@ -52,7 +52,7 @@ SHAPES = (HalfSpace, Sphere, Cup)
 DEEP = re.compile(r"(?<![\w\"'-])(?:[\w\"'-]++\s*+\.\s*+){20}")  # a dotted key of that many tables
 
 
-def read_case(path: Path, *, losses: bool = False) -> Case:
+def read_case(path: str | Path, *, losses: bool = False) -> Case:
     """Return the content of a case file after checking its keys; `losses` as in `check_case`."""
     try:
         text = read_text("case file", path)
@@ -107,7 +107,7 @@ def check_case(
                 check(table["material"], MATERIAL, name)
 
 
-def _place(path: Path, text: str, key: str, table: str) -> str:
+def _place(path: str | Path, text: str, key: str, table: str) -> str:
     return f" in {path}, line {line_of(key, text, table)}"
 
 

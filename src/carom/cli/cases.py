@@ -2,14 +2,13 @@
 
 import os
 from collections.abc import Iterable, Mapping
-from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
 import carom
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import refusal
 
 if TYPE_CHECKING:
     from carom.bodies.cases import Case
@@ -26,24 +25,14 @@ Column = Annotated[
 Plot = Annotated[str | None, typer.Option(help="Store a figure of the result: .png, .pdf or .svg.")]
 
 
-def file_name(text: str) -> Path:
-    """Return the name of a file that is read; "" is none, though `Path` takes it for a folder."""
-    from carom.io.paths import checked_path
-
-    try:
-        return checked_path("file", text)
-    except InputError as error:
-        raise typer.BadParameter(str(error)) from None
-
-
 def file_option(words: str) -> Any:
-    """Return the option of a file that is read."""
-    return typer.Option(help=words, parser=file_name, metavar="FILE")
+    """Return the option of a file that is read; it is a text, as "" is a folder for `Path`."""
+    return typer.Option(help=words, metavar="FILE")
 
 
 def file_argument(words: str) -> Any:
     """Return the argument of a file that is read."""
-    return typer.Argument(help=words, parser=file_name)
+    return typer.Argument(help=words, metavar="FILE")
 
 
 def whole_option(words: str) -> Any:
@@ -110,7 +99,7 @@ def tell_sweep(case: "Case") -> None:
         tell(["the table [sweep] is ignored here; carom sweep computes what it describes"])
 
 
-def told_case(path: Path, *, losses: bool = False, swept: bool = False) -> "Case":
+def told_case(path: str, *, losses: bool = False, swept: bool = False) -> "Case":
     """Return the content of a case file; what is hardly meant in it is told on stderr.
 
     So is a table [sweep] that a command leaves out, unless the case is `swept`.
@@ -134,29 +123,27 @@ def outputs(case: "Case") -> Output:
     return Output(*(table.get(name) for name in Output._fields))
 
 
-def refuse_same(files: Mapping[str, str | Path | None]) -> None:
-    """Raise InputError if two of the files, by what they are for, are one."""
-    from carom.io.paths import checked_path
+def check_outputs(
+    outputs: Mapping[str, tuple[str | Path | None, tuple[str, ...]]], **inputs: str | Path | None
+) -> None:
+    """Raise InputError if a file cannot be written, has another ending, or is another one, too.
 
-    given = {
-        name: os.path.realpath(checked_path(name, file))
-        for name, file in files.items()
-        if file is not None
-    }
-    for (one, path), (other, same) in combinations(given.items(), 2):
-        if path == same:
-            raise refusal(
-                other, str(files[other]), f"this file is also that of {one}; give another name"
-            )
-
-
-def check_outputs(*files: tuple[str | None, tuple[str, ...]]) -> None:
-    """Raise InputError if a file cannot be written or has another ending."""
+    Outputs are by what they are for, each with the endings that it may have.
+    """
     from carom.io.paths import checked_output
 
-    for path, endings in files:
-        if path is not None:
-            checked_output(path, endings)
+    real: dict[str, str] = {}
+    for name, path in {**inputs, **{name: path for name, (path, _) in outputs.items()}}.items():
+        if path is None:
+            continue
+        if name in outputs:
+            checked_output(path, outputs[name][1])
+        try:
+            same = real.setdefault(os.path.realpath(path), name)
+        except ValueError:  # no file can have such a name, as its reader says
+            continue
+        if same != name:
+            raise refusal(name, str(path), f"this file is also that of {same}; give another name")
 
 
 def store(result: "Result", output: str | None, plot: str | None) -> None:

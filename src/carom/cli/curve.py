@@ -80,7 +80,7 @@ def curve_command(
 
     from carom.io.files import FIGURES, TABLES
 
-    check_outputs((plot, FIGURES), (output, TABLES))
+    check_outputs({"plot": (plot, FIGURES), "output": (output, TABLES)})
     values = [positive("chi", value) for value in chi]
     first = finite("from", start, "1")
     last = 4.0 * max(values) + 1.0 if stop is None else finite("to", stop, "1")

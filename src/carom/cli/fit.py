@@ -16,7 +16,6 @@ from carom.cli.cases import (
     file_argument,
     file_option,
     named_values,
-    refuse_same,
     store,
     stored,
     told_case,
@@ -32,7 +31,7 @@ if TYPE_CHECKING:
 
 def fit_command(
     data: Annotated[
-        Path | None,
+        str | None,
         file_argument(
             "CSV file with one impact per row and units in its head, e.g. 'angle [deg]'."
         ),
@@ -42,7 +41,7 @@ def fit_command(
         typer.Option(help="Published measurements that come with Carom, e.g. kharaz2001, instead."),
     ] = None,
     case: Annotated[
-        Path | None,
+        str | None,
         file_option(
             "Case file, as for carom impact, with the bodies; needed if the data hold none."
         ),
@@ -124,9 +123,12 @@ def fit_command(
         raise refusal("for", about, "it has no effect without --advice; give that, too")
     count = None if advice is None else whole("advice", advice, 1, PLAN)
     sampling = whole("steps", steps, FEWEST_STEPS, MOST_STEPS), whole("seed", seed, 0, MOST_SEED)
-    files = {"data": source, "case": case, "plot": plot, "output": output, "posterior": posterior}
-    refuse_same(files)
-    check_outputs((plot, FIGURES), (output, TABLES), (posterior, (*TABLES, *FIGURES)))
+    outputs = {
+        "plot": (plot, FIGURES),
+        "output": (output, TABLES),
+        "posterior": (posterior, (*TABLES, *FIGURES)),
+    }
+    check_outputs(outputs, data=source, case=case)
     found = carom.fit(
         source,
         pair=_pair(case),
@@ -147,7 +149,7 @@ def fit_command(
         typer.echo("\n".join(str(part) for part in (found, advised) if part is not None))
 
 
-def _tell_template(source: Path | str | None, as_json: bool) -> None:
+def _tell_template(source: str | None, as_json: bool) -> None:
     """Print an empty table."""
     from carom.fitting.template import TEMPLATE
 
@@ -156,7 +158,7 @@ def _tell_template(source: Path | str | None, as_json: bool) -> None:
     typer.echo(json.dumps({"template": TEMPLATE}) if as_json else TEMPLATE, nl=as_json)
 
 
-def _source(data: Path | None, dataset: str | None) -> Path:
+def _source(data: str | None, dataset: str | None) -> str | Path:
     """Return the file of the data, or raise InputError."""
     if (data is None) == (dataset is None):
         known = ", ".join(carom.datasets.names())
@@ -164,7 +166,7 @@ def _source(data: Path | None, dataset: str | None) -> Path:
     return data if data is not None else carom.datasets.path(str(dataset))
 
 
-def _pair(case: Path | None) -> "Pair | None":
+def _pair(case: str | None) -> "Pair | None":
     """Return the bodies of a case file, whose friction may be left out."""
     from carom.bodies.cases import LOSSES, RATIO, pair_of
     from carom.fitting.reading import START

@@ -16,7 +16,6 @@ from carom.cli.cases import (
     file_argument,
     merged,
     outputs,
-    refuse_same,
     stored,
     tell_sweep,
     whole_option,
@@ -41,11 +40,25 @@ def _flag(name: str, example: str, of: str = "") -> Any:
 Text = str | None
 METHODS = ("exact", "halfspace")
 FRAMES = 60  # of an animation
+PLACES = {  # of what options give, in a case file, where they have other names there
+    "radius": "first.radius",
+    "material": "first.material",
+    "gyration_radius": "first.gyration_radius",
+    "inner_radius": "first.inner_radius",
+    "against": "second.kind",
+    "second_radius": "second.radius",
+    "second_material": "second.material",
+    "plot": "output.plot",
+    "animate": "output.animation",
+    "output": "output.data",
+    "spectrum": "output.spectrum",
+}
 
 
 def impact_command(
+    context: typer.Context,
     case: Annotated[
-        Path | None,
+        str | None,
         file_argument("TOML file that describes the impact; options replace what it says."),
     ] = None,
     radius: Annotated[Text, _flag("radius", "'5 mm'", " of the first body, a sphere")] = None,
@@ -185,24 +198,11 @@ def impact_command(
     --spectrum forces.csv        spectra of the forces, for acoustic sensors
     --peaks                      the largest stresses in both bodies
     """
-    from carom.bodies.cases import losses_of, motion_of, pair_of, read_case
+    from carom.bodies.cases import LOSSES, MOTION, RATIO, losses_of, motion_of, pair_of, read_case
 
-    flags = {
-        "first.radius": radius,
-        "first.material": material,
-        "first.gyration_radius": gyration_radius,
-        "first.inner_radius": inner_radius,
-        "second.kind": against,
-        "second.radius": second_radius,
-        "second.material": second_material,
-        **{"output.plot": plot, "output.animation": animate, "output.data": output},
-        "output.spectrum": spectrum,
-        **{"friction": friction, "speed": speed, "angle": angle, "spin": spin, "spin2": spin2},
-        **{"normal_speed": normal_speed, "tangential_speed": tangential_speed},
-        **{"restitution": restitution, "loss_time": loss_time, "yield_velocity": yield_velocity},
-        **{"relaxation_time": relaxation_time, "modulus_ratio": modulus_ratio},
-    }
-    content = merged(read_case(case, losses=True) if case else {}, flags)
+    named = (*PLACES, "friction", *MOTION, *LOSSES, RATIO)
+    flags = {PLACES.get(name, name): context.params[name] for name in named}
+    content = merged(read_case(case, losses=True) if case is not None else {}, flags)
     tell_sweep(content)
     files = outputs(content)
     losses = losses_of(content)
@@ -257,8 +257,8 @@ def _method(name: str, elements: str | None, steps: str | None) -> "str | Bounda
 def _check_outputs(files: Output, case: Mapping[str, Any]) -> None:
     from carom.io.files import FIGURES, TABLES
 
-    check_outputs((files.plot, FIGURES), (files.data, TABLES), (files.spectrum, TABLES))
-    refuse_same({"plot": files.plot, "output": files.data, "spectrum": files.spectrum})
+    tables = {"output": (files.data, TABLES), "spectrum": (files.spectrum, TABLES)}
+    check_outputs({"plot": (files.plot, FIGURES), **tables})
     if files.animation is not None:
         for key in ("yield_velocity", "relaxation_time"):
             if key in case:

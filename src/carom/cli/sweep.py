@@ -34,9 +34,7 @@ if TYPE_CHECKING:
 
 
 def sweep_command(
-    case: Annotated[
-        Path, file_argument("Case file with a table [sweep], which says what to vary.")
-    ],
+    case: Annotated[str, file_argument("Case file with a table [sweep], which says what to vary.")],
     column: Column = None,
     store: Annotated[
         str | None,
@@ -90,8 +88,8 @@ def sweep_command(
 
     content = told_case(case, losses=True, swept=True)
     file = _file(content) if output is None else output
-    check_outputs((file, TABLES))
-    design, chosen = plan(content, case, named_values("column", column, "omega=spin"))
+    check_outputs({"output": (file, TABLES)})
+    design, chosen = plan(content, Path(case), named_values("column", column, "omega=spin"))
     if quantities is not None:
         chosen = [name.strip() for name in quantities.split(",")]
     tell(design.doubts())

@@ -1,7 +1,6 @@
 """`carom verify lammps`, `liggghts`, `yade`: DEM programs against the exact impact."""
 
 import json
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -35,7 +34,7 @@ COMMANDS["lammps"] += VERDICT
 def engine_command(
     context: typer.Context,
     case: Annotated[
-        Path | None,
+        str | None,
         file_option(
             "Case file, as for carom impact, with the bodies (default: a steel ball on a steel "
             "plate, chi = 1.4412)."
@@ -62,7 +61,7 @@ def engine_command(
     from carom.verify.engines.experiments import MOST_STEPS
 
     count = whole("steps", steps, 10, MOST_STEPS)
-    check_outputs((output, (".csv",)))
+    check_outputs({"output": (output, (".csv",))})
     if output is not None and law is None:
         raise InputError("output: it stores the results of one law; give --law, e.g. --law mindlin")
     engine = getattr(carom.verify, str(context.command.name).capitalize())

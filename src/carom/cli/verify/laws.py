@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 import carom
-from carom.cli.cases import Json, Plot, check_outputs, refuse_same, store, stored
+from carom.cli.cases import Json, Plot, check_outputs, store, stored
 from carom.quantities.refusals import InputError
 from carom.quantities.units import finite, positive
 
@@ -79,8 +79,8 @@ def laws_command(
         raise InputError("map: it shows one law; give --law, e.g. --law mindlin")
     if error_map is not None and (kappa is not None or psi):
         raise InputError("map: it shows solid spheres at all psi_1; leave --kappa and --psi out")
-    refuse_same({"plot": plot, "output": output, "map": error_map})
-    check_outputs((plot, FIGURES), (output, TABLES), (error_map, (*FIGURES, *TABLES)))
+    outputs = {"plot": (plot, FIGURES), "output": (output, TABLES)}
+    check_outputs({**outputs, "map": (error_map, (*FIGURES, *TABLES))})
     incidences = [finite("psi_in", value) for value in psi or INCIDENCES]
     ratio = None if kappa is None else positive("kappa", kappa)
     e = None if restitution is None else damped_restitution("restitution", restitution)

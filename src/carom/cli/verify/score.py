@@ -1,7 +1,6 @@
 """`carom verify score`: a user's own results against the exact answer."""
 
 import json
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -15,7 +14,6 @@ from carom.cli.cases import (
     file_argument,
     file_option,
     named_values,
-    refuse_same,
     store,
     told_case,
 )
@@ -23,10 +21,10 @@ from carom.cli.cases import (
 
 def score_command(
     results: Annotated[
-        Path, file_argument("CSV file with the names of its columns in a head; # starts a comment.")
+        str, file_argument("CSV file with the names of its columns in a head; # starts a comment.")
     ],
     case: Annotated[
-        Path | None,
+        str | None,
         file_option(
             "Case file, as for carom impact, with the bodies; to score forces it must have the "
             "speeds, too."
@@ -91,8 +89,8 @@ def score_command(
     """
     from carom.io.files import FIGURES, TABLES
 
-    refuse_same({"results": results, "case": case, "plot": plot, "output": output})
-    check_outputs((plot, FIGURES), (output, TABLES))
+    outputs = {"plot": (plot, FIGURES), "output": (output, TABLES)}
+    check_outputs(outputs, results=results, case=case)
     score = carom.verify.score(
         results,
         case=None if case is None else told_case(case, losses=True),

@@ -2,7 +2,6 @@
 
 import json
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -18,7 +17,7 @@ if TYPE_CHECKING:
 
 def tune_command(
     case: Annotated[
-        Path | None,
+        str | None,
         file_argument("Case file, as for carom impact, with bodies, friction and speed."),
     ] = None,
     chi: Annotated[
