@@ -15,7 +15,7 @@ from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.io.files import read_text
 from carom.quantities.faults import TOLD, Faults
-from carom.quantities.refusals import InputError, clipped, hint, refusal
+from carom.quantities.refusals import InputError, checked_type, clipped, hint, refusal
 from carom.quantities.units import finite, finite_or_text, not_negative, number, positive
 
 if TYPE_CHECKING:
@@ -90,8 +90,7 @@ def check_case(
         for key in unknown[TOLD:]:  # which are counted, not told
             faults.add(f"{key}: unknown key")
 
-    if not isinstance(case, Mapping):
-        raise refusal("case", case, "must be a mapping with friction, speeds, first and second")
+    checked_type("case", case, Mapping, "must be a mapping with friction, speeds, first and second")
     with Faults() as faults:
         for key in () if losses else (*LOSSES, RATIO):
             if key in case:
@@ -100,8 +99,9 @@ def check_case(
         check(case, ("friction", *MOTION, *LOSSES, RATIO, *TABLES), "")
         for name, allowed in TABLES.items():
             table = case.get(name, {})
-            if not isinstance(table, Mapping):
-                raise refusal(name, table, f"must be a table, [{name}], with {', '.join(allowed)}")
+            checked_type(
+                name, table, Mapping, f"must be a table, [{name}], with {', '.join(allowed)}"
+            )
             check(table, allowed, name)
             if isinstance(table.get("material"), Mapping):
                 check(table["material"], MATERIAL, name)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 import typer
 
 import carom
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import checked_type, refusal
 
 if TYPE_CHECKING:
     from carom.bodies.cases import Case
@@ -118,8 +118,7 @@ def outputs(case: "Case") -> Output:
     """Return the files that a case asks for."""
     table = case.get("output", {})
     for name, value in table.items():
-        if not isinstance(value, str):
-            raise refusal(name, value, "must be the name of a file")
+        checked_type(name, value, str, "must be the name of a file")
     return Output(*(table.get(name) for name in Output._fields))
 
 

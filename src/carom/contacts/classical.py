@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, checked_pair
 from carom.quantities.arrays import Array, along_the_same, numbers, together
 from carom.quantities.refusals import refusal
 
@@ -175,8 +175,7 @@ def _share(pair: Pair, normal: ArrayLike, tangential: ArrayLike) -> tuple[Array,
 
 
 def _check_pair(pair: Pair) -> None:
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    checked_pair(pair)
     if pair.friction == 0.0:
         raise refusal("friction", pair.friction, "must be positive, or the bodies slide freely")
 

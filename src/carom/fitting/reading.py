@@ -7,7 +7,7 @@ import numpy as np
 
 from carom.bodies.cases import check_case, pair_of
 from carom.bodies.kinematics import Tangential
-from carom.bodies.pairs import Pair, alike
+from carom.bodies.pairs import Pair, alike, checked_pair
 from carom.datasets.observables import (
     BEFORE,
     FASTEST,
@@ -27,7 +27,7 @@ from carom.io.user_table import UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError
 from carom.quantities.units import WHY_POSITIVE
 
 MOST = 1.5  # restitution that scatter may reach; beyond it is a percentage, or another unit
@@ -109,8 +109,7 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> tuple[Pair, bo
     """Return the bodies, and whether their friction is known; otherwise it is a guess."""
     own = None if case is None else _bodies_of(case)
     if pair is not None:
-        if not isinstance(pair, Pair):
-            raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+        checked_pair(pair)
         if own is not None and not alike(pair, own):
             raise InputError(
                 "pair: its bodies differ from those in the data; leave it, or --case, out"

@@ -8,7 +8,7 @@ from math import inf
 import numpy as np
 from scipy.optimize import least_squares
 
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, checked_pair
 from carom.laws.exact import law_of
 from carom.laws.rigid import WaltonLaw
 from carom.quantities.arrays import Array
@@ -77,8 +77,7 @@ def fit_walton(pair: Pair, span: float | None = None) -> WaltonFit:
     >>> round(fit.law.tangential_restitution, 2), round(fit.rms_error, 2)
     (0.41, 0.16)
     """
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    checked_pair(pair)
     if pair.friction == 0.0:
         raise refusal("friction", pair.friction, "must be positive, or there is nothing to fit")
     reach = 4.0 * pair.chi if span is None else positive("span", span, "1")

@@ -26,7 +26,7 @@ from carom.laws.dem.damping import damping_ratio, hertz_damping
 from carom.laws.dem.status import Codes, LawStatus, status_of
 from carom.laws.dem.stepping import HISTORY
 from carom.quantities.arrays import Array
-from carom.quantities.refusals import InputError, clipped, one_of, refusal
+from carom.quantities.refusals import InputError, checked_type, clipped, one_of, refusal
 from carom.quantities.units import bears_unit, number, positive
 
 CONVERGED = 2000  # steps where none are asked for
@@ -46,8 +46,7 @@ class ByFunction(Law):
 
     def __post_init__(self) -> None:
         _check_function(self.function, self.written)
-        if not isinstance(self.name, str):
-            raise refusal("name", self.name, "must be a text, e.g. name='my law'")
+        checked_type("name", self.name, str, "must be a text, e.g. name='my law'")
         own = str(getattr(self.function, "__name__", type(self.function).__name__))
         object.__setattr__(self, "name", clipped(self.name) or own)
         super().__post_init__()
