@@ -21,7 +21,7 @@ from carom.cli.cases import (
     whole_option,
 )
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, one_of, refusal
 from carom.quantities.units import whole
 
 if TYPE_CHECKING:
@@ -239,8 +239,7 @@ def _text(hit: "ImpactResult", peaks: "xr.Dataset | None") -> str:
 
 
 def _method(name: str, elements: str | None, steps: str | None) -> "str | BoundaryElements":
-    if name not in METHODS:
-        raise refusal("method", name, f"must be {' or '.join(METHODS)}")
+    one_of("method", name, METHODS)
     asked = {"elements": elements, "steps": steps}
     given = {key: value for key, value in asked.items() if value is not None}
     if not given:

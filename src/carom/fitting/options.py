@@ -122,7 +122,6 @@ def _fixed(problem: FitProblem, fixed: Mapping[str, Any]) -> dict[str, float]:
 
 def _check_name(where: str, name: Any) -> None:
     known = f"parameters are {', '.join(NAMES)}"
-    checked_type(where, name, str, known)
+    shown = clipped(checked_type(where, name, str, known))
     if name not in NAMES:
-        shown = clipped(name)
         raise InputError(f"{where}: {shown!r} is no parameter; {nearest(shown, NAMES) or known}")

@@ -55,8 +55,9 @@ def one_of(name: str, value: Any, known: Iterable[str]) -> str:
     if isinstance(value, str) and value in words:
         return value
     near = nearest(value, words) if isinstance(value, str) else ""
-    choice = " or ".join(words) if len(words) == 2 else f"one of {', '.join(words)}"
-    raise refusal(name, value, f"must be {choice}{near and f'; {near}'}")
+    choice = " or ".join(filter(None, (", ".join(words[:-1]), words[-1])))
+    which = "one of " if len(words) > 2 else ""
+    raise refusal(name, value, f"must be {which}{choice}{near and f'; {near}'}")
 
 
 def checked_type(
