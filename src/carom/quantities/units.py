@@ -205,6 +205,14 @@ def finite(name: str, value: Any, unit: str | None = None) -> float:
     return _checked(name, value, unit, math.isfinite, "must be finite")
 
 
+def within(name: str, value: Any, least: float, most: float, unit: str | None = None) -> float:
+    """Return a value in SI units that is from `least` to `most`, or raise InputError."""
+    result = number(name, value, unit)
+    if least <= result <= most:
+        return result
+    raise refusal(name, value, f"must be from {least:g} to {most:g}")
+
+
 def _checked(
     name: str, value: Any, unit: str | None, is_allowed: Callable[[float], bool], allowed: str
 ) -> float:
