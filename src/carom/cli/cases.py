@@ -1,9 +1,9 @@
 """What commands share: flags over a case file, files that are asked for."""
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypeVar
 
 import typer
 
@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from carom.bodies.cases import Case
     from carom.plots.result import Result
 
+Command = TypeVar("Command", bound=Callable[..., None])
+
 Json = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
 Column = Annotated[
     list[str] | None,
@@ -23,6 +25,26 @@ Column = Annotated[
     ),
 ]
 Plot = Annotated[str | None, typer.Option(help="Store a figure of the result: .png, .pdf or .svg.")]
+
+
+def described(options: Mapping[str, Any]) -> Callable[[Command], Command]:
+    """Return a decorator that gives parameters of a command their help, or their option of typer.
+
+    The signature then has names, types and defaults alone.
+    """
+
+    def decorate(command: Command) -> Command:
+        of_typer = {
+            name: Annotated[
+                command.__annotations__[name],
+                typer.Option(help=option) if isinstance(option, str) else option,
+            ]
+            for name, option in options.items()
+        }
+        command.__annotations__ = {**command.__annotations__, **of_typer}
+        return command
+
+    return decorate
 
 
 def file_option(words: str) -> Any:
