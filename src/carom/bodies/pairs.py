@@ -93,6 +93,19 @@ def checked_pair(pair: Any) -> "Pair":
     return checked_type("pair", pair, Pair, "must be a Pair of bodies; make one with carom.Pair")
 
 
+def with_friction(pair: Any, why: str) -> "Pair":
+    """Return a pair that has friction, or raise InputError and say why it must."""
+    if checked_pair(pair).friction == 0.0:
+        raise refusal("friction", 0.0, f"must be positive; {why}")
+    return checked_pair(pair)
+
+
+def check_second_spin(pair: "Pair", spin2: Any, *, spins: bool) -> None:
+    """Raise InputError if the second body spins, but cannot."""
+    if spins and not isinstance(pair.second, Sphere):
+        raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
+
+
 def alike(one: "Pair", other: "Pair", *, friction: bool = False) -> bool:
     """Tell whether impacts of two pairs are the same, but for the friction unless that counts."""
     names = ("chi", "kappa", "effective_radius", "normal_mass", *(["friction"] * friction))

@@ -8,7 +8,7 @@ from typing import Any, Literal, Protocol, Required, TypedDict, Unpack, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.bodies.pairs import Pair, checked_pair
+from carom.bodies.pairs import Pair, check_second_spin, checked_pair
 from carom.bodies.shapes import Sphere
 from carom.collisions.compiled import Motions, collide_all
 from carom.collisions.judged import Incidence, JudgedCollisions, Judgement, incidence, judged
@@ -144,8 +144,7 @@ def collide(
     (array([[ 0.583,  0.   , -1.732]]), array([[   0. , -208.5,    0. ]]), array([0], dtype=int8))
     """
     checked_pair(pair)
-    if spin2 is not None and not isinstance(pair.second, Sphere):
-        raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
+    check_second_spin(pair, spin2, spins=spin2 is not None)
     threads, inplace = threads_or_none(threads), flag("inplace", inplace)
     rule = _rule(law, pair)
     given = (velocity1, spin1, velocity2, spin2, normal)

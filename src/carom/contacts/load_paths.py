@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom import plots
-from carom.bodies.pairs import ContactScales, Pair, checked_pair
+from carom.bodies.pairs import ContactScales, Pair, with_friction
 from carom.bodies.shapes import describe
 from carom.contacts.contact import Contact
 from carom.contacts.following import followed
@@ -311,10 +311,7 @@ def load_path(
     array([[1.72e-07, 0.00e+00],
            [4.00e-08, 1.43e-07]])
     """
-    checked_pair(pair)
-    if pair.friction == 0.0:
-        allowed = "a load path needs friction; without it there is no tangential force"
-        raise refusal("friction", pair.friction, allowed)
+    with_friction(pair, "a load path needs friction, or there is no tangential force")
     steps = read_steps(pair, normal_force, penetration, tangential_force, displacement)
     return _load_path(pair, steps, progress)
 

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Literal, TypedDict, Unpack, overload
 
 from carom.bodies.kinematics import Tangential, approach
 from carom.bodies.losses import LossLaw
-from carom.bodies.pairs import Pair, checked_pair, checked_scales
-from carom.bodies.shapes import Sphere
+from carom.bodies.pairs import Pair, check_second_spin, checked_pair, checked_scales
 from carom.impacts.exact import Impact, solve_exactly
 from carom.io.progress import Progress
 from carom.quantities.keywords import known_keywords, renamed_keyword
@@ -139,8 +138,7 @@ def impact(
     approaching, tangential = approach(speed, angle, normal_speed, tangential_speed)
     first_spin, second_spin = finite("spin", spin), finite("spin2", spin2)
     about_normal = finite("normal_spin", normal_spin)
-    if second_spin and not isinstance(pair.second, Sphere):
-        raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
+    check_second_spin(pair, spin2, spins=second_spin != 0.0)
     motion = Tangential(tangential, first_spin, second_spin)
     velocity = motion.contact_velocity(pair)
     checked_scales(pair, approaching, velocity, tangential, *motion.carried(pair))

@@ -8,11 +8,10 @@ from math import inf
 import numpy as np
 from scipy.optimize import least_squares
 
-from carom.bodies.pairs import Pair, checked_pair
+from carom.bodies.pairs import Pair, with_friction
 from carom.laws.exact import law_of
 from carom.laws.rigid import WaltonLaw
 from carom.quantities.arrays import Array
-from carom.quantities.refusals import refusal
 from carom.quantities.units import within
 
 POINTS = 2001
@@ -77,9 +76,7 @@ def fit_walton(pair: Pair, span: float | None = None) -> WaltonFit:
     >>> round(fit.law.tangential_restitution, 2), round(fit.rms_error, 2)
     (0.41, 0.16)
     """
-    checked_pair(pair)
-    if pair.friction == 0.0:
-        raise refusal("friction", pair.friction, "must be positive, or there is nothing to fit")
+    with_friction(pair, "without friction there is nothing to fit")
     reach = within("span", 4.0 * pair.chi if span is None else span, SHORTEST, LONGEST, "1")
     psi = np.linspace(0.0, reach, POINTS)
     exact, limit = law_of(pair.chi)(psi), 4.0 * pair.chi

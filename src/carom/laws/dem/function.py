@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.bodies.pairs import Pair, checked_scales
+from carom.bodies.pairs import Pair, checked_scales, with_friction
 from carom.laws.dem.base import ContactLaw, Law
 from carom.laws.dem.coefficients import SPRING
 from carom.laws.dem.contact_step import (
@@ -144,10 +144,8 @@ class FunctionLaw(ByFunction, ContactLaw):
         except Exception:
             allowed = "must be something that can be copied, e.g. 0.0 or a tuple"
             raise refusal("initial_state", self.initial_state, allowed) from None
-        if self.pair is not None and not isinstance(self.pair, Pair):
-            raise refusal("pair", self.pair, "must be a Pair of bodies; make one with carom.Pair")
-        if self.pair is not None and self.pair.friction == 0.0:
-            raise refusal("friction", 0.0, "psi is infinite without friction; give it some")
+        if self.pair is not None:
+            with_friction(self.pair, "psi is infinite without friction")
         speed = positive("normal_speed", self.normal_speed)
         checked_scales(self._pair(), speed)
         object.__setattr__(self, "normal_speed", speed)

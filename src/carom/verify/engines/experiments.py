@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.bodies.pairs import Pair, Scales, checked_pair, checked_scales
+from carom.bodies.pairs import Pair, Scales, checked_scales, with_friction
 from carom.bodies.shapes import HalfSpace, Sphere
 from carom.dimensionless.numerics import hertz
 from carom.laws.dem import ContactLaw
@@ -170,7 +170,7 @@ def results_csv(experiment: Experiment, outcomes: Outcomes) -> str:
 
 def _refuse_bodies(pair: Pair) -> None:
     """Refuse what DEM programs do not have."""
-    checked_pair(pair)
+    with_friction(pair, "without friction there is nothing to test")
     if not isinstance(pair.second, Sphere | HalfSpace):
         raise refusal(
             "second body", pair.second, "must be a Sphere or HalfSpace; DEM codes have no cups"
@@ -180,10 +180,6 @@ def _refuse_bodies(pair: Pair) -> None:
             raise refusal(
                 "sphere", body, "must be solid; DEM codes give every sphere K^2 = 2/5 R^2"
             )
-    if pair.friction == 0.0:
-        raise refusal(
-            "friction", pair.friction, "must be positive; without friction there is nothing to test"
-        )
 
 
 def _column(name: str, values: Any) -> tuple[float, ...]:

@@ -10,7 +10,6 @@ from carom.io.labels import Finding
 from carom.io.user_table import UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import text
-from carom.quantities.refusals import InputError
 from carom.verify.scoring.contact import Samples, contact_samples
 from carom.verify.scoring.points import (
     LARGEST,
@@ -100,8 +99,6 @@ def score_history(
     Raises InputError for a record that is not one whole contact, or is in wrong units.
     """
     results.require("time", "normal_force", "tangential_force")
-    if hit.pair.friction == 0.0:
-        raise InputError("friction: without friction psi is infinite, and nothing can be scored")
     _refuse_large(results, hit.scales)
     forces = forces_of(hit, contact_samples(results, hit))
     change = np.array([_energy_change(forces)])
