@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.bodies.pairs import Pair, check_second_spin, checked_pair
-from carom.bodies.shapes import Sphere
 from carom.collisions.compiled import Motions, collide_all
 from carom.collisions.judged import Incidence, JudgedCollisions, Judgement, incidence, judged
 from carom.collisions.portable import collide_arrays
