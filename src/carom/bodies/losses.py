@@ -94,9 +94,7 @@ class KelvinVoigt:
         if (restitution is None) == (loss_time is None):
             raise InputError("restitution: give either restitution or loss_time")
         if restitution is not None:
-            e = _one_or_many(
-                "restitution", restitution, partial(within, least=SMALLEST_RESTITUTION, most=1.0)
-            )
+            e = _one_or_many("restitution", restitution, RESTITUTION)
             object.__setattr__(self, "restitution", e)
         if loss_time is not None:
             time = _one_or_many("loss_time", loss_time, not_negative)
@@ -242,9 +240,7 @@ class StandardLinearSolid:
 
     @known_keywords
     def __init__(self, modulus_ratio: Any, relaxation_time: Value) -> None:
-        ratio = _one_or_many(
-            "modulus_ratio", modulus_ratio, partial(within, least=1.0, most=STIFFEST)
-        )
+        ratio = _one_or_many("modulus_ratio", modulus_ratio, MODULUS_RATIO)
         time = _one_or_many("relaxation_time", relaxation_time, not_negative)
         object.__setattr__(self, "modulus_ratio", ratio)
         object.__setattr__(self, "relaxation_time", time)
