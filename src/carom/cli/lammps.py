@@ -9,14 +9,8 @@ from carom.cli.cases import Json, described
 from carom.cli.once import Commands
 
 app = Commands(
-    name="lammps",
-    help=(
-        "Use the exact contact law in LAMMPS, as pair_style carom.\n\n\b\n"
-        "Example: carom lammps build"
-    ),
-    no_args_is_help=True,
-    add_completion=False,
-    rich_markup_mode=None,
+    "lammps",
+    "Use the exact contact law in LAMMPS, as pair_style carom.\n\n\b\nExample: carom lammps build",
 )
 
 

@@ -9,14 +9,9 @@ from carom.cli.cases import Json, described
 from carom.cli.once import Commands
 
 app = Commands(
-    name="liggghts",
-    help=(
-        "Use the exact contact law in LIGGGHTS, as tangential carom.\n\n\b\n"
-        "Example: carom liggghts build --source liggghts_3.8.0.orig.tar.xz"
-    ),
-    no_args_is_help=True,
-    add_completion=False,
-    rich_markup_mode=None,
+    "liggghts",
+    "Use the exact contact law in LIGGGHTS, as tangential carom.\n\n\b\n"
+    "Example: carom liggghts build --source liggghts_3.8.0.orig.tar.xz",
 )
 
 

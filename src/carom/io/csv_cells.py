@@ -109,7 +109,7 @@ def _read(file: _CsvFile, fewest: int) -> tuple[list[Column], UserTable]:
                 if len(row) != len(heads):
                     message = f"line {line} has {len(row)} values, the header has {len(heads)}"
                     raise file.refusal(f"it is not CSV; {message} names")
-            if len(file.lines) > MOST_ROWS:
+            if len(file.lines) - 1 > MOST_ROWS:
                 raise file.refusal(f"it has more than {MOST_ROWS} rows")
             for part, cells in zip(parts, zip(*block, strict=True), strict=True):
                 numbers = plain_numbers(cells)
