@@ -134,10 +134,6 @@ SPEEDS = "normal_speed,tangential_speed,tangential_speed_out,spin_out\n"
 FORCES = "time,normal_force,tangential_force\n"
 BAD = {
     "": "it is empty",
-    "# only a comment\n": "it is empty",
-    "0.1,0.2\n0.3,0.4\n": "the first line holds numbers",
-    'psi_1,psi_2\n"0.1,0.2\n': "not CSV",
-    "psi_1,psi_1,psi_2\n1,1,1\n": "'psi_1': two columns",
     "psi_1,psi2\n0.1,0.2\n": "psi2: unknown column; did you mean 'psi_2'?",
     "omega,angel\n1,2\n": "no column of omega, angel is known; did you mean 'angle'?",
     "psi_1,psi_2\n1,1\n2,2\n3,3\n": "chi: missing; give a column chi, or --chi",

@@ -62,17 +62,17 @@ def whole_option(words: str) -> Any:
     return typer.Option(help=words, metavar="INTEGER")
 
 
-def named_values(option: str, given: list[str] | None, example: str) -> dict[str, str]:
+def named_values(option: str, texts: list[str] | None, example: str) -> dict[str, str]:
     """Return the values by name of texts like "restitution=0.98", or raise InputError."""
-    found: dict[str, str] = {}
-    for text in given or []:
+    values: dict[str, str] = {}
+    for text in texts or []:
         name, equals, value = (part.strip() for part in text.partition("="))
         if not (name and equals and value):
             raise refusal(option, text, f"write a name and a value, e.g. {example}")
-        if name in found:
+        if name in values:
             raise refusal(option, text, f"{name} is given twice; leave one of them out")
-        found[name] = value
-    return found
+        values[name] = value
+    return values
 
 
 class Output(NamedTuple):
@@ -89,14 +89,14 @@ def merged(case: "Case", flags: Mapping[str, Any]) -> "Case":
     from carom.bodies.cases import LOSSES, RATIO
 
     result = {key: dict(value) if isinstance(value, dict) else value for key, value in case.items()}
-    given = {name for name, value in flags.items() if value is not None}
+    changed = {name for name, value in flags.items() if value is not None}
     polar, cartesian = {"speed", "angle"}, {"normal_speed", "tangential_speed"}
     relaxing = {"relaxation_time"}  # whose ratio of moduli stays
     losses = (relaxing, {*LOSSES}), ({*LOSSES} - relaxing, {*LOSSES, RATIO})
     for one, other in ((polar, cartesian), (cartesian, polar), *losses):
-        if given & one:
+        if changed & one:
             result = {name: value for name, value in result.items() if name not in other}
-    for name in given:
+    for name in changed:
         table, _, key = name.rpartition(".")
         (result.setdefault(table, {}) if table else result)[key] = flags[name]
     return result

@@ -116,9 +116,9 @@ def _renamed(heads: list[str], columns: Mapping[str, str], what: str) -> list[tu
         own, unit = _parts(head)
         wanted = left.pop(head, None) or left.pop(own, None)
         words = (head if wanted is None else wanted).strip()
-        name, told = _parts(ALIASES.get(words, words))
-        told = told if wanted is None else _one_unit(own, unit, told)
-        new.append((ALIASES.get(name, name), told))
+        name, new_unit = _parts(ALIASES.get(words, words))
+        new_unit = new_unit if wanted is None else _one_unit(own, unit, new_unit)
+        new.append((ALIASES.get(name, name), new_unit))
     for name in left:
         hint = nearest(name, heads) or f"its columns are {', '.join(heads)}"
         raise refusal("columns", name, f"{what} has no column of that name; {hint}")
@@ -141,17 +141,17 @@ def _one_unit(name: str, one: Any, other: Any) -> Any:
     raise two_units(name, one, other)
 
 
-def _column(name: str, given: Any, *, gaps: bool = False) -> Column:
+def _column(name: str, values: Any, *, gaps: bool = False) -> Column:
     """Return a column of a user's; a gap is what is masked, with `gaps` what is no number, too."""
-    plain, told = told_unit(name, given)
+    plain, unit = told_unit(name, values)
     cells: Any = None
     if isinstance(plain, Sequence) and not isinstance(plain, RAW):
         cells = list(plain)
     elif _depth(plain) == 1:
         cells = _of_array(name, plain, gaps)
     if cells is None or (isinstance(cells, list) and any(map(_depth, cells))):
-        raise refusal(name, given, "a column must be a list of numbers")
-    return Column(name, cells, "" if told is None else told)
+        raise refusal(name, values, "a column must be a list of numbers")
+    return Column(name, cells, "" if unit is None else unit)
 
 
 def _depth(value: Any) -> int:

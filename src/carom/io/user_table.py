@@ -89,7 +89,9 @@ class UserTable(Rows):
             return None
         try:
             read = json.loads(
-                self.comments["case"], parse_float=finite_or_text, object_pairs_hook=_given_once
+                self.comments["case"],
+                parse_float=finite_or_text,
+                object_pairs_hook=_with_unique_keys,
             )
             return dict(read)
         except InputError:
@@ -143,7 +145,7 @@ def named(word: str, rows: Iterable[int], total: int = 0) -> str:
     return f"{word}s {', '.join(texts[:-1])} and {texts[-1]}"
 
 
-def _given_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _with_unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """Return an object of JSON, or raise InputError for keys that are alike: it takes the last."""
     for name, count in Counter(name for name, _ in pairs).items():
         if count > 1:
