@@ -10,7 +10,7 @@ from carom.io.columns import ERROR, entry, in_units
 from carom.io.labels import attributes, labelled_dataset
 from carom.io.tables import read_table
 from carom.io.user_table import UserTable
-from carom.quantities.refusals import nearest, refusal
+from carom.quantities.refusals import one_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -57,11 +57,7 @@ def path(name: str) -> Path:
     >>> carom.datasets.path("kharaz2001").name
     'kharaz2001.csv'
     """
-    if not isinstance(name, str) or name not in names():
-        near = nearest(name, names()) if isinstance(name, str) else ""
-        hint = near or f"known names are {', '.join(names())}"
-        raise refusal("dataset", name, f"there is no dataset of that name; {hint}")
-    return _folder() / f"{name}.csv"
+    return _folder() / f"{one_of('dataset', name, names())}.csv"
 
 
 def table(name: str) -> UserTable:
