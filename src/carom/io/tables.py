@@ -30,7 +30,8 @@ def read_table(
     """Return the cells of a CSV file, columns by name, a data frame, a structured array, a dataset.
 
     A file has a header, at least so many columns separated by commas, semicolons or tabs, and
-    comments after #. `columns` tells what heads stand for, {"omega [rpm]": "spin_out"}.
+    comments after #. `columns` tells what heads stand for, {"omega [rpm]": "spin_out"}. A table
+    that was read is returned as it is.
 
     Raises InputError, in which the table is called `what`, if it cannot be read, has no rows, too
     many columns, or columns of one name or unequal length.
@@ -42,7 +43,7 @@ def read_table(
     >>> table.names, table.word, len(table)
     (('angle', 'spin'), 'row', 2)
     """
-    if isinstance(source, UserTable):
+    if isinstance(source, UserTable) and not columns:
         return source
     if isinstance(source, str | Path):
         as_given, table = read_csv(what, checked_path(what, source), fewest)
