@@ -219,7 +219,7 @@ def _second(table: Mapping[str, Any], first: Sphere) -> Counterbody:
     if kind == "sphere":
         same = {"material": first.material, "radius": first.radius}
         return _sphere("second", "second-", table, same)
-    for name in SIZES:
+    for name in reversed(SIZES):
         if name in table and (kind, name) != ("cup", "radius"):
             raise refusal(name, table[name], f"a {kind} has none; leave it out")
     stuff = read_material(table.get("material", first.material))
