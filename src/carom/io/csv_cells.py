@@ -5,6 +5,7 @@ import re
 from array import array
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from typing import Any, TextIO
@@ -40,7 +41,8 @@ class _CsvFile:
 
     def lines_with_cells(self) -> Iterator[str]:
         """Yield the lines that are neither empty nor comments; of comments the first counts."""
-        for number, line in enumerate(iter(lambda: self.text.readline(LONGEST_LINE + 1), ""), 1):
+        read_line = partial(self.text.readline, LONGEST_LINE + 1)
+        for number, line in enumerate(iter(read_line, ""), 1):
             if "\0" in line:
                 raise self.refusal("it is not text; give a CSV file")
             if len(line) > LONGEST_LINE:
@@ -105,10 +107,10 @@ def _read(file: _CsvFile, fewest: int) -> tuple[list[Column], UserTable]:
             lines = file.lines[-len(block) :]
             if len(file.lines) - 1 - len(block) != sum(map(len, parts[0])):
                 raise file.refusal("it is not CSV; a text in quotes extends over several lines")
-            for line, row in zip(lines, block, strict=True):
-                if len(row) != len(heads):
-                    message = f"line {line} has {len(row)} values, the header has {len(heads)}"
-                    raise file.refusal(f"it is not CSV; {message} names")
+            if {*map(len, block)} != {len(heads)}:
+                wrong = next(i for i, row in enumerate(block) if len(row) != len(heads))
+                message = f"line {lines[wrong]} has {len(block[wrong])} values"
+                raise file.refusal(f"it is not CSV; {message}, the header has {len(heads)} names")
             if len(file.lines) - 1 > MOST_ROWS:
                 raise file.refusal(f"it has more than {MOST_ROWS} rows")
             for part, cells in zip(parts, zip(*block, strict=True), strict=True):
