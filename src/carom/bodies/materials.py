@@ -8,7 +8,7 @@ from importlib.resources import files
 from typing import Any, TypeVar
 
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import InputError, hint, nearest, refusal
+from carom.quantities.refusals import InputError, checked_type, hint, nearest, refusal
 from carom.quantities.units import Value, number, positive
 
 STRENGTHS = ("yield_strength", "tensile_strength", "fracture_toughness", "flaw_size")
@@ -187,8 +187,7 @@ def material(name: str, **values: Value) -> Material:
     >>> carom.material("glass", flaw_size="20 um").flaw_size
     2e-05
     """
-    if not isinstance(name, str):
-        raise refusal("material", name, "give a name, or carom.Material(young=..., poisson=...)")
+    checked_type("material", name, str, "give a name, or carom.Material(young=..., poisson=...)")
     for key in values:
         if key not in VALUES:
             raise InputError(f"{key}: unknown in a material; {hint(key, VALUES)}")

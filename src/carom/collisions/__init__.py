@@ -8,8 +8,7 @@ from typing import Any, Literal, Protocol, Required, TypedDict, Unpack, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.bodies.pairs import Pair
-from carom.bodies.shapes import Sphere
+from carom.bodies.pairs import Pair, check_second_spin, checked_pair
 from carom.collisions.compiled import Motions, collide_all
 from carom.collisions.judged import Incidence, JudgedCollisions, Judgement, incidence, judged
 from carom.collisions.portable import collide_arrays
@@ -143,10 +142,8 @@ def collide(
     >>> after.velocity1.round(3), after.spin1.round(1), after.status
     (array([[ 0.583,  0.   , -1.732]]), array([[   0. , -208.5,    0. ]]), array([0], dtype=int8))
     """
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
-    if spin2 is not None and not isinstance(pair.second, Sphere):
-        raise refusal("spin2", spin2, "only a second sphere can spin; leave it out")
+    checked_pair(pair)
+    check_second_spin(pair, spin2, spins=spin2 is not None)
     threads, inplace = threads_or_none(threads), flag("inplace", inplace)
     rule = _rule(law, pair)
     given = (velocity1, spin1, velocity2, spin2, normal)

@@ -8,17 +8,16 @@ from typing import Any
 from carom import datasets
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import OBSERVABLES
-from carom.explorer.columns import KINDS, Given, taken
+from carom.explorer.columns import taken
 from carom.explorer.fitted import shown_fit
 from carom.explorer.limits import LARGEST_UPLOAD, MOST_ROWS
 from carom.explorer.refused import Refused
 from carom.explorer.results import in_words
 from carom.explorer.views import View
 from carom.fitting import fit
-from carom.fitting.reading import read_problem
-from carom.io.columns import in_units, others, with_errors
-from carom.io.csv_cells import read_csv
-from carom.io.tables import Cells, read_table
+from carom.fitting.heights import HEIGHTS
+from carom.fitting.reading import read_measurements, read_problem
+from carom.io.tables import read_table
 from carom.quantities.refusals import InputError, refusal
 
 LONGEST_NAME = 80
@@ -73,28 +72,17 @@ def _decoded(contents: str) -> bytes:
     return found
 
 
-def _check(table: Cells) -> None:
-    """Raise InputError for what no bodies make right: cells, units, names of columns."""
-    known = with_errors(KINDS)
-    others(table, known)
-    present = [name for name in known if name in table.names]
-    in_units(table, present, gaps=(*OBSERVABLES, "rebound_height"))
-
-
 def _fitted(file: Path, name: str, view: View | None) -> dict[str, Any]:
     table = read_table(file, what="file")
-    if len(table.rows) > MOST_ROWS:
+    if len(table) > MOST_ROWS:
         allowed = f"must be at most {MOST_ROWS} rows; use carom fit for more"
-        raise refusal("file", f"{len(table.rows)} rows", allowed)
-    heads = read_csv("file", file, 2).heads
-    pairs = zip(heads, table.columns.items(), strict=True)
-    given = [Given(head, own, str(column.unit)) for head, (own, column) in pairs]
+        raise refusal("file", f"{len(table)} rows", allowed)
     if table.case is None and (view is None or view.in_numbers):
-        _check(table)
-        if not any(column.is_result for column in given):
-            read_problem(file, View().pair)  # no bodies make a fit of it: say why
+        read_measurements(table)  # what no bodies make right is said before they are asked for
+        if not {*table.names} & {*OBSERVABLES, *HEIGHTS}:
+            read_problem(table, View().pair)
         asked = ASKED.format(name=name)
-        return {"asks": "bodies", "name": name, "message": asked, "columns": taken(given)}
+        return {"asks": "bodies", "name": name, "message": asked, "columns": taken(table.cells)}
     pair: Pair | None = view.pair if table.case is None and view is not None else None
-    found = fit(file, pair=pair)
-    return shown_fit(found, name, "page" if pair else "file", taken(given, found))
+    found = fit(table, pair=pair)
+    return shown_fit(found, name, "page" if pair else "file", taken(table.cells, found))

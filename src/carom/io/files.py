@@ -110,7 +110,7 @@ def read_dataset(source: Path) -> "xr.Dataset":
     raise refusal("file", str(source), reason)
 
 
-def read_text(what: str, path: Path) -> str:
+def read_text(what: str, path: str | Path) -> str:
     """Return the text of a file that a user names, with line ends of Unix.
 
     Raises InputError if it cannot be read or is too long, and UnicodeDecodeError if it is not in

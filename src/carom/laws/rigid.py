@@ -7,18 +7,13 @@ from math import inf
 
 from carom.bodies.pairs import Pair
 from carom.laws.rules import Rule, constant_rule
-from carom.quantities.refusals import refusal
-from carom.quantities.units import not_negative, number
+from carom.quantities.units import not_negative, within
 
 
 def _check_ratios(law: object, **least: float) -> None:
     """Read the coefficients of a frozen law; raise InputError unless they lie from these to 1."""
     for name, low in least.items():
-        given = getattr(law, name)
-        value = number(name, given, "1")
-        if not low <= value <= 1.0:
-            raise refusal(name, given, f"must lie between {low:g} and 1")
-        object.__setattr__(law, name, value)
+        object.__setattr__(law, name, within(name, getattr(law, name), low, 1.0, "1"))
 
 
 @dataclass(frozen=True, kw_only=True)

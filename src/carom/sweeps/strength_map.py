@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, checked_pair
 from carom.impacts.peaks import UNCOUPLED
 from carom.impacts.validity import WEAK_COUPLING
 from carom.io.progress import Progress
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import refusal
 from carom.sweeps import sweep
 from carom.sweeps.designs import Grid
 from carom.sweeps.strength import speeds_known, unit_case
@@ -84,8 +83,7 @@ def strength(
     >>> found.yield_speed_second.round(2).values
     array([[0.87, 1.62]])
     """
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    checked_pair(pair)
     outputs = speeds_known(pair)
     axes = {
         "friction": pair.friction if friction is None else friction,

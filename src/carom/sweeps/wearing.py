@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from carom.bodies.kinematics import Tangential
 from carom.bodies.losses import KelvinVoigt, LossLaw
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, checked_pair
 from carom.bodies.shapes import describe
 from carom.dimensionless.lossy.law import checked_law
 from carom.impacts.exact import solve_exactly
@@ -111,8 +111,7 @@ def wear(
     >>> f"{float(mill.spread_wear_depth) * 1e9:.1f} nm"
     '219.2 nm'
     """
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    checked_pair(pair)
     count = counted("n", n, 2, MOST_RADII)
     per_load = None if coefficient is None else read_coefficient(coefficient)
     spread = None if area is None else positive("area", area)

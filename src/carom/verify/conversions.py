@@ -7,7 +7,7 @@ from collections.abc import Callable
 from math import exp, pi, sqrt
 from typing import NamedTuple
 
-from carom.bodies.pairs import Pair, checked_scales
+from carom.bodies.pairs import Pair, checked_pair, checked_scales
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.laws import dem
 from carom.laws.dem.damping import (
@@ -17,7 +17,7 @@ from carom.laws.dem.damping import (
     thornton_damping,
     tsuji_damping,
 )
-from carom.quantities.refusals import one_of, refusal
+from carom.quantities.refusals import checked_type, one_of, refusal
 from carom.quantities.units import Value, not_negative, positive
 
 SPRING, MINDLIN = dem.LinearSpring(), dem.LammpsMindlin("mindlin_rescale/force")
@@ -75,8 +75,7 @@ def stiffnesses(pair: Pair, normal_speed: float | str) -> Stiffnesses:
     >>> f"{found.normal:.4g} N/m, k_t/k_n = {found.ratio:.4f}"
     '2.982e+07 N/m, k_t/k_n = 0.8235'
     """
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    checked_pair(pair)
     scales = checked_scales(pair, positive("normal_speed", normal_speed))
     normal = 0.8 * scales.force / scales.length
     return Stiffnesses(
@@ -254,8 +253,7 @@ def recipes(
         ("spring", spring, dem.LinearSpring),
         ("mindlin", mindlin, dem.LammpsMindlin),
     ):
-        if not isinstance(law, kind):
-            raise refusal(name, law, f"must be a {kind.__name__}, e.g. carom.{kind.__name__}()")
+        checked_type(name, law, kind, f"must be a {kind.__name__}, e.g. carom.{kind.__name__}()")
     e = damped_restitution("restitution", wanted)
     k, mu, zeta = stiffnesses(pair, normal_speed), pair.friction, damping(e)
     ratio = k.ratio if spring.stiffness_ratio is None else spring.stiffness_ratio

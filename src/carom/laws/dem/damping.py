@@ -4,8 +4,7 @@ from math import expm1, log, log1p, pi, sqrt
 from typing import Any
 
 from carom.laws.dem.coefficients import SPRING
-from carom.quantities.refusals import refusal
-from carom.quantities.units import number
+from carom.quantities.units import within
 
 COEFF_RESTITUTION, TSUJI = "coeff_restitution", "tsuji"
 RULES = (COEFF_RESTITUTION, TSUJI)
@@ -14,10 +13,7 @@ SMALLEST = 1e-6  # restitution
 
 def damped_restitution(name: str, value: Any) -> float:
     """Return a restitution that a damping is made for, or raise InputError."""
-    result = number(name, value, "1")
-    if not SMALLEST <= result <= 1.0:
-        raise refusal(name, value, f"must be from {SMALLEST:g} to 1")
-    return result
+    return within(name, value, SMALLEST, 1.0, "1")
 
 
 def damping_ratio(restitution: float) -> float:

@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.bodies.pairs import Pair, checked_scales
+from carom.bodies.pairs import Pair, checked_scales, with_friction
 from carom.laws.dem.base import ContactLaw, Law
 from carom.laws.dem.coefficients import SPRING
 from carom.laws.dem.contact_step import (
@@ -26,7 +26,7 @@ from carom.laws.dem.damping import damping_ratio, hertz_damping
 from carom.laws.dem.status import Codes, LawStatus, status_of
 from carom.laws.dem.stepping import HISTORY
 from carom.quantities.arrays import Array
-from carom.quantities.refusals import InputError, clipped, one_of, refusal
+from carom.quantities.refusals import InputError, checked_type, clipped, one_of, refusal
 from carom.quantities.units import bears_unit, number, positive
 
 CONVERGED = 2000  # steps where none are asked for
@@ -46,8 +46,7 @@ class ByFunction(Law):
 
     def __post_init__(self) -> None:
         _check_function(self.function, self.written)
-        if not isinstance(self.name, str):
-            raise refusal("name", self.name, "must be a text, e.g. name='my law'")
+        checked_type("name", self.name, str, "must be a text, e.g. name='my law'")
         own = str(getattr(self.function, "__name__", type(self.function).__name__))
         object.__setattr__(self, "name", clipped(self.name) or own)
         super().__post_init__()
@@ -145,10 +144,8 @@ class FunctionLaw(ByFunction, ContactLaw):
         except Exception:
             allowed = "must be something that can be copied, e.g. 0.0 or a tuple"
             raise refusal("initial_state", self.initial_state, allowed) from None
-        if self.pair is not None and not isinstance(self.pair, Pair):
-            raise refusal("pair", self.pair, "must be a Pair of bodies; make one with carom.Pair")
-        if self.pair is not None and self.pair.friction == 0.0:
-            raise refusal("friction", 0.0, "psi is infinite without friction; give it some")
+        if self.pair is not None:
+            with_friction(self.pair, "psi is infinite without friction")
         speed = positive("normal_speed", self.normal_speed)
         checked_scales(self._pair(), speed)
         object.__setattr__(self, "normal_speed", speed)

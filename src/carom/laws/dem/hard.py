@@ -7,8 +7,7 @@ import numpy as np
 
 from carom.laws.dem.base import Law
 from carom.quantities.arrays import Array
-from carom.quantities.refusals import refusal
-from carom.quantities.units import number
+from carom.quantities.units import within
 
 
 @dataclass(frozen=True)
@@ -49,9 +48,7 @@ class HardSphere(Law):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        beta = number("tangential_restitution", self.tangential_restitution, "1")
-        if not -1.0 <= beta <= 1.0:
-            raise refusal("tangential_restitution", beta, "must lie between -1 and 1")
+        beta = within("tangential_restitution", self.tangential_restitution, -1.0, 1.0, "1")
         object.__setattr__(self, "tangential_restitution", beta)
 
     def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:

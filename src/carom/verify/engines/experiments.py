@@ -9,12 +9,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.bodies.pairs import Pair, Scales, checked_scales
+from carom.bodies.pairs import Pair, Scales, checked_scales, with_friction
 from carom.bodies.shapes import HalfSpace, Sphere
 from carom.dimensionless.numerics import hertz
 from carom.laws.dem import ContactLaw
 from carom.quantities.arrays import Array, along_the_same, finite_line, numbers
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError, checked_type, refusal
 from carom.quantities.units import counted, positive
 
 MOST_STEPS = 10_000_000
@@ -81,8 +81,9 @@ class Experiment:
 
     def __post_init__(self) -> None:
         _refuse_bodies(self.pair)
-        if not isinstance(self.law, ContactLaw):
-            raise refusal("law", self.law, "must be a contact law, e.g. carom.LammpsMindlin()")
+        checked_type(
+            "law", self.law, ContactLaw, "must be a contact law, e.g. carom.LammpsMindlin()"
+        )
         along_the_same(tangential_speed=self.tangential_speed, spin=self.spin)
         speeds = _column("tangential_speed", self.tangential_speed)
         spins = _column("spin", self.spin) or (0.0,) * len(speeds)
@@ -169,8 +170,7 @@ def results_csv(experiment: Experiment, outcomes: Outcomes) -> str:
 
 def _refuse_bodies(pair: Pair) -> None:
     """Refuse what DEM programs do not have."""
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
+    with_friction(pair, "without friction there is nothing to test")
     if not isinstance(pair.second, Sphere | HalfSpace):
         raise refusal(
             "second body", pair.second, "must be a Sphere or HalfSpace; DEM codes have no cups"
@@ -180,10 +180,6 @@ def _refuse_bodies(pair: Pair) -> None:
             raise refusal(
                 "sphere", body, "must be solid; DEM codes give every sphere K^2 = 2/5 R^2"
             )
-    if pair.friction == 0.0:
-        raise refusal(
-            "friction", pair.friction, "must be positive; without friction there is nothing to test"
-        )
 
 
 def _column(name: str, values: Any) -> tuple[float, ...]:
