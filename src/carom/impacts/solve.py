@@ -10,7 +10,7 @@ from carom.bodies.pairs import Pair, checked_scales
 from carom.bodies.shapes import Sphere
 from carom.impacts.exact import Impact, solve_exactly
 from carom.io.progress import Progress
-from carom.quantities.keywords import known_keywords, renamed_keyword
+from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, finite
 
@@ -57,7 +57,6 @@ def impact(
     progress: Progress = None,
     **motion: Unpack[MotionInputs],
 ) -> Impact | HalfspaceImpact: ...
-@renamed_keyword("normal", "losses")
 @known_keywords
 def impact(
     pair: Pair,

@@ -5,7 +5,6 @@ drops it where another program changes the file.
 """
 
 import warnings
-from collections.abc import Hashable, Iterator, Mapping
 from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
@@ -14,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import InputError
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,7 +24,7 @@ NOT_AS_STORED = (
     "it is not as Carom stored it: damaged, changed since, or of another program; "
     "xarray.load_dataset(path, engine='h5netcdf') reads what is there"
 )
-KEPT = "it keeps numbers, texts and truth values"
+KEPT = "it keeps numbers, texts and truth values, and such attributes"
 AS_STORED = {"decode_times": False, "mask_and_scale": False}  # whatever attributes may say
 LONGEST_REASON = 160  # characters
 
@@ -39,8 +38,8 @@ def write_netcdf(dataset: "xr.Dataset", where: Path) -> None:
     with warnings.catch_warnings():  # of what would change, which is refused here
         warnings.simplefilter("ignore")
         content = _netcdf(dataset)
-        for what, value in _changes(dataset, _loaded(content)):
-            raise refusal(what, value, f"NetCDF would not give it back as it is; {KEPT}")
+        if name := _changed(dataset, _loaded(content)):
+            raise InputError(f"{name}: NetCDF would not give it back as it is; {KEPT}")
     with where.open("wb") as file:
         file.write(content)
         file.write(_seal(content))
@@ -96,38 +95,28 @@ def _loaded(content: bytes) -> "xr.Dataset":
     return dataset.drop_encoding()
 
 
-def _changes(dataset: "xr.Dataset", back: "xr.Dataset") -> Iterator[tuple[str, Any]]:
-    """Yield, by name and value, what is otherwise in the dataset that was read back."""
-    yield from _changed_attributes("attribute", dataset.attrs, back.attrs)
-    for name in (*dataset.variables, *back.variables):
-        item: Any = dataset.variables.get(name)
-        again: Any = back.variables.get(name)
-        if item is None or again is None or (name in dataset.coords) != (name in back.coords):
-            yield "name", name
-        elif _type(item) != _type(again) or not item.equals(again):
-            yield f"{name}", str(item.dtype)
-        else:
-            yield from _changed_attributes(f"{name}, attribute", item.attrs, again.attrs)
+def _changed(dataset: "xr.Dataset", back: "xr.Dataset") -> str:
+    """Return the name of what is otherwise in the dataset that was read back, if anything is."""
+    for name in {**dataset.variables, **back.variables}:
+        here, there = dataset.variables.get(name), back.variables.get(name)
+        if not (here is not None and there is not None and _same(here, there)):
+            return f"{name}"
+    same = dataset.identical(back) and _attributes(dataset) == _attributes(back)
+    return "" if same else "dataset"
 
 
-def _type(item: "xr.Variable") -> tuple[Any, ...]:
+def _same(here: Any, there: Any) -> bool:
+    types = _type(here) == _type(there) and _attributes(here) == _attributes(there)
+    return bool(types and here.identical(there))
+
+
+def _type(item: Any) -> Any:
     dtype = item.dtype
     if not isinstance(dtype, np.dtype) or hasattr(item.data, "to_root_units"):
-        return (dtype, "not a plain array")
-    return ("words",) if dtype.kind in "OTU" else (dtype.kind, dtype.itemsize)
+        return type(item.data)
+    return "words" if dtype.kind in "OTU" else (dtype.kind, dtype.itemsize)
 
 
-def _changed_attributes(
-    what: str, stored: Mapping[Hashable, Any], back: Mapping[Hashable, Any]
-) -> Iterator[tuple[str, Any]]:
-    for name in {**stored, **back}:
-        if name not in stored or name not in back:
-            yield what, name
-        elif _plain(stored[name]) != _plain(back[name]):
-            yield f"{what} {name}", stored[name]
-
-
-def _plain(value: Any) -> tuple[str, str]:
-    """Return the type and the value of an attribute, alike for a list and an array of its items."""
-    plain = value.tolist() if isinstance(value, np.ndarray | np.generic) else value
-    return np.asarray(value).dtype.kind, repr(list(plain) if isinstance(plain, tuple) else plain)
+def _attributes(item: Any) -> dict[str, str]:
+    """Return attributes so that ["a"] is not "a", which xarray takes for the same."""
+    return {name: repr(np.asarray(value).tolist()) for name, value in item.attrs.items()}

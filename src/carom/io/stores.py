@@ -11,11 +11,11 @@ import warnings
 from hashlib import sha256
 from pathlib import Path
 from textwrap import shorten
+from typing import Any
 
 import numpy as np
 import xarray as xr
-from zarr.abc.store import ByteRequest
-from zarr.core.buffer import Buffer, BufferPrototype
+from zarr.core.buffer import Buffer
 from zarr.storage import LocalStore
 
 from carom.quantities.refusals import refusal
@@ -60,23 +60,11 @@ class SealedStore(LocalStore):
         except OSError:
             return False
 
-    async def get(
-        self,
-        key: str,
-        prototype: BufferPrototype | None = None,
-        byte_range: ByteRequest | None = None,
-    ) -> Buffer | None:
-        return self._checked(key, await super().get(key, prototype, byte_range))
+    async def get(self, key: str, *args: Any, **options: Any) -> Buffer | None:
+        return self._checked(key, await super().get(key, *args, **options))
 
-    def get_sync(
-        self,
-        key: str,
-        *,
-        prototype: BufferPrototype | None = None,
-        byte_range: ByteRequest | None = None,
-    ) -> Buffer | None:
-        content = super().get_sync(key, prototype=prototype, byte_range=byte_range)
-        return self._checked(key, content)
+    def get_sync(self, key: str, *args: Any, **options: Any) -> Buffer | None:
+        return self._checked(key, super().get_sync(key, *args, **options))
 
     async def set(self, key: str, value: Buffer) -> None:
         await super().set(key, self._sealed(key, value))
