@@ -146,9 +146,10 @@ def test_a_dataset_comes_back_to_the_last_bit(kind, tmp_path):
     stored = made(PLAIN[kind])
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        back = read(save(stored.copy(deep=True), tmp_path / "file.NC"))
+        back = read(save(stored, tmp_path / "file.NC"))
     xr.testing.assert_identical(stored, back)
     assert set(stored.data_vars) == set(back.data_vars)
+    assert type(ATTRIBUTES["text"]) is type(PLAIN["attributes"].attrs["text"]) is np.str_
     for name, item in stored.variables.items():
         values, again = item.values, back[name].values
         assert again.dtype.kind == values.dtype.kind or "O" in again.dtype.kind + values.dtype.kind

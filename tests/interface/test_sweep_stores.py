@@ -32,6 +32,7 @@ DESIGNS = {
     "grid": GRID,
     "materials": Grid({"first.material": ["steel", "nylon"], "angle": ["10 deg", "40 deg"]}),
     "hypercube": LatinHypercube({"angle": (0.0, 1.2), "first.radius": (1e-3, 9e-3)}, samples=9),
+    "nothing solved": Table({"angle": [0.1, 0.2], "speed": [-1.0, -2.0]}),
     "table with faults": Table({"angle": [0.1, 0.2, np.nan], "speed": [1.0, -1.0, 2.0]}),
 }
 

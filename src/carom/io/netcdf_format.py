@@ -25,7 +25,11 @@ NOT_AS_STORED = (
     "xarray.load_dataset(path, engine='h5netcdf') reads what is there"
 )
 KEPT = "it keeps numbers, texts and truth values, and such attributes"
-AS_STORED = {"decode_times": False, "mask_and_scale": False}  # whatever attributes may say
+AS_STORED: dict[str, Any] = {  # whatever attributes may say
+    "engine": "h5netcdf",
+    "decode_times": False,
+    "mask_and_scale": False,
+}
 LONGEST_REASON = 160  # characters
 
 
@@ -35,11 +39,15 @@ def write_netcdf(dataset: "xr.Dataset", where: Path) -> None:
     HDF5 makes the file in memory, where it is read back: it crashes where a disk is full, or a file
     may not grow. Raises OSError if there is no room for the file.
     """
+    import xarray as xr
+
     with warnings.catch_warnings():  # of what would change, which is refused here
         warnings.simplefilter("ignore")
         content = _netcdf(dataset)
-        if name := _changed(dataset, _loaded(content)):
-            raise InputError(f"{name}: NetCDF would not give it back as it is; {KEPT}")
+        with xr.open_dataset(BytesIO(content), cache=False, **AS_STORED) as back:
+            name = _changed(dataset, back)
+    if name:
+        raise InputError(f"{name}: NetCDF would not give it back as it is; {KEPT}")
     with where.open("wb") as file:
         file.write(content)
         file.write(_seal(content))
@@ -50,10 +58,17 @@ def read_netcdf(path: Path) -> "xr.Dataset":
 
     Raises InputError, without the name of the file, if it is another, or has changed since.
     """
+    import xarray as xr
+
     content = path.read_bytes()
     if content[-SEAL_LENGTH:] != _seal(memoryview(content)[:-SEAL_LENGTH]):
         raise InputError(NOT_AS_STORED)
-    return _loaded(content)
+    dataset: xr.Dataset = xr.load_dataset(BytesIO(content), **AS_STORED)
+    dataset.attrs = {
+        name: value.item() if isinstance(value, np.generic) else value
+        for name, value in dataset.attrs.items()
+    }
+    return dataset.drop_encoding()
 
 
 def _seal(content: bytes | memoryview) -> bytes:
@@ -84,24 +99,13 @@ def _plain_words(value: Any) -> Any:
     return value.tolist() if getattr(value, "dtype", np.dtype(float)).kind == "U" else value
 
 
-def _loaded(content: bytes) -> "xr.Dataset":
-    import xarray as xr
-
-    dataset: xr.Dataset = xr.load_dataset(BytesIO(content), engine="h5netcdf", **AS_STORED)
-    dataset.attrs = {
-        name: value.item() if isinstance(value, np.generic) else value
-        for name, value in dataset.attrs.items()
-    }
-    return dataset.drop_encoding()
-
-
 def _changed(dataset: "xr.Dataset", back: "xr.Dataset") -> str:
     """Return the name of what is otherwise in the dataset that was read back, if anything is."""
     for name in {**dataset.variables, **back.variables}:
         here, there = dataset.variables.get(name), back.variables.get(name)
         if not (here is not None and there is not None and _same(here, there)):
             return f"{name}"
-    same = dataset.identical(back) and _attributes(dataset) == _attributes(back)
+    same = set(dataset.coords) == set(back.coords) and _attributes(dataset) == _attributes(back)
     return "" if same else "dataset"
 
 
