@@ -49,13 +49,20 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
+def table(file):
+    """Return the columns of a CSV file, by their names without units."""
+    with file.open(encoding="utf-8", newline="") as rows:
+        columns = zip(*csv.reader(rows), strict=True)
+        return {head.partition(" [")[0]: np.array(values, float) for head, *values in columns}
+
+
 def test_histories_and_pictures(visit, folder):
     seen = opened(visit(f"?{urlencode(QUERY)}"), "files")
     expected = HIT.history(201)
     for name, tolerance in (("history.csv", 1e-9), ("history.nc", 0.0)):
         file = taken(seen, f"#{name.replace('.', '-')}", folder)
         assert file.name == name
-        found = carom.read(file)
+        found = carom.read(file) if name == "history.nc" else table(file)
         for column in ("time", "tangential_force", "stick_radius", "spin"):
             values = expected[column].values
             bound = tolerance * np.abs(values).max()

@@ -122,12 +122,12 @@ def test_velocities_and_forces_with_a_case(capsys, hit):
 
 
 def test_figure_and_data_are_stored(capsys, tmp_path):
-    options = ("--chi", str(CHI), "--plot", "score.png", "--output", "score.csv")
+    options = ("--chi", str(CHI), "--plot", "score.png", "--output", "score.nc")
     code, _, err = run(capsys, table(psi_columns(0.02)), *options)
     assert code == 1
-    assert sorted(err.splitlines()) == [f"Carom has stored score.{end}." for end in ("csv", "png")]
+    assert sorted(err.splitlines()) == [f"Carom has stored score.{end}." for end in ("nc", "png")]
     assert (tmp_path / "score.png").read_bytes().startswith(b"\x89PNG")
-    np.testing.assert_allclose(carom.read("score.csv").error, 0.02, rtol=1e-10)
+    np.testing.assert_allclose(carom.read("score.nc").error, 0.02, rtol=1e-10)
 
 
 SPEEDS = "normal_speed,tangential_speed,tangential_speed_out,spin_out\n"

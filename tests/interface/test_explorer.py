@@ -251,7 +251,7 @@ def test_lines_of_python_give_the_same(view, tmp_path):
 
 @pytest.mark.parametrize("view", [BODIES[7], NUMBERED[3]], ids=str)
 def test_histories_with_losses_are_those_of_the_library(view, tmp_path):
-    found = carom.read(write("history.csv", view, 0.5, tmp_path))
+    found = carom.read(write("history.nc", view, 0.5, tmp_path))
     if view.in_numbers:
         solution = carom.solve(view.psi, view.chi, losses=losses(view))
         expected = {name: getattr(solution.history(201), name) for name in ("psi", "shear_lost")}

@@ -219,15 +219,9 @@ def test_what_is_no_standard_linear_solid_is_refused(given: dict[str, Any], mess
         lambda **law: float(carom.ReboundLaw(1.44, **law)(0.5)),
     ],
 )
-def test_the_old_name_of_losses_still_works(call: Callable[..., float]) -> None:
-    """With one warning, and the same number; both at once are refused."""
-    law = carom.KelvinVoigt(restitution=0.9)
-    with pytest.warns(DeprecationWarning, match="normal= is now called losses=") as told:
-        old = call(normal=law)
-    assert len(told) == 1
-    assert old == call(losses=law)
-    with pytest.raises(InputError, match="normal: this is the old name of losses"):
-        call(normal=law, losses=law)
+def test_the_old_name_of_losses_is_refused_with_the_new(call: Callable[..., float]) -> None:
+    with pytest.raises(InputError, match=r"^normal: no keyword of \w+; write losses$"):
+        call(normal=carom.KelvinVoigt(restitution=0.9))
 
 
 def test_validity_says_what_is_assumed_of_losses() -> None:

@@ -31,7 +31,7 @@ from carom.dimensionless.states import (
     now_at,
     places_of,
 )
-from carom.quantities.keywords import renamed_keyword
+from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal
 from carom.quantities.units import pure_number
 
@@ -327,7 +327,7 @@ def solve(psi: float, chi: float, *, losses: None = ...) -> Solution: ...
 def solve(psi: float, chi: float, *, losses: ScaleFreeLaw) -> Solution | LossySolution: ...
 
 
-@renamed_keyword("normal", "losses")
+@known_keywords
 def solve(
     psi: float, chi: float, *, losses: ScaleFreeLaw | None = None
 ) -> Solution | LossySolution:

@@ -9,7 +9,7 @@ from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Pair, check_second_spin, checked_pair, checked_scales
 from carom.impacts.exact import Impact, solve_exactly
 from carom.io.progress import Progress
-from carom.quantities.keywords import known_keywords, renamed_keyword
+from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, finite
 
@@ -56,7 +56,6 @@ def impact(
     progress: Progress = None,
     **motion: Unpack[MotionInputs],
 ) -> Impact | HalfspaceImpact: ...
-@renamed_keyword("normal", "losses")
 @known_keywords
 def impact(
     pair: Pair,

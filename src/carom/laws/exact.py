@@ -21,7 +21,7 @@ from carom.laws.panels import LARGEST_CHI, panel_ends, panels
 from carom.laws.portable import applied, lost
 from carom.laws.rules import DEGREE, Rule, frozen
 from carom.quantities.arrays import Array, pure_numbers
-from carom.quantities.keywords import renamed_keyword
+from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import positive
 
@@ -78,7 +78,7 @@ class ReboundLaw:
     edges: Array
     coefficients: Array
 
-    @renamed_keyword("normal", "losses")
+    @known_keywords
     def __init__(self, chi: float, *, losses: KelvinVoigt | None = None) -> None:
         value, e = positive("chi", chi), _restitution_of(losses)
         if value > LARGEST_CHI:
