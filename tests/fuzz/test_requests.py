@@ -17,8 +17,7 @@ import pytest
 pytest.importorskip("flask")
 
 from carom.explorer import files, uploads
-from carom.explorer.app import FOR_THE_PAGE, new_app
-from carom.explorer.downloads import WRITTEN
+from carom.explorer.app import FOR_THE_PAGE, WRITTEN, new_app
 from carom.explorer.knobs import CHOICES, KNOBS
 from carom.explorer.limits import LARGEST_REQUEST, LONGEST_LINK
 from carom.explorer.views import LAWS, View

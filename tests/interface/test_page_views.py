@@ -13,7 +13,7 @@ pytest.importorskip("flask")
 
 from carom.explorer.answers import answer
 from carom.explorer.knobs import CHOICES, KNOBS, NUMBERS, OF_MATERIAL, label
-from carom.explorer.refused import Refused
+from carom.explorer.limits import Refused
 from carom.explorer.scenes import scene_of
 from carom.explorer.views import LAWS, OF_BODIES, OF_NUMBERS, View
 

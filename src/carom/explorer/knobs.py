@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 from carom.bodies.materials import materials
 from carom.datasets.shipped import names as dataset_names
-from carom.explorer.refused import Refused
+from carom.explorer.limits import Refused
 from carom.quantities.refusals import clipped, nearest
 from carom.quantities.texts import Unreadable, read_text
 

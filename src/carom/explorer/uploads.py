@@ -2,25 +2,31 @@
 
 from base64 import b64decode
 from binascii import Error as NotBase64
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from carom import datasets
 from carom.bodies.pairs import Pair
-from carom.datasets.observables import OBSERVABLES
-from carom.explorer.columns import KINDS, Given, taken
-from carom.explorer.fitted import shown_fit
-from carom.explorer.limits import LARGEST_UPLOAD, MOST_ROWS
-from carom.explorer.refused import Refused
+from carom.datasets.observables import BEFORE, OBSERVABLES
+from carom.explorer.fitted import plain_words, shown_fit
+from carom.explorer.limits import LARGEST_UPLOAD, MOST_ROWS, Refused
 from carom.explorer.results import in_words
 from carom.explorer.views import View
-from carom.fitting import fit
+from carom.fitting import Fit, fit
+from carom.fitting.heights import HEIGHTS
 from carom.fitting.reading import read_problem
-from carom.io.columns import in_units, others, with_errors
+from carom.io.columns import ERROR, entry, in_units, others, with_errors
 from carom.io.csv_cells import read_csv
 from carom.io.tables import Cells, read_table
+from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, refusal
 
+KINDS = {
+    **dict.fromkeys(BEFORE, "before the impact"),
+    **dict.fromkeys(OBSERVABLES, "after the impact"),
+    **dict.fromkeys(HEIGHTS, "drop and rebound"),
+}
 LONGEST_NAME = 80
 ASKED = (
     "{name} does not say which bodies struck each other. The fit needs their radius, their "
@@ -98,3 +104,47 @@ def _fitted(file: Path, name: str, view: View | None) -> dict[str, Any]:
     pair: Pair | None = view.pair if table.case is None and view is not None else None
     found = fit(file, pair=pair)
     return shown_fit(found, name, "page" if pair else "file", taken(given, found))
+
+
+class Given(NamedTuple):
+    """A column of a table: its head as it stands there, its name and unit as they were read."""
+
+    head: str
+    name: str
+    unit: str
+
+    @property
+    def is_result(self) -> bool:
+        """Whether it tells of the motion after an impact."""
+        return self.name in (*OBSERVABLES, *HEIGHTS)
+
+
+def taken(columns: Iterable[Given], found: Fit | None = None) -> list[dict[str, str]]:
+    """Return for each column its head, what it was taken for, and the unit it was read in."""
+    ignored = () if found is None else found.best.model.problem.ignored
+    empty = [name.partition(" ")[0] for name in ignored if "(" in name]
+    return [_taken(column, entry(column.name) in empty) for column in columns]
+
+
+def _taken(column: Given, empty: bool) -> dict[str, str]:
+    quantity = entry(column.name)
+    if quantity not in KINDS:
+        return {"head": column.head, "kind": "not used", "meaning": "", "unit": ""}
+    known = GLOSSARY[quantity]
+    kind, meaning = KINDS[quantity], plain_words(quantity)
+    if column.name.endswith(ERROR):
+        kind, meaning = "standard deviation", f"of {meaning}"
+    if empty:
+        kind = "not used: no value in it"
+    return {
+        "head": column.head,
+        "kind": kind,
+        "meaning": meaning,
+        "unit": _unit(column, known.unit),
+    }
+
+
+def _unit(column: Given, si: str) -> str:
+    if column.unit:
+        return column.unit
+    return "" if si == "1" else f"{si} (the head names no unit)"

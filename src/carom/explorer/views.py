@@ -25,8 +25,7 @@ from carom.explorer.knobs import (
     one_of,
     refused,
 )
-from carom.explorer.limits import LONGEST_LINK
-from carom.explorer.refused import Refused
+from carom.explorer.limits import LONGEST_LINK, Refused
 from carom.quantities.refusals import nearest
 from carom.verify.catalogue import CATALOGUE
 from carom.verify.errors import losses_of
