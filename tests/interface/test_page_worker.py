@@ -30,7 +30,8 @@ while True:
     answer = asked, os.getpid()
     if asked in ("refuse", "busy", "fail"):
         from carom.explorer.limits import Busy, Refused
-        answer = {"refuse": Refused("angle", "no"), "busy": Busy(), "fail": RuntimeError("no")}[asked]
+        refusal, busy, failure = Refused("angle", "no"), Busy(), RuntimeError("no")
+        answer = {"refuse": refusal, "busy": busy, "fail": failure}[asked]
 """
 PATIENCE = 20.0  # s
 
@@ -73,7 +74,7 @@ def test_refusals_failures_and_crashes_are_told_apart(desk):
     assert refused.value.field == "angle"
     with pytest.raises(Busy, match="the page is busy"):
         desk.ask(name="busy")
-    with pytest.raises(RuntimeError, match="^no$"):
+    with pytest.raises(RuntimeError, match=r"^no$"):
         desk.ask(name="fail")
     with pytest.raises(Busy, match="has ended; try again"):
         desk.ask(name="die")
