@@ -188,18 +188,18 @@ def tabs():
 
 @pytest.fixture
 def visit(address, contexts, tabs):
-    """Open a link; loading the page, or even fresh, in a browser that was never here."""
+    """Open a link; loading the page, alone in a tab, or fresh in a browser that was never here."""
     over, left = [], []
 
-    def open_page(query="", *, width=1280, loading=False, fresh=False, ready=True):
-        if tabs[width] and ready and not (loading or fresh):
+    def open_page(query="", *, width=1280, loading=False, alone=False, fresh=False, ready=True):
+        if tabs[width] and ready and not (loading or alone or fresh):
             seen = tabs[width].pop()
             seen.travel(query)
         else:
             seen = Visit(contexts(width, fresh), address)
             seen.load(query, ready)
         over.append(seen)
-        if not fresh:
+        if not (alone or fresh):
             left.append((width, seen))
         return seen
 

@@ -22,6 +22,7 @@ LARGE = GET.replace(b"/ ", b"/large ", 1)
 ENDLESS = b"GET / HTTP/1.1\r\nHost: localhost\r\nX: "
 BODY = POST + b"1000\r\n\r\n"
 SIZE = 16_000_000  # bytes, more than a connection holds on its way
+LARGE_BODY = 2 * LARGEST_REQUEST
 HEAD = 1 << 18  # bytes, of which a head must have fewer
 
 
@@ -56,6 +57,7 @@ def port(slow, monkeypatch):
     server.stop()
     thread.join(PATIENCE)
     assert not thread.is_alive()
+    server.end()
 
 
 def opened(port, sent):
@@ -132,8 +134,8 @@ CHUNKS = b"POST / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\
         (ENDLESS.ljust(HEAD, b"a"), 431),
         (b"what is this\r\n\r\n", 400),
         (POST + b"-4\r\n\r\n", 400),
-        (POST + b"%d\r\n\r\n" % (LARGEST_REQUEST + 1), 413),
-        (CHUNKS + b"%x\r\n" % (1 << 40) + b"a" * (LARGEST_REQUEST + 1), 413),
+        (POST + b"%d\r\n\r\n" % LARGE_BODY, 413),
+        (CHUNKS + b"%x\r\n" % (1 << 40) + b"a" * LARGE_BODY, 413),
         (CHUNKS + b"this is no chunk\r\n", 400),
     ],
     ids=range(7),

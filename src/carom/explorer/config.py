@@ -6,7 +6,7 @@ from typing import Any
 
 from carom.bodies.materials import material
 from carom.datasets import names as dataset_names, path
-from carom.explorer.knobs import CHOICES, KNOBS, OPTIONS, OWN, WORDS, label
+from carom.explorer.knobs import CHOICES, KNOBS, NEEDS, OPTIONS, OWN, WORDS, label
 from carom.explorer.limits import LARGEST_UPLOAD, LONGEST_LINK
 from carom.explorer.presets import PRESETS
 from carom.explorer.scenes import ENERGIES, OF_CONTACT
@@ -57,6 +57,7 @@ def _fields() -> dict[str, dict[str, Any]]:
             "slider": knob.slider if knob else None,
             "choices": options or None,
             "default": default,
+            "needs": NEEDS.get(field.name, {}),
         }
     return found
 

@@ -5,7 +5,6 @@ import socket
 from dataclasses import dataclass, field
 from errno import EADDRNOTAVAIL
 from math import inf
-from threading import Event
 from time import time
 from typing import Any
 
@@ -49,13 +48,13 @@ class Server(TcpWSGIServer):  # type: ignore[misc]
 
     def __init__(self, app: Flask, listening: socket.socket) -> None:
         logging.getLogger("waitress").setLevel(logging.CRITICAL)  # browsers come and go
-        self._stopped = Event()
+        self._stopped = False
         settings: dict[str, Any] = {
             "threads": THREADS,
             "backlog": QUEUED,
             "channel_timeout": IDLE_SECONDS,
             "connection_limit": 2 * CONNECTIONS,  # the other half is at work
-            "max_request_body_size": LARGEST_REQUEST + 1,
+            "max_request_body_size": 2 * LARGEST_REQUEST,  # less is refused in a line
             "outbuf_high_watermark": 1 << 40,  # answers wait in files, not in their threads
             "asyncore_use_poll": True,
             "ident": None,
@@ -70,22 +69,16 @@ class Server(TcpWSGIServer):  # type: ignore[misc]
 
     def serve(self) -> None:
         """Answer until `stop`, or an interrupt."""
-        try:
-            while not self._stopped.is_set():
-                self._drop_oldest()
-                self.asyncore.loop(timeout=1.0, use_poll=True, map=self._map, count=1)
-        finally:
-            self.end()
-
-    def _drop_oldest(self) -> None:
-        waiting = [each for each in self.active_channels.values() if each.creation_time < inf]
-        waiting.sort(key=lambda each: each.creation_time)
-        for each in waiting[:-CONNECTIONS]:
-            each.handle_close()
+        while not self._stopped:
+            waiting = [each for each in self.active_channels.values() if each.creation_time < inf]
+            waiting.sort(key=lambda each: each.creation_time)
+            for each in waiting[:-CONNECTIONS]:
+                each.handle_close()
+            self.asyncore.loop(timeout=1.0, use_poll=True, map=self._map, count=1)
 
     def stop(self) -> None:
         """Let `serve`, which runs in another thread, return."""
-        self._stopped.set()
+        self._stopped = True
         self.pull_trigger()
 
     def end(self) -> None:
