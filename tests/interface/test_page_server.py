@@ -11,7 +11,7 @@ pytest.importorskip("flask")
 from flask import Flask, request
 
 from carom.explorer import serving
-from carom.explorer.limits import LARGEST_REQUEST
+from carom.explorer.limits import LARGEST_HEAD, LARGEST_REQUEST
 from carom.explorer.serving import Server
 
 PATIENCE = 20.0  # s
@@ -23,7 +23,6 @@ ENDLESS = b"GET / HTTP/1.1\r\nHost: localhost\r\nX: "
 BODY = POST + b"1000\r\n\r\n"
 SIZE = 16_000_000  # bytes, more than a connection holds on its way
 LARGE_BODY = 2 * LARGEST_REQUEST
-HEAD = 1 << 18  # bytes, of which a head must have fewer
 
 
 @pytest.fixture
@@ -131,7 +130,7 @@ CHUNKS = b"POST / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\
     ("sent", "status"),
     [
         (b"GET http://[ HTTP/1.1\r\nHost: localhost\r\n\r\n", None),
-        (ENDLESS.ljust(HEAD, b"a"), 431),
+        (ENDLESS.ljust(LARGEST_HEAD, b"a"), 431),
         (b"what is this\r\n\r\n", 400),
         (POST + b"-4\r\n\r\n", 400),
         (POST + b"%d\r\n\r\n" % LARGE_BODY, 413),

@@ -5,6 +5,7 @@ from carom.quantities.refusals import InputError
 LONGEST_LINK = 4000  # characters
 LARGEST_UPLOAD = 1_000_000  # bytes
 MOST_ROWS = 2000  # of an upload
+LARGEST_HEAD = 1 << 16  # bytes of a request, besides what it carries
 LARGEST_REQUEST = 2 * LARGEST_UPLOAD  # a file travels in more characters than it has
 
 FIT_SECONDS = 20.0  # that an upload may be read and fitted; 2000 rows take two

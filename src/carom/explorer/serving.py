@@ -13,7 +13,14 @@ from waitress.channel import HTTPChannel
 from waitress.server import TcpWSGIServer
 
 from carom.explorer.app import new_app
-from carom.explorer.limits import CONNECTIONS, IDLE_SECONDS, LARGEST_REQUEST, QUEUED, THREADS
+from carom.explorer.limits import (
+    CONNECTIONS,
+    IDLE_SECONDS,
+    LARGEST_HEAD,
+    LARGEST_REQUEST,
+    QUEUED,
+    THREADS,
+)
 from carom.explorer.overlays import followers
 from carom.explorer.page import plotly_file
 from carom.explorer.warming import Warming
@@ -54,6 +61,7 @@ class Server(TcpWSGIServer):  # type: ignore[misc]
             "backlog": QUEUED,
             "channel_timeout": IDLE_SECONDS,
             "connection_limit": 2 * CONNECTIONS,  # the other half is at work
+            "max_request_header_size": LARGEST_HEAD,
             "max_request_body_size": 2 * LARGEST_REQUEST,  # less is refused in a line
             "outbuf_high_watermark": 1 << 40,  # answers wait in files, not in their threads
             "asyncore_use_poll": True,
