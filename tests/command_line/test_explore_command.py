@@ -88,6 +88,19 @@ def test_only_this_machine_is_answered(page):
     assert "http" not in policy
 
 
+def test_an_address_of_ipv6():
+    try:
+        found = explorer(host="::1", port=0)
+    except InputError:
+        pytest.skip("this machine has no IPv6")
+    serving = threading.Thread(target=found.serve)
+    serving.start()
+    with urllib.request.urlopen(found.url, timeout=10) as answer:
+        assert answer.status == 200
+    found.stop()
+    serving.join(timeout=10)
+
+
 def test_an_unknown_path_is_told_in_a_line(page):
     for path in ("nowhere", "nowhere/at/all", "history.exe", "assets/none.js"):
         with pytest.raises(urllib.error.HTTPError) as error:

@@ -112,7 +112,9 @@ def test_files_are_refused_in_a_line_of_text(client, caplog):
     assert client.get("/assets/../app.py").status_code == 404
     assert client.get("/history.png").data == b"carom: failed, RuntimeError\n"
     assert client.post("/answer").get_json()["message"] == "405: Method Not Allowed"
-    assert client.get("/", headers={"Host": "elsewhere"}).status_code == 400
+    for host in ("elsewhere", "elsewhere:8050", "localhost.elsewhere", "[", "a@b", ""):
+        answered = client.get("/answer", headers={"Host": host})
+        assert answered.json == {"field": "", "message": "400: Bad Request"}
 
 
 def test_addresses_of_files(client):

@@ -5,7 +5,7 @@ import logging
 from functools import cache
 from pathlib import Path
 from typing import Any
-from urllib.parse import parse_qs
+from urllib.parse import parse_qs, urlsplit
 
 from flask import Flask, Response, abort, request, send_file, send_from_directory
 from werkzeug.exceptions import HTTPException
@@ -58,14 +58,23 @@ def new_app(worker: Worker, warming: Warming, hosts: list[str] | None = None) ->
     """Return the application, which answers to these names of hosts only, None for all."""
     server = Flask(__name__, static_folder=None)
     server.config["MAX_CONTENT_LENGTH"] = LARGEST_REQUEST
-    server.config["TRUSTED_HOSTS"] = hosts
     _add_parts(server)
     _add_answers(server, warming)
     _add_files(server, worker)
     _add_fits(server, worker)
+    if hosts is not None:
+        server.before_request(lambda: None if _host() in hosts else abort(400))
     server.register_error_handler(Exception, _one_line)
     server.after_request(_guarded)
     return server
+
+
+def _host() -> str | None:
+    """Return the name by which the page was asked for, of IPv6 as well."""
+    try:
+        return urlsplit(f"//{request.headers.get('Host', '')}").hostname
+    except ValueError:
+        return None
 
 
 def _add_parts(server: Flask) -> None:

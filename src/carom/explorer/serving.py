@@ -28,7 +28,7 @@ from carom.explorer.worker import Worker
 from carom.quantities.refusals import InputError, refusal
 
 LOOPBACK = "127.0.0.1"
-OWN_NAMES = [LOOPBACK, "localhost", "::1", "[::1]"]
+OWN_NAMES = [LOOPBACK, "localhost", "::1"]
 PORT = 8050
 PORTS = 65535
 
@@ -64,7 +64,6 @@ class Server(TcpWSGIServer):  # type: ignore[misc]
             "max_request_header_size": LARGEST_HEAD,
             "max_request_body_size": 2 * LARGEST_REQUEST,  # less is refused in a line
             "outbuf_high_watermark": 1 << 40,  # answers wait in files, not in their threads
-            "asyncore_use_poll": True,
             "ident": None,
         }
         place = listening.family, listening.type, listening.proto, listening.getsockname()
