@@ -31,10 +31,15 @@ LOOPBACK = "127.0.0.1"
 OWN_NAMES = [LOOPBACK, "localhost", "::1"]
 PORT = 8050
 PORTS = 65535
+PIECE = 1 << 17  # bytes of an answer that are sent, or tried to be sent, at a time
 
 
 class Connection(HTTPChannel):  # type: ignore[misc]
     """A connection; since when it waits for its request, or for its answer to be taken."""
+
+    def __init__(self, *arguments: Any, **more: Any) -> None:
+        super().__init__(*arguments, **more)
+        self.sendbuf_len = PIECE
 
     def service(self) -> None:
         """Answer a request."""
@@ -68,6 +73,14 @@ class Server(TcpWSGIServer):  # type: ignore[misc]
         }
         place = listening.family, listening.type, listening.proto, listening.getsockname()
         super().__init__(app, _sock=listening, sockinfo=place, bind_socket=False, **settings)
+
+    def handle_accept(self) -> None:
+        """Accept connections, of a flood so many at a time that they cannot close each other."""
+        for _ in range(CONNECTIONS // 2):
+            before = len(self.active_channels)
+            super().handle_accept()
+            if len(self.active_channels) == before:
+                return
 
     def add_task(self, task: Any) -> None:
         """Let the request of a connection be answered, which does not wait meanwhile."""
