@@ -68,6 +68,10 @@ class Page:
         assert status == 200, found
         return found
 
+    def close(self) -> None:
+        """Let the connection go."""
+        self._line.close()
+
     def _ask(self, method: str, path: str, body: str | None = None) -> tuple[int, bytes]:
         """Ask, and ask again as the page does, if the connection was refused or closed."""
         for left in range(TRIES - 1, -1, -1):

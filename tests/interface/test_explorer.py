@@ -13,8 +13,7 @@ import carom
 pytest.importorskip("flask")
 
 from carom.explorer.answers import answer, laws
-from carom.explorer.figures import curve_figure
-from carom.explorer.files import write
+from carom.explorer.files import curve_figure
 from carom.explorer.knobs import NUMBERS
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import impact_of, scene_of
@@ -247,20 +246,6 @@ def test_lines_of_python_give_the_same(view, tmp_path):
         return
     for psi in (scene.psi_out, *(law.at for law in law_curves(scene, view.law))):
         assert psi == pytest.approx(min(told, key=lambda number: abs(number - psi)), abs=1e-9)
-
-
-@pytest.mark.parametrize("view", [BODIES[7], NUMBERED[3]], ids=str)
-def test_histories_with_losses_are_those_of_the_library(view, tmp_path):
-    found = carom.read(write("history.nc", view, 0.5, tmp_path))
-    if view.in_numbers:
-        solution = carom.solve(view.psi, view.chi, losses=losses(view))
-        expected = {name: getattr(solution.history(201), name) for name in ("psi", "shear_lost")}
-    else:
-        history = impact_of(view).history(201)
-        expected = {name: history[name].values for name in ("contact_velocity", "shear_loss")}
-    for name, values in expected.items():
-        np.testing.assert_allclose(np.asarray(found[name]), values, atol=1e-9 * np.ptp(values))
-        assert np.ptp(values) > 0.0
 
 
 @pytest.mark.parametrize("psi", [4000.0, -4000.0])

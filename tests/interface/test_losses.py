@@ -13,7 +13,7 @@ import carom
 from carom.bodies.losses import LossLaw, yield_velocity
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.explorer.figures import NumbersImpact
+from carom.explorer.files import NumbersImpact
 from carom.impacts.validity import judge_losses
 from carom.io.labels import spheres
 from carom.quantities.refusals import InputError

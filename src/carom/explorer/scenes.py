@@ -14,7 +14,7 @@ from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution, solve
 from carom.dimensionless.states import Phase
 from carom.explorer.knobs import refused
-from carom.explorer.refused import Refused
+from carom.explorer.limits import Refused
 from carom.explorer.results import Row, findings_of, rows_of
 from carom.explorer.stages import MovingBodies, precise, short, stage_of_bodies, stage_of_numbers
 from carom.explorer.views import View

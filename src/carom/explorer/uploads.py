@@ -2,24 +2,31 @@
 
 from base64 import b64decode
 from binascii import Error as NotBase64
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from carom import datasets
 from carom.bodies.pairs import Pair
-from carom.datasets.observables import OBSERVABLES
-from carom.explorer.columns import taken
-from carom.explorer.fitted import shown_fit
-from carom.explorer.limits import LARGEST_UPLOAD, MOST_ROWS
-from carom.explorer.refused import Refused
+from carom.datasets.observables import BEFORE, OBSERVABLES
+from carom.explorer.fitted import plain_words, shown_fit
+from carom.explorer.limits import LARGEST_UPLOAD, MOST_ROWS, Refused
 from carom.explorer.results import in_words
 from carom.explorer.views import View
-from carom.fitting import fit
+from carom.fitting import Fit, fit
 from carom.fitting.heights import HEIGHTS
 from carom.fitting.reading import read_measurements, read_problem
+from carom.io.columns import entry
 from carom.io.tables import read_table
+from carom.io.user_table import Column
+from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError, refusal
 
+KINDS = {
+    **dict.fromkeys(BEFORE, "before the impact"),
+    **dict.fromkeys(OBSERVABLES, "after the impact"),
+    **dict.fromkeys(HEIGHTS, "drop and rebound"),
+}
 LONGEST_NAME = 80
 ASKED = (
     "{name} does not say which bodies struck each other. The fit needs their radius, their "
@@ -86,3 +93,23 @@ def _fitted(file: Path, name: str, view: View | None) -> dict[str, Any]:
     pair: Pair | None = view.pair if table.case is None and view is not None else None
     found = fit(table, pair=pair)
     return shown_fit(found, name, "page" if pair else "file", taken(table.cells, found))
+
+
+def taken(columns: Mapping[str, Column], found: Fit | None = None) -> list[dict[str, str]]:
+    """Return for each column its head, what it was taken for, and the unit it was read in."""
+    ignored = () if found is None else found.best.model.problem.ignored
+    empty = [name.partition(" ")[0] for name in ignored if "(" in name]
+    return [_taken(name, columns[name], entry(name) in empty) for name in columns]
+
+
+def _taken(name: str, column: Column, empty: bool) -> dict[str, str]:
+    quantity = entry(name)
+    if quantity not in KINDS:
+        return {"head": column.head, "kind": "not used", "meaning": "", "unit": ""}
+    si, kind, meaning = GLOSSARY[quantity].unit, KINDS[quantity], plain_words(quantity)
+    if name != quantity:
+        kind, meaning = "standard deviation", f"of {meaning}"
+    if empty:
+        kind = "not used: no value in it"
+    unit = str(column.unit) or ("" if si == "1" else f"{si} (the head names no unit)")
+    return {"head": column.head, "kind": kind, "meaning": meaning, "unit": unit}
