@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from carom.dimensionless.elastic.phases import OPPOSITE, SAME, TRANSITIONS, Cause, Kind
-from carom.dimensionless.solution import CAUSE_NAMES
+from carom.dimensionless.elastic.phases import OPPOSITE, SAME, TRANSITIONS, Kind
 from carom.dimensionless.states import KIND_NAMES
+from carom.quantities.causes import Cause
 
 PAGE = Path(__file__).parents[1] / "phases.md"
 HALVES = {False: "loading", True: "unloading"}
@@ -37,10 +37,10 @@ def page() -> str:
     rows = ["| phase | ends while | because | then |", "|---|---|---|---|"]
     for (kind, cause, unloading), (after, sign) in TRANSITIONS.items():
         half = HALVES[unloading]
-        arrows.append(f"    {name(kind)} --> {name(after)}: {CAUSE_NAMES[cause]}, {half}")
+        arrows.append(f"    {name(kind)} --> {name(after)}: {cause.message}, {half}")
         then = KIND_NAMES[after] + SIGNS.get(sign, "")
-        rows.append(f"| {KIND_NAMES[kind]} | {half} | {CAUSE_NAMES[cause]} | {then} |")
-    arrows += [f"    {name(kind)} --> [*]: {CAUSE_NAMES[Cause.SEPARATION]}" for kind in KIND_NAMES]
+        rows.append(f"| {KIND_NAMES[kind]} | {half} | {cause.message} | {then} |")
+    arrows += [f"    {name(kind)} --> [*]: {Cause.SEPARATION.message}" for kind in KIND_NAMES]
     diagram = ["```mermaid", "stateDiagram-v2", *arrows, "```"]
     return "\n".join([HEAD, *diagram, "", *rows, TAIL])
 

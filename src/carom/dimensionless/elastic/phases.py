@@ -35,6 +35,7 @@ from carom.dimensionless.elastic.record import (
     note_stretch,
 )
 from carom.dimensionless.numerics.kernels import entry_point, kernel
+from carom.quantities.causes import Cause
 from carom.quantities.statuses import WordedStatus
 
 # Modes of a recorded step that need no integration.
@@ -48,18 +49,6 @@ class Kind(IntEnum):
     SLIP = 1
     GROSS_SLIP = 2
     APART = 3
-
-
-class Cause(IntEnum):
-    """What ends a phase."""
-
-    FIRST_TOUCH = 0
-    EDGE_AT_LIMIT = 1
-    SLIP_STOPS = 2
-    RING_CLOSES = 3
-    FRONT_AT_CENTRE = 4
-    SEPARATION = 5
-    UNRESOLVED = 6
 
 
 SAME, OPPOSITE, NONE, GIVEN = 1, -1, 0, 2  # sign of the next phase, seen from this one

@@ -4,14 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.lossy.panels import normal, work as at
-from carom.dimensionless.lossy.panels.collocation import (
-    FLAT_ENDS,
-    FLAT_START,
-    NODES,
-    PLACES,
-    evaluate,
-)
+from carom.dimensionless.lossy.panels import collocation, normal, work as at
+from carom.dimensionless.lossy.panels.collocation import NODES, PLACES, evaluate
 from carom.dimensionless.lossy.panels.normal import Motion, Stage
 from carom.dimensionless.lossy.panels.work import Arrays, Panel, State, state_at, state_at_node
 from carom.dimensionless.lossy.viscoelastic import passed
@@ -102,7 +96,7 @@ def first_event(work: Arrays, motion: Motion, panel: Panel) -> Event:
     """Return what first happens in a solved panel."""
     if motion.stage == Stage.UNLOADING.value and work.values[at.RADIUS, 0] < PARTING:
         return Event(2.0, NOTHING)
-    flat = panel.clock == FLAT_START or panel.clock == FLAT_ENDS
+    flat = panel.clock == collocation.FLAT_START or panel.clock == collocation.FLAT_ENDS
     early = 2.0 * (np.sqrt(EARLY) if flat else EARLY) - 1.0
     low = -1.0
     for j in range(NODES):

@@ -4,16 +4,8 @@ from typing import NamedTuple
 
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import why_not
-from carom.dimensionless.lossy.panels import work as at
-from carom.dimensionless.lossy.panels.collocation import (
-    EVEN,
-    FLAT_END,
-    FLAT_ENDS,
-    FLAT_START,
-    NODES,
-    clock,
-    tail,
-)
+from carom.dimensionless.lossy.panels import collocation, work as at
+from carom.dimensionless.lossy.panels.collocation import EVEN, NODES, clock, tail
 from carom.dimensionless.lossy.panels.normal import Motion, Stage
 from carom.dimensionless.lossy.panels.stages import cut_to_stage, next_stage
 from carom.dimensionless.lossy.panels.work import Arrays, Panel, state_at_node
@@ -194,13 +186,14 @@ def revised(plan: Plan, error: float, tolerance: float) -> Plan:
     """Return how to try again after too large an error: with a flat clock once, or shorter."""
     rooted = plan.from_change or plan.change != 0
     if plan.clock == EVEN and rooted and not plan.flat_is_worse:
-        kind = (FLAT_START if plan.from_change else 0) + (FLAT_END if plan.change != 0 else 0)
-        return with_clock(plan, kind, False, error)
+        start = collocation.FLAT_START if plan.from_change else EVEN
+        end = collocation.FLAT_END if plan.change != NOTHING else EVEN
+        return with_clock(plan, start + end, False, error)
     if plan.clock != EVEN and error > plan.error:
         error = plan.error
         plan = with_clock(plan, EVEN, True, error)
-    elif plan.clock == FLAT_END or plan.clock == FLAT_ENDS:
-        plan = with_clock(plan, plan.clock - FLAT_END, plan.flat_is_worse, error)
+    elif plan.clock == collocation.FLAT_END or plan.clock == collocation.FLAT_ENDS:
+        plan = with_clock(plan, plan.clock - collocation.FLAT_END, plan.flat_is_worse, error)
     h = plan.length * max(STEEPEST, SAFETY * (tolerance / error) ** (1.0 / ORDER))
     return with_length(plan, h, h, 0, False)
 

@@ -2,30 +2,13 @@
 
 import numpy as np
 
-from carom.dimensionless.lossy.panels import normal, work as at
-from carom.dimensionless.lossy.panels.collocation import (
-    CLOCKS,
-    EVEN,
-    INTEGRALS,
-    NODES,
-    PLACES,
-    TO_SERIES,
-    evaluate,
-    expand,
-    integrate,
-    place_of_clock,
-)
+from carom.dimensionless.lossy.panels import collocation, normal, work as at
+from carom.dimensionless.lossy.panels.collocation import NODES, PLACES, TO_SERIES, expand, integrate
 from carom.dimensionless.lossy.panels.normal import Motion
 from carom.dimensionless.lossy.panels.work import Arrays, Panel, state_at_node
+from carom.dimensionless.lossy.viscoelastic import ring
 from carom.dimensionless.lossy.viscoelastic.memory import rim, row_of
-from carom.dimensionless.lossy.viscoelastic.ring import (
-    Mode,
-    add_up,
-    force,
-    front,
-    level_now,
-    ring_of,
-)
+from carom.dimensionless.lossy.viscoelastic.ring import Mode
 from carom.dimensionless.numerics.kernels import kernel
 
 
@@ -54,17 +37,17 @@ def solve_panel(work: Arrays, motion: Motion, panel: Panel, before: Panel) -> bo
     b, psi = values[at.RADIUS], values[at.PSI]
     psi0, u0 = psi[0], values[at.MOVED, 0]
     follow_normal(work, panel)
-    add_up(work, panel)
+    ring.add_up(work, panel)
     if not guess(work, panel, before):
         psi[:] = psi0
     for iteration in range(MAX_ITERATIONS):
         follow(work, motion, panel, u0)
         for j in range(NODES):
             now = state_at_node(work, j)
-            border = front(work, motion, panel, now, values[at.TIME, j])
+            border = ring.front(work, motion, panel, now, values[at.TIME, j])
             values[at.FRONT, j] = border.radius * border.radius
             rates[1, j] = (
-                -7.5 * motion.chi * b[j] * force(work, motion, panel, PLACES[j], now, border)
+                -7.5 * motion.chi * b[j] * ring.force(work, motion, panel, PLACES[j], now, border)
             )
             rates[2, j] = -7.5 * motion.chi * b[j] * border.radius
         if iteration == 0:
@@ -97,7 +80,7 @@ def follow(work: Arrays, motion: Motion, panel: Panel, u0: float) -> None:
         rates[0, j] = 2.0 * values[at.RADIUS, j] * values[at.PSI, j]
     integrate(panel.clock, u0, panel.length, rates[0], values[at.MOVED])
     expand(values[at.MOVED], series[at.MOVED])
-    mode = ring_of(work).mode
+    mode = ring.ring_of(work).mode
     if mode == Mode.STICKS:
         lay_at_edge(work, motion, panel)
     elif mode == Mode.RETURNS:
@@ -126,14 +109,14 @@ def lay_at_edge(work: Arrays, motion: Motion, panel: Panel) -> None:
 @kernel
 def lay_at_front(work: Arrays, motion: Motion, panel: Panel) -> None:
     """Write what a front lays that returns, and the integral of r over the level."""
-    values, rates, sign = work.values, work.rates, ring_of(work).sign
+    values, rates, sign = work.values, work.rates, ring.ring_of(work).sign
     levels = values[row_of(sign)]
     for j in range(NODES):
         now = state_at_node(work, j)
-        r = front(work, motion, panel, now, values[at.TIME, j]).radius
+        r = ring.front(work, motion, panel, now, values[at.TIME, j]).radius
         if j == 0:
             r = rim(work.pieces, panel.pieces)
-        levels[j] = level_now(motion, sign, now)
+        levels[j] = ring.level_now(motion, sign, now)
         values[at.LAID_RADIUS, j] = r
         values[row_of(-sign), j] = 2.0 * r * r - levels[j]
     for j in range(NODES):
@@ -141,7 +124,7 @@ def lay_at_front(work: Arrays, motion: Motion, panel: Panel) -> None:
         for k in range(NODES):
             slope += SLOPES[j, k] * levels[k]
         rates[0, j] = values[at.LAID_RADIUS, j] * slope
-    integrate(EVEN, 0.0, 1.0, rates[0], values[at.LAID])
+    integrate(collocation.EVEN, 0.0, 1.0, rates[0], values[at.LAID])
 
 
 @kernel
@@ -151,9 +134,9 @@ def guess(work: Arrays, panel: Panel, before: Panel) -> bool:
         return False
     ratio = panel.length / before.length
     for j in range(1, NODES):
-        part = min(CLOCKS[panel.clock, j] * ratio, 1.0)
-        x = place_of_clock(before.clock, part)
-        work.values[at.PSI, j] = evaluate(work.series, panel.number, at.PSI, x)
+        part = min(collocation.CLOCKS[panel.clock, j] * ratio, 1.0)
+        x = collocation.place_of_clock(before.clock, part)
+        work.values[at.PSI, j] = collocation.evaluate(work.series, panel.number, at.PSI, x)
     return True
 
 
@@ -178,7 +161,8 @@ def factorise(work: Arrays, panel: Panel, alpha: float) -> None:
 
     alpha is the retardation time in shear.
     """
-    s, h, b, matrix = INTEGRALS[panel.clock], panel.length, work.values[at.RADIUS], work.matrix
+    s, h, b = collocation.INTEGRALS[panel.clock], panel.length, work.values[at.RADIUS]
+    matrix = work.matrix
     for i in range(NODES):
         for j in range(NODES):
             total = 0.0

@@ -7,15 +7,7 @@ from carom.dimensionless.lossy.panels import normal, work as at
 from carom.dimensionless.lossy.panels.collocation import evaluate
 from carom.dimensionless.lossy.panels.normal import Motion
 from carom.dimensionless.lossy.panels.work import Arrays, Panel, State
-from carom.dimensionless.lossy.viscoelastic.memory import (
-    cubes,
-    left_force,
-    part_force,
-    passed_level,
-    piece_force,
-    rim,
-    row_of,
-)
+from carom.dimensionless.lossy.viscoelastic import memory
 from carom.dimensionless.lossy.viscoelastic.passed import returned
 from carom.dimensionless.numerics.kernels import kernel
 
@@ -79,12 +71,12 @@ def excess(sign: int, now: State) -> float:
 @kernel
 def front(work: Arrays, motion: Motion, panel: Panel, now: State, time: float) -> Front:
     """Return where slip begins."""
-    ring, stuck = ring_of(work), rim(work.pieces, panel.pieces)
+    ring, stuck = ring_of(work), memory.rim(work.pieces, panel.pieces)
     if ring.mode == Mode.STICKS or ring.mode == Mode.RETRACES:
         return Front(now.radius, 0.0)
     if ring.mode == Mode.RETREATS:
         level = level_now(motion, ring.sign, now)
-        radius, x = passed_level(work, panel.pieces - 1, ring.sign, level)
+        radius, x = memory.passed_level(work, panel.pieces - 1, ring.sign, level)
         return Front(radius, x)
     if ring.mode == Mode.RETURNS:
         g, top = excess(ring.sign, now), ring.depth - 1
@@ -99,7 +91,7 @@ def add_up(work: Arrays, panel: Panel) -> None:
     whole = panel.pieces - 1 if ring_of(work).mode == Mode.RETREATS else panel.pieces
     work.ring[at.WHOLE] = 0.0
     for i in range(whole):
-        work.ring[at.WHOLE] += piece_force(work.pieces, i)
+        work.ring[at.WHOLE] += memory.piece_force(work.pieces, i)
 
 
 @kernel
@@ -110,12 +102,12 @@ def force(work: Arrays, motion: Motion, panel: Panel, x: float, now: State, bord
         return float(work.ring[at.RATIO] * 2.0 / 3.0 * normal.normal_force(motion, b, now.speed))
     total = moved(motion, now) * a + work.ring[at.WHOLE]
     if ring.mode == Mode.RETREATS:
-        total += part_force(work, panel.pieces - 1, a, border.place)
+        total += memory.part_force(work, panel.pieces - 1, a, border.place)
     elif ring.mode == Mode.STICKS:
         total -= evaluate(work.series, panel.number, at.LAID, x)
     elif ring.mode == Mode.RETURNS:
-        first = work.values[row_of(ring.sign), 0], level_now(motion, ring.sign, now)
+        first = work.values[memory.row_of(ring.sign), 0], level_now(motion, ring.sign, now)
         moment = evaluate(work.series, panel.number, at.LAID, x)
-        total += left_force(ring.sign, work.values[at.LAID_RADIUS, 0], a, *first, moment)
+        total += memory.left_force(ring.sign, work.values[at.LAID_RADIUS, 0], a, *first, moment)
     limit = normal.limit(motion, b, now.speed)
-    return float(total + ring.sign * (limit * (b - a) - cubes(a, b)))
+    return float(total + ring.sign * (limit * (b - a) - memory.cubes(a, b)))
