@@ -167,35 +167,21 @@ def with_length(plan: Plan, h: float, natural: float, change: int, to_end: bool)
 
 
 @kernel
-def with_clock(plan: Plan, kind: int, flat_is_worse: bool, error: float) -> Plan:
-    """Return a plan with another clock."""
-    return Plan(
-        plan.length,
-        kind,
-        plan.natural,
-        plan.from_change,
-        plan.change,
-        plan.to_stage_end,
-        flat_is_worse,
-        error,
-    )
-
-
-@kernel
 def revised(plan: Plan, error: float, tolerance: float) -> Plan:
     """Return how to try again after too large an error: with a flat clock once, or shorter."""
-    rooted = plan.from_change or plan.change != 0
-    if plan.clock == EVEN and rooted and not plan.flat_is_worse:
+    kind, worse, last = plan.clock, plan.flat_is_worse, plan.error
+    rooted = plan.from_change or plan.change != NOTHING
+    if kind == EVEN and rooted and not worse:
         start = collocation.FLAT_START if plan.from_change else EVEN
         end = collocation.FLAT_END if plan.change != NOTHING else EVEN
-        return with_clock(plan, start + end, False, error)
-    if plan.clock != EVEN and error > plan.error:
-        error = plan.error
-        plan = with_clock(plan, EVEN, True, error)
-    elif plan.clock == collocation.FLAT_END or plan.clock == collocation.FLAT_ENDS:
-        plan = with_clock(plan, plan.clock - collocation.FLAT_END, plan.flat_is_worse, error)
+        kept = plan.natural, plan.from_change, plan.change, plan.to_stage_end
+        return Plan(plan.length, start + end, *kept, False, error)
+    if kind != EVEN and error > last:
+        kind, worse, error = EVEN, True, last
+    elif kind == collocation.FLAT_END or kind == collocation.FLAT_ENDS:
+        kind, last = kind - collocation.FLAT_END, error
     h = plan.length * max(STEEPEST, SAFETY * (tolerance / error) ** (1.0 / ORDER))
-    return with_length(plan, h, h, 0, False)
+    return Plan(h, kind, h, plan.from_change, NOTHING, False, worse, last)
 
 
 @kernel
