@@ -15,6 +15,8 @@ from importlib.util import find_spec
 from multiprocessing import parent_process
 from typing import Any, Generic, ParamSpec, TypeVar, cast
 
+import numpy as np
+
 from carom.dimensionless.numerics import shared_library
 from carom.dimensionless.numerics.signatures import Signature, signature_of
 from carom.quantities.refusals import InputError, one_of
@@ -80,7 +82,7 @@ class Kernel(Generic[Given, Found]):
             return cast(Callable[Given, Found], self.dispatcher)
         if shared_library.reason():
             warn_of_python()
-        return self.py_func
+        return as_written(self.py_func) if self.floats else self.py_func
 
     @cached_property
     def dispatcher(self) -> Any:
@@ -119,12 +121,17 @@ def entry_point(*floats: str) -> Callable[[Callable[Given, Found]], Callable[Giv
 
     def mark(function: Callable[Given, Found]) -> Callable[Given, Found]:
         if way() == "python":
-            return function
+            return as_written(function)
         found = Kernel(function, floats or ("float64",))
         ENTRIES.append(found)
         return found
 
     return mark
+
+
+def as_written(function: Callable[Given, Found]) -> Callable[Given, Found]:
+    """Return a kernel that is run as Python, and like machine code warns of no infinity."""
+    return np.errstate(all="ignore")(function)
 
 
 def plain(kernel: Callable[Given, Found]) -> Callable[Given, Found]:

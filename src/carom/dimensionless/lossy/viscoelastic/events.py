@@ -74,10 +74,8 @@ def happened(work: Arrays, motion: Motion, panel: Panel, x: float, now: State, t
         way = inwards(motion, ring.sign, now, force(work, motion, panel, x, now, border))
         if (way if ring.mode == Mode.RETURNS else -way) > TURNED:
             return TURNS
-        if (
-            ring.mode == Mode.RETURNS
-            and left(work, ring.depth - 1, True, ring.sign, alpha, time) > g
-        ):
+        top = ring.depth - 1
+        if ring.mode == Mode.RETURNS and left(work, top, True, ring.sign, alpha, time) > g:
             return ARRIVES
         if ring.mode == Mode.RETREATS and level < level_at(work.pieces, last, ring.sign, False):
             return ARRIVES
