@@ -8,10 +8,10 @@ from typing import Any
 from matplotlib.axes import Axes
 from run_pages import store_small
 
-from carom.dimensionless.elastic.phases import OPPOSITE, SAME, TRANSITIONS, Cause, Kind
-from carom.dimensionless.solution import CAUSE_NAMES
+from carom.dimensionless.elastic.phases import OPPOSITE, SAME, TRANSITIONS, Kind
 from carom.dimensionless.states import KIND_NAMES
 from carom.plots import style
+from carom.quantities.causes import Cause
 
 PAGE = Path(__file__).parents[1] / "phases.md"
 FIGURE = PAGE.parent / "figures" / "phases.png"
@@ -53,7 +53,7 @@ def page() -> str:
     for (kind, cause, unloading), (after, sign) in TRANSITIONS.items():
         then = KIND_NAMES[after] + SIGNS.get(sign, "")
         half = HALVES[unloading]
-        rows.append(f"| {KIND_NAMES[kind]} | {half} | {CAUSE_NAMES[cause]} | {then} |")
+        rows.append(f"| {KIND_NAMES[kind]} | {half} | {cause.message} | {then} |")
     return "\n".join([HEAD, *rows, TAIL])
 
 
@@ -82,9 +82,9 @@ def draw() -> None:
         axis.plot(*end, "ko", mfc="white", ms=8)
         axis.plot(*end, "ko", ms=4)
         arrow(axis, (x, y), end, patchA=boxes[kind], shrinkB=5)
-        axis.text(end[0] + 2, end[1], CAUSE_NAMES[Cause.SEPARATION], va="center")
+        axis.text(end[0] + 2, end[1], Cause.SEPARATION.message, va="center")
     for (kind, cause, unloading), (after, _) in TRANSITIONS.items():
-        endings[kind, after].append(f"{CAUSE_NAMES[cause]}, {HALVES[unloading]}")
+        endings[kind, after].append(f"{cause.message}, {HALVES[unloading]}")
     for (kind, after), words in endings.items():
         x, y, side = WORDS[kind, after]
         axis.text(x, y, "\n".join(words), ha=side, va="center")

@@ -17,12 +17,12 @@ import carom
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.layout import NUMBERS, PSI_OUT
-from carom.dimensionless.lossy.panels.plans import TOLERANCE
-from carom.dimensionless.lossy.panels.record import new_record
 from carom.dimensionless.lossy.panels.work import new_work
 from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds, outgoing
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.lossy.solving import solve_with_losses
+from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE
+from carom.dimensionless.lossy.viscoelastic.record import new_record
 from carom.dimensionless.twins.marching_motion import kelvin_voigt
 from carom.dimensionless.twins.marching_solid import march_history
 

@@ -12,10 +12,10 @@ import pytest
 import carom
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.panels.collocation import INTEGRALS, NODES
-from carom.dimensionless.lossy.panels.newton import Panel, back_substitute, factorise
-from carom.dimensionless.lossy.panels.work import RADIUS, new_work
+from carom.dimensionless.lossy.panels.work import RADIUS, Panel, new_work
 from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds
 from carom.dimensionless.lossy.solving import solve_with_losses
+from carom.dimensionless.lossy.viscoelastic.panels import back_substitute, factorise
 from carom.dimensionless.numerics.kernels import plain
 
 IMPACTS = (

@@ -5,6 +5,7 @@ from threading import Condition, Thread
 from typing import Any, NamedTuple
 
 from carom.dimensionless.numerics import shared_library
+from carom.dimensionless.numerics.kernels import has_numba
 from carom.explorer.knobs import NUMBERS
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import scene_of
@@ -48,7 +49,7 @@ class Warming:
     """Compiles the solver while the page is served; with the library there is nothing to do."""
 
     def __init__(self) -> None:
-        self._steps = STEPS if shared_library.reason() else ()
+        self._steps = STEPS if shared_library.reason() and has_numba() else ()
         self._done = self._kernels = 0
         self._stopped = False
         self._news = Condition()

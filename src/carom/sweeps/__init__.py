@@ -58,7 +58,7 @@ def sweep(
         Continue the sweep that is in the store: what is finished is not computed again.
     scheduler : str, optional
         Address of the scheduler of a dask.distributed cluster, tcp://host:8786, whose workers have
-        the same versions of carom, numpy and numba.
+        the same versions of carom and numpy, and a solver that the same numba has compiled.
     workers : int, optional
         Number of threads of this process, by default one for each core.
     progress : bool or callable, optional

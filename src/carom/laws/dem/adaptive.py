@@ -10,21 +10,8 @@ import numpy as np
 
 from carom.dimensionless.numerics.arrays import Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
-from carom.laws.dem.coefficients import (
-    AGAIN,
-    BACK,
-    ELASTIC_PULL,
-    FIRST,
-    SPRING,
-    Coefficients,
-    Normal,
-    Shear,
-    force_change,
-    kept,
-    normal_force,
-    shear_stiffness,
-    softening,
-)
+from carom.laws.dem import coefficients as forces
+from carom.laws.dem.coefficients import ELASTIC_PULL, SPRING, Coefficients, Normal, Shear
 from carom.quantities.arrays import Array
 
 B, V, PSI, T, UPPER, LOWER = range(6)  # the state
@@ -69,12 +56,12 @@ def limit_rate(law: Coefficients, loading: bool, b: float, v: float, f: float) -
 @kernel
 def spring_rate(law: Coefficients, branch: int, loading: bool, y: Array, f: float) -> float:
     """Return dt/dtau of the elastic tangential force of a contact that sticks."""
-    elastic = 2.0 * y[B] * shear_stiffness(law, y[B]) * y[PSI]
+    elastic = 2.0 * y[B] * forces.shear_stiffness(law, y[B]) * y[PSI]
     if law.shear == Shear.SPRING.value:
-        return float(elastic + kept(law, loading) * y[T] * y[V] / y[B])
+        return float(elastic + forces.kept(law, loading) * y[T] * y[V] / y[B])
     rate = limit_rate(law, loading, y[B], y[V], f)
-    theta = softening(law.shear, branch, y[T], f, y[UPPER], y[LOWER])
-    return force_change(law.shear, branch, theta, elastic, rate)
+    theta = forces.softening(law.shear, branch, y[T], f, y[UPPER], y[LOWER])
+    return forces.force_change(law.shear, branch, theta, elastic, rate)
 
 
 @kernel
@@ -89,7 +76,7 @@ def rates(
 ) -> None:
     """Write dy/dtau in stick (slip = 0) or slip of a sign."""
     b, v = y[B], y[V]
-    f = normal_force(law, peak, loading, b, v)
+    f = forces.normal_force(law, peak, loading, b, v)
     out[B] = v
     out[V] = -2.0 * b * ELASTIC_PULL * f
     whole = slip * abs(f) if slip != 0 else y[T] + damping_force(law, y)
@@ -108,7 +95,7 @@ def rates(
 @kernel
 def bring_to_limit(law: Coefficients, slip: int, peak: float, loading: bool, y: Array) -> None:
     """Set the elastic force of a sliding contact."""
-    limit = slip * abs(normal_force(law, peak, loading, y[B], y[V]))
+    limit = slip * abs(forces.normal_force(law, peak, loading, y[B], y[V]))
     y[T] = limit - damping_force(law, y) if law.limits_damping else limit
 
 
@@ -157,21 +144,22 @@ def event(
 ) -> int:
     """Return what has happened by this state, if anything."""
     b, v, psi = y[B], y[V], y[PSI]
-    f = normal_force(law, peak, loading, b, v)
+    f = forces.normal_force(law, peak, loading, b, v)
     if loading and v <= 0.0:
         return TURNS
     if not loading and (b <= TOUCH or (f <= 0.0 and (law.unloading != 1.0 or not law.pulls))):
         return PARTS
     incremental = law.shear != Shear.SPRING.value
-    if incremental and (psi > 0.0 if branch == BACK else psi < 0.0):
+    if incremental and (psi > 0.0 if branch == forces.BACK else psi < 0.0):
         return REVERSES
     if slip == 0:
         whole = y[T] + damping_force(law, y) if law.limits_damping else y[T]
-        ahead = -whole if branch == BACK else whole
+        ahead = -whole if branch == forces.BACK else whole
         stiff = law.shear == Shear.WALTON_BRAUN.value and ahead > (1.0 - NEAR) * f
         if stiff or abs(whole) > abs(f) * (1.0 + 1e-13):
             return SLIDES
-        if law.shear == Shear.MINDLIN_DERESIEWICZ.value and branch == AGAIN and y[T] > y[UPPER]:
+        again = law.shear == Shear.MINDLIN_DERESIEWICZ.value and branch == forces.AGAIN
+        if again and y[T] > y[UPPER]:
             return CONTINUES
     elif leaves_limit(law, slip, branch, loading, y, f):
         return STICKS
@@ -183,8 +171,8 @@ def leaves_limit(
     law: Coefficients, slip: int, branch: int, loading: bool, y: Array, f: float
 ) -> bool:
     """Return whether the force of a sliding contact would fall below its limit if it stuck."""
-    if law.shear == Shear.WALTON_BRAUN.value and (slip < 0) == (branch == BACK):
-        elastic = 2.0 * y[B] * shear_stiffness(law, y[B]) * abs(y[PSI])
+    if law.shear == Shear.WALTON_BRAUN.value and (slip < 0) == (branch == forces.BACK):
+        elastic = 2.0 * y[B] * forces.shear_stiffness(law, y[B]) * abs(y[PSI])
         return bool(limit_rate(law, loading, y[B], y[V], f) > 2.0 * np.cbrt(NEAR) * elastic)
     rate = slip * spring_rate(law, branch, loading, y, f)
     if law.limits_damping and law.shear_damping > 0.0:
@@ -211,7 +199,7 @@ def until_event(
 
     Of a law that chatters it is what has happened by the end of the step.
     """
-    pushing = normal_force(law, peak, loading, y[B], y[V]) > 0.0
+    pushing = forces.normal_force(law, peak, loading, y[B], y[V]) > 0.0
     what = event(law, slip, branch, loading, peak, pushing, work[7])
     if what == NOTHING or chatters:
         return what
@@ -235,7 +223,7 @@ def outgoing(law: Coefficients, psi: float, work: Array, y: Array) -> float:
     """Return psi_2 of an impact, psi >= 0; NaN if the bodies do not part."""
     y[:] = 0.0
     y[B], y[V], y[PSI] = TOUCH, 1.0, psi
-    slip, branch, loading, peak = 0, FIRST, True, 0.0
+    slip, branch, loading, peak = 0, forces.FIRST, True, 0.0
     h, changes = TOUCH, 0
     for _ in range(MOST_STEPS):
         step(law, slip, branch, loading, peak, h, y, work)
@@ -262,11 +250,11 @@ def outgoing(law: Coefficients, psi: float, work: Array, y: Array) -> float:
         elif what == STICKS:
             slip = 0
         elif what == CONTINUES:
-            branch = FIRST
-        elif what == REVERSES and branch == BACK:
-            y[LOWER], branch, slip = y[T], AGAIN, 0
+            branch = forces.FIRST
+        elif what == REVERSES and branch == forces.BACK:
+            y[LOWER], branch, slip = y[T], forces.AGAIN, 0
         elif what == REVERSES:
-            y[UPPER], branch, slip = y[T], BACK, 0
+            y[UPPER], branch, slip = y[T], forces.BACK, 0
     return np.nan
 
 

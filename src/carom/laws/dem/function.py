@@ -11,17 +11,10 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.bodies.pairs import Pair, checked_scales, with_friction
+from carom.laws.dem import contact_step
 from carom.laws.dem.base import ContactLaw, Law
 from carom.laws.dem.coefficients import SPRING
-from carom.laws.dem.contact_step import (
-    NORMAL,
-    Bodies,
-    ContactStep,
-    Fault,
-    bodies_of,
-    steel_on_steel,
-    stepped_by,
-)
+from carom.laws.dem.contact_step import NORMAL, Bodies, ContactStep, Fault
 from carom.laws.dem.damping import damping_ratio, hertz_damping
 from carom.laws.dem.status import Codes, LawStatus, status_of
 from carom.laws.dem.stepping import HISTORY
@@ -151,14 +144,14 @@ class FunctionLaw(ByFunction, ContactLaw):
         object.__setattr__(self, "normal_speed", speed)
 
     def _pair(self) -> Pair:
-        return steel_on_steel() if self.pair is None else self.pair
+        return contact_step.steel_on_steel() if self.pair is None else self.pair
 
     def _bodies(self, chi: float, kappa: float) -> Bodies:
         linear = self.normal == "linear"
         part = 2.0 * SPRING * damping_ratio(self.restitution)
         damping = part if linear else hertz_damping(self.restitution)
         given: Any = {"linear": linear, "damping": damping}
-        return bodies_of(self._pair(), self.normal_speed, chi, kappa, **given)
+        return contact_step.bodies_of(self._pair(), self.normal_speed, chi, kappa, **given)
 
     def _stepped(
         self, psi: float, chi: float, kappa: float, steps: int, record: Array
@@ -167,7 +160,7 @@ class FunctionLaw(ByFunction, ContactLaw):
         try:
             bodies = self._bodies(chi, kappa)
             start = deepcopy(self.initial_state)
-            count, psi_out = stepped_by(bodies, self._force, start, psi, steps, record)
+            count, psi_out = contact_step.stepped_by(bodies, self._force, start, psi, steps, record)
         except ArithmeticError:  # of numbers that floating point cannot hold
             raise Fault(LawStatus.UNRESOLVED, LawStatus.UNRESOLVED.message) from None
         if not isfinite(psi_out):

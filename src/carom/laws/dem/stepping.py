@@ -5,19 +5,8 @@ import numpy as np
 from carom.dimensionless.numerics.arrays import Matrix, Vector
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.dimensionless.numerics.kernels import entry_point, kernel
-from carom.laws.dem.coefficients import (
-    AGAIN,
-    BACK,
-    ELASTIC_PULL,
-    FIRST,
-    Coefficients,
-    Shear,
-    force_change,
-    kept,
-    normal_force,
-    shear_stiffness,
-    softening,
-)
+from carom.laws.dem import coefficients as forces
+from carom.laws.dem.coefficients import ELASTIC_PULL, Coefficients, Shear
 from carom.quantities.arrays import Array
 
 HISTORY = ("time", "penetration", "normal_velocity", "psi", "normal_force", "tangential_force")
@@ -37,16 +26,16 @@ def follow(law: Coefficients, memory: Array, f: float, b: float, change: float) 
         memory[UPPER] += df
         memory[LOWER] -= df
     branch = int(memory[BRANCH])
-    if branch != BACK and change < 0.0:
-        memory[UPPER], branch = t, BACK
-    elif branch == BACK and change > 0.0:
-        memory[LOWER], branch = t, AGAIN
-    elif branch == AGAIN and t > memory[UPPER]:
-        branch = FIRST
+    if branch != forces.BACK and change < 0.0:
+        memory[UPPER], branch = t, forces.BACK
+    elif branch == forces.BACK and change > 0.0:
+        memory[LOWER], branch = t, forces.AGAIN
+    elif branch == forces.AGAIN and t > memory[UPPER]:
+        branch = forces.FIRST
     memory[BRANCH] = branch
-    theta = softening(law.shear, branch, t, f, memory[UPPER], memory[LOWER])
-    elastic = shear_stiffness(law, b) * change
-    memory[FORCE] = t + force_change(law.shear, branch, theta, elastic, df)
+    theta = forces.softening(law.shear, branch, t, f, memory[UPPER], memory[LOWER])
+    elastic = forces.shear_stiffness(law, b) * change
+    memory[FORCE] = t + forces.force_change(law.shear, branch, theta, elastic, df)
 
 
 @kernel
@@ -57,8 +46,8 @@ def shear_force(
     limit = abs(f)
     if law.shear == Shear.SPRING.value:
         if memory[RADIUS] > 0.0:
-            memory[FORCE] *= (b / memory[RADIUS]) ** kept(law, b >= memory[RADIUS])
-        memory[FORCE] += shear_stiffness(law, b) * psi * dt
+            memory[FORCE] *= (b / memory[RADIUS]) ** forces.kept(law, b >= memory[RADIUS])
+        memory[FORCE] += forces.shear_stiffness(law, b) * psi * dt
     else:
         follow(law, memory, limit, b, psi * dt)
     memory[RADIUS], memory[LIMIT] = b, limit
@@ -94,7 +83,7 @@ def stepped(
         if d <= 0.0:
             return i + 1, psi_half
         b = np.sqrt(d)
-        f = normal_force(law, peak, loading, b, v_half)
+        f = forces.normal_force(law, peak, loading, b, v_half)
         if f <= 0.0 and not loading and (law.unloading != 1.0 or not law.pulls):
             return i + 1, psi_half
         t = shear_force(law, memory, f, b, psi_half, dt)
