@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.bodies.kinematics import Tangential
-from carom.bodies.losses import KelvinVoigt, LossLaw
+from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import describe
 from carom.dimensionless.lossy.law import checked_law
@@ -116,7 +116,7 @@ def wear(
     count = counted("n", n, 2, MOST_RADII)
     per_load = None if coefficient is None else read_coefficient(coefficient)
     spread = None if area is None else positive("area", area)
-    _checked(losses, pair, spread is None)
+    _checked(losses, pair)
     motion = {"speed": speed, "angle": angle, "normal_speed": normal_speed}
     motion |= {"tangential_speed": tangential_speed, "spin": spin, "spin2": spin2, "counts": counts}
     many = solve_all(pair, read_columns(pair, motion), losses, progress)
@@ -202,15 +202,12 @@ def _of_spot(
     return found
 
 
-def _checked(losses: LossLaw | None, pair: Pair, on_spot: bool) -> None:
+def _checked(losses: LossLaw | None, pair: Pair) -> None:
     """Raise InputError for losses that many impacts cannot have, before any is solved."""
     if losses is None:
         return
     if any(map(np.ndim, checked_law(losses, "loss")(pair, 1.0))):
         raise refusal("losses", losses, "wear takes one number; carom.sweep takes many")
-    if on_spot and not isinstance(losses, KelvinVoigt):
-        allowed = "wear on a spot needs the pressure, which such a solid does not give"
-        raise refusal("losses", losses, f"{allowed}; take KelvinVoigt, or give the area")
 
 
 def _inputs(pair: Pair, losses: LossLaw | None) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from carom.dimensionless.lossy.panels.plans import TOLERANCE
 from carom.dimensionless.lossy.panels.record import Trace, new_record
 from carom.dimensionless.lossy.panels.work import Arrays, new_work
 from carom.dimensionless.lossy.springs import rebounds as springs
-from carom.dimensionless.lossy.springs.work import new_work as new_springs
+from carom.dimensionless.lossy.springs.march import new_work as new_springs
 from carom.dimensionless.lossy.viscoelastic import impacts as viscoelastic
 from carom.dimensionless.lossy.viscoelastic.impacts import NEVER
 from carom.dimensionless.numerics import hertz

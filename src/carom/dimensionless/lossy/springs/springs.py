@@ -1,14 +1,24 @@
-"""A spring in shear over one step: it sticks, or slips at Coulomb's limit.
+"""The springs that a contact is cut into: where they stand, what they weigh, and how they stretch.
 
-A standard linear solid, f = u + g m, m' = u' - m/theta; g = 0 is an elastic one. In stick u grows
-as U does. In slip f = sigma N, so that m relaxes by itself, in the time (1 + g) theta.
+In shear each is a standard linear solid, f = u + g m, m' = u' - m/theta; g = 0 is an elastic one.
+In stick u grows as U does. In slip f = sigma N, so that m relaxes by itself, in the time
+(1 + g) theta. Springs of two components need two rows of U and RELAXING and a circle for a limit
+here, and nowhere else.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
+from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.kernels import kernel
+
+# Columns of the springs: place, its square, weight in the integral over the contact, of which the
+# outer part; deflection in shear, and that of the branch that relaxes; the latter in compression,
+# or by how much a spring that yields is softer; Coulomb's limit before and after, and its rate.
+X, S, WEIGHT, OUTER, U, RELAXING, PRESSED, LIMIT, NEXT, RATE = range(10)
+SOFTER = PRESSED
+COLUMNS = 10
 
 SHORT = 1e-3  # of a step, in relaxation times: where its functions are series
 
@@ -27,6 +37,42 @@ class Step(NamedTuple):
     kept: float  # of a steady growth of u by m
     slipping: float  # exp(-time/((1 + g) theta))
     forced: float  # of a steady growth of f by m in slip
+
+
+@kernel
+def share(near: float, far: float) -> float:
+    """Return the weight at `near` of the integral to `far` of what is linear in x^2."""
+    return float(abs(far - near) * (2.0 * far + near) / (3.0 * (far + near)))
+
+
+@kernel
+def lay(springs: Array, count: int, edge: float) -> None:
+    """Place a spring at the edge, beside so many.
+
+    The weights integrate what is linear in x^2 between springs and zero at the edge.
+    """
+    springs[:, count] = 0.0
+    springs[X, count], springs[S, count] = edge, edge * edge
+    if count > 0:
+        outer = share(springs[X, count - 1], edge)
+        springs[WEIGHT, count - 1] += outer - springs[OUTER, count - 1]
+        springs[OUTER, count - 1] = outer
+        springs[WEIGHT, count] = share(edge, springs[X, count - 1])
+
+
+@kernel
+def rim(springs: Array, last: int, edge: float) -> float:
+    """Return by how much the last spring's weight differs, as the contact ends at the edge."""
+    return float(share(springs[X, last], edge) - springs[OUTER, last])
+
+
+@kernel
+def integral(springs: Array, row: int, count: int, edge: float) -> float:
+    """Return the integral over the contact of what so many springs have, zero at the edge."""
+    total = rim(springs, count - 1, edge) * springs[row, count - 1] if count > 0 else 0.0
+    for j in range(count):
+        total += springs[WEIGHT, j] * springs[row, j]
+    return float(total)
 
 
 @kernel
@@ -78,6 +124,29 @@ def step_of(
         slipping,
         forced / (1.0 + extra),
     )
+
+
+@kernel
+def stretch(springs: Array, count: int, step: Step) -> None:
+    """Move so many springs on by a step."""
+    if step.extra == 0.0:
+        stretch_elastic(springs, count, step)
+        return
+    for j in range(count):
+        limits = springs[LIMIT, j], springs[NEXT, j], springs[RATE, j]
+        u, m = stretched(springs[U, j], springs[RELAXING, j], *limits, step)
+        springs[U, j], springs[RELAXING, j] = u, m
+
+
+@kernel
+def stretch_elastic(springs: Array, count: int, step: Step) -> None:
+    """Move so many springs on by a step, of which no part relaxes: the same with m = 0."""
+    for j in range(count):
+        u, limit, limit_end = springs[U, j], springs[LIMIT, j], springs[NEXT, j]
+        stuck, slope = u + step.moved, springs[RATE, j]
+        forth = lowest(limit - u, (slope - step.psi) * step.time, limit_end - stuck)
+        back = lowest(limit + u, (slope + step.psi) * step.time, limit_end + stuck)
+        springs[U, j] = stuck + min(forth, 0.0) - min(back, 0.0)
 
 
 @kernel
