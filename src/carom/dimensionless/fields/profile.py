@@ -10,7 +10,7 @@ from carom.dimensionless.numerics.kernels import kernel
 
 TERMS = 17  # of a Chebyshev series on a panel
 NOTHING = np.zeros((0, TERMS))
-MOST_PANELS = 50  # of a marched contact, as stresses see it: to some 1e-3 of the largest
+MOST_PANELS = 32  # of a marched contact, as stresses see it: to some 1e-3 of the largest
 
 
 class Profile(NamedTuple):

@@ -20,7 +20,7 @@ from carom.dimensionless.lossy.springs.motion import Inertia, Solid
 from carom.dimensionless.numerics.arrays import Array, Cube, Matrix, Vector
 from carom.dimensionless.numerics.kernels import kernel
 
-MOST_SPRINGS = 600
+MOST_SPRINGS = 500
 SPARE_SPRINGS = 40
 PER_SPRING = 2  # steps of the loading to a spring
 LONGEST = 20 * PER_SPRING * MOST_SPRINGS
@@ -99,9 +99,9 @@ def march(
         if part < 1.0 or (now[at.SPEED] > 0.0 and new[at.SPEED] <= 0.0):
             new[at.SPEED] = min(new[at.SPEED], 0.0)
             of.lay(springs, laid, new[at.EDGE])
-            turned[:] = new
+            at.copy(new, turned)
             turn(solid, new, springs, touching, state)
-        now[:] = new
+        at.copy(new, now)
     return 0, clock
 
 
@@ -182,16 +182,11 @@ def kick_and_stretch(
     theta = solid.parameter if g > 0.0 else NEVER
     rate = -at.braking(inertia, now[at.LOAD], state[at.FORCE])
     half = state[at.PSI] + 0.5 * dt * rate
-    of.stretch(springs, touching, of.step_of(g, theta, dt, state[at.PSI], half, rate))
-    force = of.integral(springs, of.U, touching, new[at.EDGE])
-    if g > 0.0:
-        force += g * of.integral(springs, of.RELAXING, touching, new[at.EDGE])
-        losing = 0.0
-        for j in range(touching):
-            losing += springs[of.WEIGHT, j] * springs[of.RELAXING, j] ** 2
-        losing *= g / theta
-        state[at.LOST] += 1.875 * inertia.chi * dt * (state[at.LOSING] + losing)
-        state[at.LOSING] = losing
+    step = of.step_of(g, theta, dt, state[at.PSI], half, rate)
+    force, square = of.stretch(springs, touching, new[at.EDGE], step)
+    losing = square * g / theta
+    state[at.LOST] += 1.875 * inertia.chi * dt * (state[at.LOSING] + losing)
+    state[at.LOSING] = losing
     at.settle(inertia, now, new, state[at.FORCE], force)
     state[at.PSI] = half - 0.5 * dt * at.braking(inertia, new[at.LOAD], force)
     state[at.MOVED] += half * dt

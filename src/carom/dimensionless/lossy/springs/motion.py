@@ -40,6 +40,13 @@ class Solid(NamedTuple):
 
 
 @kernel
+def copy(motion: Array, to: Array) -> None:
+    """Copy a motion; an assignment of arrays would allocate."""
+    for i in range(MOTION):
+        to[i] = motion[i]
+
+
+@kernel
 def slowing(inertia: Inertia, load: float, force: float) -> float:
     """Return -v' of what the contact bears."""
     return 1.25 * (load + 1.5 * inertia.eps * force)

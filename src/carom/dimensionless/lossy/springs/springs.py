@@ -127,26 +127,35 @@ def step_of(
 
 
 @kernel
-def stretch(springs: Array, count: int, step: Step) -> None:
-    """Move so many springs on by a step."""
+def stretch(springs: Array, count: int, edge: float, step: Step) -> tuple[float, float]:
+    """Move so many springs on by a step; return the integrals of f and m^2 over the contact."""
     if step.extra == 0.0:
-        stretch_elastic(springs, count, step)
-        return
+        return stretch_elastic(springs, count, edge, step), 0.0
+    force, square = 0.0, 0.0
     for j in range(count):
         limits = springs[LIMIT, j], springs[NEXT, j], springs[RATE, j]
         u, m = stretched(springs[U, j], springs[RELAXING, j], *limits, step)
         springs[U, j], springs[RELAXING, j] = u, m
+        weight = springs[WEIGHT, j]
+        if j == count - 1:
+            weight += rim(springs, j, edge)
+        force += weight * (u + step.extra * m)
+        square += weight * m * m
+    return force, square
 
 
 @kernel
-def stretch_elastic(springs: Array, count: int, step: Step) -> None:
+def stretch_elastic(springs: Array, count: int, edge: float, step: Step) -> float:
     """Move so many springs on by a step, of which no part relaxes: the same with m = 0."""
+    force = 0.0
     for j in range(count):
         u, limit, limit_end = springs[U, j], springs[LIMIT, j], springs[NEXT, j]
         stuck, slope = u + step.moved, springs[RATE, j]
         forth = lowest(limit - u, (slope - step.psi) * step.time, limit_end - stuck)
         back = lowest(limit + u, (slope + step.psi) * step.time, limit_end + stuck)
         springs[U, j] = stuck + min(forth, 0.0) - min(back, 0.0)
+        force += springs[WEIGHT, j] * springs[U, j]
+    return force + rim(springs, count - 1, edge) * springs[U, count - 1] if count > 0 else 0.0
 
 
 @kernel
