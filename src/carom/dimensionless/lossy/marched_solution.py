@@ -115,9 +115,17 @@ def _phases(rows: Array, mirror: int) -> tuple[Phase, ...]:
 
 
 def _stretches(rows: Array) -> Iterator[tuple[float, int, int]]:
-    """Give the end, kind and sign of slip of every run of steps that do the same."""
-    for (kind, slip), run_of in groupby(rows[1:], _kind):
-        yield float(list(run_of)[-1][layout.AT_TIME]), kind, slip
+    """Give the end, kind and sign of slip of every run of steps that do the same.
+
+    Stick that seems to begin while unloading is a ring too thin for springs: it goes to the next.
+    """
+    kinds = [_kind(row) for row in rows[1:-1]]
+    for i in range(len(kinds) - 2, -1, -1):
+        if kinds[i][0] == Kind.STICK and rows[i + 1, layout.AT_V] < 0.0:
+            kinds[i] = kinds[i + 1]
+    steps = zip([*rows[1:-2, layout.AT_TIME], rows[-1, layout.AT_TIME]], kinds, strict=True)
+    for (kind, slip), run_of in groupby(steps, lambda step: step[1]):
+        yield float(list(run_of)[-1][0]), kind, slip
 
 
 def _kind(row: Array) -> tuple[int, int]:

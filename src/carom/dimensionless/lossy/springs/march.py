@@ -47,11 +47,11 @@ class Arrays(NamedTuple):
     frames: Cube  # (steps + 1, FRAMES, springs), or none
 
 
-def new_work(steps: int = 0, springs: int = 0) -> Arrays:
+def new_work(steps: int = 0, springs: int = 0, most: int = MOST_SPRINGS) -> Arrays:
     """Return the arrays of an impact, with rows for so many steps, and frames of so many springs."""
     return Arrays(
         motion=np.zeros((3, at.MOTION)),
-        springs=np.zeros((of.COLUMNS, MOST_SPRINGS + SPARE_SPRINGS + 2)),
+        springs=np.zeros((of.COLUMNS, most + SPARE_SPRINGS + 2)),
         state=np.zeros(at.STATE),
         coarse=np.zeros(layout.NUMBERS),
         rows=np.zeros((steps + 1 if steps else 0, ROWS)),

@@ -11,6 +11,7 @@ rate. The first time that the bodies turn, a step ends.
 
 from typing import NamedTuple
 
+from carom.dimensionless.lossy.law import Loss
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.kernels import kernel
 
@@ -37,6 +38,9 @@ class Solid(NamedTuple):
     loss: int
     parameter: float
     extra: float = 0.0
+
+
+ELASTIC = Solid(Loss.PLATE.value, 0.0, 0.0)
 
 
 @kernel

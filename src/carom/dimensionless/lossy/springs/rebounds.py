@@ -12,12 +12,14 @@ from carom.dimensionless.lossy.springs.march import (
     PER_SPRING,
     Arrays,
     march,
+    new_work,
 )
 from carom.dimensionless.lossy.springs.motion import Inertia, Solid
 from carom.dimensionless.numerics.arrays import Codes, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 TRIAL = 40  # springs with which the clock of the loading is found
+LEAST_ERROR = 1e-6  # of psi_2, in max(1, psi_1)
 FEW, MANY = MOST_SPRINGS // 2, MOST_SPRINGS
 
 
@@ -36,11 +38,13 @@ def run(
     """Run an impact of any psi_1; return its status, and an estimate of the error of psi_2.
 
     Beyond FAR psi_1 - psi_2 is the same. Numbers are Richardson's (1911), of two numbers of
-    springs, and the error is what he adds.
+    springs, and the error is what he adds, but not below LEAST_ERROR, as that may be by chance.
     """
     status, error = why_not(psi, inertia.chi), 0.0
     if status == Status.SOLVED.value:
         speed = min(abs(psi), FAR)
+        if psi < 0.0:
+            inertia = Inertia(inertia.chi, -inertia.eps, -inertia.zeta)
         h = step_for(speed, inertia, solid, FEW, work)
         coarse, _ = march(speed, inertia, solid, h, work, work.coarse)
         fine, _ = march(speed, inertia, solid, h * FEW / MANY, work, numbers)
@@ -48,7 +52,8 @@ def run(
             status = Status.UNRESOLVED.value
         for j in range(numbers.size):
             more = (numbers[j] - work.coarse[j]) / ((MANY / FEW) ** 2 - 1.0)
-            error = abs(more) if j == layout.PSI_OUT else error
+            if j == layout.PSI_OUT:
+                error = max(abs(more), LEAST_ERROR * max(speed, 1.0))
             numbers[j] += more
             if not np.isfinite(numbers[j]):
                 status = Status.UNRESOLVED.value
@@ -87,3 +92,24 @@ def fill(
     for i in range(psi.size):
         solid = Solid(loss, parameter[i], extra[i] if loss == Loss.RELAXING.value else 0.0)
         status[i], _ = run(psi[i], Inertia(chi[i], 0.0, 0.0), solid, work, numbers[i])
+
+
+def march_rebound(psi: float, inertia: Inertia, solid: Solid) -> tuple[float, float]:
+    """Return psi_2 by the march, and an estimate of its error; NaN if it is not solved.
+
+    >>> from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia
+    >>> from carom.dimensionless.lossy.springs.rebounds import march_rebound
+    >>> psi_2, error = march_rebound(0.3, Inertia(chi=4.0), ELASTIC)
+    >>> round(psi_2, 6), error < 1e-5
+    (-0.3, True)
+    """
+    numbers = np.empty(layout.NUMBERS)
+    _, error = run(psi, inertia, solid, new_work(), numbers)
+    return float(numbers[layout.PSI_OUT]), error
+
+
+def marched(psi: float, inertia: Inertia, solid: Solid, springs: int) -> Vector:
+    """Return what an impact comes to over so many springs, not extrapolated."""
+    work = new_work(most=springs)
+    steps = trace(psi, inertia, solid, springs, work, work)
+    return work.coarse if steps else np.full(layout.NUMBERS, np.nan)

@@ -8,8 +8,8 @@ surface follows from influence coefficients, those of the normal problem as Pois
 
     K t = w + alpha w' (Kelvin & Voigt), or w + g m, m' = w' - m/theta (g = 0: elastic).
 
-The pressure is given by its integral inside radii, averaged over each ring. Units of `marching`,
-tractions such that Q is that of the springs.
+The pressure is given by its integral inside radii, averaged over each ring. Lengths in
+d_max, radii in sqrt(R d_max), time in d_max/V_1, tractions such that Q is (2/3) F_x/(mu P_max).
 """
 
 from collections.abc import Callable
@@ -17,11 +17,10 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
 from scipy.special import ellipe, ellipk
 
-from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.twins.marching_motion import kelvin_voigt
-
+Array = NDArray[np.float64]
 Signs = NDArray[np.int64]
 Solid = Callable[[Array, Array, float], tuple[float, Array, Array]]
 
@@ -53,36 +52,56 @@ def standard_linear_solid(extra: float, relaxation: float) -> Solid:
     return answer
 
 
-def extrapolated(psi: float, chi: float, alpha: float, rings: int = 200) -> float:
-    """Return psi_2 by Richardson extrapolation over three numbers of rings, halved twice.
-
-    psi_2 = (8 r(rings) - 6 r(rings/2) + r(rings/4))/3, of first order each
-
-    >>> from carom.dimensionless.twins.rings import extrapolated
-    >>> round(extrapolated(1.5, 1.44, 0.0576035799), 3)  # e = 0.9
-    -0.367
-    """
-    return richardson(*(march_viscous(psi, chi, alpha, rings // part) for part in (4, 2, 1)))
-
-
 def richardson(coarse: float, middle: float, fine: float) -> float:
     """Return the limit of what is of first order, from three numbers of rings, each doubled."""
     return (8.0 * fine - 6.0 * middle + coarse) / 3.0
+
+
+def loaded(_: float, state: Array) -> float:
+    """Return what falls to zero at the end of loading."""
+    return float(state[1])
+
+
+def apart(_: float, state: Array) -> float:
+    """Return what falls to zero as the bodies part."""
+    return float(state[0])
+
+
+for each in (loaded, apart):
+    each.terminal, each.direction = True, -1.0
+
+
+def viscous_motion(alpha: float, steps: int) -> tuple[Array, Array, Array]:
+    """Return time, edge b and limit D at even steps of a clock, as many either side of v = 0.
+
+    d(clock) = dt/(2 b). While loading b^2 = d, b' = v, v' = -(5/2) b^2 (b^2 + (3/2) alpha v) and
+    D = b^2 + alpha v; then b^2 = D = d + alpha v, b' = v - (5/4) alpha b^3, v' = -(5/2) b^4.
+    """
+    state, parts = np.array([0.0, 1.0, 0.0]), []
+    for drag, recession, ends in ((1.5 * alpha, 0.0, loaded), (0.0, 1.25 * alpha, apart)):
+
+        def rates(_: float, s: Array, drag: float = drag, recession: float = recession) -> Array:
+            b, v, _ = s
+            return np.array([v - recession * b**3, -2.5 * b * b * (b * b + drag * v), 2.0 * b])
+
+        accuracy = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-15, "dense_output": True}
+        run = solve_ivp(rates, (0.0, 50.0), state, events=ends, **accuracy)
+        parts.append(run.sol(np.linspace(0.0, run.t[-1], steps // 2 + 1)[bool(parts) :]))
+        state = run.y[:, -1]
+    b, v, time = np.hstack(parts)
+    b = np.maximum(b, 0.0)
+    return time, b, b * b + alpha * np.maximum(v, 0.0)
 
 
 def march_viscous(psi: float, chi: float, alpha: float, rings: int) -> float:
     """Return psi_2 of Kelvin-Voigt solids, to first order.
 
     p = (2/pi) sqrt(b^2 - r^2) + (alpha v/pi)/sqrt(b^2 - r^2), the second term while loading only.
-
-    >>> from carom.dimensionless.twins.rings import march_viscous
-    >>> round(march_viscous(9.0, 1.44, 0.0576035799, 200), 3)  # slides throughout
-    3.528
     """
-    motion = kelvin_voigt(float(alpha), STEPS * rings)
-    radii = np.linspace(0.0, motion[:, 3].max(), rings + 1)
-    loads = np.array([load_within(radii, row[3], row[4]) for row in motion[1:]])
-    return march_rings(psi, chi, motion[:, 1], radii, loads, kelvin_voigt_solid(alpha))
+    time, edges, limits = viscous_motion(alpha, STEPS * rings)
+    radii = np.linspace(0.0, edges.max(), rings + 1)
+    loads = [load_within(radii, b, limit) for b, limit in zip(edges[1:], limits[1:], strict=True)]
+    return march_rings(psi, chi, time, radii, np.array(loads), kelvin_voigt_solid(alpha))
 
 
 def march_rings(
