@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.special import beta
+from tests.oracles import march as oracle
 
 import carom
 from carom.dimensionless.lossy.law import Loss, LossNumbers
@@ -16,7 +17,6 @@ from carom.dimensionless.lossy.springs.march import LAGGING, PULLED, new_work
 from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia, Solid
 from carom.dimensionless.lossy.springs.rebounds import march_rebound, marched, run, trace
 from carom.dimensionless.lossy.springs.springs import WEIGHT
-from tests.oracles import march as oracle
 
 Array = NDArray[np.float64]
 
@@ -126,7 +126,10 @@ def test_sequence_of_phases_is_the_exact_one() -> None:
 def test_plates(give: float, e: float, duration: float, psi_out: tuple[float, ...]) -> None:
     """Zener's plates, against 800 springs in 4000 steps of a march of its own; e for small lambda
     is exp(-(3/2) B(3/5, 3/2) lambda)."""
-    solid, close = Solid(int(Loss.PLATE), give), 6e-6 if give == 0.1 else 6e-4 if give > 1.0 else 6e-5
+    solid, close = (
+        Solid(int(Loss.PLATE), give),
+        6e-6 if give == 0.1 else 6e-4 if give > 1.0 else 6e-5,
+    )
     for psi, wanted in zip((0.5, 1.0, 2.0, 3.0, 4.5), psi_out, strict=True):
         found = numbers(psi, Inertia(1.4412), solid)
         assert found[PSI_OUT] == pytest.approx(wanted, abs=close)

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from tests.oracles.contact import drive
 
 from carom.dimensionless.load_paths import paths
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.solving import solve_with_losses
-from tests.oracles.contact import drive
 
 
 def wandering(seed, n):

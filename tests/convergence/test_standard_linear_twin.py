@@ -8,12 +8,12 @@ normal motion, marched here on even springs and times. Over 8 impacts psi_2 diff
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.oracles import rings
 
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.lossy.springs.motion import Inertia, Solid
 from carom.dimensionless.lossy.springs.rebounds import marched
-from tests.oracles import rings
 
 Array = NDArray[np.float64]
 

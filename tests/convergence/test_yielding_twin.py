@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.special import beta, betainc
+from tests.oracles import rings
 
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
@@ -19,7 +20,6 @@ from carom.dimensionless.lossy.layout import PSI_OUT
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.lossy.springs.motion import Inertia, Solid
 from carom.dimensionless.lossy.springs.rebounds import marched
-from tests.oracles import rings
 
 Array = NDArray[np.float64]
 

@@ -8,9 +8,9 @@ v' = -(5/2) b^4 with b^2 = D. `generate` made TABLE; run this file to print it a
 import mpmath as mp
 import pytest
 from scipy.special import beta
+from tests.oracles.march import motion
 
 from carom.dimensionless.numerics import hertz
-from tests.oracles.march import motion
 
 TERMS = 45
 

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_simpson, simpson
+from tests.oracles.march import march, motion
 
 import carom
 from carom.dimensionless.elastic.phases import Status
@@ -23,7 +24,6 @@ from carom.dimensionless.lossy.panels.work import new_work
 from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds, outgoing
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.lossy.solving import solve_with_losses
-from tests.oracles.march import march, motion
 
 Array = NDArray[np.float64]
 

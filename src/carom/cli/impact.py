@@ -1,7 +1,7 @@
 """`carom impact`: one impact from flags or a case file."""
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 

@@ -239,8 +239,9 @@ class Impact(ImpactResult, InContact):
 
     def _refuse_yielded(self) -> None:
         if isinstance(self.solution, LossySolution) and self.solution.losses.loss == Loss.PLASTIC:
-            allowed = "what stress a yielded contact leaves below it is not known"
-            raise refusal("losses", self.losses, f"{allowed}; take KelvinVoigt, or leave losses out")
+            unknown = "what stress a yielded contact leaves below it is not known"
+            cure = "take KelvinVoigt, or leave losses out"
+            raise refusal("losses", self.losses, f"{unknown}; {cure}")
 
     def cite(self) -> str:
         """Return what to cite for this result, as BibTeX.

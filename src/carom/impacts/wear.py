@@ -17,7 +17,6 @@ from carom.impacts.outcome import Outcome
 from carom.impacts.result import ImpactResult
 from carom.io.labels import labelled_dataset
 from carom.quantities.arrays import Array, places
-from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, counted, not_negative
 
 if TYPE_CHECKING:

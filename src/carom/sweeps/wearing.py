@@ -72,7 +72,7 @@ def wear(
     area : float or str, optional
         Area in m^2 over which the impacts are spread evenly; without it they all hit one spot.
     losses : KelvinVoigt, StandardLinearSolid or ElasticPlastic, optional
-        How the impacts lose energy besides friction; on one spot only KelvinVoigt.
+        How the impacts lose energy besides friction.
     n : int
         Number of distances from the centre of the spot, from 2 to 100,000.
     progress : bool or callable, optional
@@ -89,15 +89,14 @@ def wear(
         spread_friction_work and spread_wear_depth. Without an area mean_friction_work and
         mean_wear_depth along `distance`, means around the centre, and max_friction_work and
         max_wear_depth at the deepest place, at the distance max_wear_radius. On one spot an elastic
-        impact takes some 2 ms, a viscous one 0.2 s. The work of each viscous impact is known to
-        some 1e-7 of its energy.
+        impact takes some 2 ms, one with losses 0.2 s and more. The work of each viscous impact is
+        known to some 1e-7 of its energy.
 
     Raises
     ------
     InputError
-        If arrays do not fit each other, a number is given twice or cannot be read, or wear on a
-        spot is asked for a solid whose pressure is not known. An impact that is out of range or not
-        solved raises nothing; its status says so.
+        If arrays do not fit each other, or a number is given twice or cannot be read. An impact
+        that is out of range or not solved raises nothing; its status says so.
 
     Examples
     --------

@@ -40,7 +40,7 @@ def borne(profile: Profile, places: Array) -> Array:
     if len(profile.n) == 0:
         return np.asarray(squares[-1] - places**2)
     falls = np.cumsum(profile.n[:, 0] * np.diff(squares))
-    return np.interp(places**2, squares, falls[-1] - np.append(0.0, falls))
+    return np.asarray(np.interp(places**2, squares, falls[-1] - np.append(0.0, falls)))
 
 
 def thinned(profile: Profile) -> Profile:

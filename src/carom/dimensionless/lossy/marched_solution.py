@@ -70,7 +70,7 @@ class MarchedSolution(LossySolution):
     def _touched(self, radii: Array) -> Array:
         widest = int(np.argmax(self._rows[:, layout.AT_B]))
         edges, times = self._rows[: widest + 1, [layout.AT_B, layout.AT_TIME]].T
-        return np.interp(radii, edges, times)
+        return np.asarray(np.interp(radii, edges, times))
 
     def _friction_work(self, radii: Array) -> Array:
         work = self._frames.work(radii)

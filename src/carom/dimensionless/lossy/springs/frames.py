@@ -6,6 +6,7 @@ from the springs' deflection; a point has slid by what that has grown since it w
 """
 
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -120,9 +121,9 @@ class Frames:
         last = self.times.size - 1
         steps = np.append(np.arange(0, last, EVERY), last)
         before = np.zeros((places.size, 2))
-        for first, then in zip(steps[:-1], steps[1:], strict=True):
+        for first, then in pairwise(steps.tolist()):
             middle = 0.5 * (self.times[first] + self.times[then])
-            profile, after = self.profile(middle), self._behind(int(then), places)
+            profile, after = self.profile(middle), self._behind(then, places)
             inside = places < min(self.edges[first], self.edges[then])
             pull, push = np.empty(places.size), np.empty(places.size)
             surface.tractions(profile, places, pull)
@@ -139,7 +140,7 @@ class Frames:
 
     def pressed(self, radii: Array) -> Array:
         """Return the integral of the pressure over the time."""
-        return np.interp(radii, self._sums[:, 0], self._sums[:, 3], right=0.0)
+        return np.asarray(np.interp(radii, self._sums[:, 0], self._sums[:, 3], right=0.0))
 
 
 def displaced(profile: Profile, radii: Array) -> Array:

@@ -48,7 +48,7 @@ class Arrays(NamedTuple):
 
 
 def new_work(steps: int = 0, springs: int = 0, most: int = MOST_SPRINGS) -> Arrays:
-    """Return the arrays of an impact, with rows for so many steps, and frames of so many springs."""
+    """Return the arrays of an impact: with rows for so many steps, frames of so many springs."""
     return Arrays(
         motion=np.zeros((3, at.MOTION)),
         springs=np.zeros((of.COLUMNS, most + SPARE_SPRINGS + 2)),
@@ -158,7 +158,7 @@ def end(now: Array, new: Array, springs: Array) -> None:
 
 @kernel
 def let_go(springs: Array, touching: int, met: int, chi: float, extra: float, state: Array) -> None:
-    """Free springs whose contact ends; both branches bore nothing together: what they hold is lost."""
+    """Free springs whose contact ends; what both branches hold against each other is lost."""
     for j in range(touching, met):
         u, m = springs[of.U, j], springs[of.RELAXING, j]
         if extra > 0.0:
@@ -195,13 +195,7 @@ def kick_and_stretch(
 
 @kernel
 def keep(
-    solid: Solid,
-    now: Array,
-    turned: Array,
-    springs: Array,
-    touching: int,
-    state: Array,
-    row: Array,
+    solid: Solid, now: Array, turned: Array, springs: Array, touching: int, state: Array, row: Array
 ) -> None:
     """Keep a row after a step: motion, energies, how wide the zones are that stick, who slips."""
     row[:] = 0.0
