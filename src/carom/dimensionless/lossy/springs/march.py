@@ -72,6 +72,9 @@ def march(
     begin(psi, work)
     laid, touching, since, widest, strongest, clock = 0, 0, 0, 0.0, 0.0, 0.0
     for i in range(LONGEST):
+        again = now[at.SPEED] > 0.0 and turned[at.EDGE] > 0.0
+        if again and solid.loss != Loss.PLATE.value:
+            return 0, clock  # what springs that yielded or relaxed then bear is not said
         grows = now[at.SPEED] > 0.0 and now[at.EDGE] >= widest
         if grows and since % PER_SPRING == 0:
             if laid >= springs.shape[1] - 1:
@@ -98,8 +101,9 @@ def march(
             return i + 1, clock
         if part < 1.0 or (now[at.SPEED] > 0.0 and new[at.SPEED] <= 0.0):
             new[at.SPEED] = min(new[at.SPEED], 0.0)
-            of.lay(springs, laid, new[at.EDGE])
-            at.copy(new, turned)
+            if new[at.EDGE] >= widest:
+                of.lay(springs, laid, new[at.EDGE])
+                at.copy(new, turned)
             turn(solid, new, springs, touching, state)
         at.copy(new, now)
     return 0, clock
