@@ -135,8 +135,8 @@ def test_plates(give: float, e: float, duration: float, psi_out: tuple[float, ..
         assert found[PSI_OUT] == pytest.approx(wanted, abs=close)
         assert found[RESTITUTION] == pytest.approx(e, abs=6e-6)
         assert found[TIME] == pytest.approx(duration, abs=6e-4)
-    little = numbers(1.0, Inertia(1.44), Solid(int(Loss.PLATE), 1e-3))[RESTITUTION]
-    assert little == pytest.approx(np.exp(-1.5 * beta(0.6, 1.5) * 1e-3), abs=2e-7)
+    little = numbers(1.0, Inertia(1.44), Solid(int(Loss.PLATE), 1e-4))[RESTITUTION]
+    assert little == pytest.approx(np.exp(-1.5 * beta(0.6, 1.5) * 1e-4), abs=2e-8)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])

@@ -107,11 +107,17 @@ class Frames:
 
     def slipping(self, time: float, radii: Array) -> Array:
         """Return the radial functions of the rate of slip."""
-        i, _ = self._before(time)
-        dt, edge = self.times[i + 1] - self.times[i], min(self.edges[i], self.edges[i + 1])
-        rates = (self.springs[i + 1, LAGGING] - self.springs[i, LAGGING]) / dt
-        rate = displaced(self._linear(rates, float(edge), float(self.psi[i + 1])), radii)
+        i, part = self._before(time)
+        rate = (1.0 - part) * self._slipping(i, radii) + part * self._slipping(i + 1, radii)
         return np.asarray(rate * (radii <= self.edge(time))[:, np.newaxis])
+
+    def _slipping(self, i: int, radii: Array) -> Array:
+        """Return the same after a step, by the steps beside it."""
+        first, then = max(i - 1, 0), min(i + 1, self.times.size - 1)
+        grown = self.springs[then, LAGGING] - self.springs[first, LAGGING]
+        rates = grown / (self.times[then] - self.times[first])
+        edge = min(float(self.edges[first]), float(self.edges[then]))
+        return displaced(self._linear(rates, edge, float(self.psi[i])), radii)
 
     @cached_property
     def _sums(self) -> Array:

@@ -76,9 +76,9 @@ def turn(now: Array, springs: Array, count: int) -> float:
 
 
 @kernel
-def stored(depth: float, load: float) -> float:
-    """Return the energy that unloading from here would give back, P (d - d_p), of m_n V_1^2/2."""
-    return load * load / np.sqrt(depth) if depth > 0.0 else 0.0
+def stored(edge: float, load: float) -> float:
+    """Return the energy that unloading gives back, P (d - d_p) = P^2/b, of m_n V_1^2/2."""
+    return load * load / edge if edge > 0.0 else 0.0
 
 
 @kernel
