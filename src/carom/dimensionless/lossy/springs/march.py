@@ -92,7 +92,7 @@ def march(
         kick_and_stretch(solid, inertia, now, new, springs, touching, state)
         widest, strongest = max(widest, new[at.EDGE]), max(strongest, new[at.LOAD])
         if work.rows.shape[0] > 0:
-            keep(solid, new, turned, springs, touching, state, work.rows[i + 1])
+            keep(solid, new, springs, touching, state, work.rows[i + 1])
         if work.frames.shape[0] > 0:
             keep_springs(solid.extra, springs, touching, state, work.frames[i + 1])
         if touching == 0:
@@ -140,15 +140,13 @@ def turn(solid: Solid, now: Array, springs: Array, touching: int, state: Array) 
 
 
 @kernel
-def stored(solid: Solid, now: Array, turned: Array, springs: Array, touching: int) -> float:
+def stored(solid: Solid, now: Array, springs: Array, touching: int) -> float:
     """Return the energy in compression, of m_n V_1^2/2."""
     if solid.loss == Loss.RELAXING.value:
         return float(relaxing.stored(solid.extra, now[at.EDGE], springs, touching))
     if solid.loss == Loss.PLATE.value:
         return float(hertz.stored(now[at.DEPTH]))
-    if turned[at.EDGE] == 0.0:
-        return float(thornton.stored(now[at.DEPTH], now[at.LOAD]))
-    return float(thornton.stored(turned[at.DEPTH], turned[at.LOAD]) - now[at.SPEED] ** 2)
+    return float(thornton.stored(now[at.EDGE], now[at.LOAD]))
 
 
 @kernel
@@ -198,16 +196,14 @@ def kick_and_stretch(
 
 
 @kernel
-def keep(
-    solid: Solid, now: Array, turned: Array, springs: Array, touching: int, state: Array, row: Array
-) -> None:
+def keep(solid: Solid, now: Array, springs: Array, touching: int, state: Array, row: Array) -> None:
     """Keep a row after a step: motion, energies, how wide the zones are that stick, who slips."""
     row[:] = 0.0
     row[layout.AT_TIME], row[layout.AT_D] = now[at.TIME], now[at.DEPTH]
     row[layout.AT_V], row[layout.AT_B], row[layout.AT_P] = now[at.SPEED], now[at.EDGE], now[at.LOAD]
     row[layout.AT_PSI], row[layout.AT_U] = state[at.PSI], state[at.MOVED]
     row[layout.AT_Q], row[layout.AT_SHEAR_LOST] = state[at.FORCE], state[at.LOST]
-    row[layout.AT_STORED] = stored(solid, now, turned, springs, touching)
+    row[layout.AT_STORED] = stored(solid, now, springs, touching)
     row[layout.AT_LOST] = 1.0 - now[at.SPEED] ** 2 - row[layout.AT_STORED]
     for j in range(touching):
         u, m, most = springs[of.U, j], springs[of.RELAXING, j], springs[of.NEXT, j]
