@@ -191,7 +191,8 @@ def test_figures_and_wear_of_marched_impacts():
     assert float(hit.wear().work_error) < 5e-3
     along = hit.radial(0.3 * hit.duration)
     assert np.all(np.abs(along.traction_x) <= along.friction_limit * (1.0 + 1e-9))
-    assert np.all(np.abs(along.memory_q) <= along.memory_limit * (1.0 + 1e-9))
+    rounding = 1e-12 * along.memory_limit.max()
+    assert np.all(np.abs(along.memory_q) <= along.memory_limit + rounding)
 
 
 def test_the_stress_below_a_yielded_contact_is_refused():
