@@ -1,14 +1,12 @@
 """The oblique impact of elastic or Kelvin-Voigt spheres by marching in time over springs.
 
-The method of Maw, Barber & Fawcett (1976), Wear 38:101-114. The normal motion is known beforehand,
-by SciPy's integrator in the clock d(clock) = dt/(2 b); springs stand where the edge is after every
-second step of the loading. At s = x^2, with u = 0 at the touch,
+Maw, Barber & Fawcett (1976), Wear 38:101-114. The normal motion is SciPy's in the clock dt/(2 b);
+springs stand where the edge is after every second step of the loading. At s = x^2, u = 0 at touch,
 
     alpha u' = f - u,  f = clip(u + alpha psi, -(D - s), D - s),
     U' = psi,  psi' = -(15/4) chi integral of f dx over 0 <= x <= b.
 
-In a step a spring sticks, slips, exactly, or slip stops within it: what moves it least. alpha = 0
-is an elastic spring. Units: d and x^2 in d_max, time in d_max/V_1, psi in mu V_1/kappa.
+In a step a spring sticks, slips, exactly, or stops: what moves it least. Units as of `Solution`.
 """
 
 import numpy as np
