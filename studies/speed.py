@@ -19,7 +19,9 @@ from accuracy import impacts
 from page_blocks import as_maths, page_with, table
 
 import carom
-from carom.dimensionless.twins.marching import march
+from carom.dimensionless.lossy.layout import PSI_OUT
+from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia
+from carom.dimensionless.lossy.springs.rebounds import marched
 from carom.plots import style
 from carom.verify.engines.experiments import psi_out
 
@@ -104,7 +106,7 @@ def methods() -> list[Method]:
         Method("ReboundLaw", "tables", most, law),
         Method("MixtureLaw", "tables", most, lambda psi: mixture(psi, chi)),
         *(
-            Method(f"annuli and steps, {n} springs", "numerical", some, marched(chi, n))
+            Method(f"annuli and steps, {n} springs", "numerical", some, by_springs(chi, n))
             for n in (500, 125)
         ),
         *(
@@ -114,9 +116,9 @@ def methods() -> list[Method]:
     ]
 
 
-def marched(chi: float, springs: int) -> Callable[[Any], Any]:
+def by_springs(chi: float, springs: int) -> Callable[[Any], Any]:
     """Return the method of 1976, with four steps a spring."""
-    return each(lambda psi: march(psi, chi, springs, 4 * springs))
+    return each(lambda psi: marched(psi, Inertia(chi), ELASTIC, springs)[PSI_OUT])
 
 
 def stepped(law: Any, chi: float, kappa: float, steps: int) -> Callable[[Any], Any]:

@@ -123,10 +123,6 @@ def test_files_of_an_impact_with_losses_are_what_it_is_and_can_be_drawn(run):
         (["--loss-time", "1 s"], ("loss_time", "not solved")),
         (["--yield-velocity", "steel"], ("yield_velocity: 'steel'", "'material'", "0.1 m/s")),
         (["--yield-velocity", "0 m/s"], ("yield_velocity: 0.0", "positive")),
-        (
-            ["--yield-velocity", "0.1", "--animate", "x.gif", "--plot", "x.png"],
-            ("animation: 'x.gif'",),
-        ),
     ],
 )
 def test_refuses_losses_in_one_line_and_leaves_nothing(run, flags, words):

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.oracles.contact import drive
 
 import carom
 from carom.dimensionless.lossy.panels.stages import viscous_loss
-from carom.dimensionless.twins.marching_contact import drive
 from carom.laws.dem import lattice
 
 COMPILER = shutil.which("c++")

@@ -182,12 +182,6 @@ def test_too_large_a_loss_time_is_refused_not_answered() -> None:
         hit(carom.KelvinVoigt(loss_time="1 s"))
 
 
-@pytest.mark.parametrize("law", [carom.ElasticPlastic(0.1), carom.StandardLinearSolid(2.0, 1e-5)])
-def test_fields_of_marched_solids_are_refused(law: LossLaw) -> None:
-    with pytest.raises(InputError, match=r"losses: fields of this solid are not known"):
-        hit(law).contact(time=1e-6)
-
-
 def test_standard_linear_solid_is_in_units_of_the_elastic_impact() -> None:
     law = carom.StandardLinearSolid(modulus_ratio=1.5, relaxation_time="20 us")
     loss, theta, extra = law.loss(STEEL, 0.7)

@@ -1,7 +1,7 @@
 """`carom impact`: one impact from flags or a case file."""
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -168,7 +168,7 @@ def impact_command(
     tell_sweep(content)
     files = outputs(content)
     losses = losses_of(content)
-    _check_outputs(files, content)
+    _check_outputs(files)
     solver = _method(method, elements, steps)
     motion = motion_of(content) | ({} if normal_spin is None else {"normal_spin": normal_spin})
     hit = carom.impact(pair_of(content), **motion, losses=losses, method=solver)
@@ -215,16 +215,12 @@ def _method(name: str, elements: str | None, steps: str | None) -> "str | Bounda
     return carom.BoundaryElements(**counts)
 
 
-def _check_outputs(files: Output, case: Mapping[str, Any]) -> None:
+def _check_outputs(files: Output) -> None:
     from carom.io.files import FIGURES, TABLES
 
     tables = {"output": (files.data, TABLES), "spectrum": (files.spectrum, TABLES)}
     check_outputs({"plot": (files.plot, FIGURES), **tables})
     if files.animation is not None:
-        for key in ("yield_velocity", "relaxation_time"):
-            if key in case:
-                allowed = f"fields of such a solid are not known; leave it or {key} out"
-                raise refusal("animation", files.animation, allowed)
         carom.plots.checked_animation(files.animation)
 
 

@@ -12,7 +12,7 @@ from carom.dimensionless.lossy.law import FAR, Loss, LossNumbers, keep_energy, l
 from carom.dimensionless.lossy.layout import PSI_OUT
 from carom.dimensionless.lossy.panels.work import Arrays, new_work
 from carom.dimensionless.lossy.springs import rebounds as springs
-from carom.dimensionless.lossy.springs.work import new_work as new_springs
+from carom.dimensionless.lossy.springs.march import new_work as new_springs
 from carom.dimensionless.lossy.viscoelastic import impacts as viscoelastic
 from carom.dimensionless.lossy.viscoelastic.impacts import NEVER, TOLERANCE
 from carom.dimensionless.lossy.viscoelastic.record import Trace, new_record

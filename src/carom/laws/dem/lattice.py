@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.dimensionless.lossy.springs import springs as of
 from carom.dimensionless.numerics.arrays import Matrix, Vector
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.dimensionless.numerics.kernels import entry_point, kernel
@@ -67,12 +68,6 @@ def narrow(memory: Array, springs: int) -> None:
             else:
                 part = (low + 0.25) / (2.0 * low + 1.0)
                 row[k] = row[low] + part * (row[low + 1] - row[low])
-
-
-@kernel
-def cell(low: float, high: float) -> float:
-    """Return the integral over x from low to high of what falls from 1 to 0, linear in s."""
-    return (high - low) * (2.0 * high + low) / (3.0 * (high + low)) if high > low else 0.0
 
 
 @kernel
@@ -183,13 +178,13 @@ def pull(memory: Array, springs: int, now: Now, drag: tuple[float, float]) -> tu
             break
         last = k + 1 == springs or ((k + 1) * h) ** 2 >= now.edge
         q, r = memory[FIRST + k] + drag[0], memory[FIRST + springs + k] + drag[1]
-        weight = x - (k - 1) * h - cell(x - h, x) if k > 0 else 0.0
-        weight += cell(x, rim if last else x + h)
+        weight = x - (k - 1) * h - of.share(x - h, x) if k > 0 else 0.0
+        weight += of.share(x, rim if last else x + h)
         part = weight * (length(q, r, now.depth - x * x) if now.fade < 1.0 else 1.0)
         along += part * q
         across += part * r
         if last:
-            rest = rim - x - cell(x, rim)
+            rest = rim - x - of.share(x, rim)
             rest *= length(drag[0], drag[1], max(now.depth - now.edge, 0.0))
             along += rest * drag[0]
             across += rest * drag[1]
