@@ -71,12 +71,12 @@ def measure_paths(pair: carom.Pair, many: int, repeats: int) -> None:
     tangential = pair.friction * normal * rng.uniform(-1.0, 1.0, many)
     few = many // 100
 
-    def followed(n: int) -> carom.LoadPath:
+    def followed(n: int) -> carom.results.LoadPath:
         return carom.load_path(pair, normal_force=normal[:n], tangential_force=tangential[:n])
 
     whole = followed(many)
 
-    def moved(n: int) -> carom.LoadPath:
+    def moved(n: int) -> carom.results.LoadPath:
         path = {"penetration": whole.penetration[:n], "displacement": whole.displacement[:n]}
         return carom.load_path(pair, **path)
 
@@ -89,7 +89,7 @@ def measure_paths(pair: carom.Pair, many: int, repeats: int) -> None:
         )
 
 
-def measure_fields(hit: carom.Impact, exact: float, repeats: int) -> None:
+def measure_fields(hit: carom.results.Impact, exact: float, repeats: int) -> None:
     """Print the time of the fields and stresses of one instant on their own grids."""
     time = 0.6 * hit.duration
     for name, work in (("fields, 101 x 101", hit.fields), ("stress, 101 x 61", hit.stress)):

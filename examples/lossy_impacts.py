@@ -85,7 +85,7 @@ def main(folder: str | Path = ".") -> str:
     curves = {e: rebounds(PSI, e) for e in WANTED}
     marched = {}
     for e in WANTED:
-        law = carom.MemoryLaw(springs=1024, restitution=e)
+        law = carom.dem.ExactContactLaw(springs=1024, restitution=e)
         marched[e] = law.rebound(CROSSES, CHI, steps=8000)
         np.testing.assert_allclose(rebounds(CROSSES, e), marched[e], atol=2e-6)
         sliding = PSI - 2.0 * CHI * (1.0 + e)

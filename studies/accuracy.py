@@ -71,7 +71,7 @@ def draw_laws(axis: Axes) -> str:
     psi = np.linspace(0.0, 14.0, 20_001)
     worst = []
     for chi, color in zip(CHIS, style.LINES, strict=False):
-        error = carom.ReboundLaw(chi)(psi) - carom.rebound(psi, chi)
+        error = carom.laws.ReboundLaw(chi)(psi) - carom.rebound(psi, chi)
         crest = shown(error)[:-1].reshape(100, -1).max(axis=1)
         axis.semilogy(psi[100:-1:200], crest, color=color, label=rf"$\chi$ = {chi:g}")
         worst.append(np.max(np.abs(error)))

@@ -87,13 +87,13 @@ def each(solve: Callable[[float], float]) -> Callable[[Any], Any]:
 def methods() -> list[Method]:
     """Return all methods but LAMMPS and the boundary elements."""
     chi, kappa = PAIR.chi, PAIR.kappa
-    law, mixture = carom.ReboundLaw(chi), carom.MixtureLaw(1.1, 1.8)
+    law, mixture = carom.laws.ReboundLaw(chi), carom.laws.MixtureLaw(1.1, 1.8)
     weak = carom.KelvinVoigt(restitution=0.9)
-    softer = carom.LammpsMindlin("mindlin_rescale/force", stiffness=0.78)
+    softer = carom.dem.LammpsMindlin("mindlin_rescale/force", stiffness=0.78)
     dem = {
-        "mindlin": (carom.LammpsMindlin("mindlin"), DEM_STEPS),
+        "mindlin": (carom.dem.LammpsMindlin("mindlin"), DEM_STEPS),
         "mindlin_rescale/force with 0.78 k_t": (softer, 640),
-        "linear spring": (carom.LinearSpring(), DEM_STEPS),
+        "linear spring": (carom.dem.LinearSpring(), DEM_STEPS),
     }
     some, many, most = cases(300), cases(3000), cases(300_000)
     return [
@@ -128,7 +128,7 @@ def stepped(law: Any, chi: float, kappa: float, steps: int) -> Callable[[Any], A
 
 def walton() -> Any:
     """Return Walton's law as close to the exact one as it comes."""
-    return carom.fit_walton(PAIR).law
+    return carom.laws.fit_walton(PAIR).law
 
 
 def one_impact(psi: float) -> float:
@@ -203,7 +203,9 @@ def lammps(unit: float) -> list[Row]:
     seconds = {}
     for steps in (COARSE, FINE, DEM_STEPS):
         start = clock()
-        bench = carom.verify.bench(engine, [carom.LammpsMindlin("mindlin")], psi=psi, steps=steps)
+        bench = carom.verify.bench(
+            engine, [carom.dem.LammpsMindlin("mindlin")], psi=psi, steps=steps
+        )
         seconds[steps] = clock() - start
     per_step = (seconds[FINE] - seconds[COARSE]) / ((FINE - COARSE) * psi.size)
     found = psi_out(*next(iter(bench.outcomes.values())))

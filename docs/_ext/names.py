@@ -6,6 +6,7 @@
 import re
 from dataclasses import fields, is_dataclass
 from importlib import import_module
+from inspect import ismodule
 from typing import Any
 
 from docutils import nodes
@@ -21,9 +22,10 @@ from carom.quantities.glossary import GLOSSARY
 
 NAME = re.compile(r"(carom(?:\.\w+)+)(\(.*\))?")
 COMMAND = re.compile(r"carom(?: verify)? [a-z]+")
+PACKAGES = (carom, *filter(ismodule, (getattr(carom, name) for name in carom.__all__)))
 HOMES = {  # where public names are defined, and where they are offered
     f"{thing.__module__}.{thing.__qualname__}": f"{package.__name__}.{name}"
-    for package in (carom, carom.verify, carom.plots, carom.classical, carom.datasets)
+    for package in PACKAGES
     for name in package.__all__
     if hasattr(thing := getattr(package, name), "__qualname__")
 }

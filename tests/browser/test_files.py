@@ -13,7 +13,7 @@ import pytest
 from PIL import Image
 
 import carom
-from carom.verify.catalogue import named
+from carom.verify.entries import named
 
 pytestmark = pytest.mark.browser
 PAIR = carom.Pair(
@@ -24,7 +24,7 @@ PAIR = carom.Pair(
 HIT = carom.impact(PAIR, speed=1.5, angle="55 deg")
 QUERY = {"friction": 0.17, "speed": 1.5, "angle": 55}
 FRICTION = 0.123
-LAWS = [entry.label for entry in carom.verify.CATALOGUE]
+LAWS = [entry.label for entry in carom.verify.catalogue()]
 PICTURES = ("curve", "history", "contact", "course")
 
 

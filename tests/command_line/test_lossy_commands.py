@@ -181,7 +181,7 @@ def test_every_key_of_a_case_is_tried():
 )
 def test_a_key_of_the_case_does_what_the_flag_does(run, monkeypatch, path, key):
     """Of every command that has both: whoever has one file for all commands is not sent away."""
-    few = partial(carom.verify.tune, [carom.LinearSpring(), carom.HardSphere(0.4)])
+    few = partial(carom.verify.tune, [carom.dem.LinearSpring(), carom.dem.HardSphere(0.4)])
     monkeypatch.setattr(carom.verify, "tune", few)
     Path("data.csv").write_text("psi_in,psi_out\n1,-0.2\n2,-0.8\n3,-1.3\n")
     words = ("data.csv", "--case", "case.toml") if path[-1] == "score" else ("case.toml",)

@@ -178,7 +178,7 @@ def test_a_damaged_store_is_read_as_it_was_or_refused(calls, tmp_path, silence):
         found = read_or_refused(path)
         refused += found is None
         if mutation is None and name.startswith("status/c/"):
-            run = found.status != carom.PointStatus.NOT_RUN
+            run = found.status != carom.status.PointStatus.NOT_RUN
             assert not run.all()
             assert found.where(run).identical(stored.where(run))
         else:

@@ -158,7 +158,7 @@ def test_curves_go_through_the_present_point(view):
     np.testing.assert_allclose(out, exactly(view, psi, scene.chi), atol=close)
     assert psi[0] <= scene.psi_in <= psi[-1]
     for law in law_curves(scene, ["mindlin", "rigid Coulomb", "Walton & Braun"]):
-        entry = next(e for e in carom.verify.CATALOGUE if e.label == law.label)
+        entry = next(e for e in carom.verify.catalogue() if e.label == law.label)
         damped = replace(entry.law, restitution=view.restitution)
         expected = damped.rebound(scene.psi_in, scene.chi, kappa=scene.kappa)
         np.testing.assert_allclose(law.at, expected, atol=1e-9)
@@ -176,7 +176,7 @@ def test_curves_of_laws_that_take_long_follow():
     assert [curve.label for curve in drawn] == list(LAWS)
     assert law_curves(scene, LAWS, seconds=PATIENCE) == drawn  # remembered
     for curve in drawn:
-        law = next(e for e in carom.verify.CATALOGUE if e.label == curve.label).law
+        law = next(e for e in carom.verify.catalogue() if e.label == curve.label).law
         meant = law.rebound(curve.psi_in, scene.chi, kappa=scene.kappa)
         np.testing.assert_allclose(curve.psi_out, meant, atol=1e-9, err_msg=curve.label)
 
@@ -207,7 +207,7 @@ def test_laws_are_drawn_in_units_of_the_impact_with_losses():
     view = View(restitution=0.6, angle=0.0, spin=5.0, friction=0.9)
     scene, hit = scene_of(view), impact_of(view)
     (law,) = law_curves(scene, ["linear spring, k_t/k_n = kappa"])
-    told = carom.LinearSpring(restitution=0.6).history(
+    told = carom.dem.LinearSpring(restitution=0.6).history(
         scene.psi_in, scene.chi, kappa=scene.kappa, steps=400
     )
     scales = hit.pair.scales(hit.normal_speed)

@@ -27,7 +27,7 @@ GLASS = carom.Pair(
 )
 
 
-def hit(law: object, speed: float = 1.0, pair: carom.Pair = STEEL) -> carom.Impact:
+def hit(law: object, speed: float = 1.0, pair: carom.Pair = STEEL) -> carom.results.Impact:
     return carom.impact(pair, normal_speed=speed, tangential_speed=0.4 * speed, losses=law)
 
 
@@ -210,7 +210,7 @@ def test_what_is_no_standard_linear_solid_is_refused(given: dict[str, Any], mess
         lambda **law: carom.solve(0.5, 1.44, **law).psi_out,
         lambda **law: float(carom.curve(1.44, [0.5], **law).psi_out[0, 0]),
         lambda **law: carom.impact(STEEL, normal_speed=1.0, **law).duration,
-        lambda **law: float(carom.ReboundLaw(1.44, **law)(0.5)),
+        lambda **law: float(carom.laws.ReboundLaw(1.44, **law)(0.5)),
     ],
 )
 def test_the_old_name_of_losses_is_refused_with_the_new(call: Callable[..., float]) -> None:

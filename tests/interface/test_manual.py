@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 sys.path.insert(0, str(DOCS / "_ext"))
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
-MODULES = [carom, carom.classical, carom.datasets, carom.plots, carom.verify]
+MODULES = [carom, *filter(inspect.ismodule, (getattr(carom, name) for name in carom.__all__))]
 APART = {"explore", "lammps", "liggghts", "yade", "build"}  # they serve, or run a program of others
 
 

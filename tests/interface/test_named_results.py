@@ -13,7 +13,7 @@ from carom.verify.scoring import score
 
 CHI = 1.44
 PSI = np.array([0.25, 0.75, 1.5, 3.0, 6.0])
-LAWS = {"mindlin": carom.LammpsMindlin("mindlin"), "exact": carom.MemoryLaw(32)}
+LAWS = {"mindlin": carom.dem.LammpsMindlin("mindlin"), "exact": carom.dem.ExactContactLaw(32)}
 BALL = carom.Sphere(radius="5 mm", material="steel")
 PAIR = carom.Pair(BALL, carom.HalfSpace(material="steel"), friction=0.2)
 
@@ -80,7 +80,7 @@ def test_any_name_can_be_drawn(name, tmp_path):
     result = score(one(), chi=CHI, code=name, law=name)
     carom.plots.save_figure(result.plot(), tmp_path / "score.svg")
     assert any("off by 0.58" in label for label in labels(result))
-    law = carom.FunctionLaw(lambda contact, state: (0.0, state), name=name)
+    law = carom.dem.FunctionLaw(lambda contact, state: (0.0, state), name=name)
     carom.plots.save_figure(carom.verify.rank(law, psi=[0.5]).plot(), tmp_path / "rank.svg")
     found = carom.verify.error_map(law, [0.5, 1.0], [1.2, 1.4], steps=20)
     carom.plots.save_figure(carom.plots.plot_error_map(found), tmp_path / "map.svg")

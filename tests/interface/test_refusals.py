@@ -158,7 +158,7 @@ def test_outputs_of_a_sweep_that_are_no_list_of_names(outputs):
 
 def damaged_tables():
     """Yield tables of a law of which a part is missing, of another kind, shape or size."""
-    law = carom.ReboundLaw(1.44)
+    law = carom.laws.ReboundLaw(1.44)
     for key in ("chi", "edges", "coefficients"):
         table = law.to_dict()
         del table[key]
@@ -186,7 +186,7 @@ def test_tables_of_a_law_that_are_damaged():
     count = 0
     for table in damaged_tables():
         with pytest.raises(carom.InputError, match=r"^table: it is not a table of ReboundLaw"):
-            carom.ReboundLaw.from_dict(table)
+            carom.laws.ReboundLaw.from_dict(table)
         count += 1
     assert count > 200
 

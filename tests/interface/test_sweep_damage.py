@@ -114,7 +114,7 @@ def test_block_without_status_counts_as_not_run(whole, copy):
     """As in a store that is not finished: NOT_RUN there, and everything else as it was."""
     chunks(copy, "status")[0].unlink()
     dataset = carom.read(copy).load()
-    again = dataset.status != carom.PointStatus.NOT_RUN
+    again = dataset.status != carom.status.PointStatus.NOT_RUN
     assert 0 < int((~again).sum()) < again.size
     assert dataset.where(again, drop=False).identical(whole[1].where(again, drop=False))
 

@@ -59,7 +59,9 @@ def test_laws_are_given_the_contact_that_they_are_named_after():
 )
 def test_lammps_is_told_what_the_bench_tells_it(name, variant, stiffness):
     """The words of `pair_coeff` are those of the bench, which runs LAMMPS against its own laws."""
-    law = carom.LammpsMindlin(variant, stiffness=stiffness, restitution=0.9, tangential_damping=1.0)
+    law = carom.dem.LammpsMindlin(
+        variant, stiffness=stiffness, restitution=0.9, tangential_damping=1.0
+    )
     experiment = Experiment(
         pair=PAIR, law=law, normal_speed=0.01, tangential_speed=(0.0,), steps=100
     )

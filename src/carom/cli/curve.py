@@ -109,7 +109,7 @@ def _export(
         raise InputError(f"{unused}: has no effect with --export; leave one of them out")
     target = None if output is None else checked_output(output, HEADERS)
     losses = _losses(restitution)
-    text = c_header([carom.ReboundLaw(positive("chi", value), losses=losses) for value in chi])
+    text = c_header([carom.laws.ReboundLaw(positive("chi", value), losses=losses) for value in chi])
     if target is None:
         typer.echo(text, nl=False)
         return

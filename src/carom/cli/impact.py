@@ -180,7 +180,7 @@ def impact_command(
 
 
 def _peaks(hit: "ImpactResult") -> "xr.Dataset":
-    if not isinstance(hit, carom.Impact):
+    if not isinstance(hit, carom.results.Impact):
         raise InputError(
             "peaks: boundary elements give no stress below the surface; leave --method out"
         )

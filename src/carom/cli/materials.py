@@ -92,7 +92,7 @@ def _record(name: str) -> dict[str, Any]:
     values = {key: getattr(stuff, key) for key in VALUES}
     if stuff.is_rigid:
         values["young"] = None
-    return values | {"sources": carom.material_sources(name)}
+    return values | {"sources": carom.material(name).sources}
 
 
 def _list(records: dict[str, dict[str, Any]]) -> str:

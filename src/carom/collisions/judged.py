@@ -19,7 +19,7 @@ class Judgement(WordedStatus):
     Examples
     --------
     >>> import carom
-    >>> carom.Judgement(1).message
+    >>> carom.status.Judgement(1).message
     'not studied: materials, inertia, spin or contact size lie outside the study'
     """
 

@@ -55,7 +55,7 @@ RELATIVE = {  # these say nothing where there was nothing before
 
 
 @known_keywords
-def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
+def convert_observables(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     """Return one quantity of a rebound from others that determine it.
 
         J_t = m_n (v_t - v_t') = m_t (V_x - V_x')
@@ -100,7 +100,7 @@ def convert(pair: Pair, *, known: Mapping[str, ArrayLike], wanted: str) -> Any:
     >>> ball = carom.Sphere(radius="2.5 mm", material="alumina")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="soda-lime-glass"), friction=0.092)
     >>> known = {"speed": 3.9, "angle": ["20 deg", "40 deg"], "tangential_restitution": [0.6, 0.78]}
-    >>> carom.convert(pair, known=known, wanted="spin_out").round(1)
+    >>> carom.convert_observables(pair, known=known, wanted="spin_out").round(1)
     array([-533.6, -551.5])
     """
     checked_pair(pair)

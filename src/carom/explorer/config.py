@@ -16,7 +16,7 @@ from carom.impacts.curves import REGIMES as LONG
 from carom.io.tables import read_table
 from carom.io.version import __version__
 from carom.quantities.glossary import GLOSSARY
-from carom.verify.catalogue import CATALOGUE
+from carom.verify.entries import CATALOGUE
 
 REGIMES = ("stick", "gross slip, stick", "gross slip, slip", "gross slip only")  # as in figures
 

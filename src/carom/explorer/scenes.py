@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from carom.bodies.kinematics import Tangential
+from carom.dem.base import SOLID
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution, solve
 from carom.dimensionless.states import Phase
@@ -21,7 +22,6 @@ from carom.explorer.views import View
 from carom.impacts.exact import Impact
 from carom.impacts.history import history_columns
 from carom.impacts.solve import impact
-from carom.laws.dem.base import SOLID
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import prefixed
 from carom.quantities.refusals import InputError

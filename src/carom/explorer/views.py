@@ -28,7 +28,7 @@ from carom.explorer.knobs import (
 )
 from carom.explorer.limits import LONGEST_LINK, Refused
 from carom.quantities.refusals import nearest
-from carom.verify.catalogue import CATALOGUE
+from carom.verify.entries import CATALOGUE
 from carom.verify.errors import losses_of
 
 LAWS = tuple(entry.label for entry in CATALOGUE)

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from carom.bodies.pairs import Pair
-from carom.datasets.observables import convert
+from carom.datasets.observables import convert_observables
 from carom.fitting.laws import IncomingMotion
 from carom.io.user_table import Mask, UserTable
 from carom.quantities.arrays import Array
@@ -104,7 +104,7 @@ class FitProblem:
         if not self.has_speeds:
             known["normal_speed"] = np.ones(len(self.measured))
         speeds = (
-            convert(self.pair, known=known, wanted=name)
+            convert_observables(self.pair, known=known, wanted=name)
             for name in ("normal_speed", "tangential_speed")
         )
         spins = (known.get(name, np.zeros(len(self.measured))) for name in ("spin", "spin2"))

@@ -63,12 +63,12 @@ class ReboundLaw:
     Examples
     --------
     >>> import carom
-    >>> law = carom.ReboundLaw(1.44)
+    >>> law = carom.laws.ReboundLaw(1.44)
     >>> law([0.5, 1.5, -3.5, 6.0]).round(6)
     array([ 0.047131, -0.429967,  1.477247,  0.24    ])
     >>> law.nbytes < 4000
     True
-    >>> lossy = carom.ReboundLaw(1.44, losses=carom.KelvinVoigt(restitution=0.9))
+    >>> lossy = carom.laws.ReboundLaw(1.44, losses=carom.KelvinVoigt(restitution=0.9))
     >>> lossy([0.5, 6.0]).round(5), round(lossy.duration, 4)
     (array([0.00384, 0.528  ]), 2.9186)
     """
@@ -125,7 +125,7 @@ class ReboundLaw:
         Examples
         --------
         >>> import carom
-        >>> carom.ReboundLaw(1.44).impulse([0.5, 6.0]).round(3)
+        >>> carom.laws.ReboundLaw(1.44).impulse([0.5, 6.0]).round(3)
         array([0.079, 1.   ])
         """
         bound = self._rule.sliding
@@ -153,7 +153,7 @@ class ReboundLaw:
         Examples
         --------
         >>> import carom
-        >>> carom.ReboundLaw(1.44).dissipation([0.5, 6.0]).round(3)
+        >>> carom.laws.ReboundLaw(1.44).dissipation([0.5, 6.0]).round(3)
         array([ 0.248, 35.942])
         """
 
@@ -244,8 +244,8 @@ class ReboundLaw:
         Examples
         --------
         >>> import carom
-        >>> law = carom.ReboundLaw(1.44)
-        >>> carom.ReboundLaw.from_dict(law.to_dict())(0.5) == law(0.5)
+        >>> law = carom.laws.ReboundLaw(1.44)
+        >>> carom.laws.ReboundLaw.from_dict(law.to_dict())(0.5) == law(0.5)
         True
         """
         try:

@@ -33,7 +33,7 @@ class SmoothLaw:
     Examples
     --------
     >>> import carom
-    >>> carom.SmoothLaw(restitution=0.9)
+    >>> carom.laws.SmoothLaw(restitution=0.9)
     SmoothLaw(restitution=0.9)
     """
 
@@ -64,7 +64,7 @@ class RoughLaw:
     Examples
     --------
     >>> import carom
-    >>> carom.RoughLaw()
+    >>> carom.laws.RoughLaw()
     RoughLaw(restitution=1.0)
     """
 
@@ -104,7 +104,7 @@ class WaltonLaw:
     Examples
     --------
     >>> import carom
-    >>> law = carom.WaltonLaw(friction=0.2, restitution=1.0, tangential_restitution=0.4)
+    >>> law = carom.laws.WaltonLaw(friction=0.2, restitution=1.0, tangential_restitution=0.4)
     >>> law.tangential_restitution
     0.4
     """

@@ -30,7 +30,7 @@ class WaltonFit:
     >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> fit = carom.fit_walton(pair)
+    >>> fit = carom.laws.fit_walton(pair)
     >>> round(fit.law.friction, 3), round(fit.max_error, 2), round(fit.span, 2)
     (0.199, 0.35, 5.76)
     """
@@ -72,7 +72,7 @@ def fit_walton(pair: Pair, span: float | None = None) -> WaltonFit:
     >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> fit = carom.fit_walton(pair)
+    >>> fit = carom.laws.fit_walton(pair)
     >>> round(fit.law.tangential_restitution, 2), round(fit.rms_error, 2)
     (0.41, 0.16)
     """

@@ -25,7 +25,7 @@ ANGLES = np.linspace(0.0, 85.0, 18) * (pi / 180.0)  # where none are given
 
 
 @known_keywords
-def strength(
+def bearable_speeds(
     pair: Pair,
     *,
     angle: ArrayLike | None = None,
@@ -79,7 +79,7 @@ def strength(
     >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="bearing steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="bearing steel"), friction=0.2)
-    >>> found = carom.strength(pair, angle=["0 deg", "60 deg"])
+    >>> found = carom.bearable_speeds(pair, angle=["0 deg", "60 deg"])
     >>> found.yield_speed_second.round(2).values
     array([[0.87, 1.62]])
     """

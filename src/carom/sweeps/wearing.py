@@ -32,7 +32,7 @@ STATUS = {
 
 
 @known_keywords
-def wear(
+def wear_of_many(
     pair: Pair,
     *,
     speed: ArrayLike | None = None,
@@ -103,7 +103,7 @@ def wear(
     >>> import carom
     >>> ball = carom.Sphere(radius="2 mm", material="alumina")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> mill = carom.wear(
+    >>> mill = carom.wear_of_many(
     ...     pair, speed="3 m/s", angle=["20 deg", "45 deg", "70 deg"], counts=[5e5, 3e5, 1e5],
     ...     coefficient="1e-13 m^2/N", area="1 cm^2",
     ... )

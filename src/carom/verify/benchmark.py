@@ -11,14 +11,14 @@ from numpy.typing import ArrayLike
 from carom.bodies.cases import case_of
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import HalfSpace, Sphere
+from carom.dem.base import ContactLaw, Law
 from carom.io.progress import Progress, advancing
 from carom.io.user_table import CASE
-from carom.laws.dem import ContactLaw, Law
 from carom.quantities.arrays import finite_line
 from carom.quantities.refusals import InputError, checked_type, refusal
-from carom.verify.catalogue import CATALOGUE, EXACT, Entry, as_entry
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
 from carom.verify.engines.running import Engine, EngineError, EngineKilled, run
+from carom.verify.entries import CATALOGUE, EXACT, Entry, as_entry
 from carom.verify.errors import (
     INCIDENCES,
     exact_rebound,

@@ -10,8 +10,8 @@ from carom.bodies.cases import Case, losses_of, motion_of, pair_of
 from carom.bodies.kinematics import approach, slope
 from carom.bodies.losses import KelvinVoigt, LossLaw
 from carom.bodies.pairs import Pair, with_friction
+from carom.dem.damping import damped_restitution
 from carom.dimensionless.numerics.hertz import DURATION
-from carom.laws.dem.damping import damped_restitution
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import finite, positive
 

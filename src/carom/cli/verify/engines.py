@@ -65,8 +65,8 @@ def engine_command(
     """Run the program that the command is named after, and print how it has done."""
     from carom.bodies.cases import pair_of
     from carom.io.paths import checked_output, replace_whole
-    from carom.verify.catalogue import named
     from carom.verify.engines.experiments import MOST_STEPS
+    from carom.verify.entries import named
 
     count = whole("steps", steps, 10, MOST_STEPS)
     check_outputs({"output": (output, (".csv",))})

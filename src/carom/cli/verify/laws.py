@@ -12,7 +12,7 @@ from carom.quantities.refusals import InputError
 from carom.quantities.units import finite, positive
 
 if TYPE_CHECKING:
-    from carom.laws.dem import Law
+    from carom.dem.base import Law
 
 
 OPTIONS = {
@@ -57,9 +57,9 @@ def laws_command(
     Thin shells on a wall: carom verify laws --chi 1.0294 --kappa 0.8235 --plot laws.png
     One law for all solid spheres: carom verify laws --law mindlin --map mindlin.png
     """
+    from carom.dem.damping import damped_restitution
     from carom.io.files import FIGURES, TABLES
-    from carom.laws.dem.damping import damped_restitution
-    from carom.verify.catalogue import named
+    from carom.verify.entries import named
     from carom.verify.errors import INCIDENCES
 
     if error_map is not None and law is None:

@@ -73,8 +73,8 @@ def _inputs(setting: "Setting", tuning: "Tuning") -> dict[str, str]:
 
     if setting.pair is None or setting.normal_speed is None:
         return {}
-    spring = tuning.best(carom.LinearSpring) or SPRING
-    mindlin = tuning.best(carom.LammpsMindlin) or MINDLIN
+    spring = tuning.best(carom.dem.LinearSpring) or SPRING
+    mindlin = tuning.best(carom.dem.LammpsMindlin) or MINDLIN
     bodies, speed, restitution = setting.pair, setting.normal_speed, setting.restitution
     if restitution < 1.0:  # softened so, the law comes closest if it damps sideways as well
         mindlin = replace(mindlin, tangential_damping=1.0)

@@ -82,7 +82,7 @@ class Status(WordedStatus):
     Examples
     --------
     >>> import carom
-    >>> carom.Status(0).message
+    >>> carom.status.Status(0).message
     'solved'
     """
 

@@ -11,8 +11,8 @@ import numpy as np
 
 from carom.bodies.pairs import Pair, Scales, checked_scales, with_friction
 from carom.bodies.shapes import HalfSpace, Sphere
+from carom.dem.base import ContactLaw
 from carom.dimensionless.numerics import hertz
-from carom.laws.dem import ContactLaw
 from carom.quantities.arrays import Array, along_the_same, finite_line, numbers
 from carom.quantities.refusals import InputError, checked_type, refusal
 from carom.quantities.units import counted, positive
@@ -45,7 +45,7 @@ class Experiment:
     pair : Pair
         A solid sphere against a half-space or another solid sphere, with friction.
     law : ContactLaw
-        A law of `carom.laws.dem`.
+        A law of `carom.dem`.
     normal_speed : float
         V_1 in m/s.
     tangential_speed, spin : tuple of float, length n
@@ -65,7 +65,7 @@ class Experiment:
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> experiment = carom.verify.Experiment(
-    ...     pair=pair, law=carom.LammpsMindlin(), normal_speed=0.1,
+    ...     pair=pair, law=carom.dem.LammpsMindlin(), normal_speed=0.1,
     ...     tangential_speed=(0.05, 0.0), spin=(0.0, 10.0), steps=1000,
     ... )
     >>> experiment.psi_in.round(3)
@@ -82,7 +82,7 @@ class Experiment:
     def __post_init__(self) -> None:
         _refuse_bodies(self.pair)
         checked_type(
-            "law", self.law, ContactLaw, "must be a contact law, e.g. carom.LammpsMindlin()"
+            "law", self.law, ContactLaw, "must be a contact law, e.g. carom.dem.LammpsMindlin()"
         )
         along_the_same(tangential_speed=self.tangential_speed, spin=self.spin)
         speeds = _column("tangential_speed", self.tangential_speed)
@@ -155,7 +155,7 @@ def results_csv(experiment: Experiment, outcomes: Outcomes) -> str:
     >>> ball = carom.Sphere(radius="5 mm", material="steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     >>> experiment = carom.verify.Experiment(
-    ...     pair=pair, law=carom.LammpsMindlin(), normal_speed=0.25,
+    ...     pair=pair, law=carom.dem.LammpsMindlin(), normal_speed=0.25,
     ...     tangential_speed=(0.5,), steps=1000,
     ... )
     >>> print(results_csv(experiment, Outcomes(*np.array([[0.25], [0.375], [-16.0]]))), end="")

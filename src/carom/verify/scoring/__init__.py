@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from carom.bodies.pairs import Pair
+from carom.dem.base import Law
 from carom.impacts.exact import Impact
 from carom.io.columns import in_units, others
 from carom.io.tables import read_table
 from carom.io.user_table import UserTable
-from carom.laws.dem import Law
 from carom.quantities.arrays import Array
 from carom.quantities.faults import Faults
 from carom.quantities.keywords import known_keywords
@@ -74,8 +74,8 @@ def score(
         [rpm]", "angle (deg)". Speeds of two spheres are relative; normal_speed is positive before
         and normal_speed_out after; positive spin adds to the tangential speed of the contact point;
         tangential_force is positive against V_x > 0. At least 3 points, or 20 rows with a force. Or
-        a contact law, or a function as of `carom.FunctionLaw`: its psi_2 at the 15 incidences of
-        `rank`.
+        a contact law, or a function as of `carom.dem.FunctionLaw`: its psi_2 at the 15 incidences
+        of `rank`.
     case : str, Path, mapping, Pair or Impact, optional
         The bodies and their friction, as in a case file for `carom impact`. They are needed unless
         the results are psi_1 and psi_2, or a comment of the file, "# case:", holds them as JSON. A
@@ -120,7 +120,7 @@ def score(
     (False, 0.075)
     >>> result.groups[0].name
     'stick, slip -, gross slip -'
-    >>> round(carom.verify.score(carom.LammpsMindlin("mindlin")).max_error, 3)
+    >>> round(carom.verify.score(carom.dem.LammpsMindlin("mindlin")).max_error, 3)
     0.576
     """
     limit = positive("tolerance", tolerance, "1")

@@ -5,7 +5,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.laws.dem.base import Law
+from carom.dem.base import Law
 from carom.quantities.arrays import Array
 from carom.quantities.units import within
 
@@ -34,7 +34,7 @@ class HardSphere(Law):
     Examples
     --------
     >>> import carom
-    >>> carom.HardSphere(0.4).rebound([1.0, 10.0], 1.5)
+    >>> carom.dem.HardSphere(0.4).rebound([1.0, 10.0], 1.5)
     array([-0.4,  4. ])
     """
 

@@ -9,12 +9,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.dem.coefficients import ELASTIC_PULL
+from carom.dem.stepping import PATIENCE
 from carom.dimensionless.lossy.springs import springs as of
 from carom.dimensionless.numerics.arrays import Matrix, Vector
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.dimensionless.numerics.kernels import entry_point, kernel
-from carom.laws.dem.coefficients import ELASTIC_PULL
-from carom.laws.dem.stepping import PATIENCE
 from carom.quantities.arrays import Array
 
 # What is remembered: the spacing, 0 while apart; s at the edge; velocities of the step before, then

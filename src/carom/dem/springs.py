@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from carom.laws.dem.base import ContactLaw
-from carom.laws.dem.coefficients import MINDLIN, SPRING, Coefficients, hertzian, linear
-from carom.laws.dem.damping import damping_ratio, hertz_damping
+from carom.dem.base import ContactLaw
+from carom.dem.coefficients import MINDLIN, SPRING, Coefficients, hertzian, linear
+from carom.dem.damping import damping_ratio, hertz_damping
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class LinearSpring(ContactLaw):
     Examples
     --------
     >>> import carom
-    >>> round(carom.LinearSpring(2 / 7).rebound(3.0, 1.4412), 3)  # the default of many codes
+    >>> round(carom.dem.LinearSpring(2 / 7).rebound(3.0, 1.4412), 3)  # the default of many codes
     -2.765
     """
 
@@ -78,7 +78,7 @@ class HertzLinearHistory(ContactLaw):
     Examples
     --------
     >>> import carom
-    >>> round(carom.HertzLinearHistory(0.8).rebound(0.75, 1.4412), 3)
+    >>> round(carom.dem.HertzLinearHistory(0.8).rebound(0.75, 1.4412), 3)
     0.337
     """
 
@@ -137,7 +137,7 @@ class StrongeLaw(BilinearLaw):
     Examples
     --------
     >>> import carom
-    >>> carom.StrongeLaw().rebound(1.0, 1.44) == carom.LinearSpring().rebound(1.0, 1.44)
+    >>> carom.dem.StrongeLaw().rebound(1.0, 1.44) == carom.dem.LinearSpring().rebound(1.0, 1.44)
     True
     """
 

@@ -11,13 +11,13 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.bodies.pairs import Pair, checked_scales, with_friction
-from carom.laws.dem import contact_step
-from carom.laws.dem.base import ContactLaw, Law
-from carom.laws.dem.coefficients import SPRING
-from carom.laws.dem.contact_step import NORMAL, Bodies, ContactStep, Fault
-from carom.laws.dem.damping import damping_ratio, hertz_damping
-from carom.laws.dem.status import Codes, LawStatus, status_of
-from carom.laws.dem.stepping import HISTORY
+from carom.dem import contact_step
+from carom.dem.base import ContactLaw, Law
+from carom.dem.coefficients import SPRING
+from carom.dem.contact_step import NORMAL, Bodies, ContactStep, Fault
+from carom.dem.damping import damping_ratio, hertz_damping
+from carom.dem.status import Codes, LawStatus, status_of
+from carom.dem.stepping import HISTORY
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError, checked_type, clipped, one_of, refusal
 from carom.quantities.units import bears_unit, number, positive
@@ -76,7 +76,7 @@ class FunctionLaw(ByFunction, ContactLaw):
     """A contact law that is a Python function, called in every time step, in SI units.
 
     function(contact, state) returns the tangential force on the first body in N, and the state that
-    it is given in the next step. `contact` is a `carom.laws.dem.ContactStep`: overlap, normal force
+    it is given in the next step. `contact` is a `carom.dem.ContactStep`: overlap, normal force
     and velocities in this step, stiffnesses, friction, radius, moduli, masses. The force acts along
     x, so that friction that slows V_x > 0 is negative, -k_t U or -mu F_n; `history` and all else in
     Carom count it as positive there. Impacts are solved one by one in equal time steps by velocity
@@ -113,7 +113,7 @@ class FunctionLaw(ByFunction, ContactLaw):
     >>> def sliding(contact, state):
     ...     sign = 1.0 if contact.tangential_velocity > 0.0 else -1.0
     ...     return -sign * contact.friction * contact.normal_force, state
-    >>> law = carom.FunctionLaw(sliding)
+    >>> law = carom.dem.FunctionLaw(sliding)
     >>> round(law.rebound(8.0, 1.4412), 4), round(8.0 - 4 * 1.4412, 4)
     (2.2352, 2.2352)
     """
@@ -211,7 +211,7 @@ class FunctionRebound(ByFunction):
     >>> import carom
     >>> def hard_sphere(psi, chi):
     ...     return max(-0.4 * psi, psi - 4.0 * chi) if psi > 0.0 else -hard_sphere(-psi, chi)
-    >>> carom.FunctionRebound(hard_sphere).rebound([1.0, 10.0], 1.5)
+    >>> carom.dem.FunctionRebound(hard_sphere).rebound([1.0, 10.0], 1.5)
     array([-0.4,  4. ])
     """
 

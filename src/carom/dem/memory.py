@@ -5,9 +5,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.laws.dem import lattice
-from carom.laws.dem.base import ContactLaw
-from carom.laws.dem.stepping import HISTORY
+from carom.dem import lattice
+from carom.dem.base import ContactLaw
+from carom.dem.stepping import HISTORY
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import flag, refusal
 from carom.quantities.units import counted
@@ -26,7 +26,7 @@ def read_springs(name: str, value: Any) -> int:
 
 
 @dataclass(frozen=True)
-class MemoryLaw(ContactLaw):
+class ExactContactLaw(ContactLaw):
     """The exact contact law in time steps, by springs that remember their slip.
 
         F_t = 2 E* mu int_0^b q dx, |q| <= d - s, s = x^2/R*
@@ -57,7 +57,7 @@ class MemoryLaw(ContactLaw):
     Examples
     --------
     >>> import carom
-    >>> law = carom.MemoryLaw(springs=32)
+    >>> law = carom.dem.ExactContactLaw(springs=32)
     >>> round(law.rebound(1.5, 1.4412, steps=100), 3), round(carom.rebound(1.5, 1.4412), 3)
     (-0.428, -0.428)
     """

@@ -8,10 +8,10 @@ begins or ceases to slide, or turns back: these are found by bisection. Steps by
 
 import numpy as np
 
+from carom.dem import coefficients as forces
+from carom.dem.coefficients import ELASTIC_PULL, SPRING, Coefficients, Normal, Shear
 from carom.dimensionless.numerics.arrays import Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
-from carom.laws.dem import coefficients as forces
-from carom.laws.dem.coefficients import ELASTIC_PULL, SPRING, Coefficients, Normal, Shear
 from carom.quantities.arrays import Array
 
 B, V, PSI, T, UPPER, LOWER = range(6)  # the state

@@ -3,7 +3,7 @@
 from math import expm1, log, log1p, pi, sqrt
 from typing import Any
 
-from carom.laws.dem.coefficients import SPRING
+from carom.dem.coefficients import SPRING
 from carom.quantities.units import within
 
 COEFF_RESTITUTION, TSUJI = "coeff_restitution", "tsuji"

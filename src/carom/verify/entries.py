@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from carom.laws import dem
+from carom import dem
+from carom.dem.base import Law
 from carom.quantities.refusals import nearest, refusal
 from carom.verify.errors import as_law
 
@@ -16,20 +17,20 @@ class Entry(NamedTuple):
     label : str
         Name of the law in tables.
     law : Law
-        A contact law, e.g. `carom.LinearSpring()`.
+        A contact law, e.g. `carom.dem.LinearSpring()`.
     used_by : str
         Programs that use the law, in a few words.
 
     Examples
     --------
     >>> import carom
-    >>> stiff = carom.verify.Entry("stiff", carom.LinearSpring(1.0), "nobody")
+    >>> stiff = carom.verify.Entry("stiff", carom.dem.LinearSpring(1.0), "nobody")
     >>> carom.verify.rank([stiff], psi=[1.0]).standings[0].entry.label
     'stiff'
     """
 
     label: str
-    law: dem.Law
+    law: Law
     used_by: str
 
 
@@ -58,11 +59,28 @@ CATALOGUE = (
     Entry("Stronge, bilinear", dem.StrongeLaw(), "bilinear compliance, k_t/k_n = kappa"),
     Entry("Walton's hard spheres, 0.4", dem.HardSphere(0.4), "event-driven codes, beta_0 = 0.4"),
     Entry("rigid Coulomb", dem.HardSphere(), "impulse-based codes"),
-    Entry(EXACT, dem.MemoryLaw(32), "LAMMPS, with pair_style carom; any code"),
+    Entry(EXACT, dem.ExactContactLaw(32), "LAMMPS, with pair_style carom; any code"),
 )
 
 
-def called(law: dem.Law) -> str:
+def catalogue() -> tuple[Entry, ...]:
+    """Return the contact laws that programs have, each with its parameters and its programs.
+
+    Returns
+    -------
+    tuple of Entry
+        In the order of the tables.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.verify.catalogue()[0].label
+    'linear spring, k_t/k_n = kappa'
+    """
+    return CATALOGUE
+
+
+def called(law: Law) -> str:
     """Return what a law is called, its variant included."""
     return str(getattr(law, "variant", law.name))
 

@@ -8,13 +8,13 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from carom.dem.adaptive import WORK, rebounds
+from carom.dem.coefficients import Coefficients
+from carom.dem.damping import damped_restitution
+from carom.dem.status import OF_FUNCTIONS, Codes, LawStatus, status_of
+from carom.dem.stepping import HISTORY, PATIENCE, REMEMBERED, stepped, stepped_rebounds
 from carom.dimensionless.numerics.threads import available_cores
 from carom.dimensionless.rebounds import warn_of_unsolved
-from carom.laws.dem.adaptive import WORK, rebounds
-from carom.laws.dem.coefficients import Coefficients
-from carom.laws.dem.damping import damped_restitution
-from carom.laws.dem.status import OF_FUNCTIONS, Codes, LawStatus, status_of
-from carom.laws.dem.stepping import HISTORY, PATIENCE, REMEMBERED, stepped, stepped_rebounds
 from carom.quantities.arrays import Array, along_the_same, pure_numbers, together
 from carom.quantities.refusals import flag, refusal
 from carom.quantities.units import counted, finite, not_negative, positive, threads_or_none
@@ -75,7 +75,7 @@ class Law(ABC):
         threads : int, optional
             Number of threads, by default all cores. The result does not depend on it.
         return_status : bool
-            Whether to return also an array of `carom.laws.dem.LawStatus` values, one per impact.
+            Whether to return also an array of `carom.status.LawStatus` values, one per impact.
 
         Returns
         -------
@@ -93,7 +93,7 @@ class Law(ABC):
         Examples
         --------
         >>> import carom
-        >>> law = carom.LammpsMindlin("mindlin")
+        >>> law = carom.dem.LammpsMindlin("mindlin")
         >>> round(law.rebound(0.75, 1.4412), 3), round(carom.rebound(0.75, 1.4412), 3)
         (0.591, 0.014)
         """
@@ -208,7 +208,7 @@ class ContactLaw(Law):
         Examples
         --------
         >>> import carom
-        >>> history = carom.LinearSpring().history(0.5, 1.44)
+        >>> history = carom.dem.LinearSpring().history(0.5, 1.44)
         >>> round(float(history["normal_force"].max()), 3)
         0.8
         """

@@ -14,7 +14,7 @@ class LawStatus(WordedStatus):
 
     Examples
     --------
-    >>> from carom.laws.dem import LawStatus
+    >>> from carom.dem.status import LawStatus
     >>> LawStatus(2).message
     'chi must be positive and finite'
     """

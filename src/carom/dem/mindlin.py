@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from math import sqrt
 from typing import ClassVar
 
-from carom.laws.dem.base import ContactLaw
-from carom.laws.dem.coefficients import MINDLIN, SPRING, Coefficients, hertzian
-from carom.laws.dem.damping import COEFF_RESTITUTION, RULES, hertz_damping, thornton_damping
+from carom.dem.base import ContactLaw
+from carom.dem.coefficients import MINDLIN, SPRING, Coefficients, hertzian
+from carom.dem.damping import COEFF_RESTITUTION, RULES, hertz_damping, thornton_damping
 from carom.quantities.refusals import one_of
 
 KEPT = {  # powers n, while the contact grows and while it shrinks
@@ -55,7 +55,7 @@ class LammpsMindlin(ContactLaw):
     Examples
     --------
     >>> import carom
-    >>> round(carom.LammpsMindlin("mindlin_rescale").rebound(0.75, 1.4412), 3)
+    >>> round(carom.dem.LammpsMindlin("mindlin_rescale").rebound(0.75, 1.4412), 3)
     0.441
     """
 
@@ -110,8 +110,8 @@ class LiggghtsHertz(ContactLaw):
     Examples
     --------
     >>> import carom
-    >>> elastic = carom.LammpsMindlin("mindlin").rebound(0.75, 1.4412)
-    >>> carom.LiggghtsHertz().rebound(0.75, 1.4412) == elastic
+    >>> elastic = carom.dem.LammpsMindlin("mindlin").rebound(0.75, 1.4412)
+    >>> carom.dem.LiggghtsHertz().rebound(0.75, 1.4412) == elastic
     True
     """
 
@@ -152,7 +152,7 @@ class EdemHertzMindlin(LiggghtsHertz):
     Examples
     --------
     >>> import carom
-    >>> laws = carom.EdemHertzMindlin(restitution=0.9), carom.LiggghtsHertz(restitution=0.9)
+    >>> laws = carom.dem.EdemHertzMindlin(restitution=0.9), carom.dem.LiggghtsHertz(restitution=0.9)
     >>> [round(law.rebound(2.0, 1.4412), 3) for law in laws]
     [-0.451, -0.416]
     """
@@ -188,8 +188,8 @@ class YadeMindlin(ContactLaw):
     Examples
     --------
     >>> import carom
-    >>> elastic = carom.LammpsMindlin("mindlin/force").rebound(0.75, 1.4412)
-    >>> carom.YadeMindlin().rebound(0.75, 1.4412) == elastic
+    >>> elastic = carom.dem.LammpsMindlin("mindlin/force").rebound(0.75, 1.4412)
+    >>> carom.dem.YadeMindlin().rebound(0.75, 1.4412) == elastic
     True
     """
 

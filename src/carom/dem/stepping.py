@@ -2,11 +2,11 @@
 
 import numpy as np
 
+from carom.dem import coefficients as forces
+from carom.dem.coefficients import ELASTIC_PULL, Coefficients, Shear
 from carom.dimensionless.numerics.arrays import Matrix, Vector
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.dimensionless.numerics.kernels import entry_point, kernel
-from carom.laws.dem import coefficients as forces
-from carom.laws.dem.coefficients import ELASTIC_PULL, Coefficients, Shear
 from carom.quantities.arrays import Array
 
 HISTORY = ("time", "penetration", "normal_velocity", "psi", "normal_force", "tangential_force")

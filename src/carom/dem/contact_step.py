@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import HalfSpace, Sphere
+from carom.dem.coefficients import SPRING
+from carom.dem.stepping import PATIENCE
 from carom.dimensionless.numerics.hertz import DURATION
-from carom.laws.dem.coefficients import SPRING
-from carom.laws.dem.stepping import PATIENCE
 from carom.quantities.arrays import Array
 
 NORMAL = ("hertz", "linear")  # how the elastic part of the normal force grows
@@ -59,7 +59,7 @@ class ContactStep(NamedTuple):
     >>> def spring(contact, stretch):
     ...     stretch = stretch + contact.tangential_velocity * contact.time_step
     ...     return -contact.tangential_stiffness * stretch, stretch
-    >>> round(carom.FunctionLaw(spring).rebound(0.5, 1.44), 3)
+    >>> round(carom.dem.FunctionLaw(spring).rebound(0.5, 1.44), 3)
     0.477
     """
 

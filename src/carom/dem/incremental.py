@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from carom.laws.dem.base import ContactLaw
-from carom.laws.dem.coefficients import Coefficients, Shear
-from carom.laws.dem.springs import BilinearLaw
+from carom.dem.base import ContactLaw
+from carom.dem.coefficients import Coefficients, Shear
+from carom.dem.springs import BilinearLaw
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,8 @@ class ThorntonLaw(ContactLaw):
     Examples
     --------
     >>> import carom
-    >>> round(carom.ThorntonLaw().rebound(0.75, 1.4412), 3), round(carom.rebound(0.75, 1.4412), 3)
+    >>> law = carom.dem.ThorntonLaw()
+    >>> round(law.rebound(0.75, 1.4412), 3), round(carom.rebound(0.75, 1.4412), 3)
     (0.178, 0.014)
     """
 
@@ -62,7 +63,7 @@ class WaltonBraunLaw(BilinearLaw):
     Examples
     --------
     >>> import carom
-    >>> round(carom.WaltonBraunLaw().rebound(0.75, 1.4412), 3)
+    >>> round(carom.dem.WaltonBraunLaw().rebound(0.75, 1.4412), 3)
     -0.078
     """
 
