@@ -1,4 +1,4 @@
-"""The tree of docs/architecture.md, from the first lines of the sources; --files prints all files."""
+"""The tree of docs/architecture.md, from the first lines of the sources; --files: every file."""
 
 import ast
 import re
