@@ -4,8 +4,9 @@
 """
 
 import re
+from contextlib import suppress
 from dataclasses import fields, is_dataclass
-from importlib import import_module
+from pkgutil import resolve_name
 from typing import Any
 
 from docutils import nodes
@@ -81,23 +82,13 @@ def exists(name: str) -> bool:
     >>> exists("carom.dimensionless.rebounds"), exists("carom.dimensionless.stuck")
     (True, False)
     """
-    parts = name.split(".")
-    for end in range(len(parts), 0, -1):
-        try:
-            thing: Any = import_module(".".join(parts[:end]))
-        except ImportError:
-            continue
-        return leads(thing, parts[end:])
+    home, _, field = name.rpartition(".")
+    with suppress(ImportError, AttributeError):
+        resolve_name(name)
+        return True
+    with suppress(ImportError, AttributeError):  # of a record, without a value of its own
+        return field in getattr(resolve_name(home), "__annotations__", {})
     return False
-
-
-def leads(thing: Any, parts: list[str]) -> bool:
-    """Return whether attributes lead on from a thing; fields of records count."""
-    for part in parts:
-        if not hasattr(thing, part):
-            return part in getattr(thing, "__annotations__", {})
-        thing = getattr(thing, part)
-    return True
 
 
 def check(
@@ -133,17 +124,14 @@ def meaning(name: str) -> str:
     return f"{entry.meaning[0].upper()}{entry.meaning[1:]}{unit}."
 
 
-def escape_bars(
-    app: Sphinx, what: str, name: str, thing: Any, options: Any, lines: list[str]
-) -> None:
+def escape_bars(app: Sphinx, *about: Any) -> None:
     """Let |x| in a docstring be what it is, outside examples."""
+    lines: list[str] = about[-1]
     example = False
     for number, line in enumerate(lines):
         example = bool(line.strip()) and (example or line.lstrip().startswith(">>>"))
         if not example:
-            parts = line.split("`")
-            parts[::2] = [part.replace("|", r"\|") for part in parts[::2]]
-            lines[number] = "`".join(parts)
+            lines[number] = re.sub(r"(`[^`]*`)|\|", lambda found: found[1] or r"\|", line)
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
