@@ -5,7 +5,6 @@ for anything, and leave no error in the console. Needs Playwright and Debian's c
 """
 
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from shutil import which
 from typing import Any
@@ -14,45 +13,27 @@ from playwright.sync_api import sync_playwright
 
 WIDTHS = (1280, 400)
 SOURCES = {"_modules", "_static", "explore"}  # the last has tests of its own
+HERE = ("file:", "data:", "blob:")
 SET = "window.MathJax && MathJax.startup ? MathJax.startup.promise.then(() => true) : true"
-FOUND = """() => ({
-  wider: document.documentElement.scrollWidth - document.documentElement.clientWidth,
-  wrong: document.querySelectorAll('[data-mjx-error]').length,
-  unset: document.querySelectorAll('.math').length
-    - document.querySelectorAll('.math mjx-container').length,
-  cut: [...document.querySelectorAll('div.math mjx-container')].filter(formula =>
-    formula.getBoundingClientRect().left < formula.parentNode.getBoundingClientRect().left - 1
-  ).length,
-  over: Math.max(0, ...[...document.querySelectorAll('.bd-article, .bd-content')].map(part =>
-    part.scrollWidth - part.clientWidth)),
-})"""
-
-
-def faults(page: Any, file: Path, said: list[str]) -> Iterator[str]:
-    """Yield what is wrong with a page."""
-    said.clear()
-    page.goto(file.as_uri())
-    page.evaluate(SET)
-    found = page.evaluate(FOUND)
-    if found["wider"] > 1:
-        yield f"{found['wider']} pixels wider than its window"
-    if found["wrong"] or found["unset"] > 0:
-        yield f"formulas: {found['wrong']} wrong, {found['unset']} not set"
-    if found["cut"]:
-        yield f"{found['cut']} formulas begin left of where they can be seen"
-    if found["over"] > 1:
-        yield f"its text is {found['over']} pixels wider than its place"
-    yield from said
+FAULTS = """() => {
+  const all = query => [...document.querySelectorAll(query)];
+  const wider = part => part.scrollWidth - part.clientWidth;
+  const left = part => part.getBoundingClientRect().left;
+  return {
+    'pixels wider than its window': wider(document.documentElement) - 1,
+    'formulas are wrong': all('[data-mjx-error]').length,
+    'formulas are not set': all('.math').length - all('.math mjx-container').length,
+    'formulas begin left of where they can be seen':
+      all('div.math mjx-container').filter(one => left(one) < left(one.parentNode) - 1).length,
+    'pixels of text wider than its place':
+      Math.max(...all('.bd-article, .bd-content').map(wider)) - 1,
+  };
+}"""
 
 
 def listen(page: Any, said: list[str]) -> None:
     """Keep errors of the console and requests to other hosts."""
-
-    def ask(request: Any) -> None:
-        if not request.url.startswith(("file:", "data:", "blob:")):
-            said.append(f"asks {request.url}")
-
-    page.on("request", ask)
+    page.on("request", lambda it: it.url.startswith(HERE) or said.append(f"asks {it.url}"))
     page.on("requestfailed", lambda request: said.append(f"does not get {request.url}"))
     page.on("pageerror", lambda error: said.append(str(error)))
     page.on("console", lambda line: said.append(line.text) if line.type == "error" else None)
@@ -68,7 +49,11 @@ def main(folder: Path) -> int:
             page, said = browser.new_page(viewport={"width": width, "height": 900}), []
             listen(page, said)
             for file in files:
-                for fault in faults(page, file, said):
+                said.clear()
+                page.goto(file.as_uri())
+                page.evaluate(SET)
+                counts = page.evaluate(FAULTS).items()
+                for fault in [*(f"{n} {what}" for what, n in counts if (n or 0) > 0), *said]:
                     bad += 1
                     print(f"{file.relative_to(folder)}, {width} pixels wide: {fault}")
     print(f"{len(files)} pages, {bad} faults")

@@ -4,13 +4,13 @@ python docs/make/glossary_figures.py
 """
 
 import tempfile
+from functools import partial
 from math import atan, cos, degrees, pi, radians, sin, tan
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Circle, Polygon, Rectangle
 from measuring_drawing import DASHED, PLAIN, arrow, floor, sheet, turn, write
 from run_pages import DOCS, store_small
@@ -20,6 +20,7 @@ from carom.plots import style
 from carom.plots.regimes import REGIMES
 
 NORMAL, SIDEWAYS, SPIN, DARK = style.VERMILION, style.BLUE, style.GREEN, "#9A6A12"
+DEEP = 0.5  # by which the circle is pressed down
 ANGLE = radians(30.0)  # of incidence, of the impact in the figure of psi
 STEEL = carom.Pair(
     carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), friction=0.2
@@ -54,13 +55,12 @@ def rubber(axis: Axes, amount: float, sideways: bool) -> None:
     """Draw a grid below a circle that has been pushed by an amount."""
     x, z = np.linspace(-3.0, 3.0, 601), np.linspace(1e-9, 2.4, 97)
     lines = [*((x, level) for level in z[::8]), *((place, z) for place in x[::20])]
-    top, grid, patch = {"color": PLAIN, "lw": 1.0}, {"color": "0.62", "lw": 0.5}, np.abs(x) <= 1.0
-    for px, pz in [*lines, (x, z[0]), (x[patch], z[0])]:
+    for px, pz in [*lines, (x, z[0]), (x[np.abs(x) <= 1.0], z[0])]:
         right, down = displaced(px, pz, sideways)
-        axis.plot(px + amount * right, -pz - amount * down, **grid)
-    surface, circle = axis.lines[-2:]
-    surface.set(**top)
-    circle.set(color=SIDEWAYS if sideways else NORMAL, lw=3.0, solid_capstyle="butt", zorder=4)
+        axis.plot(px + amount * right, -pz - amount * down, color="0.62", lw=0.5)
+    colour = SIDEWAYS if sideways else NORMAL
+    axis.lines[-2].set(color=PLAIN, lw=1.0)
+    axis.lines[-1].set(color=colour, lw=3.0, solid_capstyle="butt", zorder=4)
     axis.plot([-3.0, 3.0], [0.0, 0.0], color=PLAIN, lw=0.6, ls=DASHED)
     sheet(axis, (-3.2, 3.2), (-2.7, 1.1))
 
@@ -79,30 +79,28 @@ def kappa_curve(axis: Axes) -> None:
         point = stuff.poisson, carom.Pair(ball, plate, friction=0.2).kappa
         np.testing.assert_allclose(point[1], kappa_of(point[0]), rtol=1e-12)
         axis.plot(*point, "o", ms=3.5, color=PLAIN, mfc="white", clip_on=False)
-        shift, *side = (5, "left", "bottom") if stuff.poisson < 0.4 else (-5, "right", "top")
+        side, ha = (1, "left") if stuff.poisson < 0.4 else (-1, "right")
         words = name.removeprefix("soda-lime-").replace("-", " ")
-        look = {"textcoords": "offset points", "ha": side[0], "va": side[1]}
-        axis.annotate(words, point, (shift, 0.6 * shift), **look)
-    axis.set(xlim=(0.0, 0.5), ylim=(0.6, 1.02), xlabel=style.label("poisson"))
-    axis.set(ylabel=style.label("kappa"))
+        write(axis, point[0] + 0.022 * side, point[1] + 0.03 * side, words, ha=ha)
+    axis.set(xlim=(0.0, 0.5), ylim=(0.6, 1.02))
+    axis.set(xlabel=style.label("poisson"), ylabel=style.label("kappa"))
 
 
-def kappa() -> Figure:
-    figure, ((down, side, curve),) = style.new_figure(
-        1, 3, width=style.DOUBLE, height=48.0, width_ratios=(3.0, 3.0, 2.0)
-    )
-    deep = 0.5
-    far = deep / kappa_of(0.5)  # by the same force
-    rubber(down, deep, sideways=False)
-    arrow(down, (0.0, 1.0), (0.0, -deep), NORMAL, "$F$", (0.2, 0.45))
-    arrow(down, (0.6, 0.0), (0.6, -deep), PLAIN, r"$\delta_n$", (0, 0.53), arrowstyle="<|-|>")
-    rubber(side, far, sideways=True)
-    arrow(side, (far - 2.3, 0.14), (far - 1.0, 0.14), SIDEWAYS, "$F$", (0, 0.25))
-    side.vlines([1.0, 1.0 + far], 0.0, 0.62, color=PLAIN, lw=0.5)
+def pressed(axis: Axes) -> None:
+    """Draw a circle that is pressed down."""
+    rubber(axis, DEEP, sideways=False)
+    arrow(axis, (0.0, 1.0), (0.0, -DEEP), NORMAL, "$F$", (0.2, 0.45))
+    arrow(axis, (0.6, 0.0), (0.6, -DEEP), PLAIN, r"$\delta_n$", (0, 0.53), arrowstyle="<|-|>")
+
+
+def pushed(axis: Axes) -> None:
+    """Draw a circle that is pushed sideways by the same force."""
+    far = DEEP / kappa_of(0.5)
+    rubber(axis, far, sideways=True)
+    arrow(axis, (far - 2.3, 0.14), (far - 1.0, 0.14), SIDEWAYS, "$F$", (0, 0.25))
+    axis.vlines([1.0, 1.0 + far], 0.0, 0.62, color=PLAIN, lw=0.5)
     words = r"$\delta_t = \delta_n/\kappa$"
-    arrow(side, (1.0, 0.5), (1.0 + far, 0.5), PLAIN, words, (0, 0.28), arrowstyle="<|-|>")
-    kappa_curve(curve)
-    return figure
+    arrow(axis, (1.0, 0.5), (1.0 + far, 0.5), PLAIN, words, (0, 0.28), arrowstyle="<|-|>")
 
 
 def cone(axis: Axes) -> None:
@@ -156,14 +154,6 @@ def rebound(axis: Axes) -> None:
     top.set_xlabel(rf"$\theta_c$ of steel on steel, $\mu$ = {STEEL.friction:g}", labelpad=4)
 
 
-def psi() -> Figure:
-    figure = style.blank_figure(style.DOUBLE, 72.0)
-    left, right = figure.subfigures(1, 2, width_ratios=(3.0, 5.0))
-    cone(left.subplots())
-    rebound(right.subplots())
-    return figure
-
-
 def oscillators(axis: Axes) -> None:
     """Draw the two springs of a contact with the masses that they turn back."""
     along = np.linspace(0.0, 1.0, 400)
@@ -195,23 +185,13 @@ def course(axis: Axes, chi: float, words: str) -> None:
     for speed, colour, look in ((history.speed, NORMAL, DASHED), (sideways, SIDEWAYS, "-")):
         axis.plot(time, speed, color=colour, ls=look, zorder=3 if colour == NORMAL else 2)
         axis.plot(1.0, speed[-1], "o", ms=3.5, color=colour, clip_on=False, zorder=4)
-    write(axis, 0.97, 0.97, words, ha="right", va="top", transform=axis.transAxes, linespacing=1.4)
+    write(axis, 0.97, 1.08, f"$\\chi$ = {words}", ha="right", va="top", linespacing=1.4)
     axis.set(xlim=(0.0, 1.0), ylim=(-1.15, 1.15), xticks=[0, 0.5, 1], yticks=[-1, 0, 1])
     axis.set_xlabel("$t/t_c$")
-
-
-def chi() -> Figure:
-    figure, axes = style.new_figure(
-        1, 4, width=style.DOUBLE, height=56.0, width_ratios=(1.25, 1.0, 1.0, 1.0)
-    )
-    oscillators(axes[0, 0])
-    course(axes[0, 1], 1.0 / 3.0, "$\\chi$ = 1/3\nrubber that\ncannot turn")
-    course(axes[0, 2], 0.5, "$\\chi$ = 1/2\nin step")
-    course(axes[0, 3], STEEL.chi, f"$\\chi$ = {STEEL.chi:.2f}\nsolid steel ball")
-    axes[0, 1].set_ylabel("velocity over that before")
-    write(axes[0, 1], 0.55, -0.5, "$V_z$", NORMAL, ha="right", va="baseline")
-    write(axes[0, 1], 0.8, -0.3, "$V_x$", SIDEWAYS, ha="left", va="baseline")
-    return figure
+    if chi < 0.5:  # the first panel
+        axis.set_ylabel("velocity over that before")
+        write(axis, 0.52, -0.45, "$V_z$", NORMAL)
+        write(axis, 0.85, -0.25, "$V_x$", SIDEWAYS)
 
 
 def out_of_page(axis: Axes, place: Any) -> None:
@@ -265,25 +245,36 @@ def vectors(axis: Axes) -> None:
     sheet(axis, (-2.3, 2.6), (-1.15, 2.6))
 
 
-def signs() -> Figure:
-    figure, ((first, second),) = style.new_figure(1, 2, width=style.DOUBLE, height=70.0)
-    scalars(first)
-    vectors(second)
-    return figure
+FIGURES = {  # height in mm, and the panels with their shares of the width
+    "kappa": (48.0, {pressed: 3.0, pushed: 3.0, kappa_curve: 2.0}),
+    "psi": (72.0, {cone: 3.0, rebound: 5.0}),
+    "chi": (
+        56.0,
+        {
+            oscillators: 1.25,
+            partial(course, chi=1.0 / 3.0, words="1/3\nrubber that\ncannot turn"): 1.1,
+            partial(course, chi=0.5, words="1/2\nin step"): 1.0,
+            partial(course, chi=STEEL.chi, words=f"{STEEL.chi:.2f}\nsolid steel ball"): 1.0,
+        },
+    ),
+    "signs": (70.0, {scalars: 1.0, vectors: 1.0}),
+}
 
 
 @style.styled
 def main() -> None:
     """Draw and store, with a letter above the upper left corner of each panel."""
     with tempfile.TemporaryDirectory() as folder:
-        for draw in (kappa, psi, chi, signs):
-            figure = draw()
-            for axis, letter in zip(figure.axes, "abcd", strict=False):
+        for name, (height, panels) in FIGURES.items():
+            figure = style.blank_figure(style.DOUBLE, height)
+            parts = figure.subfigures(1, len(panels), width_ratios=[*panels.values()])
+            for part, draw, letter in zip(parts, panels, "abcd", strict=False):
+                axis = part.subplots()
+                draw(axis)
                 axis.set_title(f"({letter})", loc="left", fontweight="bold")
                 axis.spines[["top", "right"]].set_visible(False)
-            large = Path(folder) / "large.png"
-            style.save_figure(figure, large)
-            store_small(large, DOCS / "figures" / f"glossary_{draw.__name__}.png", all_colors=True)
+            large = style.save_figure(figure, Path(folder) / "large.png")
+            store_small(large, DOCS / "figures" / f"glossary_{name}.png", all_colors=True)
 
 
 if __name__ == "__main__":
