@@ -37,6 +37,9 @@ SURE = re.compile(  # what no sentence has
     rf"\b(?:{GREEK})(?![^\W_])|[A-Za-z](?:_|\*|')|[=<>|^]|(?<!\d)/|/(?!\d)|\s[+-]+\s|\s[x.]\s|[\w)\]][(\[]"
 )
 INNER = r"(?:[^()]|\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\))*"  # with brackets in brackets
+ASIDE = re.compile(  # a bracket with a relation, a comma or no letter
+    rf"[(\[](?!(?=[^)]*[A-Za-z])(?:[^()=<>,;]|\({INNER}\))*[)\]])"
+)
 ROOT = (rf"\bsqrt\(({INNER})\)", r"\\sqrt{\1}")
 TEX = (  # one after the other
     (r"\s+", " "),
@@ -94,15 +97,10 @@ def formula(text: str, at: int, within: bool = False) -> int:
 
 def is_prose(text: str, at: int, link: re.Match[str]) -> bool:
     """Return whether words go on behind what links factors, and no formula."""
-    if link["sign"]:
-        return False
-    if ARTICLE.match(text, at):  # an article, or the contact radius
+    if not link["sign"] and ARTICLE.match(text, at):  # an article, or the contact radius
         return bool(link.lastgroup or re.match(r"a\s+[a-z]+\b", text[at:]))
-    if not link.lastgroup and link[0] and text[at : at + 1] in ("(", "["):
-        inner = text[at + 1 : factor(text, at)]
-        flat = not re.search(r"[=<>]|[,;] ", re.sub(r"\([^()]*\)", "", inner))
-        return not (flat and re.search("[A-Za-z]", inner))
-    return not link.lastgroup and text[at : at + 1].isdigit()
+    aside = link[0] and ASIDE.match(text, at)
+    return not link.lastgroup and bool(aside or text[at : at + 1].isdigit())
 
 
 def factor(text: str, at: int) -> int:
@@ -169,8 +167,8 @@ def equation(text: str) -> str:
     >>> print(equation("F_n = k_n d while loading, F_t = k_t U"))
     F_n = k_n d\text{ while loading},\quad F_t = k_t U
     """
-    words_and_tex = re.sub("\1``|``\2", "", marked(text.rstrip(".,;")))
-    pieces = re.split("\1:math:`|`\2", words_and_tex)
+    plain = re.sub("\1``|``\2", "", marked(text.rstrip(".,;")))
+    pieces = re.split("\1:math:`|`\2", plain)
     for at in range(0, len(pieces), 2):
         words = re.sub(r"[^,;]*[^,;\s][^,;]*", r"\\text{\g<0>}", pieces[at].replace("%", r"\%"))
         pieces[at] = re.sub(r"([,;])(\\text\{)? ", r"\1\\quad \2", words)
@@ -215,8 +213,13 @@ def convert(lines: list[str]) -> list[str]:
 
 
 def process(app: Any, what: str, name: str, thing: Any, options: Any, lines: list[str]) -> None:
-    """Convert a docstring of the reference."""
+    """Convert a docstring of the reference, and let |x| be what it is, outside examples."""
     lines[:] = convert(lines)
+    example = False
+    for number, line in enumerate(lines):
+        example = bool(line.strip()) and (example or line.lstrip().startswith(">>>"))
+        if not example:
+            lines[number] = re.sub(r"(`[^`]*`)|\|", lambda found: found[1] or r"\|", line)
 
 
 def setup(app: Any) -> dict[str, Any]:

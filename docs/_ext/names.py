@@ -54,9 +54,8 @@ def refer(app: Sphinx, document: nodes.document) -> None:
 def to_page(code: nodes.literal, name: str, page: str) -> None:
     """Put a reference to what has a page in the reference around inline code."""
     where = {"refdomain": "py", "reftype": "obj", "reftarget": name, "refdoc": page}
-    link = addnodes.pending_xref("", refwarn=False, refexplicit=True, **where)
-    link["py:module"] = link["py:class"] = None
-    link[MARK] = True
+    unnamed: dict[str, Any] = {"py:module": None, "py:class": None, MARK: True}
+    link = addnodes.pending_xref("", refwarn=False, refexplicit=True, **where, **unnamed)
     link.source, link.line = code.source, code.line
     code.replace_self(link)
     link += code
@@ -124,19 +123,8 @@ def meaning(name: str) -> str:
     return f"{entry.meaning[0].upper()}{entry.meaning[1:]}{unit}."
 
 
-def escape_bars(app: Sphinx, *about: Any) -> None:
-    """Let |x| in a docstring be what it is, outside examples."""
-    lines: list[str] = about[-1]
-    example = False
-    for number, line in enumerate(lines):
-        example = bool(line.strip()) and (example or line.lstrip().startswith(">>>"))
-        if not example:
-            lines[number] = re.sub(r"(`[^`]*`)|\|", lambda found: found[1] or r"\|", line)
-
-
 def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("doctree-read", refer)
     app.connect("missing-reference", check)
     app.connect("autodoc-process-docstring", describe, priority=900)  # after napoleon
-    app.connect("autodoc-process-docstring", escape_bars, priority=902)
     return {"parallel_read_safe": True}

@@ -41,29 +41,23 @@ def answered_help() -> str:
 def described(title: str, dataset: Any) -> str:
     """Return the dimensions, variables and attributes of a dataset, as a section."""
     sizes = ", ".join(f"{name}: {size}" for name, size in dataset.sizes.items())
-    rows = (
-        (f"`{name}`", ", ".join(array.dims), kind(array), array.attrs.get("units", ""), said(array))
-        for name, array in (*dataset.coords.items(), *dataset.data_vars.items())
-    )
+    arrays = (*dataset.coords.items(), *dataset.data_vars.items())
+    rows = (variable(name, array) for name, array in arrays)
     variables = table("name dimensions type unit meaning", rows)
     attributes = ((f"`{name}`", shortened(value)) for name, value in dataset.attrs.items())
     head = f"### {title}\n\n`{DATASETS[title]}` has dimensions {sizes}.\n"
     return "\n".join([head, variables, table("attribute here", attributes)])
 
 
-def kind(array: Any) -> str:
-    """Return the type of an array in a word."""
-    return "text" if array.dtype.kind in "OUT" else str(array.dtype)
-
-
-def said(array: Any) -> str:
-    """Return the meaning of an array, its flags among it."""
-    text = str(array.attrs.get("long_name", ""))
+def variable(name: str, array: Any) -> tuple[str, ...]:
+    """Return name, dimensions, type, unit and meaning of an array, its flags among it."""
+    kind = "text" if array.dtype.kind in "OUT" else str(array.dtype)
+    meaning = [str(array.attrs["long_name"])] if "long_name" in array.attrs else []
     if flags := array.attrs.get("flag_meanings"):
         pairs = zip(array.attrs["flag_values"], flags.split(), strict=True)
-        named = ", ".join(f"{value} {word.replace('_', ' ')}" for value, word in pairs)
-        return f"{text}: {named}" if text else named
-    return text
+        meaning.append(", ".join(f"{value} {word.replace('_', ' ')}" for value, word in pairs))
+    unit = array.attrs.get("units", "")
+    return f"`{name}`", ", ".join(array.dims), kind, unit, ": ".join(meaning)
 
 
 def shortened(value: Any) -> str:

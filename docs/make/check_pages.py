@@ -7,7 +7,6 @@ for anything, and leave no error in the console. Needs Playwright and Debian's c
 import sys
 from pathlib import Path
 from shutil import which
-from typing import Any
 
 from playwright.sync_api import sync_playwright
 
@@ -31,23 +30,18 @@ FAULTS = """() => {
 }"""
 
 
-def listen(page: Any, said: list[str]) -> None:
-    """Keep errors of the console and requests to other hosts."""
-    page.on("request", lambda it: it.url.startswith(HERE) or said.append(f"asks {it.url}"))
-    page.on("requestfailed", lambda request: said.append(f"does not get {request.url}"))
-    page.on("pageerror", lambda error: said.append(str(error)))
-    page.on("console", lambda line: said.append(line.text) if line.type == "error" else None)
-
-
 def main(folder: Path) -> int:
     """Return 1 if a page has a fault; say which."""
     files = [page for page in sorted(folder.rglob("*.html")) if not SOURCES & set(page.parts)]
-    bad = 0
+    bad, said = 0, []
     with sync_playwright() as tool:
         browser = tool.chromium.launch(executable_path=which("chromium"), args=["--no-sandbox"])
         for width in WIDTHS:
-            page, said = browser.new_page(viewport={"width": width, "height": 900}), []
-            listen(page, said)
+            page = browser.new_page(viewport={"width": width, "height": 900})
+            page.on("request", lambda it: it.url.startswith(HERE) or said.append(f"asks {it.url}"))
+            page.on("requestfailed", lambda request: said.append(f"does not get {request.url}"))
+            page.on("pageerror", lambda error: said.append(str(error)))
+            page.on("console", lambda line: line.type != "error" or said.append(line.text))
             for file in files:
                 said.clear()
                 page.goto(file.as_uri())

@@ -30,7 +30,6 @@ def main() -> None:
     """Serve the page, open its states, and store what is seen."""
     page = explorer(port=0)
     Thread(target=page.serve, daemon=True).start()
-    FIGURES.mkdir(exist_ok=True)
     with sync_playwright() as play:
         browser = play.chromium.launch(
             executable_path=shutil.which("chromium"), args=["--no-sandbox"]
@@ -43,7 +42,6 @@ def main() -> None:
             picture = Image.open(BytesIO(tab.screenshot())).convert("RGB")
             picture.save(FIGURES / f"{name}.png", optimize=True)
             tab.close()
-        browser.close()
     page.stop()
 
 

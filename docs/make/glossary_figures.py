@@ -143,8 +143,7 @@ def rebound(axis: Axes) -> None:
     axis.plot(one, out, "o", ms=4.0, color=PLAIN, mfc="white")
     write(axis, one - 0.2, out - 0.1, f"as in (a),\n$\\psi_1$ = {one:.2f}", ha="right")
     write(axis, 3.5, -1.78, r"$\psi_1 - 4\chi$", "0.35")
-    write(axis, 3.02, 0.2, "leaves forward", "0.35", ha="left")
-    write(axis, 3.02, -0.2, "leaves backward", "0.35", ha="left")
+    write(axis, 3.02, 0.0, "leaves forward\nleaves backward", "0.35", ha="left", linespacing=1.7)
     names = ["0", "1", f"$2\\chi$ = {ends[2]:.2f}", f"$4\\chi-1$ = {ends[3]:.2f}", "7"]
     axis.set_xticks(ends, names)
     axis.set(xlim=(0.0, ends[-1]), ylim=(-2.0, 2.8), yticks=range(-2, 2))
@@ -158,10 +157,9 @@ def oscillators(axis: Axes) -> None:
     """Draw the two springs of a contact with the masses that they turn back."""
     along = np.linspace(0.0, 1.0, 400)
     across = 0.13 * np.sin(10.0 * pi * np.clip((along - 0.12) / 0.76, 0.0, 1.0))
-    axis.plot([0.15, 1.25], [0.0, 0.0], color=PLAIN, lw=1.0)
+    floor(axis, 0.15, 1.25, 0.14)
+    axis.add_patch(Rectangle((1.86, 0.9), 0.14, 0.9, fc="#E4E4E4", ec="none"))
     axis.plot([2.0, 2.0], [0.9, 1.8], color=PLAIN, lw=1.0)
-    for place, *size in (((0.15, -0.14), 1.1, 0.14), ((1.86, 0.9), 0.14, 0.9)):
-        axis.add_patch(Rectangle(place, *size, fc="#E4E4E4", ec="none"))
     axis.plot(0.7 + across, 1.1 * along, color=NORMAL)
     axis.plot(2.0 + 1.1 * along, 1.35 + across, color=SIDEWAYS)
     for x, name, colour in ((0.3, "$m_n$", NORMAL), (3.1, "$m_t$", SIDEWAYS)):
@@ -246,7 +244,7 @@ def vectors(axis: Axes) -> None:
 
 
 FIGURES = {  # height in mm, and the panels with their shares of the width
-    "kappa": (48.0, {pressed: 3.0, pushed: 3.0, kappa_curve: 2.0}),
+    "kappa": (48.0, {pressed: 3.0, pushed: 3.0, kappa_curve: 2.4}),
     "psi": (72.0, {cone: 3.0, rebound: 5.0}),
     "chi": (
         56.0,

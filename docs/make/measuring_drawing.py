@@ -114,7 +114,7 @@ def drop(axis: Axes) -> None:
 @style.styled
 def main() -> None:
     """Draw and store."""
-    figure, axes = style.new_figure(1, 2, width=style.DOUBLE, height=78.0, width_ratios=(4.5, 2.6))
+    figure, axes = style.new_figure(1, 2, width=style.DOUBLE, height=68.0, width_ratios=(4.5, 2.6))
     oblique(axes[0, 0])
     drop(axes[0, 1])
     figure.savefig(FIGURE, dpi=200)

@@ -4,7 +4,7 @@ from collections import defaultdict
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from measuring_drawing import arrow, sheet, write
+from measuring_drawing import PLAIN, arrow, sheet, write
 from run_pages import DOCS, store_small
 
 from carom.dimensionless.elastic.phases import OPPOSITE, SAME, TRANSITIONS, Cause, Kind
@@ -28,7 +28,6 @@ WORDS = {  # where it stands what ends a phase, and how it is aligned
 }
 STARTS = {Kind.STICK: r"$|\psi_1| \leq 1$", Kind.GROSS_SLIP: r"$|\psi_1| > 1$"}
 ENDS = {Kind.STICK: (0, 9), Kind.SLIP: (12, 0), Kind.GROSS_SLIP: (0, -9)}  # from where a phase is
-GREY = "0.2"
 
 
 def page() -> str:
@@ -53,12 +52,12 @@ def draw() -> None:
         boxes[kind] = axis.texts[-1].get_bbox_patch()
         if kind in STARTS:
             axis.plot(x - 22, y, "ko")
-            arrow(axis, (x - 22, y), (x, y), GREY, patchB=boxes[kind])
+            arrow(axis, (x - 22, y), (x, y), PLAIN, patchB=boxes[kind])
             write(axis, x - 20, y + 1, STARTS[kind], ha="left", va="bottom")
         end = x + ENDS[kind][0], y + ENDS[kind][1]
         axis.plot(*end, "ko", mfc="white", ms=8)
         axis.plot(*end, "ko", ms=4)
-        arrow(axis, (x, y), end, GREY, patchA=boxes[kind], shrinkB=5)
+        arrow(axis, (x, y), end, PLAIN, patchA=boxes[kind], shrinkB=5)
         write(axis, end[0] + 2, end[1], CAUSE_NAMES[Cause.SEPARATION], ha="left")
     for (kind, cause, unloading), (after, _) in TRANSITIONS.items():
         endings[kind, after].append(f"{CAUSE_NAMES[cause]}, {HALVES[unloading]}")
@@ -68,9 +67,9 @@ def draw() -> None:
         x, y = PLACES[kind]
         ends = {"patchA": boxes[kind], "patchB": boxes[after], "connectionstyle": "arc3,rad=-0.12"}
         if kind == after:
-            arrow(axis, (x - 3, y + 2), (x + 3, y + 2), GREY, connectionstyle="arc3,rad=-2")
+            arrow(axis, (x - 3, y + 2), (x + 3, y + 2), PLAIN, connectionstyle="arc3,rad=-2")
         else:
-            arrow(axis, (x, y), PLACES[after], GREY, **ends)
+            arrow(axis, (x, y), PLACES[after], PLAIN, **ends)
     with TemporaryDirectory() as folder:
         store_small(style.save_figure(figure, Path(folder) / FIGURE.name), FIGURE)
 

@@ -1,6 +1,7 @@
 """Run the code of the manual's pages, and draw the figures that it makes.
 
-python docs/make/run_pages.py [PAGE ...]    where none is named, all pages that have code
+python docs/make/run_pages.py [PAGE ...]    where none is named, all pages that have code;
+examples/README.md stands for the figures of its scripts
 
 The blocks of a page run in order, in one namespace and a folder that holds `examples` alone:
 
@@ -16,6 +17,7 @@ A picture in figures/STEM/ of page STEM is one that the page's code must have st
 """
 
 import re
+import runpy
 import shlex
 import shutil
 import subprocess
@@ -29,9 +31,13 @@ from itertools import pairwise, takewhile
 from pathlib import Path
 from typing import Any
 
+import matplotlib
+
 from carom.cli import main as command
 
 DOCS = Path(__file__).parents[1]
+EXAMPLES = DOCS.parent / "examples"
+MAPS = {"contact_through_impact", "patch_in_microslip"}  # of tractions: they keep all colours
 sys.path.append(str(DOCS.parent / "studies"))
 
 from small_pictures import store_small  # noqa: E402
@@ -75,12 +81,11 @@ def commands(block: re.Match[str]) -> list[tuple[str, str]]:
     return [line for line in here if line[0].startswith(("carom ", "python "))]
 
 
-def has_code(page: Path) -> bool:
-    """Return whether anything of a page is executed."""
-    return any(block["language"] == "python" or commands(block) for block in blocks(page))
-
-
-PAGES = tuple(filter(has_code, (DOCS.parent / "README.md", *sorted(DOCS.rglob("*.md")))))
+PAGES = tuple(  # those of which anything is executed
+    page
+    for page in (DOCS.parent / "README.md", *sorted(DOCS.rglob("*.md")))
+    if any(block["language"] == "python" or commands(block) for block in blocks(page))
+)
 
 
 def as_promised(line: str) -> bool:
@@ -113,7 +118,7 @@ def printed(block: re.Match[str], page: Path, names: dict[str, Any]) -> list[tup
 def run(page: Path, folder: Path) -> Iterator[tuple[int, str, str]]:
     """Run a page in a folder; yield the line, what was expected and what came where they differ."""
     names: dict[str, Any] = {"__name__": "__main__"}
-    shutil.copytree(DOCS.parent / "examples", folder / "examples", dirs_exist_ok=True)
+    shutil.copytree(EXAMPLES, folder / "examples", dirs_exist_ok=True)
     checker, came = OutputChecker(), ""
     with chdir(folder):
         for block, following in pairwise([*blocks(page), None]):
@@ -134,18 +139,26 @@ def run(page: Path, folder: Path) -> Iterator[tuple[int, str, str]]:
 
 def pictures(page: Path) -> list[Path]:
     """Return the pictures that the code of a page makes, as the page links them."""
-    links = re.findall(r"\]\(([^)]+\.png)\)", page.read_text(encoding="utf-8"))
-    own = [Path(link) for link in links if Path(link).parent.parts[-2:] == ("figures", page.stem)]
-    return [Path(DOCS / "figures" / page.stem / link.name) for link in own]
+    own = rf"\]\((?:[^)]*/)?figures/{page.stem}/([^)/]+\.png)\)"
+    names = re.findall(own, page.read_text(encoding="utf-8"))
+    return [DOCS / "figures" / page.stem / name for name in names]
+
+
+def draw_gallery() -> None:
+    """Draw the figures of the index of the examples: its scripts' own."""
+    for figure in sorted(DOCS.glob("figures/gallery/*.png")):
+        with tempfile.TemporaryDirectory() as folder:
+            runpy.run_path(str(EXAMPLES / f"{figure.stem}.py"))["main"](folder)
+            store_small(Path(folder) / figure.name, figure, all_colors=figure.stem in MAPS)
 
 
 def main() -> int:
     """Run the pages, store their pictures, and tell what differs."""
-    import matplotlib
-
     matplotlib.use("agg")
     wrong = 0
     for page in [Path(name).resolve() for name in sys.argv[1:]] or PAGES:
+        if page == EXAMPLES / "README.md":
+            draw_gallery()
         with tempfile.TemporaryDirectory() as folder:
             for line, expected, came in run(page, Path(folder)):
                 print(f"{page.name}, line {line}: expected\n{expected}came\n{came}")
