@@ -31,15 +31,13 @@ HOMES = {  # where public names are defined, and where they are offered
 PAGE = "reference/commands"
 COMMANDS = {" ".join(("carom", *words)) for words in commands()}
 MARK = "carom_name"
-UNLINKED = nodes.reference | addnodes.pending_xref | nodes.title
-log = getLogger(__name__)
 
 
 def refer(app: Sphinx, document: nodes.document) -> None:
     """Turn inline code that is a full name, or a command, into a reference."""
     for code in list(document.findall(nodes.literal)):
         name, command = NAME.fullmatch(code.astext()), COMMAND.match(code.astext())
-        if isinstance(code.parent, UNLINKED):
+        if isinstance(code.parent, nodes.reference | addnodes.pending_xref | nodes.title):
             continue
         if name:
             to_page(code, offered(name[1]), app.env.docname)
@@ -97,7 +95,7 @@ def check(
     if MARK not in node:
         return None
     if not exists(node["reftarget"]):
-        log.warning("there is no %s", node["reftarget"], location=node)
+        getLogger(__name__).warning("there is no %s", node["reftarget"], location=node)
     return content
 
 

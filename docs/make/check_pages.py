@@ -13,8 +13,8 @@ from playwright.sync_api import sync_playwright
 WIDTHS = (1280, 400)
 SOURCES = {"_modules", "_static", "explore"}  # the last has tests of its own
 HERE = ("file:", "data:", "blob:")
-SET = "window.MathJax && MathJax.startup ? MathJax.startup.promise.then(() => true) : true"
-FAULTS = """() => {
+FAULTS = """async () => {
+  await window.MathJax?.startup?.promise;
   const all = query => [...document.querySelectorAll(query)];
   const wider = part => part.scrollWidth - part.clientWidth;
   const left = part => part.getBoundingClientRect().left;
@@ -45,7 +45,6 @@ def main(folder: Path) -> int:
             for file in files:
                 said.clear()
                 page.goto(file.as_uri())
-                page.evaluate(SET)
                 counts = page.evaluate(FAULTS).items()
                 for fault in [*(f"{n} {what}" for what, n in counts if (n or 0) > 0), *said]:
                     bad += 1
