@@ -7,7 +7,6 @@ from numbers import Integral
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from carom import plots
 from carom.bodies.pairs import ContactScales, Pair, with_friction
@@ -21,6 +20,7 @@ from carom.dimensionless.load_paths.memory import SLOPE, profile_of
 from carom.io.citations import LOADS, TURNING, bibtex
 from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
+from carom.old_names import with_old_keywords
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
@@ -64,8 +64,6 @@ class LoadPath(InContact, Result):
     >>> path.tangential_force.round(4)
     array([0.    , 1.6381])
     """
-
-    _told_by = "step : int", "Number of the step, from the end if negative; by default the last."
 
     pair: Pair
     penetration: Array
@@ -145,7 +143,9 @@ class LoadPath(InContact, Result):
         """
         return bibtex(*LOADS, *([TURNING] if self.displacement.ndim == 2 else []))
 
-    def contact(self, step: int = -1) -> Contact:
+    @with_old_keywords
+    def contact(self, at: Any = None) -> Contact:
+        step = -1 if at is None else at
         k = self._step(step)
         if self.displacement.ndim == 2:
             allowed = "fields and stresses are available only for paths in one direction"
@@ -167,30 +167,6 @@ class LoadPath(InContact, Result):
             scalars={name: float(getattr(self, name)[k]) for name in COLUMNS[2:4]},
             attributes=_state(path.stack) | {"inputs": self.inputs()},
         )
-
-    def fields(
-        self,
-        step: int = -1,
-        x: ArrayLike | None = None,
-        y: ArrayLike | None = None,
-        *,
-        points: ArrayLike | None = None,
-    ) -> xr.Dataset:
-        return super().fields(step, x, y, points=points)
-
-    def stress(
-        self,
-        step: int = -1,
-        x: ArrayLike | None = None,
-        z: ArrayLike | None = None,
-        *,
-        points: ArrayLike | None = None,
-        body: str = "second",
-    ) -> xr.Dataset:
-        return super().stress(step, x, z, points=points, body=body)
-
-    def radial(self, step: int = -1, n: int = 401) -> xr.Dataset:
-        return super().radial(step, n)
 
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
@@ -229,7 +205,7 @@ class LoadPath(InContact, Result):
         first, second = describe(self.pair.first), describe(self.pair.second)
         return {"first": first, "second": second, "friction": self.pair.friction}
 
-    def _step(self, step: int) -> int:
+    def _step(self, step: Any) -> int:
         n = len(self)
         whole = isinstance(step, Integral) and is_real(step)
         try:
