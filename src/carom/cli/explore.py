@@ -8,7 +8,7 @@ from contextlib import suppress
 
 import typer
 
-from carom.cli.cases import described, whole_option
+from carom.cli.options import described, whole_option
 from carom.quantities.units import whole
 
 OPTIONS = {

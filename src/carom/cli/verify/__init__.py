@@ -1,6 +1,6 @@
 """`carom verify`: contact laws and DEM codes against the exact impact."""
 
-from carom.cli.once import Commands
+from carom.cli.options import Commands
 from carom.cli.verify.engines import COMMANDS, engine_command
 from carom.cli.verify.laws import laws_command
 from carom.cli.verify.pack import pack_command

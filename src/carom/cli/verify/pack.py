@@ -4,7 +4,7 @@ import json
 
 import typer
 
-from carom.cli.cases import described
+from carom.cli.options import described
 
 OPTIONS = {
     "folder": typer.Argument(help="New or empty folder for the pack, e.g. bench."),
