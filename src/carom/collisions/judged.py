@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
-from carom.collisions.records import Collisions, CollisionStatus, same_numbers
+from carom.collisions.records import Collisions, CollisionStatus, by_numbers
 from carom.dimensionless import neglected
 from carom.plots.result import card
 from carom.quantities.statuses import WordedStatus
@@ -28,6 +28,7 @@ class Judgement(WordedStatus):
     NOT_COLLIDED = 2, "not judged: the bodies did not collide"
 
 
+@by_numbers
 class JudgedCollisions(NamedTuple):
     """What `collide` returns with `judge=True`: `Collisions`, and bounds of the error in psi_2.
 
@@ -61,18 +62,6 @@ class JudgedCollisions(NamedTuple):
         """Return in a few lines how many pairs there are, what became of them, what is known."""
         lines = [repr(Collisions._make(self[:5])), *map(": ".join, self._counted())]
         return "\n  ".join(lines)
-
-    def __eq__(self, other: object) -> bool:
-        """Return whether all numbers are the same."""
-        return isinstance(other, JudgedCollisions) and all(map(same_numbers, self, other))
-
-    def __ne__(self, other: object) -> bool:
-        """Return whether any number differs."""
-        return not self == other
-
-    def __hash__(self) -> int:
-        """Raise TypeError: arrays can change."""
-        raise TypeError(f"unhashable type: {type(self).__name__!r}")
 
     def _repr_html_(self) -> str:
         """Return a table for a notebook."""

@@ -3,7 +3,7 @@
 import warnings
 from collections.abc import Sequence
 from math import prod
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import array_api_compat
 import numpy as np
@@ -16,6 +16,8 @@ from carom.plots.result import card
 from carom.quantities.arrays import numbers
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.statuses import WordedStatus
+
+Tuple = TypeVar("Tuple", bound=tuple[Any, ...])
 
 NO_VALUES = (TypeError, RuntimeError)  # what jax and torch raise while they trace or map
 SKEW = 1e-5  # of a normal's squared length from 1; so much is rounding, and made up for
@@ -47,6 +49,22 @@ ADVICE = {
 }
 
 
+def by_numbers(kind: type[Tuple]) -> type[Tuple]:
+    """Let tuples of arrays be equal where all numbers are, and have no hash: arrays change."""
+
+    def equal(self: Any, other: object) -> bool:
+        return isinstance(other, kind) and all(map(same_numbers, self, other))
+
+    def unhashable(self: Any) -> int:
+        raise TypeError(f"unhashable type: {type(self).__name__!r}")
+
+    own = {"__eq__": equal, "__ne__": lambda a, b: not equal(a, b), "__hash__": unhashable}
+    for name, method in own.items():
+        setattr(kind, name, method)
+    return kind
+
+
+@by_numbers
 class Collisions(NamedTuple):
     """Velocities and spins after collisions, as arrays like those before; SI units.
 
@@ -77,18 +95,6 @@ class Collisions(NamedTuple):
             return tuple.__repr__(self)
         lines = [_title(self), *(f"  {status.message}: {n:,}" for status, n in counts.items())]
         return "\n".join(lines)
-
-    def __eq__(self, other: object) -> bool:
-        """Return whether all numbers are the same."""
-        return isinstance(other, Collisions) and all(map(same_numbers, self, other))
-
-    def __ne__(self, other: object) -> bool:
-        """Return whether any number differs."""
-        return not self == other
-
-    def __hash__(self) -> int:
-        """Raise TypeError: arrays can change."""
-        raise TypeError(f"unhashable type: {type(self).__name__!r}")
 
     def _repr_html_(self) -> str:
         """Return a table for a notebook."""

@@ -12,9 +12,8 @@ from carom import plots
 from carom.bodies.pairs import ContactScales, Pair, with_friction
 from carom.bodies.shapes import describe
 from carom.contacts.contact import Contact
-from carom.contacts.following import followed
 from carom.contacts.in_contact import InContact
-from carom.contacts.load_steps import Given, Steps, read_steps
+from carom.contacts.load_steps import Given, Steps, followed, read_steps
 from carom.dimensionless.load_paths import paths
 from carom.dimensionless.load_paths.memory import SLOPE, profile_of
 from carom.io.citations import LOADS, TURNING, bibtex

@@ -124,14 +124,7 @@ def psi_line(psi: ArrayLike) -> Array:
 
 
 def in_words(psi: Sequence[float]) -> str:
-    """Return how many incidences there are, and from where to where.
-
-    Examples
-    --------
-    >>> from carom.verify.errors import INCIDENCES, in_words
-    >>> in_words(INCIDENCES), in_words([1.0])
-    ('at 15 incidences, psi_1 from 0.1 to 6', 'at psi_1 = 1')
-    """
+    """Return how many incidences there are, and from where to where."""
     if len(psi) == 1:
         return f"at psi_1 = {psi[0]:g}"
     return f"at {len(psi)} incidences, psi_1 from {min(psi):g} to {max(psi):g}"

@@ -145,23 +145,7 @@ def psi_out(experiment: Experiment, outcomes: Outcomes) -> Array:
 
 
 def results_csv(experiment: Experiment, outcomes: Outcomes) -> str:
-    """Return the impacts as `carom verify score` reads them: SI units, 17 digits.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import carom
-    >>> from carom.verify.engines.experiments import Outcomes, results_csv
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> experiment = carom.verify.Experiment(
-    ...     pair=pair, law=carom.dem.LammpsMindlin(), normal_speed=0.25,
-    ...     tangential_speed=(0.5,), steps=1000,
-    ... )
-    >>> print(results_csv(experiment, Outcomes(*np.array([[0.25], [0.375], [-16.0]]))), end="")
-    normal_speed,tangential_speed,spin,normal_speed_out,tangential_speed_out,spin_out
-    0.25,0.5,0,0.25,0.375,-16
-    """
+    """Return the impacts as `carom verify score` reads them: SI units, 17 digits."""
     normal = np.full(len(experiment), experiment.normal_speed)
     before = (normal, experiment.tangential_speed, experiment.spin)
     rows = [",".join(f"{value:.17g}" for value in row) for row in np.stack([*before, *outcomes]).T]

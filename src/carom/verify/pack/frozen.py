@@ -58,15 +58,7 @@ class DecimalTable:
 
 
 def read_table(text: str) -> DecimalTable:
-    """Return the table of which `DecimalTable.as_csv` made this text.
-
-    Examples
-    --------
-    >>> from carom.verify.pack.frozen import read_table
-    >>> table = read_table("# two impacts\\npsi_in,psi_out\\n0.5,0.05\\n1,-0.06\\n")
-    >>> table.notes, table.numbers("psi_out")
-    (('two impacts',), array([ 0.05, -0.06]))
-    """
+    """Return the table of which `DecimalTable.as_csv` made this text."""
     lines = text.splitlines()
     notes = tuple(line[1:].removeprefix(" ") for line in lines if line.startswith("#"))
     head, *rows = csv.reader(line for line in lines if not line.startswith("#"))
@@ -81,14 +73,7 @@ def frozen_files() -> dict[str, str]:
 
 
 def folders_with(name: str) -> list[str]:
-    """Return the folders of the pack that hold a frozen file of this name.
-
-    Examples
-    --------
-    >>> from carom.verify.pack.frozen import folders_with
-    >>> folders_with("results.csv")[-1]
-    'wall_spin'
-    """
+    """Return the folders of the pack that hold a frozen file of this name."""
     ending = f"/{name}"
     return [path.removesuffix(ending) for path in frozen_files() if path.endswith(ending)]
 

@@ -21,6 +21,7 @@ from carom.verify.scoring.points import (
     energy_audit,
     refuse_large,
     restitution_audit,
+    within,
 )
 
 FEWEST = 20  # rows with a force
@@ -69,23 +70,14 @@ def contact_samples(results: UserTable, hit: Impact) -> Samples:
             f"results: {count} rows have a normal force; a history needs at least {FEWEST}, "
             "record more often"
         )
-    touch = float(time[first]) - _since_touch(float(force[first]), hit)
-    end = float(time[last]) + _until_parting(float(force[last]), hit)
+    touch = float(time[first]) - _when(float(force[first]), hit, 0.0)
+    parting = _when(float(force[last]), hit, hit.solution.duration)
+    end = float(time[last]) + (hit.duration - parting)
     if first > 0:
         touch = max(touch, float(time[first - 1]))
     if last + 1 < len(results):
         end = min(end, float(time[last + 1]))
     return _framed(results, first, last, touch, end)
-
-
-def _since_touch(force: float, hit: Impact) -> float:
-    """Return the time from the touch until the exact force has this value."""
-    return _when(force, hit, 0.0)
-
-
-def _until_parting(force: float, hit: Impact) -> float:
-    """Return the time until the bodies part, from when the exact force has this value."""
-    return hit.duration - _when(force, hit, hit.solution.duration)
 
 
 def _when(force: float, hit: Impact, end: float) -> float:
@@ -288,12 +280,11 @@ def _off(name: str, forces: Forces, error: Array, unit: str, limit: float) -> Fi
     value = float(abs(error[worst]))
     where = f"{error[worst]:+.3g} {unit} at t = {text(forces.time[worst], 's', 4)}"
     verdict = f"off by {where} after the touch; rms {forces.rms(error):.3g}"
-    return Finding(name, value, limit, value <= limit, verdict)
+    return within(name, value, limit, verdict)
 
 
 def _share(name: str, error: float, unit: str, limit: float) -> Finding:
-    verdict = f"off by {error:+.3g} {unit}"
-    return Finding(name, abs(error), limit, abs(error) <= limit, verdict)
+    return within(name, abs(error), limit, f"off by {error:+.3g} {unit}")
 
 
 def _cone_audit(results: UserTable, forces: Forces, limit: float) -> Finding:
@@ -301,26 +292,23 @@ def _cone_audit(results: UserTable, forces: Forces, limit: float) -> Finding:
     friction, peak = forces.hit.pair.friction, forces.hit.scales.force
     over = np.abs(results["tangential_force"]) - friction * np.maximum(results["normal_force"], 0.0)
     over = over / (friction * peak)
-    outside = over > PRINTED * limit
-    if not outside.any():
-        value = max(float(over.max()), 0.0)
-        return Finding("friction cone", value, limit, True, "|F_t| <= mu F_n at all times")
-    worst = int(np.argmax(over))
-    value = float(over[worst])
-    verdict = f"|F_t| > mu F_n in {results.named(outside)}; most in {results.one(worst)}"
-    return Finding("friction cone", value, limit, value <= limit, f"{verdict}, by {value:.3g}")
+    outside, value = over > PRINTED * limit, max(float(over.max()), 0.0)
+    verdict = "|F_t| <= mu F_n at all times"
+    if outside.any():
+        most = results.one(int(np.argmax(over)))
+        verdict = f"|F_t| > mu F_n in {results.named(outside)}; most in {most}, by {value:.3g}"
+    return within("friction cone", value, limit, verdict)
 
 
 def _work_audit(forces: Forces, limit: float) -> Finding:
     """Return whether the tangential force takes energy from the motion before it gives any."""
     gain = np.abs(forces.psi) - abs(forces.hit.psi_in)
     worst = int(np.argmax(gain))
-    value = max(float(gain[worst]), 0.0)
-    if value <= PRINTED * limit:
-        return Finding("work", value, limit, True, "friction never adds to the motion")
-    when = f"at t = {text(forces.time[worst], 's', 4)} after the touch"
-    verdict = f"the tangential force adds to the motion, most {when}: {value:.3g} of psi"
-    return Finding("work", value, limit, value <= limit, verdict)
+    value, verdict = max(float(gain[worst]), 0.0), "friction never adds to the motion"
+    if value > PRINTED * limit:
+        when = f"at t = {text(forces.time[worst], 's', 4)} after the touch"
+        verdict = f"the tangential force adds to the motion, most {when}: {value:.3g} of psi"
+    return within("work", value, limit, verdict)
 
 
 def _velocity_audit(results: UserTable, forces: Forces, limit: float) -> tuple[Finding, ...]:
@@ -333,10 +321,9 @@ def _velocity_audit(results: UserTable, forces: Forces, limit: float) -> tuple[F
     off = np.abs(velocity - forces.psi[: own.size][own])
     worst = int(np.argmax(off))
     value = float(off[worst])
-    words = (
-        f"differs from the impulse by up to {value:.3g} of psi, in {results.one(int(rows[worst]))}"
-    )
-    return (Finding("contact velocity", value, limit, value <= limit, words),)
+    where = results.one(int(rows[worst]))
+    words = f"differs from the impulse by up to {value:.3g} of psi, in {where}"
+    return (within("contact velocity", value, limit, words),)
 
 
 def _notes(forces: Forces) -> tuple[str, ...]:

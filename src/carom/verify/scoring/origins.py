@@ -24,15 +24,11 @@ class Origin(NamedTuple):
 
     @property
     def label(self) -> str:
-        """Both names, "" for none.
-
-        Examples
-        --------
-        >>> from carom.verify.scoring.origins import Origin
-        >>> Origin("LAMMPS", "mindlin").label
-        'LAMMPS, mindlin'
-        """
+        """Both names, "" for none."""
         return ", ".join(filter(None, self))
+
+
+NOBODY = Origin()
 
 
 class Origins(NamedTuple):
@@ -51,9 +47,9 @@ class Origins(NamedTuple):
         return self.known[int(self.places[row])]
 
 
-def unknown(rows: int) -> Origins:
-    """Return the origins of results that tell none."""
-    return Origins((Origin(),), np.zeros(rows, dtype=np.int64))
+def of_all(rows: int, one: Origin = NOBODY) -> Origins:
+    """Return one origin for all results, by default none."""
+    return Origins((one,), np.zeros(rows, dtype=np.int64))
 
 
 def origins_of(
@@ -71,7 +67,7 @@ def origins_of(
     varied = [name for name, each in zip(NAMES, names, strict=True) if len(set(each)) > 1]
     if not varied:
         one = Origin(*(each[0] for each in names))
-        return Origins((one,), np.zeros(rows, dtype=np.int64)), ()
+        return of_all(rows, one), ()
     pairs = [*zip(*(each * (len(table.rows) // len(each)) for each in names), strict=True)]
     known = {pair: place for place, pair in enumerate(dict.fromkeys(pairs))}
     if len(known) <= most:
@@ -80,7 +76,7 @@ def origins_of(
     one = Origin(*("" if n in varied else each[0] for n, each in zip(NAMES, names, strict=True)))
     told = f"the names in {' and '.join(varied)} are left out: {len(known)} of them"
     notes = (f"{told}, at most {most} are told apart",)
-    return Origins((one,), np.zeros(rows, dtype=np.int64)), notes
+    return of_all(rows, one), notes
 
 
 def _named(name: str, given: Any, table: UserTable) -> list[str]:

@@ -18,7 +18,7 @@ from carom.plots.result import Result, card
 from carom.quantities.glossary import GLOSSARY
 from carom.verify.errors import losses_of, pure
 from carom.verify.scoring.histories import Forces
-from carom.verify.scoring.origins import Origins, unknown
+from carom.verify.scoring.origins import Origins, of_all
 from carom.verify.scoring.points import Group, Points
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ class Score(Result):
     @cached_property
     def origins(self) -> Origins:
         """By which code and law each point was computed."""
-        return self.told_origins or unknown(self.points.rows.size)
+        return self.told_origins or of_all(self.points.rows.size)
 
     @property
     def by_origin(self) -> tuple[Group, ...]:

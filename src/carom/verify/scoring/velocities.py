@@ -19,6 +19,7 @@ from carom.verify.scoring.points import (
     friction_audit,
     refuse_large,
     restitution_audit,
+    within,
 )
 
 UNITS = {  # by the ratio of the impulse in the spins to that in the speeds
@@ -158,13 +159,11 @@ def momentum_audit(
     off = np.max([np.abs(linear - other) for other in angular], axis=0) / unit
     ratio = _constant_ratio(angular[0], linear, limit * unit)
     _refuse_units(ratio)
-    name, value, worst = "angular momentum", float(off.max()), int(np.argmax(off))
-    if value <= limit:
-        return Finding(name, value, limit, True, "speeds and spins change by the same impulse")
-    where = results.named(off > limit)
-    verdict = f"speeds and spins change by different impulses in {where}"
-    verdict += f", most in {results.one(worst)}{_cause(ratio)}"
-    return Finding(name, value, limit, False, verdict)
+    value, verdict = float(off.max()), "speeds and spins change by the same impulse"
+    if not value <= limit:
+        where = f"{results.named(off > limit)}, most in {results.one(int(np.argmax(off)))}"
+        verdict = f"speeds and spins change by different impulses in {where}{_cause(ratio)}"
+    return within("angular momentum", value, limit, verdict)
 
 
 def _constant_ratio(angular: Any, linear: Any, small: Any) -> float:
