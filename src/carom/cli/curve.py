@@ -97,7 +97,6 @@ def _export(
     output: str | None,
     others: dict[str, Any],
 ) -> None:
-    """Print or store a header that holds the rebound at each chi."""
     from carom.io.paths import checked_output, replace_whole
     from carom.laws.header import c_header
 
@@ -127,7 +126,6 @@ def _record(dataset: "xr.Dataset") -> list[dict[str, Any]]:
 
 
 def _borders(part: "xr.Dataset") -> list[tuple[str, float]]:
-    """Return the regimes and where they begin."""
     return list(zip(part["regime_border"].values, part["border"].values, strict=True))
 
 

@@ -66,7 +66,6 @@ def explore_command(
 
 
 def _export(folder: str, as_json: bool) -> None:
-    """Write a copy of the page, and tell where it is."""
     from carom.explorer.export import export
 
     copy = export(folder)

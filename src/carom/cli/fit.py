@@ -118,7 +118,6 @@ def fit_command(
 
 
 def _tell_template(source: str | None, as_json: bool) -> None:
-    """Print an empty table."""
     from carom.fitting.template import TEMPLATE
 
     if source is not None:
@@ -127,7 +126,6 @@ def _tell_template(source: str | None, as_json: bool) -> None:
 
 
 def _source(data: str | None, dataset: str | None) -> str | Path:
-    """Return the file of the data, or raise InputError."""
     if (data is None) == (dataset is None):
         known = ", ".join(carom.datasets.names())
         raise InputError(f"data: give a CSV file, or --dataset with one of {known}")
@@ -150,7 +148,6 @@ def _pair(case: str | None) -> "Pair | None":
 
 
 def _sampled(found: "Fit", target: str, steps: int, seed: int) -> Path:
-    """Store samples of the posterior, or a corner plot of them, and return the file."""
     from carom.io.files import FIGURES
 
     samples = found.posterior(steps, seed)

@@ -122,7 +122,6 @@ def _stopping() -> Iterator[None]:
 
 
 def _record(result: "Summary", store: str | None, output: str | None) -> dict[str, Any]:
-    """Return the summary as what JSON can hold; what is not a number becomes null."""
     ranges = {
         name: {"min": or_none(low), "max": or_none(high), "units": GLOSSARY[name].unit}
         for name, (low, high) in result.ranges.items()

@@ -102,7 +102,6 @@ def _approach(motions: list[Any], inertia: records.Inertia, xp: Any) -> Approach
 
 
 def _status(approach: Approach, xp: Any) -> Any:
-    """Return what becomes of each pair."""
     skew, closing = xp.abs(approach.skew), approach.closing
 
     def code(status: records.CollisionStatus) -> Any:

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from numpy.typing import ArrayLike
 
 from carom.contacts.contact import Contact
-from carom.contacts.fields import radial_fields, surface_fields
-from carom.contacts.stress import stress_dataset
+from carom.contacts.fields import radial_fields, stress_dataset, surface_fields
 from carom.old_names import with_old_keywords
 from carom.quantities.units import Value, counted
 

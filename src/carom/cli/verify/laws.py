@@ -79,7 +79,6 @@ def laws_command(
 
 
 def _store_map(law: "Law", path: str) -> Path:
-    """Store the error map of a law as a figure or a table."""
     from carom.io.files import TABLES
 
     dataset = carom.verify.error_map(law)

@@ -153,7 +153,6 @@ def results_csv(experiment: Experiment, outcomes: Outcomes) -> str:
 
 
 def _refuse_bodies(pair: Pair) -> None:
-    """Refuse what DEM programs do not have."""
     with_friction(pair, "without friction there is nothing to test")
     if not isinstance(pair.second, Sphere | HalfSpace):
         raise refusal(

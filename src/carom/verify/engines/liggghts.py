@@ -105,7 +105,6 @@ class Liggghts(Engine):
 
 
 def _words(law: ContactLaw) -> tuple[str, str]:
-    """Return the models of a law, and their options."""
     if isinstance(law, ExactContactLaw):
         return "hertz tangential carom", f"springs {law.springs}"
     if isinstance(law, LinearSpring):
@@ -130,7 +129,6 @@ def _script(experiment: Experiment) -> str:
 
 
 def _properties(experiment: Experiment) -> Iterator[str]:
-    """Yield the material properties of both types of bodies."""
     pair, law = experiment.pair, experiment.law
 
     def each(name: str, one: float, two: float) -> str:

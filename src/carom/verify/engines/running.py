@@ -233,7 +233,6 @@ def _results(engine: Engine, folder: Path, experiment: Experiment) -> Outcomes:
 
 
 def _crash(engine: Engine, folder: Path, code: int) -> EngineError:
-    """Return the error of a program that has ended with this exit code."""
     lacking = re.search(LACKING, _printed(folder))
     if lacking:
         return EngineError(

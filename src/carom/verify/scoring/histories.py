@@ -114,7 +114,6 @@ def _check_order(results: UserTable) -> None:
 
 
 def _ends(results: UserTable) -> tuple[int, int]:
-    """Return the first and the last row of the contact."""
     force = results["normal_force"]
     touching = force > 0.0
     if touching.sum() < 0.5 * np.count_nonzero(force) or not touching.any():
@@ -268,7 +267,6 @@ def _refuse_large(results: UserTable, scales: Scales) -> None:
 
 
 def _energy_change(forces: Forces) -> float:
-    """Return kinetic energy after less that before, in J."""
     psi, scales = forces.psi, forces.hit.scales
     unit = 0.5 * forces.hit.pair.tangential_mass * scales.tangential_speed**2
     lost = float(unit * (psi[0] - psi[-1]) * (psi[0] + psi[-1]))

@@ -37,15 +37,6 @@ class Origins(NamedTuple):
     known: tuple[Origin, ...]
     places: NDArray[np.int64]
 
-    @property
-    def named(self) -> bool:
-        """Whether any name is known."""
-        return any(origin.label for origin in self.known)
-
-    def of(self, row: int) -> Origin:
-        """Return the origin of a row."""
-        return self.known[int(self.places[row])]
-
 
 def of_all(rows: int, one: Origin = NOBODY) -> Origins:
     """Return one origin for all results, by default none."""

@@ -35,11 +35,6 @@ class Group(NamedTuple):
     rms_error: float
     mean_error: float
 
-    @property
-    def numbers(self) -> dict[str, float]:
-        """All but the name."""
-        return {name: value for name, value in self._asdict().items() if name != "name"}
-
 
 @dataclass(frozen=True, eq=False)
 class Points(Rows):

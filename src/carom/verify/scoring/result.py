@@ -151,7 +151,8 @@ class Score(Result):
             "points": {name: values.tolist() for name, values in columns.items()},
             "phases": [group._asdict() for group in self.groups],
             "laws": [
-                {"code": origin.code or None, "law": origin.law or None, **group.numbers}
+                {"code": origin.code or None, "law": origin.law or None}
+                | {name: value for name, value in group._asdict().items() if name != "name"}
                 for origin, group in zip(self.origins.known, self.by_origin, strict=True)
             ],
             "audit": [finding._asdict() for finding in self.audit],
@@ -192,7 +193,8 @@ def verdict(score: Score) -> str:
     """Return pass or fail in one line."""
     points = score.points
     worst = f"max |error in psi_2| = {score.max_error:.4g}"
-    if label := score.origins.of(points.worst).label:
+    known, places = score.origins
+    if label := known[int(places[points.worst])].label:
         worst += f" with {label}"
     if points.rows.size > 1:
         worst += f" in {points.one(points.worst)}, rms {score.rms_error:.4g}"
@@ -296,7 +298,7 @@ def _points(score: Score) -> dict[str, Any]:
 def _origins(score: Score) -> dict[str, Any]:
     """Return code and law of each point, where any is known."""
     known, places = score.origins
-    if not score.origins.named:
+    if not any(origin.label for origin in known):
         return {}
     words = {"code": "program that computed the results", "law": "contact law of the results"}
     return {
