@@ -75,10 +75,7 @@ def tell_sweep(case: "Case") -> None:
 
 
 def told_case(path: str, *, losses: bool = False, swept: bool = False) -> "Case":
-    """Return the content of a case file; what is hardly meant in it is told on stderr.
-
-    So is a table [sweep] that a command leaves out, unless the case is `swept`.
-    """
+    """Return the content of a case file; what is hardly meant, or left out, is told on stderr."""
     from carom.bodies.cases import read_case
     from carom.bodies.plausibility import doubts_of_case
 

@@ -11,9 +11,16 @@ from numpy.typing import NDArray
 from carom.bodies.pairs import Pair, check_second_spin, checked_pair
 from carom.collisions import records
 from carom.collisions.compiled import Motions, collide_all
-from carom.collisions.judged import Incidence, JudgedCollisions, Judgement, incidence, judged
 from carom.collisions.portable import collide_arrays
-from carom.collisions.records import Collisions, CollisionStatus, Inertia, vectors
+from carom.collisions.records import (
+    Collisions,
+    CollisionStatus,
+    Incidence,
+    Inertia,
+    JudgedCollisions,
+    Judgement,
+    vectors,
+)
 from carom.laws.exact import law_of
 from carom.laws.portable import is_foreign
 from carom.laws.rules import Rule
@@ -149,7 +156,7 @@ def collide(
     else:
         found = _collide_numpy(given, records.inertia_of(pair), rule, inplace, threads)
     records.warn_of_unusable(found.status)
-    return found if met is None else judged(pair, met, found)
+    return found if met is None else records.judged(pair, met, found)
 
 
 def _incidence(pair: Pair, given: tuple[Any, ...], law: CollisionLaw | None) -> Incidence:
@@ -160,7 +167,7 @@ def _incidence(pair: Pair, given: tuple[Any, ...], law: CollisionLaw | None) -> 
         raise refusal("judge", True, "it needs NumPy arrays; convert yours, or leave judge out")
     arrays = [vectors(name, values) for name, values in zip(records.NAMES, given, strict=True)]
     shape = records.common_shape(arrays)
-    return incidence(pair, tuple(_whole(each, shape, np.dtype(float)) for each in arrays))
+    return records.incidence(pair, tuple(_whole(each, shape, np.dtype(float)) for each in arrays))
 
 
 def _rule(law: CollisionLaw | None, pair: Pair) -> Rule:

@@ -124,22 +124,6 @@ class LoadPath(InContact, Result):
         return _load_path(self.pair, self._steps.followed_by(more), progress)
 
     def cite(self) -> str:
-        """Return what to cite for this result, as BibTeX.
-
-        Returns
-        -------
-        str
-            The entries in BibTeX format.
-
-        Examples
-        --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
-        >>> "Mindlin, R. D. and Deresiewicz, H." in path.cite()
-        True
-        """
         return bibtex(*LOADS, *([TURNING] if self.displacement.ndim == 2 else []))
 
     @with_old_keywords
@@ -169,7 +153,8 @@ class LoadPath(InContact, Result):
 
     def _repr_html_(self) -> str:
         """Return a table and a picture for a notebook."""
-        rows = {GLOSSARY[name].meaning: _span(name, getattr(self, name)) for name in COLUMNS}
+        columns = {GLOSSARY[name]: getattr(self, name) for name in COLUMNS}
+        rows = {it.meaning: it.span(float(v.min()), float(v.max())) for it, v in columns.items()}
         figure = self.plot() if len(self) > 1 else None
         return card(f"Load path of {len(self)} steps", rows, figure)
 
@@ -212,10 +197,6 @@ class LoadPath(InContact, Result):
         except IndexError:
             allowed = f"must be a whole number from 0 to {n - 1}, or negative to count from the end"
             raise refusal("step", step, allowed) from None
-
-
-def _span(name: str, values: Array) -> str:
-    return GLOSSARY[name].span(float(values.min()), float(values.max()))
 
 
 def _state(stack: Array) -> dict[str, Any]:

@@ -69,8 +69,8 @@ def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved
     along_the_same(
         normal_force=normal,
         penetration=depth,
-        tangential_force=_first_direction(tangential),
-        displacement=_first_direction(moved),
+        tangential_force=_directions_last(tangential, first=True),
+        displacement=_directions_last(moved, first=True),
     )
     across = _one_of(1, normal_force=normal, penetration=depth)
     along = _one_of(2, tangential_force=tangential, displacement=moved)
@@ -93,17 +93,12 @@ def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved
     return Steps(depth, force, target, np.full(n, along[0] == "tangential_force"))
 
 
-def _directions_last(given: Given) -> Given:
-    """Return an array of xarray's with its dimension `direction` as the last one."""
-    if "direction" in getattr(given, "dims", ()):
-        return cast("xr.DataArray", given).transpose(..., "direction")
-    return given
-
-
-def _first_direction(given: Given) -> Given:
-    if "direction" in getattr(given, "dims", ()):
-        return cast("xr.DataArray", given).isel(direction=0)
-    return given
+def _directions_last(given: Given, first: bool = False) -> Given:
+    """Return an array of xarray's with its `direction` as the last dimension, or the first one."""
+    if "direction" not in getattr(given, "dims", ()):
+        return given
+    array = cast("xr.DataArray", given)
+    return array.isel(direction=0) if first else array.transpose(..., "direction")
 
 
 def _one_of(most: int, **controls: Given) -> tuple[str, Array]:

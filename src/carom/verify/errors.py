@@ -143,10 +143,7 @@ def losses_of(restitution: float) -> KelvinVoigt | None:
 
 
 def constant_restitution(losses: LossLaw | None) -> float | None:
-    """Return the restitution of a law of losses, None without losses.
-
-    Raises InputError if it depends on the speed.
-    """
+    """Return the restitution of losses, None without any; InputError if speeds change it."""
     if losses is None:
         return None
     if isinstance(losses, KelvinVoigt) and losses.restitution is not None:

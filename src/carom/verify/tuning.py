@@ -316,8 +316,6 @@ def setting_of(
     """Return what a tuning is for, from a case and angles, or from chi and psi_1.
 
     A restitution takes the place of that of the case; without either it is 1.
-
-    Raises InputError if neither or both are given, or a range is empty.
     """
     if case is None and chi is None:
         raise InputError("case: missing; give a case file, or --chi, e.g. --chi 1.44")

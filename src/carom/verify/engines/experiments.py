@@ -20,7 +20,7 @@ from carom.quantities.units import counted, positive
 MOST_STEPS = 10_000_000
 SOLID = 0.4  # K^2/R^2
 BEFORE = ("normal_speed", "tangential_speed", "spin")
-COLUMNS = (*BEFORE, *(f"{name}_out" for name in BEFORE))
+AFTER = ("normal_speed_out", "tangential_speed_out", "spin_out")
 
 
 class Outcomes(NamedTuple):
@@ -149,7 +149,7 @@ def results_csv(experiment: Experiment, outcomes: Outcomes) -> str:
     normal = np.full(len(experiment), experiment.normal_speed)
     before = (normal, experiment.tangential_speed, experiment.spin)
     rows = [",".join(f"{value:.17g}" for value in row) for row in np.stack([*before, *outcomes]).T]
-    return "\n".join([",".join(COLUMNS), *rows]) + "\n"
+    return "\n".join([",".join((*BEFORE, *AFTER)), *rows]) + "\n"
 
 
 def _refuse_bodies(pair: Pair) -> None:

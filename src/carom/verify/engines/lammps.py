@@ -83,10 +83,7 @@ class GranularLaw:
     loss: float = 0.0
 
     def words(self, spell: Callable[[str], str]) -> str:
-        """Return the law as the arguments of `pair_coeff` and `fix wall/gran granular`.
-
-        Numbers are spelled by their names.
-        """
+        """Return the arguments of `pair_coeff` and `fix wall/gran`, numbers spelled by names."""
         kn, kt, loss, xgamma, mu = map(spell, NUMBERS)
         shear = f"tangential {self.tangential} {kt} {xgamma} {mu}"
         return f"{self.normal} {kn} {loss} {shear} damping {self.damping}"

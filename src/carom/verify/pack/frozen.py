@@ -32,17 +32,12 @@ class DecimalTable:
     notes: tuple[str, ...]
     columns: Mapping[str, Sequence[str]]
 
-    @property
-    def rows(self) -> list[tuple[str, ...]]:
-        """The cells, row by row."""
-        return list(zip(*self.columns.values(), strict=True))
-
     def as_csv(self) -> str:
         """Return the table as CSV below its notes, which start with #."""
         stream = StringIO()
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(self.columns)
-        writer.writerows(self.rows)
+        writer.writerows(zip(*self.columns.values(), strict=True))
         return "".join(f"# {note}\n" for note in self.notes) + stream.getvalue()
 
     def as_json(self) -> str:

@@ -16,7 +16,7 @@ from carom.dem import LammpsMindlin, LiggghtsHertz
 from carom.dem.base import ContactLaw
 from carom.io.paths import checked_path
 from carom.quantities.refusals import InputError, refusal
-from carom.verify.engines.experiments import Experiment, Outcomes
+from carom.verify.engines.experiments import AFTER, Experiment, Outcomes
 from carom.verify.engines.lammps import Lammps
 from carom.verify.engines.lammps_unittest import unit_test_yaml
 from carom.verify.engines.liggghts import Liggghts
@@ -28,7 +28,6 @@ from carom.verify.pack.frozen import CASE, INPUTS, REFERENCE, folders_with, froz
 CHECKSUMS = "SHA256SUMS"
 STEPS = 2000  # per duration of the contact
 TOLERANCE = 0.01  # in psi_2, of LAMMPS's unit test; that of the scorer
-AFTER = ("normal_speed_out", "tangential_speed_out", "spin_out")
 PROGRAMS: Mapping[str, tuple[Engine, ContactLaw]] = {  # each with a law that it has
     "lammps": (Lammps(), LammpsMindlin()),
     "liggghts": (Liggghts(), LiggghtsHertz()),

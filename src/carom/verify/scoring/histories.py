@@ -230,10 +230,7 @@ def _middles(values: Array) -> Array:
 def score_history(
     results: UserTable, hit: Impact, expected: float, limit: float
 ) -> tuple[Points, tuple[Finding, ...], tuple[str, ...], Forces]:
-    """Return the one point that a history makes, what is found, notes, and the forces.
-
-    Raises InputError for a record that is not one whole contact, or is in wrong units.
-    """
+    """Return the one point that a history makes, what is found, notes, and the forces."""
     results.require("time", "normal_force", "tangential_force")
     _refuse_large(results, hit.scales)
     forces = forces_of(hit, contact_samples(results, hit))

@@ -50,8 +50,6 @@ def origins_of(
 
     Names that are given count for all rows; else columns do, and else comments of the file. Names
     that differ are left out if there are more than `most`; with one, all rows are one impact.
-
-    Raises InputError for a name that is given but is no text.
     """
     rows = len(table.rows) if most > 1 else 1
     names = [_named(name, given[name], table) for name in NAMES]

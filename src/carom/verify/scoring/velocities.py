@@ -60,11 +60,7 @@ class Velocities(NamedTuple):
 def score_velocities(
     results: UserTable, pair: Pair, expected: float, limit: float
 ) -> tuple[Points, tuple[Finding, ...], tuple[str, ...]]:
-    """Return the points that velocities make, what is found of them, and notes.
-
-    `expected` is the restitution of the exact impacts.
-    Raises InputError for columns that are missing, rows that are no impact, or wrong units.
-    """
+    """Return the points that velocities make, what is found of them, and notes."""
     _refuse_second_spin(results, pair)
     before = _before(results)
     after, notes = _after(results, pair, before, expected)
@@ -148,10 +144,7 @@ def momentum_audit(
     normal_speed: Any,
     limit: float,
 ) -> Finding:
-    """Return whether spins and speeds changed by the same impulse, in units of psi.
-
-    Raises InputError if all differ by a factor that is one of units.
-    """
+    """Return whether spins and speeds changed by the same impulse, in units of psi."""
     linear = pair.normal_mass * (before.tangential_speed - after.tangential_speed)
     spins = zip(pair.moving, before[1:], after[1:], strict=False)
     angular = [(was - now) * inertia(body) / body.radius for body, was, now in spins]
