@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
@@ -21,7 +21,7 @@ MOST_RADII = 100_000
 class InContact(ABC):
     """A result with a contact at each time in s, or after each step of a load path."""
 
-    @abstractmethod
+    @with_old_keywords
     def contact(self, at: Value | None = None) -> Contact:
         """Return the contact at an instant, from which fields and stresses are computed.
 
@@ -54,6 +54,7 @@ class InContact(ABC):
         >>> path.contact(at=-1).attributes["phase_kind"]
         'slip'
         """
+        return self._contact(at)
 
     @with_old_keywords
     def fields(
@@ -208,6 +209,10 @@ class InContact(ABC):
         True
         """
         return radial_fields(self.contact(at), counted("n", n, 2, MOST_RADII))
+
+    @abstractmethod
+    def _contact(self, at: Any) -> Contact:
+        """Return the contact at an instant as users give it."""
 
     def _refuse_stress(self) -> None:  # noqa: B027
         """Raise InputError where the stress below the surface is not known."""

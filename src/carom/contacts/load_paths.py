@@ -19,7 +19,6 @@ from carom.dimensionless.load_paths.memory import SLOPE, profile_of
 from carom.io.citations import LOADS, TURNING, bibtex
 from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
-from carom.old_names import with_old_keywords
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
@@ -124,10 +123,10 @@ class LoadPath(InContact, Result):
         return _load_path(self.pair, self._steps.followed_by(more), progress)
 
     def cite(self) -> str:
+        """Return what to cite for this result, as BibTeX."""
         return bibtex(*LOADS, *([TURNING] if self.displacement.ndim == 2 else []))
 
-    @with_old_keywords
-    def contact(self, at: Any = None) -> Contact:
+    def _contact(self, at: Any) -> Contact:
         step = -1 if at is None else at
         k = self._step(step)
         if self.displacement.ndim == 2:

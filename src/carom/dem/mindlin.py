@@ -74,6 +74,7 @@ class LammpsMindlin(ContactLaw):
         super().__post_init__()
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
         loading, unloading = KEPT[self.variant]
         damping = hertz_damping(self.restitution, self.damping)
         return hertzian(
@@ -120,6 +121,7 @@ class LiggghtsHertz(ContactLaw):
     restitution: float = 1.0
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
         damping = hertz_damping(self.restitution)
         return hertzian(
             chi,
@@ -159,6 +161,7 @@ class EdemHertzMindlin(LiggghtsHertz):
     source: ClassVar[str] = "EDEM documentation, Hertz-Mindlin (no slip)"
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
         return super().coefficients(chi, kappa)._replace(limits_damping=True)
 
 
@@ -196,6 +199,7 @@ class YadeMindlin(ContactLaw):
     restitution: float = 1.0
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
         damping = 2.0 * sqrt(SPRING * MINDLIN) * thornton_damping(self.restitution)
         return hertzian(
             chi, damping, pulls=False, shear_damping=damping * kappa**-0.5, limits_damping=False

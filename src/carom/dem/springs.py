@@ -47,6 +47,7 @@ class LinearSpring(ContactLaw):
     tangential_damping: float = 0.0
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
         damping = 2.0 * SPRING * damping_ratio(self.restitution)
         shear_damping = self.tangential_damping * damping / kappa
         return linear(
@@ -89,6 +90,7 @@ class HertzLinearHistory(ContactLaw):
     tangential_damping: float = 0.0
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
         damping = hertz_damping(self.restitution)
         return hertzian(
             chi,
@@ -107,6 +109,7 @@ class BilinearLaw(ContactLaw):
     restitution: float = 1.0
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
         return linear(chi, kappa, self.stiffness_ratio, unloading=self.restitution**-2)
 
 
@@ -168,6 +171,7 @@ class ThorntonLaw(ContactLaw):
     source: ClassVar[str] = "Thornton & Yin (1991), Powder Technol. 65:153"
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
         return Coefficients(chi=chi, shear=Shear.MINDLIN_DERESIEWICZ.value)
 
 
@@ -204,4 +208,5 @@ class WaltonBraunLaw(BilinearLaw):
     source: ClassVar[str] = "Walton & Braun (1986), J. Rheol. 30:949"
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
         return super().coefficients(chi, kappa)._replace(shear=Shear.WALTON_BRAUN.value)

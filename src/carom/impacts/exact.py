@@ -28,7 +28,6 @@ from carom.impacts.validity import judge, judge_losses, judge_pressure
 from carom.impacts.wear import wear_of
 from carom.io.citations import IMPACT, bibtex
 from carom.io.labels import Finding, Validity
-from carom.old_names import with_old_keywords
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, not_negative
@@ -86,8 +85,7 @@ class Impact(ImpactResult, InContact):
             return (SlipAngle(0.0, 0.0),)
         return self.solution.slip_angles(self.pair.lateral_ratio)
 
-    @with_old_keywords
-    def contact(self, at: Any = None) -> Contact:
+    def _contact(self, at: Any) -> Contact:
         drift = 0.0 if isfinite(self.psi_in) else self.contact_velocity
         inputs = {"inputs": self.inputs()}
         return contact_in_impact(

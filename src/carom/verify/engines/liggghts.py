@@ -87,6 +87,7 @@ class Liggghts(Engine):
     result: ClassVar[str] = RESULT
 
     def executable(self) -> Path | None:
+        """Return where LIGGGHTS is, or None."""
         built = liggghts.program()
         return built if self.path is None and built.exists() else super().executable()
 
@@ -101,6 +102,7 @@ class Liggghts(Engine):
         return type(law) is LiggghtsHertz
 
     def files(self, experiment: Experiment) -> dict[str, str]:
+        """Return complete inputs: text by file name."""
         return {INPUT: _script(experiment), SPHERES: arrangement.data_file(experiment)}
 
 

@@ -123,9 +123,11 @@ class Yade(Engine):
         return isinstance(law, YadeMindlin)
 
     def files(self, experiment: Experiment) -> dict[str, str]:
+        """Return complete inputs: text by file name."""
         return {SCRIPT: _script(experiment)}
 
     def outcomes(self, folder: Path, experiment: Experiment) -> Outcomes:
+        """Return what a run has left in its folder; ValueError or OSError if it is not there."""
         return arrangement.outcomes_of(experiment, np.loadtxt(folder / RESULT, ndmin=2))
 
 

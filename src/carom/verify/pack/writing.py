@@ -118,7 +118,8 @@ def pack_files() -> dict[str, str]:
     files |= program_files()
     files["pack.json"] = _contents(files)
     files = dict(sorted(files.items()))
-    sums = (f"{_digest(t)}  {name}\n" for name, t in files.items() if not name.endswith(INPUTS))
+    kept = {name: text.encode() for name, text in files.items() if not name.endswith(INPUTS)}
+    sums = (f"{hashlib.sha256(text).hexdigest()}  {name}\n" for name, text in kept.items())
     return files | {CHECKSUMS: "".join(sums)}  # but for what users fill in
 
 
@@ -131,10 +132,6 @@ def _contents(files: dict[str, str]) -> str:
     record = {"name": "carom benchmark pack", "version": frozen.VERSION}
     errors = {"accuracy_of_psi_2": frozen.ACCURACY, "per": "max(1, |psi_1|)"}
     return json.dumps(record | errors | {"sets": sets}, indent=1, ensure_ascii=False) + "\n"
-
-
-def _digest(text: str) -> str:
-    return hashlib.sha256(text.encode("utf-8")).hexdigest()
 
 
 def program_files() -> dict[str, str]:

@@ -59,7 +59,9 @@ def contact_samples(results: UserTable, hit: Impact) -> Samples:
     it, or is in another unit.
     """
     time, force = results["time"], results["normal_force"]
-    _check_order(results)
+    falls = np.concatenate([[False], np.diff(time) <= 0.0])
+    allowed = "it must rise from row to row; sort the rows, and delete duplicates"
+    results.refuse("time", falls, allowed)
     first, last = _ends(results)
     _check_units(time[first : last + 1], force, hit.scales)
     peak = float(force.max())
@@ -104,13 +106,6 @@ def _framed(results: UserTable, first: int, last: int, touch: float, end: float)
     rows = np.concatenate([[-1], np.arange(first, last + 1), [-1]])
     time = np.concatenate([[touch], results["time"][part], [end]]) - touch
     return Samples(time, normal, tangential, rows, touch, end - touch)
-
-
-def _check_order(results: UserTable) -> None:
-    falls = np.concatenate([[False], np.diff(results["time"]) <= 0.0])
-    results.refuse(
-        "time", falls, "it must rise from row to row; sort the rows, and delete duplicates"
-    )
 
 
 def _ends(results: UserTable) -> tuple[int, int]:

@@ -146,15 +146,11 @@ def _sequences(
     Signs are those of an impact with positive psi_1. One impact is solved for each code.
     """
     _, first, inverse = np.unique(codes, return_index=True, return_inverse=True)
-    found = [_name(abs(float(psi[i])), float(chi[i])) for i in first]
+    maps = [regime_map([abs(float(psi[i]))], [float(chi[i])]) for i in first]
+    found = [str(each["sequence_name"].values[0]) for each in maps]
     names = tuple(dict.fromkeys(found))
     places = np.array([names.index(name) for name in found], dtype=np.int64)
     return places[inverse], names
-
-
-def _name(psi: float, chi: float) -> str:
-    found = regime_map([psi], [chi])
-    return str(found["sequence_name"].values[0])
 
 
 def within(name: str, value: float, limit: float, verdict: str) -> Finding:

@@ -119,7 +119,10 @@ class Score(Result):
         return not self.failures
 
     def __str__(self) -> str:
-        parts = [*_listed(self), *_grouped(self), *_by_law(self), *_audited(self)]
+        groups = (*self.groups, self.overall)
+        parts = [*_listed(self), *_table("By sequence of phases, for psi_1 > 0", groups)]
+        parts += _table("By law", self.by_origin) if len(self.origins.known) > 1 else []
+        parts += _audited(self)
         parts += [f"note: {note}" for note in self.notes]
         return "\n".join([*parts, verdict(self)])
 
@@ -220,16 +223,6 @@ def _listed(score: Score) -> list[str]:
         for i in shown
     ]
     return [title, f"  {points.word:>8s} {columns}", *rows]
-
-
-def _grouped(score: Score) -> list[str]:
-    groups = (*score.groups, score.overall)
-    return _table("By sequence of phases, for psi_1 > 0", groups)
-
-
-def _by_law(score: Score) -> list[str]:
-    several = len(score.origins.known) > 1
-    return _table("By law", score.by_origin) if several else []
 
 
 def _table(title: str, groups: Sequence[Group]) -> list[str]:

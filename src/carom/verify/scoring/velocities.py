@@ -62,9 +62,11 @@ def score_velocities(
 ) -> tuple[Points, tuple[Finding, ...], tuple[str, ...]]:
     """Return the points that velocities make, what is found of them, and notes."""
     _refuse_second_spin(results, pair)
-    before = _before(results)
+    normal, tangential = _speeds(results)
+    nothing = np.zeros(len(results))
+    spins: list[Any] = [results.columns.get(name, nothing) for name in ("spin", "spin2")]
+    before = Velocities(normal, Tangential(tangential, *spins))
     after, notes = _after(results, pair, before, expected)
-    normal = before.normal_speed
     name = "normal_speed" if "normal_speed" in results.columns else "speed"
     results.refuse(name, (normal < SLOWEST) | (normal > FASTEST), "check its unit")
     psi = before.psi(pair, normal), after.psi(pair, normal)
@@ -81,13 +83,6 @@ def score_velocities(
         restitution_audit(points, restitution, limit),
     )
     return points, findings, notes
-
-
-def _before(results: UserTable) -> Velocities:
-    normal, tangential = _speeds(results)
-    nothing = np.zeros(len(results))
-    spins: list[Any] = [results.columns.get(name, nothing) for name in ("spin", "spin2")]
-    return Velocities(normal, Tangential(tangential, *spins))
 
 
 def _speeds(results: UserTable) -> tuple[Any, Any]:
