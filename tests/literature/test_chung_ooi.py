@@ -9,9 +9,7 @@ import numpy as np
 import pytest
 
 from carom.bodies.cases import pair_of
-from carom.verify.pack.frozen import frozen_files
-from carom.verify.pack.references import case_of
-from carom.verify.pack.tables import DecimalTable, read_table
+from carom.verify.pack.frozen import DecimalTable, case_of, frozen_files, read_table
 
 SERIES = {
     "chung_ooi/test4_aluminium_oxide": "DEM aluminium oxide",
