@@ -272,14 +272,7 @@ def yield_velocity(pair: Pair) -> float:
 
     p_0 = (2 E*/pi) sqrt(d_max/R*) = 1.6 Y, V_y^2 = (16/15) E* sqrt(R*) d_max^(5/2)/m_n.
 
-    Raises InputError if no yield strength is known. Johnson (1985), (11.21); Thornton (1997).
-
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> from carom.bodies.losses import yield_velocity
-    >>> 0.0 < yield_velocity(pair) < 1.0
-    True
+    Johnson (1985), (11.21); Thornton (1997).
     """
     bodies = (pair.first.material, pair.second.material)
     strengths = [body.yield_strength for body in bodies if body.yield_strength is not None]

@@ -31,7 +31,7 @@ from carom.quantities.units import or_none, whole
 
 if TYPE_CHECKING:
     from carom.bodies.cases import Case
-    from carom.sweeps.summaries import Summary
+    from carom.sweeps.records import Summary
 
 
 OPTIONS = {
@@ -77,7 +77,7 @@ def sweep_command(
     """
     from carom.io.files import TABLES
     from carom.sweeps.plans import plan
-    from carom.sweeps.summaries import summary
+    from carom.sweeps.records import summary
 
     content = told_case(case, losses=True, swept=True)
     file = _file(content) if output is None else output

@@ -8,14 +8,11 @@ from typing import Any
 import numpy as np
 from scipy.special import stdtrit
 
-from carom.fitting.best import Best, likelihood
 from carom.fitting.errors import OUTLYING, RobustLoss
-from carom.fitting.estimation import estimate, fitted
+from carom.fitting.estimation import Best, estimate, fitted, likelihood, scan
 from carom.fitting.intervals import settle
-from carom.fitting.laws import EXACT, OFFSET, RIVALS, FittedLaw
 from carom.fitting.least_squares import descend
-from carom.fitting.model import Model
-from carom.fitting.starts import scan
+from carom.fitting.model import EXACT, OFFSET, RIVALS, FittedLaw, Model
 from carom.io.user_table import Mask
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
@@ -30,19 +27,38 @@ LEAST_KEPT = 0.75  # of the values: where more lie far off, they are no outliers
 
 
 @dataclass(frozen=True, eq=False)
-class LawFit:
-    """A law fitted: its criterion, how much it exceeds the least, parameters by name.
-
-    `free` counts what was fitted, parameters and errors that were taken from the scatter.
-    """
+class Standing:
+    """A law fitted: by how much its criterion exceeds the least, and Akaike's weight, or NaN."""
 
     law: str
-    criterion: float
     excess: float
     weight: float
-    free: int
-    values: dict[str, float]
     best: Best = field(repr=False)
+
+    @property
+    def cells(self) -> tuple[str, str]:
+        """Excess and weight as they are printed."""
+        if isfinite(self.excess):
+            return f"{self.excess:.1f}", f"{self.weight:.3f}"
+        return "-", "-"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return excess and weight, None where they cannot be computed."""
+        return {"excess": or_none(self.excess), "weight": or_none(self.weight)}
+
+
+@dataclass(frozen=True, eq=False)
+class LawFit(Standing):
+    """A law of rebound fitted, with its criterion."""
+
+    criterion: float
+
+    @property
+    def values(self) -> dict[str, float]:
+        """The parameters of the law, and the offset of the spin if it was fitted."""
+        offset = (OFFSET,) if OFFSET in self.best.model.free else ()
+        values = self.best.values
+        return {name: values[name] for name in (*self.best.model.law.names, *offset)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,9 +98,8 @@ class Comparison:
         return {
             each.law: {
                 "aicc": or_none(each.criterion),
-                "excess": or_none(each.excess),
-                "weight": or_none(each.weight),
-                "free": each.free,
+                **each.to_dict(),
+                "free": _free(each.best),
                 "parameters": each.values,
             }
             for each in self.standings
@@ -96,9 +111,7 @@ class Comparison:
             shown = ", ".join(
                 f"{name} {GLOSSARY[name].text(value, 4)}" for name, value in each.values.items()
             )
-            excess, weight = f"{each.excess:.1f}", f"{each.weight:.3f}"
-            if not isfinite(each.criterion):
-                excess = weight = "-"
+            excess, weight = each.cells
             lines.append(f"  {each.law:14s} {excess:>10s}  {weight:>6s}  {shown}")
         return "\n".join([*lines, self.verdict])
 
@@ -109,27 +122,25 @@ def compare(best: Best) -> Comparison:
     Values that lie far from the law that describes the others best are left out for all laws, and
     the errors are those of the best law on what is left: none gains by the scatter that it leaves.
     """
-    own = [best, *(_rival(law, best) for law in RIVALS)]
-    fits = on_common_ground(own)
-    criteria = np.array([criterion(each) for each in fits])
-    numbers = zip(criteria.tolist(), *standing(criteria), strict=True)
+    criteria, fits = on_common_ground([best, *(_rival(law, best) for law in RIVALS)])
+    numbers = zip([best, *fits[1:]], *weighed(criteria), criteria.tolist(), strict=True)
     return Comparison(
         tuple(
-            LawFit(each.model.law.name, *known, _free(each), _values(each), each)
-            for each, known in zip([best, *fits[1:]], numbers, strict=True)
+            LawFit(each.model.law.name, excess, weight, each, own)
+            for each, excess, weight, own in numbers
         )
     )
 
 
-def standing(criteria: Array) -> tuple[list[float], list[float]]:
+def weighed(criteria: Array) -> tuple[list[float], list[float]]:
     """Return by how much each exceeds the least, and Akaike's weights; NaN where there is none."""
     least = np.nanmin(criteria) if np.isfinite(criteria).any() else nan
     weights = np.exp(-0.5 * (criteria - least))
     return (criteria - least).tolist(), (weights / np.nansum(weights)).tolist()
 
 
-def on_common_ground(fits: Sequence[Best]) -> list[Best]:
-    """Return laws fitted anew without the outliers of one of them, with its errors."""
+def on_common_ground(fits: Sequence[Best]) -> tuple[Array, list[Best]]:
+    """Return laws fitted anew without the outliers of one of them, by its errors, and criteria."""
     reference = min(fits, key=criterion)
     problem = reference.model.problem
     kept = replace(problem, measured=np.where(_far(reference), nan, problem.measured))
@@ -141,7 +152,8 @@ def on_common_ground(fits: Sequence[Best]) -> list[Best]:
         for model, each in zip(models, fits, strict=True)
     ]
     best = min(left, key=criterion)
-    return [_refitted(each.model, each.at, best) for each in left]
+    anew = [_refitted(each.model, each.at, best) for each in left]
+    return np.array([criterion(each) for each in anew]), anew
 
 
 def _far(best: Best) -> Mask:
@@ -173,25 +185,16 @@ def _refitted(model: Model, at: Array, common: Best) -> Best:
     return fitted(model, SQUARES, found.at[np.argmin(found.sums)], common.sigma, common.scale)
 
 
-def _price(free: int, values: int) -> float:
-    """Return what parameters cost, NaN where there are too few values."""
-    return 2.0 * free * values / (values - free - 1) if values > free + 1 else nan
-
-
 def criterion(best: Best) -> float:
     """Return AICc = -2 log L + 2 k n/(n - k - 1) (Hurvich & Tsai 1989); NaN for few values."""
-    return likelihood(best) + _price(_free(best), best.model.problem.count)
+    free, values = _free(best), best.model.problem.count
+    price = 2.0 * free * values / (values - free - 1) if values > free + 1 else nan
+    return likelihood(best) + price
 
 
 def _free(best: Best) -> int:
+    """Return how much was fitted: parameters, and errors that were taken from the scatter."""
     return len(best.model.free) + int(best.estimated.sum() + (best.scale > 1.0).sum())
-
-
-def _values(best: Best) -> dict[str, float]:
-    """Return the parameters of a law, and the offset of the spin if it was fitted."""
-    offset = (OFFSET,) if OFFSET in best.model.free else ()
-    values = best.values
-    return {name: values[name] for name in (*best.model.law.names, *offset)}
 
 
 def _rival(law: FittedLaw, best: Best) -> Best:

@@ -13,16 +13,22 @@ from carom.bodies.pairs import Pair
 from carom.datasets.observables import NORMAL
 from carom.dimensionless.lossy.panels.stages import restitution
 from carom.dimensionless.lossy.panels.work import new_work
-from carom.fitting.best import Best
-from carom.fitting.comparison import APART, CLEAR, criterion, on_common_ground, standing
+from carom.fitting.comparison import APART, CLEAR, Standing, on_common_ground, weighed
 from carom.fitting.estimates import Estimate, estimate_of
+from carom.fitting.estimation import Best
 from carom.fitting.intervals import profiled, settle
-from carom.fitting.laws import ANY_RESTITUTION, OFFSET, FittedLaw, Parameter, Values, untouched
-from carom.fitting.model import Model
+from carom.fitting.model import (
+    ANY_RESTITUTION,
+    OFFSET,
+    FittedLaw,
+    Model,
+    Parameter,
+    Values,
+    untouched,
+)
 from carom.fitting.problem import FitProblem
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import span
-from carom.quantities.units import or_none
 
 FEWEST, RANGE = 4, 1.2  # values; of the speeds, largest over smallest: below nothing can be told
 LEAST, MOST = 1e-8, 10.0  # of a loss time, in units of d_max/V_1
@@ -31,14 +37,10 @@ CONSTANT = "constant"
 
 
 @dataclass(frozen=True, eq=False)
-class LossFit:
-    """A law of losses fitted to restitutions: its criterion, and its one parameter."""
+class LossFit(Standing):
+    """A law of losses fitted to restitutions, with its one parameter."""
 
-    law: str
-    excess: float
-    weight: float
     parameter: Estimate
-    best: Best
 
     @property
     def losses(self) -> LossLaw:
@@ -87,11 +89,7 @@ class LossComparison:
     def to_dict(self) -> dict[str, Any]:
         """Return the comparison as plain numbers, by law; what cannot be computed is None."""
         return {
-            each.law: {
-                "excess": or_none(each.excess),
-                "weight": or_none(each.weight),
-                each.parameter.name: each.parameter.to_dict(),
-            }
+            each.law: {**each.to_dict(), each.parameter.name: each.parameter.to_dict()}
             for each in self.standings
         }
 
@@ -102,9 +100,7 @@ class LossComparison:
         wide = max(48, *map(len, fitted))
         lines = [f"{head:{wide}s}AICc excess  weight"]
         for each, told in zip(self.standings, fitted, strict=True):
-            excess, weight = f"{each.excess:.1f}", f"{each.weight:.3f}"
-            if not isfinite(each.excess):
-                excess = weight = "-"
+            excess, weight = each.cells
             lines.append(f"  {told:{wide}s} {excess:>8s}  {weight:>6s}")
         return "\n".join([*lines, self.verdict])
 
@@ -122,15 +118,14 @@ def compare_losses(best: Best, confidence: float) -> LossComparison | None:
         settle(Model(law, problem, law.names, {OFFSET: 0.0}), best.loss, _elastic(law)).best
         for law in _laws(problem)
     ]
-    fits = on_common_ground(own)
-    criteria = np.array([criterion(each) for each in fits])
-    excess, weights = standing(criteria)
+    criteria, fits = on_common_ground(own)
+    excess, weights = weighed(criteria)
     standings = []
     for place in np.argsort(criteria):
         found = profiled(fits[place], confidence)
         law = found.best.model.law
         parameter = estimate_of(found, law.names[0])
-        standings.append(LossFit(law.name, excess[place], weights[place], parameter, found.best))
+        standings.append(LossFit(law.name, excess[place], weights[place], found.best, parameter))
     measured, errors = _restitutions(problem, standings[0].best)
     return LossComparison(tuple(standings), problem.motion.normal_speed, measured, errors)
 

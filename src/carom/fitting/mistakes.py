@@ -1,16 +1,15 @@
 """Usual mistakes in tables of measurements, tried where the data do not fit as they stand."""
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import log, pi
 from typing import NamedTuple
 
 import numpy as np
 
-from carom.fitting.best import Best, likelihood
 from carom.fitting.errors import OUTLYING, RobustLoss, typical_deviation
 from carom.fitting.estimates import Estimate
-from carom.fitting.estimation import estimate, rough_minima
+from carom.fitting.estimation import Best, estimate, likelihood, rough_minima
 from carom.fitting.model import Model
 from carom.fitting.problem import FitProblem
 from carom.quantities.arrays import Array
@@ -44,36 +43,21 @@ HOPEFUL = 0.9  # of the scatter as given: a rough fit must leave less, in one re
 LEAST = 0.75  # of the values that must not be outliers then
 
 
-@dataclass(frozen=True)
-class Mistake:
-    """What the data fit as, and chi squared then instead of that as they stand."""
-
-    words: str
-    chi_square: float
-    instead: float
-
-    def __str__(self) -> str:
-        return (
-            f"these data fit as {self.words}: chi-square {self.chi_square:.3g} instead of "
-            f"{self.instead:.3g}"
-        )
-
-
-def likely_mistake(whole: Best, estimates: Mapping[str, Estimate]) -> Mistake | None:
+def likely_mistake(whole: Best, estimates: Mapping[str, Estimate]) -> str | None:
     """Return the mistake with which the data are far likelier than as they stand, if there is one.
 
     Mistakes are tried only where something is odd: scatter beyond what errors allow or a tenth of
     the range, or a kappa that the bodies cannot have; and with the kappa of the elastic constants.
     `whole` is the fit with nothing held that was to be found.
     """
-    if not is_odd(whole, estimates):
+    if not _is_odd(whole, estimates):
         return None
-    tried = [_tried(whole, trial) for trial in trials(whole.model.problem)]
+    tried = [_tried(whole, trial) for trial in _trials(whole.model.problem)]
     likely = [each for each in tried if each is not None]
     return min(likely, key=lambda each: each[0])[1] if likely else None
 
 
-def is_odd(best: Best, estimates: Mapping[str, Estimate]) -> bool:
+def _is_odd(best: Best, estimates: Mapping[str, Estimate]) -> bool:
     """Tell whether the data hardly fit as they stand."""
     problem, kappa = best.model.problem, estimates["kappa"]
     low, high = np.nanpercentile(problem.measured, (10.0, 90.0), axis=0)
@@ -94,7 +78,7 @@ class Trial(NamedTuple):
     factors: Array
 
 
-def trials(problem: FitProblem) -> Iterator[Trial]:
+def _trials(problem: FitProblem) -> Iterator[Trial]:
     """Yield what may have been mistaken in the columns that there are."""
     if _has(problem, ANGLES):
         yield _changed("angles from the surface", problem, ANGLES, lambda a: pi / 2.0 - a)
@@ -163,8 +147,8 @@ def _swapped(problem: FitProblem) -> Iterator[Trial]:
     yield Trial(words, swapped, np.ones(len(problem.responses)))
 
 
-def _tried(best: Best, trial: Trial) -> tuple[float, Mistake] | None:
-    """Return a mistake that explains the data far better, and -2 log likelihood of the data then.
+def _tried(best: Best, trial: Trial) -> tuple[float, str] | None:
+    """Return -2 log likelihood of the data with a mistake that explains them far better, in words.
 
     kappa is that of the bodies.
     """
@@ -184,7 +168,8 @@ def _tried(best: Best, trial: Trial) -> tuple[float, Mistake] | None:
     if few or instead - told < FAR or told > PART * instead or kept.sum() < LEAST * present.sum():
         return None
     changed = 2.0 * float((present.sum(axis=0) * np.log(np.abs(trial.factors))).sum())
-    return likelihood(other) - changed, Mistake(trial.words, told, instead)
+    words = f"these data fit as {trial.words}: chi-square {told:.3g} instead of {instead:.3g}"
+    return likelihood(other) - changed, words
 
 
 def _is_promising(model: Model, loss: RobustLoss, as_given: Array) -> bool:

@@ -3,12 +3,12 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import convert_observables
-from carom.fitting.laws import IncomingMotion
 from carom.io.user_table import Mask, UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
@@ -16,6 +16,15 @@ from carom.quantities.glossary import GLOSSARY
 ONE = np.radians(0.1)  # incidences that are one
 NOTHING = 1e-9  # part of the speed that is no tangential speed
 STEEPEST = np.radians(89.9)
+
+
+class IncomingMotion(NamedTuple):
+    """Motion before the impacts, one a row, in SI units."""
+
+    normal_speed: Array
+    tangential_speed: Array
+    spin: Array
+    spin2: Array
 
 
 @dataclass(frozen=True, eq=False)

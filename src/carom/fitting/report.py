@@ -5,13 +5,13 @@ from math import isnan
 
 import numpy as np
 
-from carom.fitting.best import Best
 from carom.fitting.errors import OUTLYING, least_error
 from carom.fitting.estimates import LIMITS, Estimate, FitRecord
-from carom.fitting.heights import HEIGHTS, taken_by_air
+from carom.fitting.estimation import Best
 from carom.fitting.intervals import ProfiledFit
 from carom.fitting.mistakes import likely_mistake
 from carom.fitting.problem import FitProblem
+from carom.fitting.reading import HEIGHTS, taken_by_air
 from carom.quantities.glossary import GLOSSARY
 
 AT_END = 1e-6  # of a coordinate from an end of its range
@@ -53,7 +53,7 @@ def notes(found: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) ->
     lines += _about_bodies(estimates["kappa"])
     mistake = likely_mistake(whole, estimates)
     if mistake is not None:
-        lines.append(str(mistake))
+        lines.append(mistake)
     lines += _about_air(problem)
     if problem.ignored:
         lines.append(f"columns that were not used: {', '.join(problem.ignored)}")

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Pair
 from carom.dimensionless.states import Phase, SlipAngle
-from carom.impacts.history import RESULTS
+from carom.impacts.outcome import RESULTS
 from carom.io.labels import MARKS, Validity
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import column

@@ -15,8 +15,7 @@ from numpy.typing import ArrayLike
 
 from carom import plots
 from carom.dimensionless.states import Phase, SlipAngle
-from carom.impacts.history import InTime, history_columns
-from carom.impacts.outcome import Outcome
+from carom.impacts.outcome import InTime, Outcome, history_columns
 from carom.impacts.report import impact_text, phase_times
 from carom.impacts.spectrum import Source, read_frequencies, spectrum_dataset
 from carom.io.labels import Validity, labelled

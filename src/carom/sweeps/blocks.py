@@ -18,12 +18,6 @@ def chunk_shape(shape: Sequence[int], cost: int = 1) -> tuple[int, ...]:
     """Return the shape of the blocks of a sweep, filled from its last axis on.
 
     Blocks have fewer points where each point costs more.
-
-    Examples
-    --------
-    >>> from carom.sweeps.blocks import chunk_shape
-    >>> chunk_shape((1_000_000,)), chunk_shape((86, 40, 500))
-    ((16130,), (1, 20, 500))
     """
     room = min(max(prod(shape) // BLOCKS, FEWEST // cost), MOST // cost)
     chunks = []
@@ -35,14 +29,7 @@ def chunk_shape(shape: Sequence[int], cost: int = 1) -> tuple[int, ...]:
 
 
 def boxes(shape: Sequence[int], chunks: Sequence[int]) -> Iterator[Box]:
-    """Yield every block of an array of this shape, the last axis fastest.
-
-    Examples
-    --------
-    >>> from carom.sweeps.blocks import boxes
-    >>> list(boxes((3,), (2,)))
-    [(slice(0, 2, None),), (slice(2, 3, None),)]
-    """
+    """Yield every block of an array of this shape, the last axis fastest."""
     starts = (range(0, length, chunk) for length, chunk in zip(shape, chunks, strict=True))
     for corner in product(*starts):
         yield tuple(

@@ -27,12 +27,7 @@ EXAMPLE = 'angle = {from = "0 deg", to = "85 deg", points = 86}'
 def plan(
     case: Case, path: Path, columns: Mapping[str, str] | None = None
 ) -> tuple[Design, list[str] | None]:
-    """Return the design and the outputs that a case file asks for.
-
-    `columns` tells what heads of its table stand for, beside what the file tells.
-
-    Raises InputError if there is no [sweep], and for what does not fit together.
-    """
+    """Return the design and the outputs that a case file asks for."""
     given = case.get(SWEEP)
     if not isinstance(given, Mapping):
         raise InputError(f"{SWEEP}: missing in {path}; add [sweep.axes] with {EXAMPLE}")

@@ -18,8 +18,7 @@ from carom.dimensionless.lossy.law import LossNumbers
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.rebounds import rebound
-from carom.impacts.history import PAIR
-from carom.impacts.outcome import Outcome
+from carom.impacts.outcome import PAIR, Outcome
 from carom.quantities.arrays import Array
 from carom.quantities.statuses import WordedStatus
 from carom.sweeps.inputs import ELASTIC, leaf

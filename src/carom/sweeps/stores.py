@@ -95,11 +95,7 @@ class StoreRecord:
 
 @contextmanager
 def opened(folder: str | Path, problem: SweepProblem, resume: bool) -> Iterator[StoreRecord]:
-    """Make a store, or check the one that is there, and hold it against other processes.
-
-    Raises InputError if it is there and `resume` is not set, if another process holds it, or if it
-    is not of this sweep.
-    """
+    """Make a store, or check the one that is there, and hold it against other processes."""
     path = _checked(folder)
     if not path.exists():
         _create(path, problem)

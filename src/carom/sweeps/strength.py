@@ -14,7 +14,7 @@ from carom.bodies.pairs import Pair
 from carom.dimensionless.solution import solve
 from carom.dimensionless.strength.searching import Contacts
 from carom.impacts.outcome import Outcome
-from carom.impacts.strength import BODIES, MEASURES, Strengths, StruckBody, Units, growth, units_of
+from carom.impacts.peaks import BODIES, MEASURES, Strengths, StruckBody, Units, growth, units_of
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import NEEDED_STRENGTHS
 from carom.quantities.refusals import InputError
