@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import carom
-from carom.fitting.losses import plastic, viscous
+from carom.fitting.comparison import plastic, viscous
 from carom.fitting.reading import AIR, DRAG, GRAVITY, taken_by_air
 from carom.plots.drops import plot_drops
 

@@ -188,7 +188,10 @@ def refuse_half(given: Container[str]) -> None:
 
 
 def read_loss(name: str, value: Any) -> float | None:
-    """Return the value of a loss in SI units, None for that of the strengths, or InputError."""
+    """Return the value of a loss or ratio in SI units, None for that of the strengths."""
+    if name == RATIO:
+        law_of("relaxation_time", 0.0, value)
+        return number(RATIO, value)
     if name == "yield_velocity" and isinstance(value, str) and value.strip().isalpha():
         if value.strip() == FROM_STRENGTH:
             return None
@@ -199,19 +202,8 @@ def read_loss(name: str, value: Any) -> float | None:
     return read
 
 
-def read_ratio(value: Any) -> float:
-    """Return the modulus at once over the relaxed one, or raise InputError."""
-    law_of("relaxation_time", 0.0, value)
-    return number(RATIO, value)
-
-
-def as_kind(kind: Any) -> str:
-    """Return the kind of a second body, or raise InputError if there is none of that name."""
-    return one_of("kind", kind, KINDS)
-
-
 def _second(table: Mapping[str, Any], first: Sphere) -> Counterbody:
-    kind = as_kind(table.get("kind", KINDS[0]))
+    kind = one_of("kind", table.get("kind", KINDS[0]), KINDS)
     if kind == "sphere":
         same = {"material": first.material, "radius": first.radius}
         return _sphere("second", "second-", table, same)

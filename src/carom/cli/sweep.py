@@ -76,8 +76,8 @@ def sweep_command(
       carom sweep examples/sweep.toml --quantities yield_speed_second
     """
     from carom.io.files import TABLES
-    from carom.sweeps.plans import plan
     from carom.sweeps.records import summary
+    from carom.sweeps.tables import plan
 
     content = told_case(case, losses=True, swept=True)
     file = _file(content) if output is None else output

@@ -5,10 +5,10 @@ from math import inf
 from typing import Any
 
 from carom.bodies.pairs import Pair
-from carom.fitting.errors import RobustLoss
 from carom.fitting.estimates import Estimate
 from carom.fitting.intervals import settle
 from carom.fitting.model import EXACT, OFFSET, STRAIGHT, Model
+from carom.fitting.problem import RobustLoss
 from carom.fitting.reading import check_count, checked_confidence, read_options, read_problem
 from carom.fitting.result import Fit, assembled
 from carom.quantities.keywords import known_keywords

@@ -8,10 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.fitting.errors import NORMAL, RobustLoss, gaussian_mean
 from carom.fitting.estimates import FitRecord
 from carom.fitting.estimation import Best, information
-from carom.fitting.problem import FitProblem
+from carom.fitting.problem import NORMAL, FitProblem, RobustLoss, gaussian_mean
 from carom.impacts.curves import REGIMES
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError, nearest

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.dimensionless.rebounds import regime_borders
+from carom.fitting.comparison import LossComparison
 from carom.fitting.estimates import FitRecord
 from carom.fitting.estimation import Best
 from carom.fitting.intervals import rise_of
 from carom.fitting.least_squares import jacobian
-from carom.fitting.losses import LossComparison
 from carom.fitting.model import half_ratio
 from carom.fitting.problem import FitProblem, IncomingMotion
 from carom.impacts.curves import REGIMES

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.fitting import errors
+from carom.fitting import problem as errors
 from carom.fitting.least_squares import Minimum, descend, jacobian
 from carom.fitting.model import Model
 from carom.fitting.problem import FitProblem

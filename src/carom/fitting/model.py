@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 from carom.bodies.kinematics import Rebound, Tangential
 from carom.bodies.pairs import Pair
 from carom.dimensionless.interpolation import LEAST_CHI, LEAST_E, MOST_CHI, psi_out, regimes
-from carom.fitting.errors import RobustLoss, Weights
 from carom.fitting.least_squares import BoxBounds, Residuals
-from carom.fitting.problem import FitProblem, IncomingMotion
+from carom.fitting.problem import FitProblem, IncomingMotion, RobustLoss, Weights
 from carom.quantities.arrays import Array
 
 Values = Mapping[str, Array]  # of parameters by name, each of shape (batch, 1)

@@ -1,10 +1,10 @@
-"""Designs: which impacts a sweep consists of; here a grid, by lists and ranges, and samples."""
+"""Designs: which impacts a sweep consists of, cut into blocks; here a grid, and samples."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import chain
-from math import inf, isfinite, pi
+from itertools import chain, product
+from math import ceil, inf, isfinite, pi, prod
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -15,7 +15,6 @@ from carom.dimensionless.numerics.permutation import fractions, secrets
 from carom.quantities.arrays import Array, numbers
 from carom.quantities.refusals import InputError, one_of, refusal
 from carom.quantities.units import counted, number, told_unit
-from carom.sweeps.blocks import Box
 from carom.sweeps.inputs import (
     CHOSEN,
     CODE,
@@ -26,6 +25,42 @@ from carom.sweeps.inputs import (
     read_choices,
     variable,
 )
+
+Box = tuple[slice, ...]
+Values = dict[str, NDArray[Any]]
+
+FEWEST, MOST = 1024, 2**14  # points of a block
+BLOCKS = 32  # that a sweep of middling size is cut into
+
+
+def chunk_shape(shape: Sequence[int], cost: int = 1) -> tuple[int, ...]:
+    """Return the shape of the blocks of a sweep, filled from its last axis on.
+
+    Blocks have fewer points where each point costs more.
+    """
+    room = min(max(prod(shape) // BLOCKS, FEWEST // cost), MOST // cost)
+    chunks = []
+    for length in reversed(shape):
+        pieces = ceil(length / max(1, min(length, room)))
+        chunks.append(ceil(length / pieces))
+        room //= chunks[-1]
+    return tuple(reversed(chunks))
+
+
+def boxes(shape: Sequence[int], chunks: Sequence[int]) -> Iterator[Box]:
+    """Yield every block of an array of this shape, the last axis fastest."""
+    starts = (range(0, length, chunk) for length, chunk in zip(shape, chunks, strict=True))
+    for corner in product(*starts):
+        yield tuple(
+            slice(start, min(start + chunk, length))
+            for start, chunk, length in zip(corner, chunks, shape, strict=True)
+        )
+
+
+def points_in(box: Box) -> int:
+    """Return the number of points of a block."""
+    return prod(part.stop - part.start for part in box)
+
 
 SPACINGS = ("linear", "log")
 RANGE = ("from", "to", "spacing")

@@ -13,10 +13,9 @@ from carom.bodies.cases import FROM_STRENGTH
 from carom.bodies.materials import STRENGTHS
 from carom.impacts.outcome import PAIR, RESULTS
 from carom.io.labels import attributes, flags
-from carom.quantities.refusals import InputError, hint, refusal
+from carom.quantities.refusals import InputError, hint, one_of, refusal
 from carom.quantities.units import not_negative
-from carom.sweeps.blocks import Box, Values, chunk_shape
-from carom.sweeps.designs import Design
+from carom.sweeps.designs import Box, Design, Values, chunk_shape
 from carom.sweeps.inputs import (
     BODIES,
     CODE,
@@ -110,7 +109,7 @@ def common(case: cases.Case, design: Design, strengths: tuple[str, ...] = ()) ->
     cases.check_case(case, losses=True)
     second, names = case.get("second", {}), design.names
     losses = [name for name in cases.LOSSES if name in names or case.get(name) is not None]
-    kinds: tuple[str, ...] = (cases.as_kind(second.get("kind", cases.KINDS[0])),)
+    kinds: tuple[str, ...] = (one_of("kind", second.get("kind", cases.KINDS[0]), cases.KINDS),)
     if "second.kind" in names:
         kinds = tuple(choice.label for choice in design.choices["second.kind"])
     inherits = second.get("material") is None and "second.material" not in names
@@ -139,11 +138,9 @@ def _numbers(case: cases.Case) -> Iterator[tuple[str, float]]:
     for name, check in {"friction": not_negative, **cases.MOTION}.items():
         if case.get(name) is not None:
             yield name, check(name, case[name])
-    for name in cases.LOSSES:
+    for name in (*cases.LOSSES, cases.RATIO):
         if case.get(name) is not None and (value := cases.read_loss(name, case[name])) is not None:
             yield name, value
-    if case.get(cases.RATIO) is not None:
-        yield cases.RATIO, cases.read_ratio(case[cases.RATIO])
     for body in BODIES:
         table = case.get(body, {})
         for name, check in cases.SIZES.items():

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from carom.io.labels import labelled_dataset, spheres
 from carom.quantities.refusals import refusal
-from carom.sweeps.blocks import Box, Values, boxes, chunk_shape
+from carom.sweeps.designs import Box, Values, boxes, chunk_shape
 from carom.sweeps.points import PointStatus
 from carom.sweeps.problem import SweepProblem
 

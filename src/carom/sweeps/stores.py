@@ -32,7 +32,7 @@ from carom.io.paths import checked_path
 from carom.io.stores import CHUNK, STATUS, SealedStore, freeze, read_store
 from carom.io.version import __version__
 from carom.quantities.refusals import refusal
-from carom.sweeps.blocks import Box, Values, boxes
+from carom.sweeps.designs import Box, Values, boxes
 from carom.sweeps.points import PointStatus
 from carom.sweeps.problem import SweepProblem
 from carom.sweeps.records import SweepStopped, blank_dataset, identity
