@@ -27,7 +27,7 @@ from carom.quantities.units import or_none, whole
 
 if TYPE_CHECKING:
     from carom.bodies.cases import Case
-    from carom.sweeps.summaries import Summary
+    from carom.sweeps.records import Summary
 
 
 OPTIONS = {
@@ -71,8 +71,8 @@ def sweep_command(
     The speeds above which the second body yields:
       carom sweep examples/sweep.toml --quantities yield_speed_second
     """
-    from carom.sweeps.plans import plan
-    from carom.sweeps.summaries import summary
+    from carom.sweeps.records import summary
+    from carom.sweeps.tables import plan
 
     content = told_case(case, losses=True, swept=True)
     file = _file(content) if output is None else output

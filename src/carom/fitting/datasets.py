@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.dimensionless.rebounds import regime_borders
-from carom.fitting.best import Best
+from carom.fitting.comparison import LossComparison
 from carom.fitting.estimates import FitRecord
+from carom.fitting.estimation import Best
 from carom.fitting.intervals import rise_of
-from carom.fitting.laws import IncomingMotion, half_ratio
 from carom.fitting.least_squares import jacobian
-from carom.fitting.losses import LossComparison
-from carom.fitting.problem import FitProblem
+from carom.fitting.model import half_ratio
+from carom.fitting.problem import FitProblem, IncomingMotion
 from carom.impacts.curves import REGIMES
 from carom.io.labels import flags, labelled_dataset
 from carom.quantities.arrays import Array
@@ -28,11 +28,7 @@ WIDE, ALONG = ("row", "response"), ("curve", "response")
 
 
 def fit_dataset(fit: FitRecord, losses: LossComparison | None = None) -> "xr.Dataset":
-    """Return a fit as a dataset along row, response, curve, law and parameter.
-
-    Responses are in SI units, which `response_unit` names; incidences are those of the contact
-    point, tan = V_x/V_n, in rad. With laws of losses restitutions along row, and along loss_law.
-    """
+    """Return a fit as a dataset, as `Fit.to_dataset`."""
     problem = fit.best.model.problem
     variables = {**_rows(fit.best), **_curves(fit), **_parameters(fit)}
     coords: dict[str, Any] = {} if losses is None else {"loss_law": _loss_names(losses)}

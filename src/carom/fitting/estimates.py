@@ -6,8 +6,8 @@ from functools import cached_property
 from math import floor, inf, isfinite, isnan, log10, nan
 from typing import Any
 
-from carom.fitting.best import Best
 from carom.fitting.comparison import Comparison, compare
+from carom.fitting.estimation import Best
 from carom.fitting.intervals import ProfiledFit
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import shared
@@ -111,14 +111,7 @@ class FitRecord:
 
 
 def significant(value: float, width: float) -> int:
-    """Return how many digits of a value to show, two of the width of its interval.
-
-    Examples
-    --------
-    >>> from carom.fitting.estimates import significant
-    >>> significant(0.0921, 0.0014), significant(-3.0, 40.0)
-    (3, 2)
-    """
+    """Return how many digits of a value to show, two of the width of its interval."""
     if not (isfinite(width) and width > 0.0 and value):
         return 4
     return max(2, min(8, 2 + floor(log10(abs(value))) - floor(log10(width))))

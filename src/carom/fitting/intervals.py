@@ -8,12 +8,10 @@ import numpy as np
 from scipy.special import ndtri, stdtrit
 
 from carom.dimensionless.interpolation import THROUGHOUT
-from carom.fitting.best import WEAK, Best, Information
-from carom.fitting.errors import RobustLoss
-from carom.fitting.estimation import estimate
-from carom.fitting.laws import OFFSET
+from carom.fitting.estimation import WEAK, Best, Information, estimate
 from carom.fitting.least_squares import descend
-from carom.fitting.model import Model
+from carom.fitting.model import OFFSET, Model
+from carom.fitting.problem import RobustLoss
 from carom.io.user_table import Mask
 from carom.quantities.arrays import Array
 

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.fitting.estimates import FitRecord
-from carom.fitting.laws import half_ratio
+from carom.fitting.model import half_ratio
 from carom.io.extras import extra
 from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
@@ -30,14 +30,7 @@ def check_sampling(steps: int, seed: int | None) -> None:
 
 
 def sample(fit: FitRecord, steps: int, seed: int | None, progress: Progress) -> "xr.Dataset":
-    """Return samples of the parameters that the data determine, as a dataset along `sample`.
-
-    Walkers move by differential evolution (ter Braak 2006). The likelihood is
-    exp(-loss/(2 lambda)) with the loss and its spread lambda of the fit, the prior even in log
-    friction, log kappa, restitution and spin offset within their ranges.
-
-    Raises InputError for steps or a seed that cannot be used, or if emcee is not there.
-    """
+    """Return samples of the parameters that the data determine, as `Fit.posterior`."""
     emcee = extra("emcee", "posterior", "fit")
     check_sampling(steps, seed)
     count = int(steps)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from carom.bodies.pairs import Scales
 from carom.dimensionless.numerics.corners import corners, widest
 from carom.dimensionless.numerics.fourier import Pulse, sampled
-from carom.impacts.history import InTime
+from carom.impacts.outcome import InTime
 from carom.io.labels import attributes, labelled_dataset
 from carom.quantities.arrays import Array, numbers
 from carom.quantities.prefixes import text

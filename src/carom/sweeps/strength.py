@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import fields, is_dataclass
 from math import nan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from carom.bodies.cases import case_of
-from carom.bodies.materials import STRENGTHS
-from carom.bodies.pairs import Pair
+from carom.bodies.materials import STRENGTHS, unchecked
 from carom.dimensionless.solution import solve
-from carom.dimensionless.strength.searching import Contacts
 from carom.impacts.outcome import Outcome
-from carom.impacts.strength import BODIES, MEASURES, Strengths, StruckBody, Units, growth, units_of
+from carom.impacts.peaks import BODIES, MEASURES, StruckBody, growth, struck_bodies
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import NEEDED_STRENGTHS
-from carom.quantities.refusals import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -56,13 +53,15 @@ def strength_values(
 ) -> dict[str, Array]:
     """Return these outputs of so many impacts, NaN where they are not solved or cannot be told."""
     found = {name: np.full(size, nan) for name in names}
-    points = _points(outcome, size)
     for i in np.flatnonzero(solved).tolist():
-        bodies = points.bodies(i)
+        psi, chi = _number(outcome.psi_in, i), _number(outcome.pair.chi, i)
+        solution = solve(psi if np.isfinite(psi) else 0.0, chi)
+        bodies = struck_bodies(_entry(outcome.pair, i), _entry(outcome.scales, i), solution)
+        speed = np.hypot(_number(outcome.normal_speed, i), _number(outcome.tangential_speed, i))
         for name in names:
             quantity, body = WANTED[name]
             if body in bodies:
-                found[name][i] = _value(quantity, bodies[body], points.speed[i])
+                found[name][i] = _value(quantity, bodies[body], speed)
     return found
 
 
@@ -72,77 +71,13 @@ def _value(quantity: str, body: StruckBody, speed: float) -> float:
     return body.peak(quantity).value if quantity in MEASURES else body.intensity().value
 
 
-class _Points(NamedTuple):
-    """What the peaks of impacts depend on, an entry of each array for each impact."""
-
-    psi: Array
-    chi: Array
-    friction: Array
-    speed: Array
-    units: Array  # a row for each of `Units`
-    poisson: dict[str, Array]
-    rigid: dict[str, NDArray[np.bool_]]
-    strengths: dict[str, Array]  # a row for each of `Strengths`
-
-    def bodies(self, i: int) -> dict[str, StruckBody]:
-        """Return the bodies of one impact that deform."""
-        psi = float(self.psi[i])
-        solution = solve(psi if np.isfinite(psi) else 0.0, float(self.chi[i]))
-        contacts = Contacts(solution, float(self.friction[i]))
-        units = Units(*self.units[:, i].tolist())
-        return {
-            body: StruckBody(
-                contacts,
-                float(self.poisson[body][i]),
-                units,
-                Strengths(*self.strengths[body][:, i].tolist()),
-                side,
-            )
-            for body, side in zip(BODIES, (-1.0, 1.0), strict=True)
-            if not self.rigid[body][i]
-        }
+def _entry(record: Any, i: int) -> Any:
+    """Return a record of numbers and arrays at one point: numbers alone."""
+    if is_dataclass(record):
+        own = {each.name: getattr(record, each.name) for each in fields(record)}
+        return unchecked(type(record), **{name: _entry(value, i) for name, value in own.items()})
+    return record if record is None or isinstance(record, str) else _number(record, i)
 
 
-def _points(outcome: Outcome, size: int) -> _Points:
-    def spread(values: Any) -> Array:
-        return np.broadcast_to(np.asarray(nan if values is None else values, float), (size,))
-
-    pair, scales = outcome.pair, outcome.scales
-    stuff = {body: getattr(pair, body).material for body in BODIES}
-    return _Points(
-        psi=spread(outcome.psi_in),
-        chi=spread(pair.chi),
-        friction=spread(pair.friction),
-        speed=np.hypot(spread(outcome.normal_speed), spread(outcome.tangential_speed)),
-        units=np.stack([spread(unit) for unit in units_of(scales)]),
-        poisson={body: spread(each.poisson) for body, each in stuff.items()},
-        rigid={body: np.isinf(spread(each.young)) for body, each in stuff.items()},
-        strengths={
-            body: np.stack([spread(getattr(each, name)) for name in Strengths._fields])
-            for body, each in stuff.items()
-        },
-    )
-
-
-def speeds_known(pair: Pair) -> tuple[str, ...]:
-    """Return which speeds the strengths of a pair give, or raise InputError if none."""
-    known = [
-        name
-        for name, (quantity, body) in WANTED.items()
-        if quantity in SPEEDS and _bears(getattr(pair, body).material, needed_by(name))
-    ]
-    if not known:
-        raise InputError(
-            "strength: no strength of either body is known; give yield_strength, tensile_strength, "
-            "or fracture_toughness with flaw_size, to carom.Material or carom.material(name, ...)"
-        )
-    return tuple(known)
-
-
-def _bears(material: Any, needed: Sequence[str]) -> bool:
-    return not material.is_rigid and all(getattr(material, name) is not None for name in needed)
-
-
-def unit_case(pair: Pair) -> dict[str, Any]:
-    """Return the case of a pair that meets at 1 m/s: the speeds that bodies bear are multiples."""
-    return {**case_of(pair), "speed": 1.0}
+def _number(values: Any, i: int) -> float:
+    return float(values[i] if np.ndim(values) else values)
