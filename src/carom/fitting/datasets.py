@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.dimensionless.rebounds import regime_borders
-from carom.fitting.comparison import LossComparison
-from carom.fitting.estimates import FitRecord
+from carom.fitting.comparison import FitRecord, LossComparison
 from carom.fitting.estimation import Best
 from carom.fitting.intervals import rise_of
 from carom.fitting.least_squares import jacobian

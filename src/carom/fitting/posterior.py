@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.fitting.estimates import FitRecord
+from carom.fitting.comparison import FitRecord
 from carom.fitting.model import half_ratio
 from carom.io.extras import extra
 from carom.io.labels import labelled_dataset

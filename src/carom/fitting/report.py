@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.fitting.estimates import LIMITS, Estimate, FitRecord
+from carom.fitting.comparison import FitRecord
+from carom.fitting.estimates import LIMITS, Estimate
 from carom.fitting.estimation import Best, estimate, likelihood, rough_minima
 from carom.fitting.intervals import ProfiledFit
 from carom.fitting.model import Model
