@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import typer
-from carom.cli.verify.pack import pack_command
 
 import carom
+from carom.cli.verify.engines import pack_command
 from carom.quantities.refusals import InputError
 from carom.verify.engines.lammps import Lammps
 from carom.verify.pack import VERSION, write_pack

@@ -1,4 +1,4 @@
-"""`carom verify lammps`, `liggghts`, `yade`: programs against the exact impact; `pack` for more."""
+"""`carom verify lammps`, `liggghts`, `yade`: DEM programs on the bench; `carom verify pack`."""
 
 import json
 
