@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.fitting.estimates import FitRecord
+from carom.fitting.comparison import FitRecord
 from carom.fitting.estimation import Best, information
 from carom.fitting.problem import NORMAL, FitProblem, RobustLoss, gaussian_mean
 from carom.impacts.curves import REGIMES

@@ -1,8 +1,8 @@
 """Laws on the same data by Akaike's criterion: of rebound, and of losses against speed."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache
+from functools import cache, cached_property
 from math import inf, isfinite, nan
 from typing import Any
 
@@ -217,6 +217,22 @@ def _rival(law: FittedLaw, best: Best) -> Best:
     free = tuple(name for name in (*law.names, OFFSET) if name not in held)
     model = Model(law, best.model.problem, free, held)
     return settle(model, best.loss, START | best.values).best
+
+
+@dataclass(frozen=True, eq=False)
+class FitRecord:
+    """What a fit found, as data: the parameters by name, rows by regime, notes, the best fit."""
+
+    estimates: Mapping[str, Estimate]
+    confidence: float
+    regimes: Mapping[str, int]
+    notes: tuple[str, ...]
+    best: Best = field(repr=False)
+
+    @cached_property
+    def comparison(self) -> Comparison:
+        """The exact law, rigid Coulomb and Walton's, compared by Akaike's criterion."""
+        return compare(self.best)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,13 +1,9 @@
 """What a fit found: parameters with intervals, or why there is none, and what else is known."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from functools import cached_property
+from dataclasses import dataclass
 from math import floor, inf, isfinite, isnan, log10, nan
 from typing import Any
 
-from carom.fitting.comparison import Comparison, compare
-from carom.fitting.estimation import Best
 from carom.fitting.intervals import ProfiledFit
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import shared
@@ -92,22 +88,6 @@ def estimate_of(found: ProfiledFit, name: str) -> Estimate:
     known = zip(ends, LIMITS[name], found.open[place], strict=True)
     low, high = (float(limit if is_open else end) for end, limit, is_open in known)
     return Estimate(name, value, low, high)
-
-
-@dataclass(frozen=True, eq=False)
-class FitRecord:
-    """What a fit found, as data: the parameters by name, rows by regime, notes, the best fit."""
-
-    estimates: Mapping[str, Estimate]
-    confidence: float
-    regimes: Mapping[str, int]
-    notes: tuple[str, ...]
-    best: Best = field(repr=False)
-
-    @cached_property
-    def comparison(self) -> Comparison:
-        """The exact law, rigid Coulomb and Walton's, compared by Akaike's criterion."""
-        return compare(self.best)
 
 
 def significant(value: float, width: float) -> int:

@@ -10,9 +10,9 @@ import numpy as np
 
 from carom.bodies.pairs import Pair
 from carom.fitting.advice import Advice, advise
-from carom.fitting.comparison import LossComparison, compare_losses
+from carom.fitting.comparison import FitRecord, LossComparison, compare_losses
 from carom.fitting.datasets import fit_dataset
-from carom.fitting.estimates import Estimate, FitRecord, estimate_of
+from carom.fitting.estimates import Estimate, estimate_of
 from carom.fitting.intervals import ProfiledFit, Settled, profiled, reason
 from carom.fitting.model import half_ratio
 from carom.fitting.posterior import sample
