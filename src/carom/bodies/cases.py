@@ -5,7 +5,6 @@ import tomllib
 from collections import Counter
 from collections.abc import Callable, Container, Iterable, Mapping
 from contextlib import suppress
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -62,16 +61,19 @@ def read_case(path: str | Path, *, losses: bool = False) -> Case:
         if DEEP.search(text):  # which takes memory with the square of the depth
             raise RecursionError
         case = tomllib.loads(text, parse_float=finite_or_text)
-    except UnicodeDecodeError:
-        raise InputError(f"case file: {str(path)!r} is not text; give a TOML file") from None
     except InputError:
         raise
+    except UnicodeDecodeError:
+        raise InputError(f"case file: {str(path)!r} is not text; give a TOML file") from None
     except ValueError as error:  # of tomllib; for integers of many digits Python's own
         raise InputError(f"case file: {str(path)!r} is not TOML; {error}") from None
     except RecursionError:
         raise refusal("case file", str(path), "its tables are nested too deeply") from None
-    where = partial(_place, path, text)
-    check_case(case, where, losses=losses)
+
+    def place(key: str, table: str) -> str:
+        return f" in {path}, line {line_of(key, text, table)}"
+
+    check_case(case, place, losses=losses)
     return case
 
 
@@ -108,10 +110,6 @@ def check_case(
             check(table, allowed, name)
             if isinstance(table.get("material"), Mapping):
                 check(table["material"], MATERIAL, name)
-
-
-def _place(path: str | Path, text: str, key: str, table: str) -> str:
-    return f" in {path}, line {line_of(key, text, table)}"
 
 
 def line_of(key: str, text: str, table: str) -> int:

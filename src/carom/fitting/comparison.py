@@ -220,6 +220,22 @@ def _rival(law: FittedLaw, best: Best) -> Best:
 
 
 @dataclass(frozen=True, eq=False)
+class FitRecord:
+    """What a fit found, as data: the parameters by name, rows by regime, notes, the best fit."""
+
+    estimates: Mapping[str, Estimate]
+    confidence: float
+    regimes: Mapping[str, int]
+    notes: tuple[str, ...]
+    best: Best = field(repr=False)
+
+    @cached_property
+    def comparison(self) -> Comparison:
+        """The exact law, rigid Coulomb and Walton's, compared by Akaike's criterion."""
+        return compare(self.best)
+
+
+@dataclass(frozen=True, eq=False)
 class LossFit(Standing):
     """A law of losses fitted to restitutions, with its one parameter."""
 

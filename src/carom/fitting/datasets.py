@@ -30,8 +30,11 @@ def fit_dataset(fit: FitRecord, losses: LossComparison | None = None) -> "xr.Dat
     """Return a fit as a dataset, as `Fit.to_dataset`."""
     problem = fit.best.model.problem
     variables = {**_rows(fit.best), **_curves(fit), **_parameters(fit)}
-    coords: dict[str, Any] = {} if losses is None else {"loss_law": _loss_names(losses)}
-    variables |= {} if losses is None else _losses(losses)
+    coords: dict[str, Any] = {}
+    if losses is not None:
+        laws = [each.law for each in losses.standings]
+        coords["loss_law"] = _named("loss_law", laws, "law of losses")
+        variables |= _losses(losses)
     coords |= {
         "row": _named("row", problem.rows.rows, f"{problem.rows.word} of the data"),
         "response": _named("response", list(problem.responses), "what was measured"),
@@ -72,10 +75,6 @@ def _rows(best: Best) -> dict[str, Any]:
         "residual": _named(WIDE, residual, f"measured less expected, {OWN}"),
         "regime": ("row", best.model.regimes(best.at), flags(REGIMES)),
     }
-
-
-def _loss_names(losses: LossComparison) -> tuple[Any, Any, dict[str, str]]:
-    return _named("loss_law", [each.law for each in losses.standings], "law of losses")
 
 
 def _losses(losses: LossComparison) -> dict[str, Any]:

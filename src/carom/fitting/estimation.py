@@ -207,14 +207,8 @@ def estimate(model: Model, loss: errors.RobustLoss, start: Array | None = None) 
     ]
     found = min(followed, key=lambda each: each.against)
     others = [each.at for each in (*followed, *begun) if each is not found]
-    return fitted(
-        model,
-        found.loss,
-        found.at,
-        found.sigma,
-        found.scale,
-        np.array([*others, *minima[FOLLOWED:]]),
-    )
+    elsewhere = np.array([*others, *minima[FOLLOWED:]])
+    return fitted(model, found.loss, found.at, found.sigma, found.scale, elsewhere)
 
 
 def rough_minima(model: Model, loss: errors.RobustLoss, start: Array | None = None) -> Array:
@@ -242,18 +236,9 @@ def fitted(
     best, result = polished(model, weights, loss, at)
     total = float(np.square(model.residuals(weights, loss)(best[np.newaxis])).sum())
     elsewhere = np.empty((0, len(at))) if others is None or not len(others) else others
-    return Best(
-        model,
-        best,
-        total,
-        weights,
-        loss,
-        sigma,
-        scale,
-        np.asarray(unknown.any(axis=0)),
-        elsewhere,
-        result,
-    )
+    by_scatter = np.asarray(unknown.any(axis=0))
+    errors_used = weights, loss, sigma, scale, by_scatter
+    return Best(model, best, total, *errors_used, elsewhere, result)
 
 
 def distinct(points: Array) -> Array:

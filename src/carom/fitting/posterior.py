@@ -22,22 +22,15 @@ MOST_SEED = 2**63 - 1  # that a file can hold
 LONG = 50.0  # autocorrelation times that a chain should have (emcee's documentation)
 
 
-def check_sampling(steps: int, seed: int | None) -> None:
-    """Raise InputError for steps or a seed that cannot be used."""
-    counted("steps", steps, FEWEST_STEPS, MOST_STEPS)
-    if seed is not None:
-        counted("seed", seed, 0, MOST_SEED)
-
-
 def sample(fit: FitRecord, steps: int, seed: int | None, progress: Progress) -> "xr.Dataset":
     """Return samples of the parameters that the data determine, as `Fit.posterior`."""
     emcee = extra("emcee", "posterior", "fit")
-    check_sampling(steps, seed)
-    count = int(steps)
+    count = counted("steps", steps, FEWEST_STEPS, MOST_STEPS)
+    if seed is not None:
+        counted("seed", seed, 0, MOST_SEED)
     best = fit.best
     low, high = best.model.bounds
     residuals = best.model.residuals(best.weights, best.loss)
-
     stopped: list[BaseException] = []
 
     def log_probability(at: Array) -> Array:
@@ -54,7 +47,9 @@ def sample(fit: FitRecord, steps: int, seed: int | None, progress: Progress) -> 
     generator = np.random.default_rng(seed)
     deviations = np.sqrt(np.diag(best.information.covariance))
     offsets = generator.normal(size=(WALKERS * free, free)) * np.minimum(deviations, 0.3)
-    start = _within(best.at + offsets, low, high)
+    start = best.at + offsets  # reflected into the ranges, so that walkers stay apart at a bound
+    start = np.where(start > high, 2.0 * high - start, start)
+    start = np.clip(np.where(start < low, 2.0 * low - start, start), low, high)
     moves = [(emcee.moves.DEMove(), 0.9), (emcee.moves.DEMove(gamma0=1.0), 0.1)]
     sampler = emcee.EnsembleSampler(len(start), free, log_probability, vectorize=True, moves=moves)
     sampler.random_state = np.random.RandomState(generator.integers(2**31)).get_state()
@@ -66,13 +61,6 @@ def sample(fit: FitRecord, steps: int, seed: int | None, progress: Progress) -> 
     chain = sampler.get_chain(discard=int(BURN * count), flat=True)
     times = sampler.get_autocorr_time(tol=0)
     return _dataset(fit, chain, times, count, seed)
-
-
-def _within(at: Array, low: Array, high: Array) -> Array:
-    """Return points reflected into their ranges, so that walkers stay apart at a bound."""
-    inside = np.where(at > high, 2.0 * high - at, at)
-    inside = np.where(inside < low, 2.0 * low - inside, inside)
-    return np.asarray(np.clip(inside, low, high))
 
 
 def _dataset(

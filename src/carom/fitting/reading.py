@@ -226,21 +226,17 @@ def with_speeds(rows: UserTable) -> UserTable:
     for height, speed in HEIGHTS.items():
         if height in columns:
             rows.refuse(height, columns[height] <= 0.0, "must be positive")
-            _add_speed(columns, height, speed)
+            values = np.where(columns[height] > 0.0, columns[height], np.nan)
+            columns[speed] = np.sqrt(2.0 * GRAVITY * values)
+        if height + ERROR in columns:
+            with np.errstate(divide="ignore", invalid="ignore"):
+                columns[speed + ERROR] = GRAVITY * columns[height + ERROR] / columns[speed]
     columns["tangential_speed"] = np.zeros(len(rows))
     if "rebound_height" in columns:
         too_high = columns["normal_speed_out"] > MOST_RESTITUTION * columns["normal_speed"]
         allowed = "must, apart from scatter, be no larger than drop_height"
         rows.refuse("rebound_height", too_high, allowed)
     return replace(rows, columns=columns)
-
-
-def _add_speed(columns: dict[str, Array], height: str, speed: str) -> None:
-    values = np.where(columns[height] > 0.0, columns[height], np.nan)
-    columns[speed] = np.sqrt(2.0 * GRAVITY * values)
-    if height + ERROR in columns:
-        with np.errstate(divide="ignore", invalid="ignore"):
-            columns[speed + ERROR] = GRAVITY * columns[height + ERROR] / columns[speed]
 
 
 def taken_by_air(heights: Mapping[str, Array], radius: float, mass: float) -> float:
@@ -268,11 +264,8 @@ def read_options(
     tells_restitution = problem.is_normal and set(NORMAL) & set(problem.responses)
     first = ("restitution",) if tells_restitution else FIRST
     wanted = [name for name in first if name not in held] if vary is None else _varied(vary)
-    for name in wanted:
-        if name in held:
-            raise InputError(
-                f"{name}: it is both varied and fixed; leave it out of vary or of fixed"
-            )
+    for name in filter(held.__contains__, wanted):
+        raise InputError(f"{name}: it is both varied and fixed; leave it out of vary or of fixed")
     if OFFSET in (*wanted, *held) and not problem.has_speeds:
         raise InputError(
             f"{OFFSET}: it needs speeds in the data; add a column speed or normal_speed"

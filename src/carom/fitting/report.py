@@ -46,7 +46,7 @@ HOPEFUL = 0.9  # of the scatter as given: a rough fit must leave less, in one re
 LEAST = 0.75  # of the values that must not be outliers then
 
 
-def likely_mistake(whole: Best, estimates: Mapping[str, Estimate]) -> str | None:
+def _likely_mistake(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]:
     """Return the mistake with which the data are far likelier than as they stand, if there is one.
 
     Mistakes are tried only where something is odd: scatter beyond what errors allow or a tenth of
@@ -54,10 +54,10 @@ def likely_mistake(whole: Best, estimates: Mapping[str, Estimate]) -> str | None
     `whole` is the fit with nothing held that was to be found.
     """
     if not _is_odd(whole, estimates):
-        return None
+        return []
     tried = [_tried(whole, trial) for trial in _trials(whole.model.problem)]
-    likely = [each for each in tried if each is not None]
-    return min(likely, key=lambda each: each[0])[1] if likely else None
+    likely = sorted((each for each in tried if each is not None), key=lambda each: each[0])
+    return [words for _, words in likely[:1]]
 
 
 def _is_odd(best: Best, estimates: Mapping[str, Estimate]) -> bool:
@@ -186,6 +186,9 @@ def _is_promising(model: Model, loss: RobustLoss, as_given: Array) -> bool:
 AT_END = 1e-6  # of a coordinate from an end of its range
 APART = 0.1  # of a coordinate between two minima
 COLUMN = 14
+ONE_INCIDENCE = (
+    "one incidence determines friction or kappa, not both; fix one, or measure at other angles"
+)
 THIN = 2e-3  # part of a restitution that air may take unsaid
 POSSIBLE = (2.0 / 3.0, 1.0)  # kappa for Poisson's ratios from 1/2 to 0
 
@@ -217,13 +220,13 @@ def notes(found: ProfiledFit, whole: Best, estimates: Mapping[str, Estimate]) ->
     """Return what is to be known besides the numbers; `whole` is the fit with nothing held."""
     best = found.best
     problem = best.model.problem
-    lines = [*_about_errors(best), *_about_outliers(best), *_about_regimes(found)]
-    lines += [*_about_ranges(best), *_about_incidence(whole), *_about_others(whole, estimates)]
-    lines += _about_bodies(estimates["kappa"])
-    mistake = likely_mistake(whole, estimates)
-    if mistake is not None:
-        lines.append(mistake)
-    lines += _about_air(problem)
+    far = np.asarray((np.abs(best.residuals) > OUTLYING).any(axis=1))
+    lines = [*_about_errors(best), *([f"outliers: {problem.rows.named(far)}"] if far.any() else [])]
+    lines += [*_about_regimes(found), *_about_ranges(best)]
+    if {"friction", "kappa"} <= set(whole.model.free) and problem.is_one:  # all psi_1 are one
+        lines.append(ONE_INCIDENCE)
+    lines += [*_about_others(whole, estimates), *_about_bodies(estimates["kappa"])]
+    lines += [*_likely_mistake(whole, estimates), *_about_air(problem)]
     if problem.ignored:
         lines.append(f"columns that were not used: {', '.join(problem.ignored)}")
     gaps = np.asarray(~problem.present.any(axis=1))
@@ -279,12 +282,6 @@ def _about_ranges(best: Best) -> list[str]:
     return lines
 
 
-def _about_outliers(best: Best) -> list[str]:
-    far = np.asarray((np.abs(best.residuals) > OUTLYING).any(axis=1))
-    rows = best.model.problem.rows
-    return [f"outliers: {rows.named(far)}"] if far.any() else []
-
-
 def _about_bodies(kappa: Estimate) -> list[str]:
     """Return what the bodies have to say of a kappa that was fitted."""
     if not kappa.determined or kappa.low <= kappa.elastic <= kappa.high:
@@ -306,15 +303,6 @@ def _about_regimes(found: ProfiledFit) -> list[str]:
     if not unsure.any():
         return []
     return [f"the regime may differ within the intervals: {model.problem.rows.named(unsure)}"]
-
-
-def _about_incidence(whole: Best) -> list[str]:
-    """Return that rows at one incidence, whose psi_1 are one, tell one number of two."""
-    if not {"friction", "kappa"} <= set(whole.model.free) or not whole.model.problem.is_one:
-        return []
-    return [
-        "one incidence determines friction or kappa, not both; fix one, or measure at other angles"
-    ]
 
 
 def _about_others(whole: Best, estimates: Mapping[str, Estimate]) -> list[str]:

@@ -261,19 +261,16 @@ def solve_exactly(
 def _solution(
     pair: Pair, normal_speed: float, psi: float, losses: LossLaw | None
 ) -> Solution | LossySolution:
-    given = pair, normal_speed, psi
-    found = solve(psi, pair.chi) if losses is None else _with_losses(*given, losses)
+    found: Solution | LossySolution
+    if losses is None:
+        found = solve(psi, pair.chi)
+    else:
+        loss, *numbers = checked_law(losses, "loss")(pair, normal_speed)
+        if any(map(np.ndim, numbers)):
+            raise refusal("losses", losses, "an impact takes one number; carom.sweep takes many")
+        found = solve_with(psi, pair.chi, LossNumbers(loss, *map(float, numbers)))
     if found.status is not Status.SOLVED:
         name, value = ("chi", pair.chi) if losses is None else ("losses", losses)
         what = f"the impact at psi_1 = {psi:g}, chi = {pair.chi:g} is {found.status.message}"
         raise refusal(name, value, what)
     return found
-
-
-def _with_losses(
-    pair: Pair, normal_speed: float, psi: float, losses: LossLaw
-) -> Solution | LossySolution:
-    loss, *numbers = checked_law(losses, "loss")(pair, normal_speed)
-    if any(map(np.ndim, numbers)):
-        raise refusal("losses", losses, "an impact takes one number; carom.sweep takes many")
-    return solve_with(psi, pair.chi, LossNumbers(loss, *map(float, numbers)))

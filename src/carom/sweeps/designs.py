@@ -260,16 +260,13 @@ class Grid(Design):
 
     @property
     def dims(self) -> tuple[str, ...]:
-        """Names of the dimensions, one per axis."""
         return tuple(variable(name) for name in self.names)
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Number of values of every axis."""
         return tuple(values.size for values in self._given.values())
 
     def coords(self) -> dict[str, Any]:
-        """Return every axis with its unit and meaning."""
         labels = {name: [one.label for one in self.choices[name]] for name in self.choices}
         return {
             dim: (dim, labels.get(name, values), input_attributes(name, self.choices))
@@ -277,13 +274,11 @@ class Grid(Design):
         }
 
     def inputs(self, box: Box) -> dict[str, NDArray[Any]]:
-        """Return the inputs of the points of a box."""
         parts = [values[part] for values, part in zip(self._given.values(), box, strict=True)]
         lattice = np.meshgrid(*parts, indexing="ij")
         return {name: at.ravel() for name, at in zip(self.names, lattice, strict=True)}
 
     def description(self) -> dict[str, Any]:
-        """Return the values of every axis."""
         axes = self._described(np.ndarray.tolist)
         return {"kind": "grid", "order": list(self.names), "axes": axes}
 
@@ -336,11 +331,9 @@ class LatinHypercube(Design):
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Number of samples."""
         return (self.samples,)
 
     def inputs(self, box: Box) -> dict[str, NDArray[Any]]:
-        """Return the inputs of the points of a box."""
         index = np.arange(*box[0].indices(self.samples), dtype=np.uint64)
         words = secrets(self.seed, len(self.names))
         found: dict[str, NDArray[Any]] = {}
@@ -350,7 +343,6 @@ class LatinHypercube(Design):
         return found
 
     def description(self) -> dict[str, Any]:
-        """Return the ranges, the number of samples and the seed."""
         whole = {"samples": self.samples, "seed": self.seed, "order": list(self.names)}
         return {"kind": "latin hypercube", **whole, "ranges": self._described(Range._asdict)}
 

@@ -97,7 +97,10 @@ def evaluate(
     """Return the outputs of so many impacts, NaN where one is not solved, and their status."""
     with np.errstate(all="ignore"):
         status = _status(columns, kind, size)
-        outcome = _outcome(columns, kind, BlockSolution.blank(size, loss))
+        first, second = _sphere(columns, "first"), _second(columns, kind)
+        pair = unchecked(Pair, first=first, second=second, friction=columns["friction"])
+        solution, spins = BlockSolution.blank(size, loss), (columns["spin"], columns["spin2"])
+        outcome = Outcome(pair, *velocities(columns), *spins, solution)
         lost = (status == PointStatus.SOLVED) & np.logical_not(outcome.fits)
         status[lost] = PointStatus.BEYOND_FLOATING_POINT
         law = None if loss is None else law_of(loss, columns.get(loss), columns.get(RATIO))
@@ -180,12 +183,6 @@ def _misfit(columns: Columns, kind: str) -> Any:
     ]
     tight = [columns["second.radius"] <= columns["first.radius"]] if kind == "cup" else []
     return np.logical_or.reduce(np.broadcast_arrays(young, *hollow, *tight))
-
-
-def _outcome(columns: Columns, kind: str, solution: BlockSolution) -> Outcome:
-    first, second = _sphere(columns, "first"), _second(columns, kind)
-    pair = unchecked(Pair, first=first, second=second, friction=columns["friction"])
-    return Outcome(pair, *velocities(columns), columns["spin"], columns["spin2"], solution)
 
 
 def _second(columns: Columns, kind: str) -> Counterbody:

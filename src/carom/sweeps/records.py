@@ -123,14 +123,13 @@ def summary(dataset: "xr.Dataset", names: Sequence[str] | None = None) -> Summar
         values, numbers = np.unique(status[box].values, return_counts=True)
         counts.update(dict(zip(values.tolist(), numbers.tolist(), strict=True)))
         for name in shown:
-            ranges[name] = _extended(ranges[name], dataset[name][box].values)
+            values = dataset[name][box].values
+            if (found := values[np.isfinite(values)]).size:
+                least, most = ranges[name]
+                ranges[name] = (
+                    float(np.fmin(least, found.min())),
+                    float(np.fmax(most, found.max())),
+                )
     statuses = {PointStatus(value).message: n for value, n in sorted(counts.items())}
     solved = counts[PointStatus.SOLVED] + counts[PointStatus.STRENGTH_NOT_KNOWN]
     return Summary({str(n): size for n, size in dataset.sizes.items()}, statuses, ranges, solved)
-
-
-def _extended(span: tuple[float, float], values: NDArray[Any]) -> tuple[float, float]:
-    known = values[np.isfinite(values)]
-    if not known.size:
-        return span
-    return float(np.fmin(span[0], known.min())), float(np.fmax(span[1], known.max()))

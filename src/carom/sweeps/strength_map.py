@@ -93,14 +93,10 @@ def bearable_speeds(
         "angle": ANGLES if angle is None else angle,
     }
     case = {**case_of(pair), "speed": 1.0}  # the speeds that bodies bear are multiples of it
-    grid = Grid({name: _listed(values) for name, values in axes.items()})
-    found = sweep(case, grid, outputs=outputs, workers=workers, progress=progress)
+    lists = {n: [v] if isinstance(v, int | float | str) else v for n, v in axes.items()}
+    found = sweep(case, Grid(lists), outputs=outputs, workers=workers, progress=progress)
     notes = [BOUNDS] + [UNCOUPLED] * (abs(pair.dundurs_beta) > WEAK_COUPLING)
     return found.assign_attrs(title="speeds that bodies bear", notes="; ".join(notes))
-
-
-def _listed(values: ArrayLike) -> ArrayLike:
-    return [values] if isinstance(values, int | float | str) else values
 
 
 def _speeds_known(pair: Pair) -> list[str]:

@@ -70,15 +70,12 @@ class Table(Design):
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Number of rows."""
         return (self._given[self.names[0]].size,)
 
     def inputs(self, box: Box) -> dict[str, NDArray[Any]]:
-        """Return the inputs of the points of a box."""
         return {name: values[box[0]] for name, values in self._given.items()}
 
     def description(self) -> dict[str, Any]:
-        """Return a hash of the values."""
         digest = hashlib.sha256()
         for values in self._given.values():
             digest.update(np.ascontiguousarray(values).tobytes())
