@@ -398,19 +398,3 @@ def plastic(pair: Pair, normal_speed: Array, values: Values) -> Array:
     peak = np.sqrt(1.2 * y - 0.2 * y**6)
     deepest = y**2 + (peak - y**3) / (1.5 * y)
     return np.asarray(peak / deepest**0.25)
-
-
-@dataclass(frozen=True, eq=False)
-class FitRecord:
-    """What a fit found, as data: the parameters by name, rows by regime, notes, the best fit."""
-
-    estimates: Mapping[str, Estimate]
-    confidence: float
-    regimes: Mapping[str, int]
-    notes: tuple[str, ...]
-    best: Best = field(repr=False)
-
-    @cached_property
-    def comparison(self) -> Comparison:
-        """The exact law, rigid Coulomb and Walton's, compared by Akaike's criterion."""
-        return compare(self.best)
