@@ -25,9 +25,8 @@ def table(path: str) -> DecimalTable:
 
 def picked(published: DecimalTable, column: str, **wanted: str) -> tuple[np.ndarray, np.ndarray]:
     """Return abscissa and value of the points of a series and a kind."""
-    chosen = np.ones(len(published.rows), dtype=bool)
-    for name, value in wanted.items():
-        chosen &= np.array(published.columns[name]) == value
+    columns = [np.array(published.columns[name]) == value for name, value in wanted.items()]
+    chosen = np.all(columns, axis=0)
     abscissa = "x" if "x" in published.columns else "incidence_deg"
     return published.numbers(abscissa)[chosen], published.numbers(column)[chosen]
 
