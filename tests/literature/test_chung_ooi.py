@@ -25,7 +25,7 @@ def table(path: str) -> DecimalTable:
 
 def picked(published: DecimalTable, column: str, **wanted: str) -> tuple[np.ndarray, np.ndarray]:
     """Return abscissa and value of the points of a series and a kind."""
-    chosen = np.ones(len(published.rows), dtype=bool)
+    chosen = np.ones(len(published.numbers(column)), dtype=bool)
     for name, value in wanted.items():
         chosen &= np.array(published.columns[name]) == value
     abscissa = "x" if "x" in published.columns else "incidence_deg"
