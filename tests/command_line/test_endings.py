@@ -126,15 +126,14 @@ def test_ctrl_c_in_sampling_is_told_in_one_line(there):
         "sys.addaudithook(hook)",
         """\
 import carom.dimensionless.interpolation as rebounds
-from carom.fitting import posterior
-sampled, read = posterior.sample, rebounds.table
+from carom.fitting import datasets
+sampled, read = datasets.sample, rebounds.table
 def interrupted():
     signal.raise_signal(signal.SIGINT)
     return read()
 def sample(*given):
     rebounds.table = interrupted
     return sampled(*given)
-posterior.sample = sample
 import carom.fitting.result
 carom.fitting.result.sample = sample
 """,

@@ -88,7 +88,7 @@ def fit_command(
         _tell_template(data or dataset, as_json)
         return
     from carom.fitting.advice import PLAN
-    from carom.fitting.posterior import FEWEST_STEPS, MOST_SEED, MOST_STEPS
+    from carom.fitting.datasets import FEWEST_STEPS, MOST_SEED, MOST_STEPS
 
     source = _source(data, dataset)
     if about is not None and advice is None:

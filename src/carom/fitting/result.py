@@ -11,11 +11,10 @@ import numpy as np
 from carom.bodies.pairs import Pair
 from carom.fitting.advice import Advice, advise
 from carom.fitting.comparison import FitRecord, LossComparison, compare_losses
-from carom.fitting.datasets import fit_dataset
+from carom.fitting.datasets import fit_dataset, sample
 from carom.fitting.estimates import Estimate, estimate_of
 from carom.fitting.intervals import ProfiledFit, Settled, profiled, reason
 from carom.fitting.model import half_ratio
-from carom.fitting.posterior import sample
 from carom.fitting.reading import NAMES
 from carom.fitting.report import as_text, notes
 from carom.impacts.curves import REGIMES

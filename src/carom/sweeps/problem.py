@@ -27,8 +27,7 @@ from carom.sweeps.inputs import (
     refuse_contradictions,
     variable,
 )
-from carom.sweeps.points import PointStatus, evaluate
-from carom.sweeps.strength import WANTED, needed_by, needed_strengths
+from carom.sweeps.points import WANTED, PointStatus, evaluate, needed_by, needed_strengths
 
 OF_STRENGTH = tuple(f"material.{name}" for name in STRENGTHS)
 OF_SECOND = {  # what describes a second body of each kind

@@ -18,7 +18,7 @@ from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError
 from carom.sweeps import sweep
 from carom.sweeps.designs import Grid
-from carom.sweeps.strength import SPEEDS, WANTED, needed_by
+from carom.sweeps.points import SPEEDS, WANTED, needed_by
 
 if TYPE_CHECKING:
     import xarray as xr
