@@ -18,7 +18,7 @@ pytest.importorskip("flask")
 
 from carom.explorer import files, uploads
 from carom.explorer.app import FOR_THE_PAGE, WRITTEN, new_app
-from carom.explorer.knobs import CHOICES, KNOBS
+from carom.explorer.fields import CHOICES, FIELDS
 from carom.explorer.limits import LARGEST_REQUEST, LONGEST_LINK
 from carom.explorer.views import LAWS, View
 from carom.explorer.warming import STEPS, Warming
@@ -117,9 +117,9 @@ def word(rng, name):
     kind = rng.random()
     if kind < 0.2:
         return rng.choice(WORDS + NUMBERS)
-    if name in KNOBS:
-        knob = KNOBS[name]
-        value = rng.choice([knob.least, knob.most, rng.uniform(knob.least, knob.most)])
+    if name in FIELDS and FIELDS[name].is_number:
+        field = FIELDS[name]
+        value = rng.choice([field.least, field.most, rng.uniform(field.least, field.most)])
         right = repr(value * rng.choice([1.0, 1.0, 1.0, -1.0, 1.1]))
     else:
         right = rng.choice(CHOICES.get(name, FAST_LAWS))
@@ -128,8 +128,8 @@ def word(rng, name):
 
 def link(rng):
     """Return the query of a link, seldom quite right."""
-    known = [*KNOBS, *CHOICES, "law", "law", "time", "theme", "other"]
-    pairs = [(name, word(rng, name)) for name in rng.choices(known, k=rng.randint(0, 7))]
+    names = [*FIELDS, "law", "time", "theme", "other"]
+    pairs = [(name, word(rng, name)) for name in rng.choices(names, k=rng.randint(0, 7))]
     found = urlencode(pairs, errors="replace")
     return garbled(rng, found) if rng.random() < 0.2 else found
 

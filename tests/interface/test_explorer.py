@@ -13,8 +13,8 @@ import carom
 pytest.importorskip("flask")
 
 from carom.explorer.answers import answer, laws
+from carom.explorer.fields import NUMBERS
 from carom.explorer.files import curve_figure
-from carom.explorer.knobs import NUMBERS
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import impact_of, scene_of
 from carom.explorer.scripts import script

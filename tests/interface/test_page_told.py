@@ -13,7 +13,7 @@ pytest.importorskip("flask")
 
 from carom.explorer.answers import answer, laws
 from carom.explorer.config import REGIMES, config
-from carom.explorer.knobs import KNOBS, NUMBERS
+from carom.explorer.fields import FIELDS, NUMBERS
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import ENERGIES, impact_of, scene_of
 from carom.explorer.views import LAWS, View
@@ -93,7 +93,7 @@ def test_the_page_is_told_all_that_it_shows():
     assert set(told["fields"]) == {field.name for field in fields(View)}
     for name, field in told["fields"].items():
         assert field["label"]
-        assert (name in KNOBS) == (field["most"] is not None)
+        assert FIELDS[name].is_number == (field["most"] is not None)
         assert View.of(urlencode({name: field["default"]}, doseq=True)) == View()
         assert field["symbol"] in ("", *told["symbols"])
     assert [law["label"] for law in told["laws"]] == list(LAWS)

@@ -12,11 +12,11 @@ import carom
 pytest.importorskip("flask")
 
 from carom.explorer.answers import answer
-from carom.explorer.knobs import CHOICES, KNOBS, NEEDS, NUMBERS, OF_MATERIAL, label
-from carom.explorer.limits import Refused
+from carom.explorer.fields import CHOICES, FIELDS, NUMBERS, OF_MATERIAL, Refused
 from carom.explorer.scenes import scene_of
 from carom.explorer.views import LAWS, View
 
+KNOBS = {name: field for name, field in FIELDS.items() if field.is_number}
 NUMBER = {name: st.floats(knob.least, knob.most) for name, knob in KNOBS.items()}
 WORD = {name: st.sampled_from(known) for name, known in CHOICES.items()}
 SOME_LAWS = st.lists(st.sampled_from(LAWS), unique=True, max_size=4).map(tuple)
@@ -96,7 +96,7 @@ def test_what_does_not_go_together_is_told_of_a_field(view, field, says):
     with pytest.raises(Refused, match=says) as error:
         answer(view)
     assert error.value.field == field
-    assert str(error.value).startswith(f"{label(field)}: ")  # not an argument of Python
+    assert str(error.value).startswith(f"{FIELDS[field].label}: ")  # not an argument of Python
 
 
 EXTREME = {name: st.sampled_from([knob.least, knob.most]) for name, knob in KNOBS.items()}
@@ -110,7 +110,7 @@ def test_any_numbers_are_answered_or_refused_by_field(view):
     except Refused as error:
         told = error.field
         event(told)
-    assert told in (*NEEDS, "friction") or 10_000 < len(told) < 200_000
+    assert told in FIELDS or 10_000 < len(told) < 200_000
 
 
 def test_own_materials_are_those_of_the_numbers():

@@ -11,7 +11,8 @@ import pytest
 pytest.importorskip("flask")
 
 from carom.explorer import worker as workers
-from carom.explorer.limits import WAITING, Busy, Refused
+from carom.explorer.fields import Refused
+from carom.explorer.limits import WAITING, Busy
 from carom.explorer.worker import Desk, Worker
 
 ECHO = """\
@@ -29,7 +30,8 @@ while True:
         time.sleep(0.6)
     answer = asked, os.getpid()
     if asked in ("refuse", "busy", "fail"):
-        from carom.explorer.limits import Busy, Refused
+        from carom.explorer.fields import Refused
+        from carom.explorer.limits import Busy
         refusal, busy, failure = Refused("angle", "no"), Busy(), RuntimeError("no")
         answer = {"refuse": refusal, "busy": busy, "fail": failure}[asked]
 """
@@ -69,7 +71,7 @@ def test_what_never_ends_is_killed_and_the_next_is_answered(desk):
 
 def test_refusals_failures_and_crashes_are_told_apart(desk):
     desk._seconds = PATIENCE
-    with pytest.raises(Refused, match=r"^no$") as refused:
+    with pytest.raises(Refused, match=r"^Incidence: no$") as refused:
         desk.ask(name="refuse")
     assert refused.value.field == "angle"
     with pytest.raises(Busy, match="the page is busy"):

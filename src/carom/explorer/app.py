@@ -12,8 +12,8 @@ from werkzeug.exceptions import HTTPException
 
 from carom.datasets.shipped import names as dataset_names
 from carom.explorer import answers
-from carom.explorer.knobs import WORDS
-from carom.explorer.limits import LARGEST_REQUEST, Busy, Refused
+from carom.explorer.fields import FIELDS, Refused
+from carom.explorer.limits import LARGEST_REQUEST, Busy
 from carom.explorer.page import page, plotly_file
 from carom.explorer.scripts import script
 from carom.explorer.views import View
@@ -47,7 +47,7 @@ WRITTEN = (  # files of a view that take time
 )
 UPLOADED = ("contents", "name", "bodies")
 ASSETS = Path(__file__).with_name("assets")
-FOR_THE_PAGE = ("/answer", "/laws", "/fit")  # told of errors as JSON, others as text
+FOR_THE_PAGE = ("/answer", "/laws", "/fit")  # whose errors are JSON, of others text
 AGAIN = 1  # s after which to ask again for what is being compiled
 LOGGED = 300  # characters of what went wrong
 
@@ -162,8 +162,8 @@ def _query() -> str:
     return request.query_string.decode("ascii", "replace")
 
 
-def _json(told: Any, status: int = 200) -> Response:
-    content = json.dumps(told, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+def _json(answer: Any, status: int = 200) -> Response:
+    content = json.dumps(answer, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     return Response(content.encode("utf-8", "replace"), status, content_type="application/json")
 
 
@@ -178,17 +178,17 @@ def _one_line(error: Exception) -> Response:
     if isinstance(error, Busy):
         return _refusal("", str(error), 503)
     if isinstance(error, RecursionError) and request.is_json:
-        return _told("what was sent is nested too deeply", 400)
+        return _line("what was sent is nested too deeply", 400)
     if isinstance(error, HTTPException):
-        return _told(f"{error.code}: {error.name}", error.code or 500)
+        return _line(f"{error.code}: {error.name}", error.code or 500)
     log.error("%s: %s", type(error).__name__, " ".join(str(error).split())[:LOGGED])
-    return _told(f"failed, {type(error).__name__}", 500)
+    return _line(f"failed, {type(error).__name__}", 500)
 
 
-def _parted(told: str) -> tuple[str, str]:
+def _parted(refusal: str) -> tuple[str, str]:
     """Return the field that a refusal of the library begins with, and the rest of it."""
-    name, colon, rest = told.partition(": ")
-    return (name, rest) if colon and name in WORDS else ("", told)
+    name, colon, rest = refusal.partition(": ")
+    return (name, rest) if colon and name in FIELDS else ("", refusal)
 
 
 def _refusal(field: str, message: str, status: int = 400, **more: Any) -> Response:
@@ -198,11 +198,10 @@ def _refusal(field: str, message: str, status: int = 400, **more: Any) -> Respon
     """
     if request.path in FOR_THE_PAGE:
         return _json({"field": field, "message": message, **more})
-    words = WORDS.get(field)
-    return _told(f"{words.label}: {message}" if words else message, status)
+    return _line(f"{FIELDS[field].label}: {message}" if field else message, status)
 
 
-def _told(message: str, status: int) -> Response:
+def _line(message: str, status: int) -> Response:
     if request.path in FOR_THE_PAGE:
         return _json({"field": "", "message": message}, status)
     content = f"carom: {message}\n".encode("utf-8", "replace")

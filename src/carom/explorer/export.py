@@ -63,20 +63,20 @@ def _is_ours(folder: Path) -> bool:
         return True
     if held != set(MADE) or any(each.is_symlink() for each in folder.iterdir()):
         return False
-    told = (folder / PAGE).read_text(encoding="utf-8", errors="replace")
-    named = set(re.findall(rf'"{ASSETS}/([^"]+)"', told))
-    return MARK in told and {each.name for each in (folder / ASSETS).iterdir()} <= named
+    html = (folder / PAGE).read_text(encoding="utf-8", errors="replace")
+    named = set(re.findall(rf'"{ASSETS}/([^"]+)"', html))
+    return MARK in html and {each.name for each in (folder / ASSETS).iterdir()} <= named
 
 
 def _parts(progress: Progress) -> dict[str, bytes]:
     """Return the content of all files by their places."""
-    found = {PAGE: page(static=True).encode()}
+    parts = {PAGE: page(static=True).encode()}
     with advancing("tabulating the rebounds", IMPACTS, progress, unit="impacts") as advance:
         script = tables(advance)
     for name in assets_of(static=True):
-        found[f"{ASSETS}/{name}"] = script.encode() if name == "tables.js" else asset(name)
-    found[PLOTLY] = plotly_file().read_bytes()
-    return found
+        parts[f"{ASSETS}/{name}"] = script.encode() if name == "tables.js" else asset(name)
+    parts[PLOTLY] = plotly_file().read_bytes()
+    return parts
 
 
 def _replace(real: Path, parts: dict[str, bytes]) -> None:

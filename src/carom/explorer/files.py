@@ -13,9 +13,18 @@ from carom.contacts.contact import contact_in_impact
 from carom.contacts.fields import surface_fields
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution, solve
+from carom.explorer.fields import PAGE
 from carom.explorer.limits import LAW_SECONDS, Busy
 from carom.explorer.overlays import LawCurve, exact_curve, followers, law_curves
-from carom.explorer.scenes import OF_CONTACT, TIMES, Scene, impact_of, scene_of
+from carom.explorer.scenes import (
+    ENERGIES_OF_CONTACT,
+    FORCE,
+    TIMES,
+    Scene,
+    columns_of_numbers,
+    impact_of,
+    scene_of,
+)
 from carom.explorer.views import View
 from carom.fitting.template import TEMPLATE
 from carom.impacts.curves import curve
@@ -42,7 +51,7 @@ from carom.plots.legends import legend_above, legend_outside
 from carom.verify.errors import losses_of
 
 LENGTH, TIME = r"$[R^* d_{max}]^{1/2}$", "$d_{max}/V_1$"
-UNITS = {  # of what is told without units, as figures write them
+UNITS = {  # in figures, of an impact without units
     **dict.fromkeys(("time", "phase_start", "phase_end"), TIME),
     **dict.fromkeys(("x", "y", "contact_radius", "stick_radius"), LENGTH),
     **dict.fromkeys(("tangential_force", "normal_force"), r"$\mu F_{max}$"),
@@ -54,29 +63,14 @@ UNITS = {  # of what is told without units, as figures write them
 SCALES = Scales(
     **dict.fromkeys(("length", "radius", "force", "pressure", "tangential_length"), 1.0),
     **dict.fromkeys(("time", "energy", "tangential_speed"), 1.0),
-    tangential_force=1.5,  # Q = (2/3) F_x/(mu F_max)
+    tangential_force=FORCE,
 )
 TANGENTIAL = {  # energies that psi_1 and chi tell, with the looks of what they are part of
     name: (words, *ENERGIES.get(name, ENERGIES["tangential_kinetic_energy"])[1:])
-    for name, words in OF_CONTACT.items()
+    for name, words in ENERGIES_OF_CONTACT.items()
     if name not in LOST
 }
 ENTRY = 1.8  # mm that a law adds to the legend of the rebound curve
-MEANINGS = {  # of the columns of `Solution.history`
-    "penetration": "penetration, in d_max",
-    "speed": "normal speed of approach, in V_1",
-    "psi": "velocity of the contact point, in mu V_1/kappa",
-    "displacement": "tangential displacement, in mu d_max/kappa",
-    "force": "(2/3) F_x/(mu P_max)",
-    "stick_radius": "radius of the stick zone, in sqrt(R* d_max)",
-    "contact_radius": "radius of the contact, in sqrt(R* d_max)",
-    "stored": "tangential elastic energy; that of motion is psi^2/2",
-    "dissipated": "work of friction, as above",
-    "normal_force": "F_z/P_max",
-    "normal_stored": "normal elastic energy, in that of the impact",
-    "shear_lost": "what viscosity took in shear, in psi^2/2",
-    "normal_lost": "what the normal motion lost, as above",
-}
 
 
 class UnitBodies(NamedTuple):
@@ -99,25 +93,12 @@ class NumbersImpact:
     def history(self, n: int = TIMES) -> xr.Dataset:
         """Return the impact at n times."""
         solution = self._solution
-        told = solution.history(n)
-        columns = {
-            "time": told.time,
-            "normal_force": told.normal_force,
-            "tangential_force": SCALES.tangential_force * told.force,
-            "contact_velocity": told.psi,
-            "normal_velocity": told.speed,
-            "contact_radius": told.contact_radius,
-            "stick_radius": told.stick_radius,
-            "contact_kinetic_energy": 0.5 * told.psi**2,
-            "tangential_elastic_energy": told.stored,
-            "frictional_work": told.dissipated,
-            "shear_loss": told.shear_lost,
-        }
         numbers = {"friction": 1.0, "max_pressure": solution.max_pressure}
-        given: dict[str, Any] = {"psi_in": solution.psi_in, "chi": solution.chi}
+        inputs: dict[str, Any] = {"psi_in": solution.psi_in, "chi": solution.chi}
         if isinstance(solution, LossySolution):
-            given["losses"] = solution.losses._asdict()
-        return _in_theory(labelled(columns, numbers, solution.phases, given))
+            inputs["losses"] = solution.losses._asdict()
+        columns = columns_of_numbers(solution.history(n))
+        return _in_theory(labelled(columns, numbers, solution.phases, inputs))
 
     def fields(self, time: float) -> xr.Dataset:
         """Return what the surface of the contact does at a time, in d_max/V_1."""
@@ -176,11 +157,10 @@ def _numbers(view: View) -> NumbersImpact:
 def curve_figure(view: View, _: float = 0.0) -> Figure:
     """Return the rebound curve with the contact laws of the view; Busy if one takes too long."""
     scene = scene_of(view)
-    found = law_curves(scene, view.laid_over, LAW_SECONDS, followers.joined())
-    laws = [law for law in found if law is not None]
-    if len(laws) < len(found):
+    laws = law_curves(scene, view.laid_over, LAW_SECONDS, followers.joined())
+    if None in laws:
         raise Busy
-    return drawn_curve(scene, laws)
+    return drawn_curve(scene, [law for law in laws if law is not None])
 
 
 @drawing.styled
@@ -232,7 +212,7 @@ def history_of(view: View) -> xr.Dataset:
     history = solution.history(TIMES)
     columns: dict[str, Any] = {
         name: ("time", getattr(history, name), {"long_name": meaning, "units": "1"})
-        for name, meaning in MEANINGS.items()
+        for name, meaning in PAGE["columns_of_numbers"].items()
     }
     time = ("time", history.time, {"long_name": "time, in d_max/V_1", "units": "1"})
     numbers = {"psi_in": view.psi, "chi": view.chi, "psi_out": solution.psi_out}

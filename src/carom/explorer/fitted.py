@@ -9,6 +9,7 @@ import xarray as xr
 
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Cup, Sphere
+from carom.explorer.fields import PAGE
 from carom.explorer.results import in_words
 from carom.fitting import Estimate, Fit
 from carom.fitting.comparison import LawFit
@@ -18,42 +19,33 @@ from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import prefixed, shared, text
 
 DIGITS = 6
-NONE = "-"  # in place of a number
-LEAST = 1e-3  # weight of a law that is told as a number
-PARAMETERS = {
-    "friction": ("µ", "friction"),
-    "kappa": ("κ", "stiffness ratio"),
-    "chi": ("χ", "inertia to stiffness"),
-    "restitution": ("e", "restitution"),
-    "spin_offset": ("δω", "spin before that was not intended"),
-    "loss_time": ("τ", "retardation time"),
-    "yield_velocity": ("V_y", "speed from which it yields"),
-    "tangential_restitution": ("e_t", "tangential restitution while it sticks"),
-}
-TOLD_ELSEWHERE = "columns that were not used"
+NO_NUMBER = "-"
+LEAST_WEIGHT = 1e-3  # of a law; of less it is said that it is below
+PARAMETERS: dict[str, tuple[str, str]] = PAGE["parameters"]
+SHOWN_ELSEWHERE = "columns that were not used"
 
 
 def shown_fit(
-    found: Fit, name: str, bodies_from: str, columns: list[dict[str, str]]
+    fit: Fit, name: str, bodies_from: str, columns: list[dict[str, str]]
 ) -> dict[str, Any]:
     """Return all that the page shows of a fit, as JSON can hold it."""
-    problem, dataset = found.best.model.problem, found.to_dataset()
-    drops = problem.is_normal and found.losses is not None
+    problem, dataset = fit.best.model.problem, fit.to_dataset()
+    drops = problem.is_normal and fit.losses is not None
     charts = [_drops(dataset)] if drops else [_chart(dataset, str(n)) for n in problem.responses]
     return {
         "name": name,
         "values": problem.count,
         "rows": len(problem.rows),
-        "confidence": f"{100.0 * found.confidence:g} %",
-        "parameters": [_parameter(each) for each in found.estimates.values() if _counts(each)],
-        "laws": _laws(found) if not problem.is_normal else _losses(found),
-        "verdict": found.losses.verdict if drops and found.losses else found.comparison.verdict,
-        "regimes": [] if problem.is_normal else _regimes(found),
-        "notes": [in_words(note) for note in found.notes if not note.startswith(TOLD_ELSEWHERE)],
+        "confidence": f"{100.0 * fit.confidence:g} %",
+        "parameters": [_parameter(each) for each in fit.estimates.values() if _counts(each)],
+        "laws": _laws(fit) if not problem.is_normal else _losses(fit),
+        "verdict": fit.losses.verdict if drops and fit.losses else fit.comparison.verdict,
+        "regimes": [] if problem.is_normal else _regimes(fit),
+        "notes": [in_words(note) for note in fit.notes if not note.startswith(SHOWN_ELSEWHERE)],
         "charts": charts,
         "columns": columns,
         "bodies": {"from": bodies_from, "text": words_of(problem.pair)},
-        "words": str(found),
+        "words": str(fit),
     }
 
 
@@ -64,18 +56,18 @@ def _counts(each: Estimate) -> bool:
 
 def _parameter(each: Estimate) -> dict[str, str]:
     symbol, meaning = PARAMETERS[each.name]
-    value, interval, unit, note = _told(each)
+    value, interval, unit, note = _with_interval(each)
     if each.determined and not isnan(each.elastic):
         note = f"elastic: {each.elastic:.3g}"
     row = {"name": each.name, "symbol": symbol, "meaning": meaning}
     return {**row, "value": value, "interval": interval, "unit": unit, "note": note}
 
 
-def _told(each: Estimate) -> tuple[str, str, str, str]:
+def _with_interval(each: Estimate) -> tuple[str, str, str, str]:
     """Return value, interval, unit and what is to be said of a parameter."""
     unit = GLOSSARY[each.name].unit
     if each.reason:
-        return NONE, "", "", f"not determined: {each.reason}"
+        return NO_NUMBER, "", "", f"not determined: {each.reason}"
     if each.determined and not each.open:
         ends = (each.low, each.value, each.high)
         (low, value, high), unit = shared(ends, unit, significant(each.value, each.high - each.low))
@@ -93,17 +85,17 @@ def _or_none(unit: str) -> str:
     return "" if unit == "1" else unit
 
 
-def _laws(found: Fit) -> list[dict[str, str]]:
-    standings = sorted(found.comparison, key=lambda each: each.excess)
+def _laws(fit: Fit) -> list[dict[str, str]]:
+    standings = sorted(fit.comparison, key=lambda each: each.excess)
     return [
         {"law": each.law, **_standing(each.excess, each.weight), "parameters": _values(each)}
         for each in standings
     ]
 
 
-def _losses(found: Fit) -> list[dict[str, str]]:
+def _losses(fit: Fit) -> list[dict[str, str]]:
     """Return the laws of losses, compared where speeds differ."""
-    if found.losses is None:
+    if fit.losses is None:
         return []
     return [
         {
@@ -111,15 +103,15 @@ def _losses(found: Fit) -> list[dict[str, str]]:
             **_standing(each.excess, each.weight),
             "parameters": f"{PARAMETERS[each.parameter.name][0]} = {each.parameter}",
         }
-        for each in found.losses.standings
+        for each in fit.losses.standings
     ]
 
 
 def _standing(excess: float, weight: float) -> dict[str, str]:
     if not isfinite(excess):
-        return {"excess": NONE, "weight": NONE}
-    told = f"{100.0 * weight:.3g} %" if weight >= LEAST else f"below {100.0 * LEAST:g} %"
-    return {"excess": f"{excess:.1f}", "weight": told}
+        return {"excess": NO_NUMBER, "weight": NO_NUMBER}
+    shown = f"{100.0 * weight:.3g}" if weight >= LEAST_WEIGHT else f"below {100.0 * LEAST_WEIGHT:g}"
+    return {"excess": f"{excess:.1f}", "weight": f"{shown} %"}
 
 
 def _values(law: LawFit) -> str:
@@ -129,8 +121,8 @@ def _values(law: LawFit) -> str:
     )
 
 
-def _regimes(found: Fit) -> list[dict[str, Any]]:
-    return [{"name": name, "rows": count} for name, count in found.regimes.items() if count]
+def _regimes(fit: Fit) -> list[dict[str, Any]]:
+    return [{"name": name, "rows": count} for name, count in fit.regimes.items() if count]
 
 
 def _chart(dataset: xr.Dataset, name: str) -> dict[str, Any]:
@@ -181,8 +173,8 @@ def _drops(dataset: xr.Dataset) -> dict[str, Any]:
 def _points(x: Array, measured: Array, residual: Array, error: Array) -> dict[str, Any]:
     with np.errstate(all="ignore"):
         scaled = residual / error
-    given = {"x": x, "measured": measured, "error": error, "residual": residual, "scaled": scaled}
-    return {name: _plain(values) for name, values in given.items()}
+    points = {"x": x, "measured": measured, "error": error, "residual": residual, "scaled": scaled}
+    return {name: _plain(values) for name, values in points.items()}
 
 
 def _line(law: str, x: Array, y: Array) -> dict[str, Any]:
@@ -210,10 +202,10 @@ def words_of(pair: Pair) -> str:
 
 
 def _material(body: Any) -> str:
-    given = body.material
-    if given.name:
-        return str(given.name)
-    return f"E = {text(given.young, 'Pa', 3)}, ν = {given.poisson:.3g}"
+    stuff = body.material
+    if stuff.name:
+        return str(stuff.name)
+    return f"E = {text(stuff.young, 'Pa', 3)}, ν = {stuff.poisson:.3g}"
 
 
 def plain_words(name: str) -> str:

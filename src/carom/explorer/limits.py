@@ -1,6 +1,4 @@
-"""What a request may take of the page: every limit, and how what goes beyond it is refused."""
-
-from carom.quantities.refusals import InputError
+"""What a request may take of the page: every limit."""
 
 LONGEST_LINK = 4000  # characters
 LARGEST_UPLOAD = 1_000_000  # bytes
@@ -32,18 +30,3 @@ class Busy(RuntimeError):
 
     def __str__(self) -> str:
         return self.said
-
-
-class Refused(InputError):
-    """A field of the page cannot be what it is, in the page's own words; "" is the whole link.
-
-    Its text begins with the label of the field, for those who have no field to look at.
-    """
-
-    def __init__(self, field: str, message: str, label: str = "") -> None:
-        super().__init__(f"{label}: {message}" if label else message)
-        self.field, self.label = field, label
-        self.message = " ".join(message.splitlines())
-
-    def __reduce__(self) -> tuple[type["Refused"], tuple[str, str, str]]:
-        return Refused, (self.field, self.message, self.label)

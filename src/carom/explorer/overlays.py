@@ -26,7 +26,7 @@ BEYOND = 1.15  # of the present psi_1, that is shown
 STEPS = 400  # of a law's force in time
 EVERY = 2  # of these that is drawn
 KEPT = 256  # curves that are remembered
-GLANCE = 0.1  # s
+GLANCE_SECONDS = 0.1
 DIGITS = 12  # of what a curve is remembered by
 
 _solvers = ThreadPoolExecutor(max(1, available_cores() - 1), "carom-law")  # answers go first
@@ -89,7 +89,7 @@ def law_curves(
     end = monotonic() + seconds
     begun = [_begun(scene, label) for label in labels]
     while True:
-        _, late = wait(begun, max(0.0, min(GLANCE, end - monotonic())))
+        _, late = wait(begun, max(0.0, min(GLANCE_SECONDS, end - monotonic())))
         if not late or monotonic() >= end or given_up():
             break
         rows = zip(labels, begun, strict=True)  # another request may have cancelled what it shares
@@ -101,11 +101,11 @@ def law_curves(
 
 def _begun(scene: Scene, label: str) -> Future[LawCurve]:
     """Return a law at work, only once even if it is asked for again meanwhile."""
-    found = _at_work.get((scene, label))
-    if found is None or found.cancelled():
-        found = _at_work[scene, label] = _solvers.submit(_of_law, scene, label)
-        found.add_done_callback(lambda _: _at_work.pop((scene, label), None))
-    return found
+    curve = _at_work.get((scene, label))
+    if curve is None or curve.cancelled():
+        curve = _at_work[scene, label] = _solvers.submit(_of_law, scene, label)
+        curve.add_done_callback(lambda _: _at_work.pop((scene, label), None))
+    return curve
 
 
 @lru_cache(maxsize=KEPT)
@@ -116,12 +116,12 @@ def _exact(chi: float, restitution: float) -> tuple[Array, Array]:
     psi = np.linspace(0.0, _regimes(chi), points)
     if losses is None:
         return psi, rebound(psi, chi)
-    given = psi, np.full(psi.size, chi), scale_free(losses)
-    return psi, lossy_rebounds(*given, tolerance=DRAWN).psi_out
+    chis = np.full(psi.size, chi)
+    return psi, lossy_rebounds(psi, chis, scale_free(losses), tolerance=DRAWN).psi_out
 
 
 def _whole(scene: Scene, psi: Array, out: Array) -> tuple[Array, Array]:
-    """Return a curve, known for psi_1 >= 0, as far as it is drawn."""
+    """Return a curve that is there for psi_1 >= 0, as far as it is drawn."""
     low, high = _span(scene)
     both = np.concatenate([-psi[:0:-1], psi]), np.concatenate([-out[:0:-1], out])
     shown = (both[0] >= low) & (both[0] <= high)
@@ -146,9 +146,9 @@ def _in_time(law: Law, scene: Scene) -> tuple[Array, Array]:
     """Return times as shares of the exact duration, and the force in the unit of the scene."""
     if not isinstance(law, ContactLaw):
         return np.array([]), np.array([])  # a hard sphere has no contact to follow
-    told = law.history(scene.psi_in, scene.chi, kappa=scene.kappa, steps=STEPS)
-    force = told["tangential_force"] * scene.force_scale
-    return told["time"][::EVERY] / scene.lasts, force[::EVERY]
+    course = law.history(scene.psi_in, scene.chi, kappa=scene.kappa, steps=STEPS)
+    force = course["tangential_force"] * scene.force_scale
+    return course["time"][::EVERY] / scene.lasts, force[::EVERY]
 
 
 @lru_cache(maxsize=KEPT)
@@ -160,8 +160,8 @@ def _half(law: Law, chi: float, kappa: float) -> Array:
 
 def _rebound(law: Law, psi: float | Array, chi: float, kappa: float) -> Array:
     """Return psi_2 of a law, NaN without a word where it leaves an impact unsolved."""
-    found, _ = law.rebound(psi, chi, kappa=kappa, threads=1, return_status=True)
-    return np.asarray(found)
+    out, _ = law.rebound(psi, chi, kappa=kappa, threads=1, return_status=True)
+    return np.asarray(out)
 
 
 def _regimes(chi: float) -> float:

@@ -35,7 +35,7 @@ COPY = (
 def page(*, static: bool = False) -> str:
     """Return the page, whose parts are at assets/...; a static one answers without a server."""
     scripts = (name for name in assets_of(static=static) if name not in STYLES)
-    told = json.dumps(config(static=static), ensure_ascii=False)
+    settings = json.dumps(config(static=static), ensure_ascii=False)
     parts = {
         "{styles}": "\n    ".join(
             f'<link rel="stylesheet" href="{_place(name)}">' for name in STYLES
@@ -43,7 +43,7 @@ def page(*, static: bool = False) -> str:
         "{scripts}": "\n    ".join(
             f'<script src="{_place(name)}" defer></script>' for name in scripts
         ),
-        "{config}": told.replace("<", "\\u003c"),  # nothing in it ends the script
+        "{config}": settings.replace("<", "\\u003c"),  # nothing in it ends the script
     }
     html = asset("page.html").decode()
     for place, text in parts.items():
@@ -64,10 +64,10 @@ def asset(name: str) -> bytes:
 
 def plotly_file() -> Path:
     """Return the file of plotly's JavaScript, without its package, which takes long to load."""
-    found = find_spec("plotly")
-    if found is None or found.origin is None:
+    package = find_spec("plotly")
+    if package is None or package.origin is None:
         raise InputError("the explorer needs the package plotly; pip install 'carom[explore]'")
-    return Path(found.origin).with_name("package_data") / "plotly.min.js"
+    return Path(package.origin).with_name("package_data") / "plotly.min.js"
 
 
 def _place(name: str) -> str:

@@ -1,6 +1,6 @@
 """The lines of Python that give what the page shows."""
 
-from carom.explorer.knobs import OF_MATERIAL, OWN, SECOND
+from carom.explorer.fields import OF_MATERIAL, OWN, SECOND
 from carom.explorer.views import View
 
 IMPORTS = """\
@@ -44,17 +44,17 @@ LAWS = """\
 laws = {{entry.label: entry.law for entry in carom.verify.catalogue()}}
 for label in {labels!r}:
     law = {law}
-{told}    shown += axis.plot(psi, law.rebound(psi, {chi}, kappa={kappa}), "--", label=label)
+{printed}    shown += axis.plot(psi, law.rebound(psi, {chi}, kappa={kappa}), "--", label=label)
 """
-TOLD = "    print(label, law.rebound({psi}, {chi}, kappa={kappa}))\n"
+PRINTED = "    print(label, law.rebound({psi}, {chi}, kappa={kappa}))\n"
 LAW, DAMPED = "laws[label]", "dataclasses.replace(laws[label], restitution={e!r})"
 SAVED = """\
 axis.legend(handles=shown)
 carom.plots.save_figure(figure, "curve.png")
 """
 DATA = """\
-found = carom.fit(carom.datasets.load({name!r}))  # pip install 'carom[fit]'
-print(found)
+fit = carom.fit(carom.datasets.load({name!r}))  # pip install 'carom[fit]'
+print(fit)
 """
 
 
@@ -76,8 +76,8 @@ def script(view: View, time: float) -> str:
     parts.append((CURVE if rubs else FREE).format(losses=losses, **names))
     if view.laid_over:
         law = DAMPED.format(e=e) if damps else LAW
-        told = TOLD.format(**names) if rubs else ""
-        parts.append(LAWS.format(labels=view.laid_over, law=law, told=told, **names))
+        printed = PRINTED.format(**names) if rubs else ""
+        parts.append(LAWS.format(labels=view.laid_over, law=law, printed=printed, **names))
     parts.append(SAVED)
     if view.data:
         parts.append(DATA.format(name=view.data))

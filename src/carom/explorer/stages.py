@@ -155,8 +155,8 @@ def _continued(time: Array, path: Array, before: float, after: float, duration: 
 
 def short(values: Array) -> list[Any]:
     """Return numbers for the page, to what a picture shows."""
-    found: list[Any] = np.round(values, 5).tolist()
-    return found
+    rounded: list[Any] = np.round(values, 5).tolist()
+    return rounded
 
 
 def precise(values: Array) -> list[float]:

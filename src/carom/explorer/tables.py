@@ -15,7 +15,7 @@ from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.lossy.law import LossNumbers, scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.chebyshev_2d import TERMS, Patches, fitted_patches
-from carom.explorer.results import OF_LOSSES, SIGNS
+from carom.explorer.results import SIGNS, SIGNS_OF_LOSSES
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import READ
@@ -33,18 +33,18 @@ Advance = Callable[[int], object]
 
 
 def tables(advance: Advance) -> str:
-    """Return the tables as a script; `advance` is told of impacts that are solved."""
-    found = {
+    """Return the tables as a script; `advance` is called with how many more impacts are solved."""
+    content = {
         "chi": [LEAST_CHI, LARGEST_CHI],
         "psi": FARTHEST,
         "rebounds": {_key(e): _packed(_patches(e, advance), e) for e in RESTITUTIONS},
         "losses": {_key(e): _losses(e) for e in RESTITUTIONS},
         "rows": {name: _row(name, sign) for name, sign in SIGNS.items()},
-        "lossy": {name: _row(name, sign) for name, sign in OF_LOSSES.items()},
+        "lossy": {name: _row(name, sign) for name, sign in SIGNS_OF_LOSSES.items()},
         "prefixes": {unit: _prefixes(unit) for unit in ("s", "N", "J", "m", "m/s")},
     }
-    told = json.dumps(found, ensure_ascii=False, separators=(",", ":"))
-    return f"window.Carom = window.Carom || {{}};\nCarom.tables = {told};\n"
+    text = json.dumps(content, ensure_ascii=False, separators=(",", ":"))
+    return f"window.Carom = window.Carom || {{}};\nCarom.tables = {text};\n"
 
 
 def psi_at(place: Array, chi: Array, restitution: float) -> Array:
@@ -97,8 +97,8 @@ def _losses(restitution: float) -> dict[str, float]:
     if law is None:
         return {"alpha": 0.0, "max_force": 1.0}
     numbers = scale_free(law)
-    found = lossy_rebounds(np.array([1.0]), np.array([1.0]), numbers)
-    return {"alpha": float(numbers.parameter), "max_force": float(found.max_force[0])}
+    rebounds = lossy_rebounds(np.array([1.0]), np.array([1.0]), numbers)
+    return {"alpha": float(numbers.parameter), "max_force": float(rebounds.max_force[0])}
 
 
 def _row(name: str, sign: str) -> dict[str, str]:

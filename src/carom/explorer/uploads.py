@@ -9,8 +9,9 @@ from typing import Any
 from carom import datasets
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import BEFORE, OBSERVABLES
+from carom.explorer.fields import Refused
 from carom.explorer.fitted import plain_words, shown_fit
-from carom.explorer.limits import LARGEST_UPLOAD, MOST_ROWS, Refused
+from carom.explorer.limits import LARGEST_UPLOAD, MOST_ROWS
 from carom.explorer.results import in_words
 from carom.explorer.views import View
 from carom.fitting import Fit, fit
@@ -69,13 +70,13 @@ def _in_words_of_the_page(message: str, path: str, name: str) -> str:
 
 def _decoded(contents: str) -> bytes:
     try:
-        found = b64decode(contents.partition(",")[2], validate=True)
+        content = b64decode(contents.partition(",")[2], validate=True)
     except (NotBase64, ValueError):  # ValueError: characters beyond ASCII
         raise InputError("file: it did not arrive whole; choose it again") from None
-    if len(found) > LARGEST_UPLOAD:
+    if len(content) > LARGEST_UPLOAD:
         allowed = f"must be at most {LARGEST_UPLOAD} bytes; leave out what is not needed"
-        raise refusal("file", f"{len(found)} bytes", allowed)
-    return found
+        raise refusal("file", f"{len(content)} bytes", allowed)
+    return content
 
 
 def _fitted(file: Path, name: str, view: View | None) -> dict[str, Any]:
@@ -90,13 +91,13 @@ def _fitted(file: Path, name: str, view: View | None) -> dict[str, Any]:
         asked = ASKED.format(name=name)
         return {"asks": "bodies", "name": name, "message": asked, "columns": taken(table.cells)}
     pair: Pair | None = view.pair if table.case is None and view is not None else None
-    found = fit(table, pair=pair)
-    return shown_fit(found, name, "page" if pair else "file", taken(table.cells, found))
+    fitted = fit(table, pair=pair)
+    return shown_fit(fitted, name, "page" if pair else "file", taken(table.cells, fitted))
 
 
-def taken(columns: Mapping[str, Column], found: Fit | None = None) -> list[dict[str, str]]:
+def taken(columns: Mapping[str, Column], fitted: Fit | None = None) -> list[dict[str, str]]:
     """Return for each column its head, what it was taken for, and the unit it was read in."""
-    ignored = () if found is None else found.best.model.problem.ignored
+    ignored = () if fitted is None else fitted.best.model.problem.ignored
     empty = [name.partition(" ")[0] for name in ignored if "(" in name]
     return [_taken(name, columns[name], entry(name) in empty) for name in columns]
 

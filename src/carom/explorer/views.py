@@ -9,13 +9,12 @@ from carom.bodies.losses import KelvinVoigt
 from carom.bodies.materials import Material, material
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
-from carom.explorer.knobs import (
+from carom.explorer.fields import (
     BODIES,
     CHOICES,
     CUP,
-    KNOBS,
+    FIELDS,
     LONGEST_NAME,
-    NEEDS,
     NUMBERS,
     OF_MATERIAL,
     OWN,
@@ -23,10 +22,11 @@ from carom.explorer.knobs import (
     RIGID,
     SECOND,
     SPHERE,
+    Refused,
     one_of,
-    refused,
+    read_number,
 )
-from carom.explorer.limits import LONGEST_LINK, Refused
+from carom.explorer.limits import LONGEST_LINK
 from carom.quantities.refusals import nearest
 from carom.verify.entries import CATALOGUE
 from carom.verify.errors import losses_of
@@ -79,16 +79,16 @@ class View:
         if len(query) > LONGEST_LINK:
             long = f"the link has {len(query)} characters; at most {LONGEST_LINK} are read"
             return cls(), {"link": Refused("", long)}
-        found: dict[str, Any] = {}
+        values: dict[str, Any] = {}
         wrong: dict[str, Refused] = {}
         for name, texts in parse_qs(query.lstrip("?"), keep_blank_values=True).items():
             if name in PAGE_ONLY:
                 continue
             try:
-                found[name] = _read(name, texts)
+                values[name] = _read(name, texts)
             except Refused as error:
                 wrong[name] = error
-        return cls(**found), wrong
+        return cls(**values), wrong
 
     def query(self) -> str:
         """Return the link's query: what differs from the page as it opens."""
@@ -106,19 +106,19 @@ class View:
         """What does not matter in this view, and may be anything."""
         return tuple(
             name
-            for name, needs in NEEDS.items()
-            if any(getattr(self, other) not in words for other, words in needs.items())
+            for name, field in FIELDS.items()
+            if any(getattr(self, other) not in words for other, words in field.needs.items())
         )
 
     @cached_property
     def pair(self) -> Pair:
         """The bodies; Refused if they do not fit."""
         if self.against == CUP and not self.second_radius > self.radius:
-            told = f"must be above {self.radius:g} mm: the ball has to fit into the cup"
-            raise refused("second_radius", told)
+            allowed = f"must be above {self.radius:g} mm: the ball has to fit into the cup"
+            raise Refused("second_radius", allowed)
         if self.against == SPHERE and self.second_material == RIGID:
-            told = "a ball that moves must have a density, which a rigid one has not; take another"
-            raise refused("second_material", told)
+            why = "a ball that moves must have a density, which a rigid one has not; take another"
+            raise Refused("second_material", why)
         first = Sphere(radius=self.radius * 1e-3, material=self.stuff())
         return Pair(first, self._second(), self.friction)
 
@@ -160,15 +160,14 @@ class View:
 
 def _read(name: str, texts: list[str]) -> Any:
     """Return what the words of a link say of one thing, or raise Refused."""
-    known = tuple(field.name for field in fields(View))
-    if name not in known:
+    if name not in FIELDS:
         shown = " ".join(name.split())[:LONGEST_NAME]
-        hint = nearest(name, known) or "leave it out"
+        hint = nearest(name, FIELDS) or "leave it out"
         raise Refused("", f"the link says '{shown}', which is unknown; {hint}")
     if name == "law":
         return tuple(dict.fromkeys(one_of(name, text, LAWS) for text in texts if text))
-    if name in KNOBS:
-        return KNOBS[name].read(name, texts[-1])
+    if FIELDS[name].is_number:
+        return read_number(name, texts[-1])
     return one_of(name, texts[-1], CHOICES[name])
 
 

@@ -15,6 +15,7 @@ from threading import BoundedSemaphore, Lock, Timer
 from time import monotonic
 from typing import Any
 
+from carom.explorer.fields import Refused
 from carom.explorer.limits import (
     FILE_SECONDS,
     FIT_SECONDS,
@@ -23,7 +24,6 @@ from carom.explorer.limits import (
     WAITING_SECONDS,
     WORK_MEMORY,
     Busy,
-    Refused,
 )
 from carom.quantities.refusals import InputError
 
@@ -147,15 +147,13 @@ class Worker:
         self._fits.close()
         self._folder.cleanup()
 
-    def fit(self, **asked: str) -> dict[str, Any]:
+    def fit(self, **asked: str) -> Any:
         """Return a fit as `uploads.answer` does; raises as `Desk.ask`."""
-        found: dict[str, Any] = self._fits.ask(**asked)
-        return found
+        return self._fits.ask(**asked)
 
-    def file(self, name: str, query: str, time: float) -> bytes:
-        """Return a file of the view of a query; raises as `Desk.ask`."""
-        found: bytes = self._files.ask(name=name, query=query, time=time)
-        return found
+    def file(self, name: str, query: str, time: float) -> Any:
+        """Return the bytes of a file of the view of a query; raises as `Desk.ask`."""
+        return self._files.ask(name=name, query=query, time=time)
 
 
 def _exchanged(process: subprocess.Popen[bytes], seconds: float, asked: Any = None) -> Any:
