@@ -179,8 +179,8 @@ def test_what_is_compiled_is_told_with_how_far_it_is(monkeypatch):
     found = client.get("/answer")
     assert found.status_code == 200
     told = found.get_json()
-    assert (told["percent"], told["again"]) == (0, 1)
-    assert "0 % of what this answer needs" in told["message"]
+    assert (told["percent"], told["again"]) == (33, 1)  # one step of three
+    assert "33 % of what this answer needs" in told["message"]
     go.set()
     monkeypatch.setattr(warming, "PATIENCE", PATIENCE)
     for query in ("angle=3", "restitution=0.9"):
