@@ -18,9 +18,8 @@ pytest.importorskip("flask")
 
 from carom.explorer import files, uploads
 from carom.explorer.app import FOR_THE_PAGE, WRITTEN, new_app
-from carom.explorer.fields import CHOICES, FIELDS
 from carom.explorer.limits import LARGEST_REQUEST, LONGEST_LINK
-from carom.explorer.views import LAWS, View
+from carom.explorer.views import CHOICES, FIELDS, LAWS, View
 from carom.explorer.warming import STEPS, Warming
 
 SOON = 5.0  # s of a core, for the slowest answer

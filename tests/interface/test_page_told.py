@@ -13,10 +13,9 @@ pytest.importorskip("flask")
 
 from carom.explorer.answers import answer, laws
 from carom.explorer.config import REGIMES, config
-from carom.explorer.fields import FIELDS, NUMBERS
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import ENERGIES, impact_of, scene_of
-from carom.explorer.views import LAWS, View
+from carom.explorer.views import FIELDS, LAWS, NUMBERS, View
 from carom.impacts.curves import REGIMES as LONG
 from carom.plots.bands import BANDS
 from carom.plots.impact import ENERGIES as IN_FIGURES, LOST

@@ -12,9 +12,8 @@ import carom
 pytest.importorskip("flask")
 
 from carom.explorer.answers import answer
-from carom.explorer.fields import CHOICES, FIELDS, NUMBERS, OF_MATERIAL, Refused
 from carom.explorer.scenes import scene_of
-from carom.explorer.views import LAWS, View
+from carom.explorer.views import CHOICES, FIELDS, LAWS, NUMBERS, OF_MATERIAL, Refused, View
 
 KNOBS = {name: field for name, field in FIELDS.items() if field.is_number}
 NUMBER = {name: st.floats(knob.least, knob.most) for name, knob in KNOBS.items()}

@@ -11,8 +11,8 @@ import pytest
 pytest.importorskip("flask")
 
 from carom.explorer import worker as workers
-from carom.explorer.fields import Refused
 from carom.explorer.limits import WAITING, Busy
+from carom.explorer.views import Refused
 from carom.explorer.worker import Desk, Worker
 
 ECHO = """\
@@ -30,7 +30,7 @@ while True:
         time.sleep(0.6)
     answer = asked, os.getpid()
     if asked in ("refuse", "busy", "fail"):
-        from carom.explorer.fields import Refused
+        from carom.explorer.views import Refused
         from carom.explorer.limits import Busy
         refusal, busy, failure = Refused("angle", "no"), Busy(), RuntimeError("no")
         answer = {"refuse": refusal, "busy": busy, "fail": failure}[asked]

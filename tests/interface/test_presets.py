@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from carom.explorer.config import PRESETS, SYMBOLS
-from carom.explorer.fields import FIELDS
 from carom.explorer.results import SIGNS, SIGNS_OF_LOSSES
 from carom.explorer.scenes import impact_of
-from carom.explorer.views import View
+from carom.explorer.views import FIELDS, View
 from carom.quantities.glossary import GLOSSARY
 
 NAMED = {preset.id: preset for preset in PRESETS}

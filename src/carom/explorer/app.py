@@ -3,6 +3,7 @@
 import json
 import logging
 from functools import cache
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
@@ -12,11 +13,10 @@ from werkzeug.exceptions import HTTPException
 
 from carom.datasets.shipped import names as dataset_names
 from carom.explorer import answers
-from carom.explorer.fields import FIELDS, Refused
 from carom.explorer.limits import LARGEST_REQUEST, Busy
 from carom.explorer.page import page, plotly_file
 from carom.explorer.scripts import script
-from carom.explorer.views import View
+from carom.explorer.views import FIELDS, Refused, View
 from carom.explorer.warming import Preparing, Warming
 from carom.explorer.worker import Worker
 from carom.quantities.refusals import InputError
@@ -31,14 +31,6 @@ HEADERS = {
     "Content-Security-Policy": OWN_HOST_ONLY,
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
-}
-TYPES = {
-    ".csv": "text/csv; charset=utf-8",
-    ".nc": "application/x-netcdf",
-    ".png": "image/png",
-    ".svg": "image/svg+xml",
-    ".pdf": "application/pdf",
-    ".py": "text/x-python; charset=utf-8",
 }
 PICTURES = ("curve", "history", "contact", "course")
 WRITTEN = (  # files of a view that take time
@@ -121,8 +113,7 @@ def _add_files(server: Flask, worker: Worker) -> None:
             content = script(view, time).encode()
         else:
             content = worker.file(name, view.query(), time)
-        attached = {"Content-Disposition": f"attachment; filename={name}"}
-        return Response(content, headers=attached, content_type=TYPES[Path(name).suffix])
+        return send_file(BytesIO(content), as_attachment=True, download_name=name)
 
 
 def _time_of(query: str) -> float:

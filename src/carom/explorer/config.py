@@ -9,10 +9,9 @@ from urllib.parse import urlencode
 
 from carom.bodies.materials import material
 from carom.datasets import names as dataset_names, path
-from carom.explorer.fields import CHOICES, FIELDS, OWN, PAGE
 from carom.explorer.limits import LARGEST_UPLOAD, LONGEST_LINK
 from carom.explorer.tables import RESTITUTIONS
-from carom.explorer.views import LAWS, PAGE_ONLY, View
+from carom.explorer.views import CHOICES, FIELDS, OWN, PAGE, PAGE_ONLY, View
 from carom.impacts.curves import REGIMES as LONG
 from carom.io.tables import read_table
 from carom.io.version import __version__
@@ -76,7 +75,7 @@ def _fields() -> dict[str, dict[str, Any]]:
 
 
 def _field(name: str, default: Any) -> dict[str, Any]:
-    field, choices = FIELDS[name], (CHOICES | {"law": LAWS}).get(name, ())
+    field, choices = FIELDS[name], CHOICES.get(name, ())
     return {
         **field._asdict(),
         "unit": field.unit.replace("^3", "³"),

@@ -12,8 +12,7 @@ from carom.bodies.pairs import Scales
 from carom.contacts.contact import contact_in_impact
 from carom.contacts.fields import surface_fields
 from carom.dimensionless.lossy.solution import LossySolution
-from carom.dimensionless.solution import Solution, solve
-from carom.explorer.fields import PAGE
+from carom.dimensionless.solution import solve
 from carom.explorer.limits import LAW_SECONDS, Busy
 from carom.explorer.overlays import LawCurve, exact_curve, followers, law_curves
 from carom.explorer.scenes import (
@@ -25,7 +24,7 @@ from carom.explorer.scenes import (
     impact_of,
     scene_of,
 )
-from carom.explorer.views import View
+from carom.explorer.views import PAGE, View
 from carom.fitting.template import TEMPLATE
 from carom.impacts.curves import curve
 from carom.io.files import save
@@ -87,12 +86,13 @@ class UnitBodies(NamedTuple):
 class NumbersImpact:
     """An impact that psi_1 and chi tell, as figures take it: each quantity in a unit of theory."""
 
-    def __init__(self, solution: Solution | LossySolution) -> None:
-        self._solution = solution
+    def __init__(self, view: View) -> None:
+        self.solution = solve(view.psi, view.chi, losses=view.losses)
+        self.duration = self.solution.duration
 
     def history(self, n: int = TIMES) -> xr.Dataset:
         """Return the impact at n times."""
-        solution = self._solution
+        solution = self.solution
         numbers = {"friction": 1.0, "max_pressure": solution.max_pressure}
         inputs: dict[str, Any] = {"psi_in": solution.psi_in, "chi": solution.chi}
         if isinstance(solution, LossySolution):
@@ -103,7 +103,7 @@ class NumbersImpact:
     def fields(self, time: float) -> xr.Dataset:
         """Return what the surface of the contact does at a time, in d_max/V_1."""
         bodies: Any = UnitBodies()
-        contact = contact_in_impact(bodies, 1.0, 0.0, self._solution, time, {})
+        contact = contact_in_impact(bodies, 1.0, 0.0, self.solution, time, {})
         return _in_theory(surface_fields(contact))
 
 
@@ -118,7 +118,7 @@ def history_figure(view: View, _: float = 0.0) -> Figure:
     """Return forces, velocities, radii and energies against time."""
     if not view.in_numbers:
         return plot_impact(impact_of(view).history(TIMES))
-    return _without_units(_numbers(view).history())
+    return _without_units(NumbersImpact(view).history())
 
 
 @drawing.styled
@@ -138,20 +138,17 @@ def _without_units(history: xr.Dataset) -> Figure:
 
 def contact_figure(view: View, time: float) -> Figure:
     """Return the contact from above at a time that is a share of the duration."""
-    if view.in_numbers:
-        solution = solve(view.psi, view.chi, losses=view.losses)
-        return plot_patch(NumbersImpact(solution).fields(time * solution.duration))
-    hit = impact_of(view)
+    hit = _impact(view)
     return plot_patch(hit.fields(time * hit.duration))
 
 
 def course_figure(view: View, _: float = 0.0) -> Figure:
     """Return the contact at several instants, above the course of the force."""
-    return plot_contact(_numbers(view) if view.in_numbers else impact_of(view))
+    return plot_contact(_impact(view))
 
 
-def _numbers(view: View) -> NumbersImpact:
-    return NumbersImpact(solve(view.psi, view.chi, losses=view.losses))
+def _impact(view: View) -> Any:
+    return NumbersImpact(view) if view.in_numbers else impact_of(view)
 
 
 def curve_figure(view: View, _: float = 0.0) -> Figure:
@@ -208,7 +205,7 @@ def history_of(view: View) -> xr.Dataset:
     """Return the history of a view, without units if it tells psi_1 and chi."""
     if not view.in_numbers:
         return impact_of(view).history(TIMES)
-    solution = solve(view.psi, view.chi, losses=view.losses)
+    solution = NumbersImpact(view).solution
     history = solution.history(TIMES)
     columns: dict[str, Any] = {
         name: ("time", getattr(history, name), {"long_name": meaning, "units": "1"})

@@ -9,8 +9,8 @@ import xarray as xr
 
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Cup, Sphere
-from carom.explorer.fields import PAGE
 from carom.explorer.results import in_words
+from carom.explorer.views import PAGE
 from carom.fitting import Estimate, Fit
 from carom.fitting.comparison import LawFit
 from carom.fitting.estimates import significant
@@ -87,10 +87,7 @@ def _or_none(unit: str) -> str:
 
 def _laws(fit: Fit) -> list[dict[str, str]]:
     standings = sorted(fit.comparison, key=lambda each: each.excess)
-    return [
-        {"law": each.law, **_standing(each.excess, each.weight), "parameters": _values(each)}
-        for each in standings
-    ]
+    return [_standing(each, _values(each)) for each in standings]
 
 
 def _losses(fit: Fit) -> list[dict[str, str]]:
@@ -98,20 +95,18 @@ def _losses(fit: Fit) -> list[dict[str, str]]:
     if fit.losses is None:
         return []
     return [
-        {
-            "law": each.law,
-            **_standing(each.excess, each.weight),
-            "parameters": f"{PARAMETERS[each.parameter.name][0]} = {each.parameter}",
-        }
+        _standing(each, f"{PARAMETERS[each.parameter.name][0]} = {each.parameter}")
         for each in fit.losses.standings
     ]
 
 
-def _standing(excess: float, weight: float) -> dict[str, str]:
-    if not isfinite(excess):
-        return {"excess": NO_NUMBER, "weight": NO_NUMBER}
-    shown = f"{100.0 * weight:.3g}" if weight >= LEAST_WEIGHT else f"below {100.0 * LEAST_WEIGHT:g}"
-    return {"excess": f"{excess:.1f}", "weight": f"{shown} %"}
+def _standing(law: Any, parameters: str) -> dict[str, str]:
+    excess = weight = NO_NUMBER
+    if isfinite(law.excess):
+        seen = law.weight >= LEAST_WEIGHT
+        excess = f"{law.excess:.1f}"
+        weight = f"{100.0 * law.weight:.3g} %" if seen else f"below {100.0 * LEAST_WEIGHT:g} %"
+    return {"law": law.law, "excess": excess, "weight": weight, "parameters": parameters}
 
 
 def _values(law: LawFit) -> str:

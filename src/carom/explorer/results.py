@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 from math import degrees, isinf, isnan
 from typing import Any
 
-from carom.explorer.fields import PAGE
+from carom.explorer.views import PAGE
 from carom.io.labels import MARKS, Finding
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import shared

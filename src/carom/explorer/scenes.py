@@ -14,10 +14,9 @@ from carom.dem.base import SOLID
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution, solve
 from carom.dimensionless.states import History, Phase
-from carom.explorer.fields import PAGE, Refused
 from carom.explorer.results import Row, findings_of, rows_of
 from carom.explorer.stages import MovingBodies, precise, short, stage_of_bodies, stage_of_numbers
-from carom.explorer.views import View
+from carom.explorer.views import PAGE, Refused, View
 from carom.impacts.exact import Impact
 from carom.impacts.outcome import history_columns
 from carom.impacts.solve import impact

@@ -9,11 +9,10 @@ from typing import Any
 from carom import datasets
 from carom.bodies.pairs import Pair
 from carom.datasets.observables import BEFORE, OBSERVABLES
-from carom.explorer.fields import Refused
 from carom.explorer.fitted import plain_words, shown_fit
 from carom.explorer.limits import LARGEST_UPLOAD, MOST_ROWS
 from carom.explorer.results import in_words
-from carom.explorer.views import View
+from carom.explorer.views import Refused, View
 from carom.fitting import Fit, fit
 from carom.fitting.reading import HEIGHTS, read_measurements, read_problem
 from carom.io.columns import entry

@@ -6,10 +6,9 @@ from typing import Any
 
 from carom.dimensionless.numerics import shared_library
 from carom.dimensionless.numerics.kernels import has_numba
-from carom.explorer.fields import NUMBERS
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import scene_of
-from carom.explorer.views import LAWS, View
+from carom.explorer.views import LAWS, NUMBERS, View
 from carom.io.progress import advancing
 
 PATIENCE = 2.0  # s that a question waits for what is not there yet

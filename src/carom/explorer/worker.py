@@ -15,7 +15,6 @@ from threading import BoundedSemaphore, Lock, Timer
 from time import monotonic
 from typing import Any
 
-from carom.explorer.fields import Refused
 from carom.explorer.limits import (
     FILE_SECONDS,
     FIT_SECONDS,
@@ -25,6 +24,7 @@ from carom.explorer.limits import (
     WORK_MEMORY,
     Busy,
 )
+from carom.explorer.views import Refused
 from carom.quantities.refusals import InputError
 
 PROGRAM = """\

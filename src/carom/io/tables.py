@@ -16,7 +16,7 @@ from carom.io.user_table import ALIASES, Column, UserTable, spelled
 from carom.quantities.arrays import along_the_same, floats
 from carom.quantities.refusals import InputError, nearest, refusal
 from carom.quantities.texts import LONGEST, UNCHANGED
-from carom.quantities.units import REAL, factor_of, told_unit, two_units
+from carom.quantities.units import REAL_KINDS, factor_of, two_units, without_unit
 
 KEPT = ("case", "code", "doi", "law")  # attributes of a dataset that are comments of a file
 HEAD = re.compile(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*")
@@ -144,7 +144,7 @@ def _one_unit(name: str, one: Any, other: Any) -> Any:
 
 def _column(name: str, values: Any, *, gaps: bool = False) -> Column:
     """Return a column of a user's; a gap is what is masked, with `gaps` what is no number, too."""
-    plain, unit = told_unit(name, values)
+    plain, unit = without_unit(name, values)
     cells: Any = None
     if isinstance(plain, Sequence) and not isinstance(plain, RAW):
         cells = list(plain)
@@ -163,9 +163,9 @@ def _depth(value: Any) -> int:
 
 def _of_array(name: str, values: Any, gaps: bool) -> Any:
     """Return an array of numbers, or a list of whatever else there is; with gaps, a list."""
-    real = getattr(getattr(values, "dtype", None), "kind", "") in REAL
+    real = getattr(getattr(values, "dtype", None), "kind", "") in REAL_KINDS
     array = np.asanyarray(values)
-    if real and array.dtype.kind not in REAL:  # with pandas' own sign of what is missing
+    if real and array.dtype.kind not in REAL_KINDS:  # with pandas' own sign of what is missing
         array = np.asarray(values, dtype=np.float64)
     if array.dtype.kind == "V":  # of records
         return None

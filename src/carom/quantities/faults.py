@@ -4,7 +4,7 @@ from typing import Self
 
 from carom.quantities.refusals import InputError
 
-TOLD = 12  # faults in one message
+MOST_LISTED = 12  # faults in one message
 
 
 class Faults:
@@ -21,7 +21,7 @@ class Faults:
     """
 
     def __init__(self) -> None:
-        self._found: list[str] = []
+        self._messages: list[str] = []
         self._collecting = False
 
     def __enter__(self) -> Self:
@@ -31,25 +31,25 @@ class Faults:
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         self._collecting = False
         if isinstance(error, InputError) and str(error) != self._message():
-            self._found.append(str(error))
-        if self._found and (error is None or isinstance(error, Exception)):
+            self._messages.append(str(error))
+        if self._messages and (error is None or isinstance(error, Exception)):
             raise InputError(self._message()) from None
 
     def add(self, message: str) -> None:
         """Collect a fault; outside of the context raise InputError."""
         if not self._collecting:
             raise InputError(message)
-        self._found.append(message)
+        self._messages.append(message)
 
     def settle(self) -> None:
         """Raise InputError if there are faults so far, before costly work."""
-        if self._found:
+        if self._messages:
             raise InputError(self._message())
 
     def _message(self) -> str:
-        found = list(dict.fromkeys(self._found))
-        if len(found) == 1:
-            return found[0]
-        listed = "; ".join(f"({i}) {text}" for i, text in enumerate(found[:TOLD], 1))
-        more = f"; and {len(found) - TOLD} more" if len(found) > TOLD else ""
-        return f"{len(found)} faults: {listed}{more}"
+        messages = list(dict.fromkeys(self._messages))
+        if len(messages) == 1:
+            return messages[0]
+        listed = "; ".join(f"({i}) {text}" for i, text in enumerate(messages[:MOST_LISTED], 1))
+        more = f"; and {len(messages) - MOST_LISTED} more" if len(messages) > MOST_LISTED else ""
+        return f"{len(messages)} faults: {listed}{more}"

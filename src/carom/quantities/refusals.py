@@ -35,23 +35,23 @@ def clipped(text: str) -> str:
     return line if len(line) <= LONGEST else f"{line[:LONGEST]}..."
 
 
-def nearest(word: str, known: Iterable[str]) -> str:
-    """Return a hint at the known words that are nearest to one."""
-    found = get_close_matches(word, list(known), n=3, cutoff=0.5)
-    return f"did you mean {' or '.join(repr(name) for name in found)}?" if found else ""
+def nearest(word: str, words: Iterable[str]) -> str:
+    """Return a hint at those of these words that are nearest to one."""
+    near = get_close_matches(word, list(words), n=3, cutoff=0.5)
+    return f"did you mean {' or '.join(repr(name) for name in near)}?" if near else ""
 
 
-def hint(word: object, known: Iterable[str]) -> str:
-    """Return a hint at the known word that one stands for, at the nearest, or at all of them."""
-    known = tuple(known)
-    if name := meant(str(word), known):
+def hint(word: object, names: Iterable[str]) -> str:
+    """Return a hint at the name that a word stands for, at the nearest, or at all of them."""
+    names = tuple(names)
+    if name := meant(str(word), names):
         return f"write {remark(str(word), name)}"
-    return nearest(str(word), known) or f"known names are {', '.join(known)}"
+    return nearest(str(word), names) or f"known names are {', '.join(names)}"
 
 
-def one_of(name: str, value: Any, known: Iterable[str]) -> str:
-    """Return a text that is one of those known, or raise InputError with the nearest of them."""
-    words = tuple(known)
+def one_of(name: str, value: Any, choices: Iterable[str]) -> str:
+    """Return a text that is one of these, or raise InputError with the nearest of them."""
+    words = tuple(choices)
     if isinstance(value, str) and value in words:
         return value
     near = nearest(value, words) if isinstance(value, str) else ""
