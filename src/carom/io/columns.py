@@ -29,7 +29,7 @@ UNITS = {"_deg": "deg", "_rad_s": "rad/s", "_rad": "rad", "_rpm": "rpm", "_m_s":
 
 
 def in_units(
-    table: UserTable, known: Iterable[str], gaps: Collection[str] = (), faults: Faults | None = None
+    table: UserTable, names: Iterable[str], gaps: Collection[str] = (), faults: Faults | None = None
 ) -> UserTable:
     """Return a table with those columns in SI units whose names are known; the others are NaN.
 
@@ -51,7 +51,7 @@ def in_units(
     """
     columns = {name: np.full(len(table), nan) for name in table.names}
     read = replace(table, columns=columns, faults=faults or Faults())
-    wanted = {*known}
+    wanted = {*names}
     for name in filter(wanted.__contains__, table.names):
         try:
             _check_error_unit(name, table)
@@ -75,7 +75,7 @@ def with_errors(names: Iterable[str]) -> tuple[str, ...]:
     return tuple(each for name in names for each in (name, name + ERROR))
 
 
-def others(table: UserTable, known: Iterable[str], faults: Faults | None = None) -> tuple[str, ...]:
+def others(table: UserTable, names: Iterable[str], faults: Faults | None = None) -> tuple[str, ...]:
     """Return the columns that are not known and mean nothing here, for a user to be told.
 
     Adds to the faults, which are raised as InputError if they are not given, one that is likely to
@@ -88,10 +88,10 @@ def others(table: UserTable, known: Iterable[str], faults: Faults | None = None)
     >>> others(read_table({"angle": [0.1], "run": [1]}), ["angle", "spin_out"])
     ('run',)
     """
-    known, faults = list(known), faults or Faults()
-    unknown = tuple(name for name in table.names if name not in known)
+    names, faults = list(names), faults or Faults()
+    unknown = tuple(name for name in table.names if name not in names)
     for name in unknown:
-        if hint := _likely(name, known):
+        if hint := _likely(name, names):
             faults.add(f"{name}: unknown column; did you mean {hint!r}?")
     for name in table.names:
         if entry(name) not in table.names and name not in unknown:
@@ -111,16 +111,16 @@ def entry(name: str) -> str:
     return name.removesuffix(ERROR)
 
 
-def _likely(name: str, known: list[str]) -> str:
+def _likely(name: str, names: list[str]) -> str:
     """Return the head of a known column that another one stands for, or nothing."""
     plain = name.lower().replace(" ", "_").replace("-", "_")
     unit = next((end for end in UNITS if plain.endswith(end)), "")
     plain = plain.removesuffix(unit)
     end = ERROR if plain.endswith(ERROR) else ""
     plain = plain.removesuffix(ERROR)
-    stands = meant(plain, known) or plain
-    found = get_close_matches(stands + end, known, n=1, cutoff=NEAR)
-    return spelled(found[0]) + (f" [{UNITS[unit]}]" if unit else "") if found else ""
+    stands = meant(plain, names) or plain
+    close = get_close_matches(stands + end, names, n=1, cutoff=NEAR)
+    return spelled(close[0]) + (f" [{UNITS[unit]}]" if unit else "") if close else ""
 
 
 def _check_error_unit(name: str, table: UserTable) -> None:

@@ -49,20 +49,20 @@ def opened(path: Path, mode: str = "r", **how: Any) -> Any:
     """Return an open file; raises OSError as `open`, and for a pipe that has no other end."""
     if not path.is_fifo():
         return path.open(mode, **how)
-    found: list[IO[Any]] = []
+    files: list[IO[Any]] = []
 
     def wait() -> None:
         with suppress(OSError):
-            found.append(path.open(mode, **how))
+            files.append(path.open(mode, **how))
 
     waiting = Thread(target=wait, daemon=True)
     waiting.start()
     waiting.join(PATIENCE)
-    if found:
-        return found[0]
+    if files:
+        return files[0]
     os.close(os.open(path, os.O_RDWR | os.O_NONBLOCK))  # lets the thread go
     waiting.join()
-    for file in found:
+    for file in files:
         file.close()
     raise OSError(errno.ENXIO, "nobody opens the other end of this pipe")
 

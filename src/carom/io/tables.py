@@ -46,10 +46,10 @@ def read_table(
     if isinstance(source, UserTable) and not columns:
         return source
     if isinstance(source, str | Path):
-        as_given, table = read_csv(what, checked_path(what, source), fewest)
+        source_columns, table = read_csv(what, checked_path(what, source), fewest)
     else:
-        as_given, table = _of_object(what, source)
-    named = _renamed([column.head for column in as_given], _checked_columns(columns), what)
+        source_columns, table = _of_object(what, source)
+    named = _renamed([column.head for column in source_columns], _checked_columns(columns), what)
     for name, count in Counter(name for name, _ in named).items():
         if count > 1:
             words = "two columns have this name; leave one of them out"
@@ -58,7 +58,7 @@ def read_table(
         raise InputError(f"{what}: no rows; give names of columns, and numbers below them")
     cells = {
         name: column._replace(unit=_one_unit(name, unit, column.unit))
-        for (name, unit), column in zip(named, as_given, strict=True)
+        for (name, unit), column in zip(named, source_columns, strict=True)
     }
     return replace(table, cells=cells)
 

@@ -230,22 +230,22 @@ def scattered(name: str, values: ArrayLike, columns: int) -> Array:
 
 def finite_line(
     name: str,
-    given: ArrayLike,
+    values: ArrayLike,
     allowed: str = "must be a list of finite numbers",
     *,
     above: float = -np.inf,
 ) -> Array:
     """Return one finite number or more as an array of shape (n,), or raise InputError."""
-    values = np.atleast_1d(numbers(name, given, allowed))
-    bad = ~(np.isfinite(values) & (values > above))
-    if values.size == 0 or values.ndim > 1 or bad.any():
-        raise refusal(name, values[bad][0].item() if bad.any() else given, allowed)
-    return values
+    line = np.atleast_1d(numbers(name, values, allowed))
+    bad = ~(np.isfinite(line) & (line > above))
+    if line.size == 0 or line.ndim > 1 or bad.any():
+        raise refusal(name, line[bad][0].item() if bad.any() else values, allowed)
+    return line
 
 
-def positive_line(name: str, given: ArrayLike) -> Array:
+def positive_line(name: str, values: ArrayLike) -> Array:
     """Return one positive number or more as an array of shape (n,), or raise InputError."""
-    return finite_line(name, given, "must be one or more positive finite numbers", above=0.0)
+    return finite_line(name, values, "must be one or more positive finite numbers", above=0.0)
 
 
 def places(
