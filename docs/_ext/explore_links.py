@@ -12,8 +12,8 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import ReferenceRole
 
-from carom.explorer.config import PRESETS
 from carom.explorer.export import export
+from carom.explorer.page import PRESETS
 
 LIVE = "http://127.0.0.1:8050/"
 COPY = "explore/index.html"

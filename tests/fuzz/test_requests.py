@@ -121,7 +121,7 @@ def word(rng, name):
         value = rng.choice([field.least, field.most, rng.uniform(field.least, field.most)])
         right = repr(value * rng.choice([1.0, 1.0, 1.0, -1.0, 1.1]))
     else:
-        right = rng.choice(CHOICES.get(name, FAST_LAWS))
+        right = rng.choice((CHOICES | {"law": FAST_LAWS}).get(name, FAST_LAWS))
     return right if kind < 0.9 else garbled(rng, right)
 
 

@@ -6,8 +6,8 @@ import pytest
 import carom
 from carom.fitting.reading import read_problem
 from carom.io import csv_cells
-from carom.io.columns import column_in_si
 from carom.io.tables import read_table
+from carom.io.user_table import column_in_si
 
 HEAD = "angle [deg],speed [m/s],spin,spin_out [rpm],e_n,tangential_restitution [%]\n"
 COLUMNS = {"e_n": "normal_restitution"}

@@ -12,8 +12,8 @@ import pytest
 pytest.importorskip("flask")
 
 from carom.explorer.answers import answer, laws
-from carom.explorer.config import REGIMES, config
 from carom.explorer.overlays import exact_curve, law_curves
+from carom.explorer.page import REGIMES, config
 from carom.explorer.scenes import ENERGIES, impact_of, scene_of
 from carom.explorer.views import FIELDS, LAWS, NUMBERS, View
 from carom.impacts.curves import REGIMES as LONG

@@ -7,7 +7,7 @@ from urllib.parse import parse_qsl
 import numpy as np
 import pytest
 
-from carom.explorer.config import PRESETS, SYMBOLS
+from carom.explorer.page import PRESETS, SYMBOLS
 from carom.explorer.results import SIGNS, SIGNS_OF_LOSSES
 from carom.explorer.scenes import impact_of
 from carom.explorer.views import FIELDS, View

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from carom.io.columns import column_in_si
+from carom.io.user_table import column_in_si
 from carom.quantities import texts
 from carom.quantities.arrays import numbers, plain_numbers
 from carom.quantities.glossary import GLOSSARY

@@ -138,30 +138,22 @@ class View:
     @classmethod
     def of(cls, query: str) -> Self:
         """Return the view of a link's query, or raise Refused for the first thing wrong."""
-        view, wrong = cls.with_complaints(query)
-        for name, error in wrong.items():
-            if name not in view.unused:
-                raise error
-        return view
-
-    @classmethod
-    def with_complaints(cls, query: str) -> tuple[Self, dict[str, Refused]]:
-        """Return the view of a link, defaults in place of what cannot be used, and why by name."""
-        if not isinstance(query, str):
-            return cls(), {"link": Refused("", "a link must be text")}
         if len(query) > LONGEST_LINK:
             long = f"the link has {len(query)} characters; at most {LONGEST_LINK} are read"
-            return cls(), {"link": Refused("", long)}
+            raise Refused("", long)
         values: dict[str, Any] = {}
         wrong: dict[str, Refused] = {}
         for name, texts in parse_qs(query.lstrip("?"), keep_blank_values=True).items():
-            if name in PAGE_ONLY:
-                continue
             try:
-                values[name] = _read(name, texts)
+                if name not in PAGE_ONLY:
+                    values[name] = _read(name, texts)
             except Refused as error:
                 wrong[name] = error
-        return cls(**values), wrong
+        view = cls(**values)
+        for name, refused in wrong.items():
+            if name not in view.unused:
+                raise refused
+        return view
 
     def query(self) -> str:
         """Return the link's query: what differs from the page as it opens."""

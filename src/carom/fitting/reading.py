@@ -14,9 +14,8 @@ from carom.datasets.observables import BEFORE, NORMAL, OBSERVABLES
 from carom.dimensionless.interpolation import LEAST_CHI, MOST_CHI
 from carom.fitting.model import EXACT, OFFSET, half_ratio, offset_parameter, ranged
 from carom.fitting.problem import NOTHING, FitProblem, IncomingMotion
-from carom.io.columns import ERROR, entry, in_units, others, with_errors
 from carom.io.tables import read_table
-from carom.io.user_table import UserTable
+from carom.io.user_table import ERROR, UserTable, entry, in_units, others, with_errors
 from carom.quantities.arrays import Array
 from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY

@@ -94,11 +94,6 @@ def labelled_dataset(
     )
 
 
-def is_ours(source: object) -> bool:
-    """Tell whether the attribute `source` of a dataset says that Carom has made it."""
-    return str(source).startswith("carom ")
-
-
 def labelled(
     columns: Mapping[str, ArrayLike],
     scalars: Mapping[str, float],

@@ -12,7 +12,7 @@ import numpy as np
 
 from carom.io.csv_cells import MOST_COLUMNS, read_csv
 from carom.io.paths import checked_path
-from carom.io.user_table import ALIASES, Column, UserTable, spelled
+from carom.io.user_table import ALIASES, GAP, Column, UserTable, spelled
 from carom.quantities.arrays import along_the_same, floats
 from carom.quantities.refusals import InputError, nearest, refusal
 from carom.quantities.texts import LONGEST, UNCHANGED
@@ -20,7 +20,6 @@ from carom.quantities.units import REAL_KINDS, factor_of, two_units, without_uni
 
 KEPT = ("case", "code", "doi", "law")  # attributes of a dataset that are comments of a file
 HEAD = re.compile(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*")
-GAP = "-"  # a cell of what was not measured
 RAW = (str, bytes, bytearray, memoryview)  # sequences that are no lists
 
 

@@ -17,11 +17,6 @@ class Quantity(NamedTuple):
     unit: str
     meaning: str
 
-    def label(self) -> str:
-        """Return the label of an axis."""
-        unit = "" if self.unit == "1" else f" ({self.unit})"
-        return f"{self.meaning}, {self.symbol}{unit}"
-
     def text(self, value: float, digits: int = DIGITS) -> str:
         """Return a value with its unit, to read; a dash for what is no number.
 

@@ -12,9 +12,8 @@ import numpy as np
 from carom.bodies.pairs import Pair
 from carom.dem.base import Law
 from carom.impacts.exact import Impact
-from carom.io.columns import in_units, others
 from carom.io.tables import read_table
-from carom.io.user_table import UserTable
+from carom.io.user_table import UserTable, in_units, others
 from carom.quantities.arrays import Array
 from carom.quantities.faults import Faults
 from carom.quantities.keywords import known_keywords
