@@ -14,8 +14,16 @@ from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.io.files import read_dataset, read_text
 from carom.io.paths import checked_path
-from carom.quantities.faults import MOST_LISTED, Faults
-from carom.quantities.refusals import InputError, checked_type, clipped, hint, one_of, refusal
+from carom.quantities.refusals import (
+    MOST_LISTED,
+    Faults,
+    InputError,
+    checked_type,
+    clipped,
+    hint,
+    one_of,
+    refusal,
+)
 from carom.quantities.units import finite, finite_or_text, not_negative, number, positive
 
 if TYPE_CHECKING:

@@ -1,18 +1,17 @@
 """A copy of the page as a folder of files, which needs neither this program nor a network."""
 
 import os
-import re
 import tempfile
 from pathlib import Path
 from typing import NamedTuple
 
-from carom.explorer.page import asset, assets_of, page, plotly_file
+from carom.explorer.page import ASSETS, asset, assets_in, page, plotly_file
 from carom.explorer.tables import IMPACTS, tables
 from carom.io.paths import checked_path
 from carom.io.progress import Progress, advancing
 from carom.quantities.refusals import InputError, refusal
 
-PAGE, PLOTLY, ASSETS = "index.html", "plotly.min.js", "assets"
+PAGE, PLOTLY = "index.html", "plotly.min.js"
 MADE = (ASSETS, PLOTLY, PAGE)  # what a copy holds
 MARK = 'id="config"'  # in its page
 
@@ -64,16 +63,18 @@ def _is_ours(folder: Path) -> bool:
     if held != set(MADE) or any(each.is_symlink() for each in folder.iterdir()):
         return False
     html = (folder / PAGE).read_text(encoding="utf-8", errors="replace")
-    named = set(re.findall(rf'"{ASSETS}/([^"]+)"', html))
-    return MARK in html and {each.name for each in (folder / ASSETS).iterdir()} <= named
+    return MARK in html and {each.name for each in (folder / ASSETS).iterdir()} <= {
+        *assets_in(html)
+    }
 
 
 def _parts(progress: Progress) -> dict[str, bytes]:
     """Return the content of all files by their places."""
-    parts = {PAGE: page(static=True).encode()}
+    html = page(static=True)
+    parts = {PAGE: html.encode()}
     with advancing("tabulating the rebounds", IMPACTS, progress, unit="impacts") as advance:
         script = tables(advance)
-    for name in assets_of(static=True):
+    for name in assets_in(html):
         parts[f"{ASSETS}/{name}"] = script.encode() if name == "tables.js" else asset(name)
     parts[PLOTLY] = plotly_file().read_bytes()
     return parts

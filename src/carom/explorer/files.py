@@ -49,16 +49,6 @@ from carom.plots.impact import (
 from carom.plots.legends import legend_above, legend_outside
 from carom.verify.errors import losses_of
 
-LENGTH, TIME = r"$[R^* d_{max}]^{1/2}$", "$d_{max}/V_1$"
-UNITS = {  # in figures, of an impact without units
-    **dict.fromkeys(("time", "phase_start", "phase_end"), TIME),
-    **dict.fromkeys(("x", "y", "contact_radius", "stick_radius"), LENGTH),
-    **dict.fromkeys(("tangential_force", "normal_force"), r"$\mu F_{max}$"),
-    **dict.fromkeys(("contact_velocity", "slip_velocity_x"), r"$\mu V_1/\kappa$"),
-    "normal_velocity": "$V_1$",
-    "pressure": "$p_0$",
-    "traction_x": r"$\mu p_0$",
-}
 SCALES = Scales(
     **dict.fromkeys(("length", "radius", "force", "pressure", "tangential_length"), 1.0),
     **dict.fromkeys(("time", "energy", "tangential_speed"), 1.0),
@@ -108,7 +98,7 @@ class NumbersImpact:
 
 
 def _in_theory(dataset: xr.Dataset) -> xr.Dataset:
-    for name, unit in UNITS.items():
+    for name, unit in PAGE["units_of_numbers"].items():
         if name in dataset.variables:
             dataset.variables[name].attrs["units"] = unit
     return dataset

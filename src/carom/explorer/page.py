@@ -1,12 +1,12 @@
-"""The page as HTML: its styles and scripts in their order, and what it reads once.
+"""The page as HTML, and what it reads once.
 
 That is its fields, materials, laws, symbols and examples, as JSON holds them.
 """
 
 import json
+import re
 import tomllib
 from dataclasses import fields
-from html import escape
 from importlib.resources import files
 from importlib.util import find_spec
 from math import isinf
@@ -25,27 +25,7 @@ from carom.io.version import __version__
 from carom.quantities.refusals import InputError
 from carom.verify.entries import CATALOGUE
 
-STYLES = (
-    *("carom.css", "composition.css", "controls.css"),
-    *("pictures.css", "reading.css", "laws.css", "fit.css"),
-)
-PICTURES = (
-    *("config", "elements", "theme", "clock", "canvas", "contact", "view", "scene", "stage"),
-    *("profile", "patch_layout", "patch", "told"),
-)
-CHARTS = (
-    *("plotting", "bands", "keys", "chart_rebounds", "chart_histories", "charts", "cursor"),
-    *("results", "laws"),
-)
-READER = (
-    *("tips", "tabs", "files", "fit_charts", "fit_tables", "fit"),
-    *("fields", "code", "presets", "beside", "link", "page"),
-)
-LIVE = ("server",)
-COPY = (
-    *("tables", "quantities", "rebound", "normal", "springs", "law"),
-    *("pair", "paths", "answer", "copy"),
-)
+ASSETS = "assets"  # the folder of the styles and scripts
 REGIMES = ("stick", "gross slip, stick", "gross slip, slip", "gross slip only")  # as in figures
 SYMBOLS: dict[str, str] = PAGE["symbols"]
 OPTIONS: dict[str, str] = PAGE["choices"]
@@ -53,32 +33,21 @@ OPTIONS: dict[str, str] = PAGE["choices"]
 
 def page(*, static: bool = False) -> str:
     """Return the page, whose parts are at assets/...; a static one answers without a server."""
-    scripts = (name for name in assets_of(static=static) if name not in STYLES)
     settings = json.dumps(config(static=static), ensure_ascii=False)
-    parts = {
-        "{styles}": "\n    ".join(
-            f'<link rel="stylesheet" href="{_place(name)}">' for name in STYLES
-        ),
-        "{scripts}": "\n    ".join(
-            f'<script src="{_place(name)}" defer></script>' for name in scripts
-        ),
-        "{config}": settings.replace("<", "\\u003c"),  # nothing in it ends the script
-    }
-    html = asset("page.html").decode()
-    for place, text in parts.items():
-        html = html.replace(place, text)
-    return html
+    left_out = 'data-in="live"' if static else 'data-in="copy"'
+    lines = asset("page.html").decode().splitlines(keepends=True)
+    html = "".join(line for line in lines if left_out not in line)
+    return html.replace("{config}", settings.replace("<", "\\u003c"))  # nothing ends the script
 
 
-def assets_of(*, static: bool = False) -> tuple[str, ...]:
-    """Return the names of the styles and scripts of the page, in their order."""
-    source = COPY if static else LIVE
-    return (*STYLES, *(f"{name}.js" for name in (*PICTURES, *CHARTS, *source, *READER)))
+def assets_in(html: str) -> tuple[str, ...]:
+    """Return the names of the styles and scripts of a page, in their order."""
+    return tuple(re.findall(rf'"{ASSETS}/([^"]+)"', html))
 
 
 def asset(name: str) -> bytes:
     """Return a file of the page."""
-    return files("carom.explorer").joinpath("assets", name).read_bytes()
+    return files("carom.explorer").joinpath(ASSETS, name).read_bytes()
 
 
 def plotly_file() -> Path:
@@ -87,10 +56,6 @@ def plotly_file() -> Path:
     if package is None or package.origin is None:
         raise InputError("the explorer needs the package plotly; pip install 'carom[explore]'")
     return Path(package.origin).with_name("package_data") / "plotly.min.js"
-
-
-def _place(name: str) -> str:
-    return f"assets/{escape(name)}"
 
 
 class Preset(NamedTuple):

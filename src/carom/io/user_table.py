@@ -13,9 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.quantities.arrays import Array, in_unit
-from carom.quantities.faults import Faults
 from carom.quantities.glossary import GLOSSARY
-from carom.quantities.refusals import InputError, clipped, nearest
+from carom.quantities.refusals import Faults, InputError, clipped, nearest
 from carom.quantities.symbols import meant
 from carom.quantities.texts import UNCHANGED
 from carom.quantities.units import PURE, WHY_POSITIVE, factor_of, finite_or_text, number
