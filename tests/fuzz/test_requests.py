@@ -17,7 +17,7 @@ import pytest
 pytest.importorskip("flask")
 
 from carom.explorer import files, uploads
-from carom.explorer.app import FOR_THE_PAGE, WRITTEN, new_app
+from carom.explorer.app import ANSWERED_IN_JSON, WRITTEN_FILES, new_app
 from carom.explorer.limits import LARGEST_REQUEST, LONGEST_LINK
 from carom.explorer.views import CHOICES, FIELDS, LAWS, View
 from carom.explorer.warming import STEPS, Warming
@@ -138,7 +138,7 @@ def test_links_and_files(ask, calls):
     rng = random.Random(0)
     right = 0
     for _ in range(calls // 20):
-        name = rng.choice(["view.py", "answer"] * 20 + ["laws"] * 8 + [*WRITTEN])
+        name = rng.choice(["view.py", "answer"] * 20 + ["laws"] * 8 + [*WRITTEN_FILES])
         right += ask(f"/{name}?{quote(link(rng), safe='=&%+', errors='replace')}")
     assert right > 0
     assert not ask(f"/view.py?{'a' * (LONGEST_LINK + 1)}")
@@ -146,7 +146,7 @@ def test_links_and_files(ask, calls):
 
 def test_addresses_methods_and_headers(ask, calls):
     rng = random.Random(1)
-    known = ["/", "/view.py", "/assets/stage.js", "/plotly.min.js", *FOR_THE_PAGE]
+    known = ["/", "/view.py", "/assets/stage.js", "/plotly.min.js", *ANSWERED_IN_JSON]
     for _ in range(calls // 4):
         path = rng.choice(known)
         if rng.random() < 0.7:

@@ -98,6 +98,6 @@ def test_the_ends_of_blocks_change_nothing(calls, file, rng, mutated, monkeypatc
         lines = [",".join(rng.choices(numbers, k=3)) for _ in range(rng.randrange(1, 9))]
         path = file("a,b,c\n" + "\n".join([*lines[:-1], mutated(lines[-1])]))
         with monkeypatch.context() as small:
-            small.setattr(csv_cells, "BLOCK", 2)
+            small.setattr(csv_cells, "BLOCK_ROWS", 2)
             found = read(path)
         assert read(path) == found

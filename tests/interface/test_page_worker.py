@@ -11,7 +11,7 @@ import pytest
 pytest.importorskip("flask")
 
 from carom.explorer import worker as workers
-from carom.explorer.limits import WAITING, Busy
+from carom.explorer.limits import MOST_WAITING, Busy
 from carom.explorer.views import Refused
 from carom.explorer.worker import Desk, Worker
 
@@ -99,13 +99,13 @@ def test_a_question_is_asked_again_if_its_process_was_killed(desk, when):
 
 def test_a_few_wait_and_the_rest_is_told_that_the_page_is_busy(desk):
     desk.ask(name="one")
-    with ThreadPoolExecutor(WAITING + 4) as visitors:
+    with ThreadPoolExecutor(MOST_WAITING + 4) as visitors:
         asked = [visitors.submit(desk.ask, name="hang")]
         time.sleep(0.3)
-        asked += [visitors.submit(desk.ask, name=str(row)) for row in range(WAITING + 3)]
+        asked += [visitors.submit(desk.ask, name=str(row)) for row in range(MOST_WAITING + 3)]
         found = [each.exception(PATIENCE) for each in asked]
     assert isinstance(found[0], Refused)
-    assert sum(each is None for each in found) == WAITING
+    assert sum(each is None for each in found) == MOST_WAITING
     assert sum(isinstance(each, Busy) for each in found) == 3
 
 

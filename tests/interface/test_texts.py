@@ -20,7 +20,7 @@ from carom.quantities import texts
 from carom.quantities.arrays import numbers, plain_numbers
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError
-from carom.quantities.texts import LONGEST, Unreadable, read_text
+from carom.quantities.texts import LONGEST_TEXT, Unreadable, read_text
 from carom.quantities.units import number
 
 DEGREE = math.pi / 180
@@ -203,7 +203,7 @@ REFUSED = [  # text, quantity, part of the message
     ("100 Bq", "spin", "a spin is not in Bq; write rad/s or rpm"),  # 100 rad/s
     ("100 s^-1", "spin", "write rad/s or rpm"),
     ("20 degC", "angle", "not known"),
-    ("5 mm" + " " * LONGEST + "?", "radius", f"{LONGEST} characters"),
+    ("5 mm" + " " * LONGEST_TEXT + "?", "radius", f"{LONGEST_TEXT} characters"),
 ]
 
 

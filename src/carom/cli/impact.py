@@ -28,8 +28,8 @@ def _flag(name: str, example: str, of: str = "") -> Any:
 
 Text = str | None
 METHODS = ("exact", "halfspace")
-FRAMES = 60  # of an animation
-PLACES = {  # of what options give, in a case file, where they have other names there
+ANIMATION_FRAMES = 60  # of an animation
+CASE_KEYS = {  # of what options give, in a case file, where they have other names there
     "radius": "first.radius",
     "material": "first.material",
     "gyration_radius": "first.gyration_radius",
@@ -150,8 +150,8 @@ def impact_command(
     """
     from carom.bodies.cases import LOSSES, MOTION, RATIO, losses_of, motion_of, pair_of, read_case
 
-    named = (*PLACES, "friction", *MOTION, *LOSSES, RATIO)
-    flags = {PLACES.get(name, name): context.params[name] for name in named}
+    named = (*CASE_KEYS, "friction", *MOTION, *LOSSES, RATIO)
+    flags = {CASE_KEYS.get(name, name): context.params[name] for name in named}
     content = merged(read_case(case, losses=True) if case is not None else {}, flags)
     tell_sweep(content)
     files = outputs(content)
@@ -211,5 +211,5 @@ def _store(hit: "ImpactResult", files: Output) -> Iterator[Path]:
         hit.plot(files.plot)
         yield Path(files.plot)
     if files.animation is not None:
-        hit.animate(files.animation, FRAMES)
+        hit.animate(files.animation, ANIMATION_FRAMES)
         yield Path(files.animation)

@@ -16,16 +16,16 @@ from carom.explorer.views import View
 from carom.quantities.arrays import Array
 from carom.quantities.units import or_none
 
-PROMPT = 0.06  # s from the question on, until which an answer waits for contact laws
-DIGITS = 6  # of what is carried over from bodies to numbers
-FINE = 7  # decimals of a curve, in which one may zoom
+PROMPT_SECONDS = 0.06  # from the question on, until which an answer waits for contact laws
+CARRIED_DIGITS = 6
+CURVE_DECIMALS = 7  # one may zoom
 
 Answer = dict[str, Any]
 
 
 def answer(view: View) -> Answer:
     """Return what there is to see of a view, or raise Refused."""
-    end = monotonic() + PROMPT
+    end = monotonic() + PROMPT_SECONDS
     scene = scene_of(view)
     shown: Answer = {
         "query": view.query(),
@@ -70,7 +70,7 @@ def _carried(view: View, scene: Scene) -> Answer | None:
     if view.in_numbers or not scene.rubs:
         return None
     numbers = {"psi": scene.psi_in, "chi": scene.chi}
-    return {name: float(f"{number:.{DIGITS}g}") for name, number in numbers.items()}
+    return {name: float(f"{number:.{CARRIED_DIGITS}g}") for name, number in numbers.items()}
 
 
 def _history(scene: Scene) -> Answer:
@@ -94,4 +94,4 @@ def _curve(scene: Scene) -> Answer:
 
 
 def _fine(values: Array) -> list[float | None]:
-    return [or_none(value) for value in np.round(values, FINE).tolist()]
+    return [or_none(value) for value in np.round(values, CURVE_DECIMALS).tolist()]

@@ -33,15 +33,15 @@ HEADERS = {
     "X-Content-Type-Options": "nosniff",
 }
 PICTURES = ("curve", "history", "contact", "course")
-WRITTEN = (  # files of a view that take time
+WRITTEN_FILES = (  # of a view, which take time
     *("template.csv", "history.csv", "history.nc"),
     *(f"{picture}.{kind}" for picture in PICTURES for kind in ("png", "svg", "pdf")),
 )
 UPLOADED = ("contents", "name", "bodies")
 ASSETS = Path(__file__).with_name("assets")
-FOR_THE_PAGE = ("/answer", "/laws", "/fit")  # whose errors are JSON, of others text
-AGAIN = 1  # s after which to ask again for what is being compiled
-LOGGED = 300  # characters of what went wrong
+ANSWERED_IN_JSON = ("/answer", "/laws", "/fit")  # whose errors are JSON, of others text
+SECONDS_UNTIL_AGAIN = 1  # for what is being compiled
+MOST_LOGGED = 300  # characters
 
 log = logging.getLogger(__name__)
 
@@ -106,7 +106,7 @@ def _add_files(server: Flask, worker: Worker) -> None:
 
     @server.get("/<name>")
     def file(name: str) -> Response:
-        if name not in ("view.py", *WRITTEN):
+        if name not in ("view.py", *WRITTEN_FILES):
             abort(404)
         view, time = View.of(_query()), _time_of(_query())
         if name == "view.py":
@@ -161,7 +161,7 @@ def _json(answer: Any, status: int = 200) -> Response:
 def _one_line(error: Exception) -> Response:
     """Return an error of a request in a line, with the field that it is about."""
     if isinstance(error, Preparing):
-        return _refusal("", str(error), 503, again=AGAIN, percent=error.percent)
+        return _refusal("", str(error), 503, again=SECONDS_UNTIL_AGAIN, percent=error.percent)
     if isinstance(error, Refused):
         return _refusal(error.field, error.message)
     if isinstance(error, InputError):
@@ -172,7 +172,7 @@ def _one_line(error: Exception) -> Response:
         return _line("what was sent is nested too deeply", 400)
     if isinstance(error, HTTPException):
         return _line(f"{error.code}: {error.name}", error.code or 500)
-    log.error("%s: %s", type(error).__name__, " ".join(str(error).split())[:LOGGED])
+    log.error("%s: %s", type(error).__name__, " ".join(str(error).split())[:MOST_LOGGED])
     return _line(f"failed, {type(error).__name__}", 500)
 
 
@@ -187,13 +187,13 @@ def _refusal(field: str, message: str, status: int = 400, **more: Any) -> Respon
 
     The page gets it with the status of an answer, as browsers log all others as errors.
     """
-    if request.path in FOR_THE_PAGE:
+    if request.path in ANSWERED_IN_JSON:
         return _json({"field": field, "message": message, **more})
     return _line(f"{FIELDS[field].label}: {message}" if field else message, status)
 
 
 def _line(message: str, status: int) -> Response:
-    if request.path in FOR_THE_PAGE:
+    if request.path in ANSWERED_IN_JSON:
         return _json({"field": "", "message": message}, status)
     content = f"carom: {message}\n".encode("utf-8", "replace")
     return Response(content, status, content_type="text/plain; charset=utf-8")

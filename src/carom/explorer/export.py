@@ -6,14 +6,14 @@ from pathlib import Path
 from typing import NamedTuple
 
 from carom.explorer.page import ASSETS, asset, assets_in, page, plotly_file
-from carom.explorer.tables import IMPACTS, tables
+from carom.explorer.tables import SOLVED_IMPACTS, tables
 from carom.io.paths import checked_path
 from carom.io.progress import Progress, advancing
 from carom.quantities.refusals import InputError, refusal
 
 PAGE, PLOTLY = "index.html", "plotly.min.js"
-MADE = (ASSETS, PLOTLY, PAGE)  # what a copy holds
-MARK = 'id="config"'  # in its page
+COPIED = (ASSETS, PLOTLY, PAGE)
+COPY_MARK = 'id="config"'  # in its page
 
 
 class Copy(NamedTuple):
@@ -60,19 +60,18 @@ def _is_ours(folder: Path) -> bool:
     held = {each.name for each in folder.iterdir()}
     if not held:
         return True
-    if held != set(MADE) or any(each.is_symlink() for each in folder.iterdir()):
+    if held != set(COPIED) or any(each.is_symlink() for each in folder.iterdir()):
         return False
     html = (folder / PAGE).read_text(encoding="utf-8", errors="replace")
-    return MARK in html and {each.name for each in (folder / ASSETS).iterdir()} <= {
-        *assets_in(html)
-    }
+    parts = {each.name for each in (folder / ASSETS).iterdir()}
+    return COPY_MARK in html and parts <= {*assets_in(html)}
 
 
 def _parts(progress: Progress) -> dict[str, bytes]:
     """Return the content of all files by their places."""
     html = page(static=True)
     parts = {PAGE: html.encode()}
-    with advancing("tabulating the rebounds", IMPACTS, progress, unit="impacts") as advance:
+    with advancing("tabulating the rebounds", SOLVED_IMPACTS, progress, unit="impacts") as advance:
         script = tables(advance)
     for name in assets_in(html):
         parts[f"{ASSETS}/{name}"] = script.encode() if name == "tables.js" else asset(name)
@@ -95,11 +94,11 @@ def _replace(real: Path, parts: dict[str, bytes]) -> None:
             return
         old.mkdir()
         try:
-            for name in MADE:
+            for name in COPIED:
                 _moved(real / name, old / name)
                 _moved(made / name, real / name)
         except BaseException:
-            for name in MADE:
+            for name in COPIED:
                 if not (made / name).exists():
                     _moved(real / name, made / name)
                 _moved(old / name, real / name)

@@ -17,8 +17,8 @@ from carom.explorer.limits import LAW_SECONDS, Busy
 from carom.explorer.overlays import LawCurve, exact_curve, followers, law_curves
 from carom.explorer.scenes import (
     ENERGIES_OF_CONTACT,
-    FORCE,
-    TIMES,
+    FORCE_SCALE,
+    HISTORY_TIMES,
     Scene,
     columns_of_numbers,
     impact_of,
@@ -52,14 +52,14 @@ from carom.verify.errors import losses_of
 SCALES = Scales(
     **dict.fromkeys(("length", "radius", "force", "pressure", "tangential_length"), 1.0),
     **dict.fromkeys(("time", "energy", "tangential_speed"), 1.0),
-    tangential_force=FORCE,
+    tangential_force=FORCE_SCALE,
 )
 TANGENTIAL = {  # energies that psi_1 and chi tell, with the looks of what they are part of
     name: (words, *ENERGIES.get(name, ENERGIES["tangential_kinetic_energy"])[1:])
     for name, words in ENERGIES_OF_CONTACT.items()
     if name not in LOST
 }
-ENTRY = 1.8  # mm that a law adds to the legend of the rebound curve
+ENTRY_HEIGHT = 1.8  # mm that a law adds to the legend of the rebound curve
 
 
 class UnitBodies(NamedTuple):
@@ -80,7 +80,7 @@ class NumbersImpact:
         self.solution = solve(view.psi, view.chi, losses=view.losses)
         self.duration = self.solution.duration
 
-    def history(self, n: int = TIMES) -> xr.Dataset:
+    def history(self, n: int = HISTORY_TIMES) -> xr.Dataset:
         """Return the impact at n times."""
         solution = self.solution
         numbers = {"friction": 1.0, "max_pressure": solution.max_pressure}
@@ -107,7 +107,7 @@ def _in_theory(dataset: xr.Dataset) -> xr.Dataset:
 def history_figure(view: View, _: float = 0.0) -> Figure:
     """Return forces, velocities, radii and energies against time."""
     if not view.in_numbers:
-        return plot_impact(impact_of(view).history(TIMES))
+        return plot_impact(impact_of(view).history(HISTORY_TIMES))
     return _without_units(NumbersImpact(view).history())
 
 
@@ -166,7 +166,7 @@ def drawn_curve(scene: Scene, laws: list[LawCurve]) -> Figure:
         point: Any = {"marker": "o", "ls": "", "color": drawing.BLACK, "label": "this impact"}
         entries += axis.plot(scene.psi_in, scene.psi_out, **point)
     if laws:  # whose names are long
-        height = figure.get_figheight() + ENTRY * drawing.MM * len(laws)
+        height = figure.get_figheight() + ENTRY_HEIGHT * drawing.MM * len(laws)
         figure.set_size_inches(1.5 * figure.get_figwidth(), height)
     legend_above(axis, 2, handles=entries)
     return figure
@@ -194,9 +194,9 @@ def write(name: str, view: View, time: float, folder: Path) -> Path:
 def history_of(view: View) -> xr.Dataset:
     """Return the history of a view, without units if it tells psi_1 and chi."""
     if not view.in_numbers:
-        return impact_of(view).history(TIMES)
+        return impact_of(view).history(HISTORY_TIMES)
     solution = NumbersImpact(view).solution
-    history = solution.history(TIMES)
+    history = solution.history(HISTORY_TIMES)
     columns: dict[str, Any] = {
         name: ("time", getattr(history, name), {"long_name": meaning, "units": "1"})
         for name, meaning in PAGE["columns_of_numbers"].items()

@@ -14,20 +14,20 @@ from carom.dimensionless.lossy.law import scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.threads import available_cores
 from carom.dimensionless.rebounds import rebound
-from carom.explorer.limits import FOLLOWERS, LAW_SECONDS
+from carom.explorer.limits import LAW_SECONDS, MOST_FOLLOWERS
 from carom.explorer.scenes import Scene
 from carom.quantities.arrays import Array
 from carom.verify.entries import named
 from carom.verify.errors import damped, losses_of
 
 POINTS, POINTS_WITH_LOSSES, POINTS_OF_LAWS = 241, 81, 61
-DRAWN = 1e-8  # tolerance of a curve with losses, of which a point takes 0.6 ms
-BEYOND = 1.15  # of the present psi_1, that is shown
-STEPS = 400  # of a law's force in time
-EVERY = 2  # of these that is drawn
-KEPT = 256  # curves that are remembered
+CURVE_TOLERANCE = 1e-8  # with losses, where a point takes 0.6 ms
+MARGIN = 1.15  # beyond the present psi_1
+FORCE_STEPS = 400
+DRAWN_EVERY = 2  # of these steps
+KEPT_CURVES = 256
 GLANCE_SECONDS = 0.1
-DIGITS = 12  # of what a curve is remembered by
+KEY_DIGITS = 12  # by which curves are kept
 
 _solvers = ThreadPoolExecutor(max(1, available_cores() - 1), "carom-law")  # answers go first
 _at_work: dict[tuple[Scene, str], Future["LawCurve"]] = {}
@@ -43,11 +43,11 @@ class Followers:
     def joined(self) -> Callable[[], bool]:
         """Return what tells a request that joins when it is to give up."""
         number = self._latest = next(self._numbers)
-        return lambda: number <= self._latest - FOLLOWERS
+        return lambda: number <= self._latest - MOST_FOLLOWERS
 
     def dismiss(self) -> None:
         """Let all give up."""
-        for _ in range(FOLLOWERS):
+        for _ in range(MOST_FOLLOWERS):
             self.joined()
 
 
@@ -68,7 +68,7 @@ class LawCurve:
 
 def exact_curve(scene: Scene) -> tuple[Array, Array]:
     """Return psi_1 and psi_2 of the exact curve, over the present point and all regimes."""
-    psi, out = _exact(round(scene.chi, DIGITS), scene.restitution)
+    psi, out = _exact(round(scene.chi, KEY_DIGITS), scene.restitution)
     high = _span(scene)[1]
     if high > psi[-1]:  # the curve is straight there
         psi, out = np.append(psi, high), np.append(out, out[-1] + (high - psi[-1]))
@@ -108,7 +108,7 @@ def _begun(scene: Scene, label: str) -> Future[LawCurve]:
     return curve
 
 
-@lru_cache(maxsize=KEPT)
+@lru_cache(maxsize=KEPT_CURVES)
 def _exact(chi: float, restitution: float) -> tuple[Array, Array]:
     """Return psi_1 and psi_2 over all regimes, psi_1 >= 0."""
     losses = losses_of(restitution)
@@ -117,7 +117,7 @@ def _exact(chi: float, restitution: float) -> tuple[Array, Array]:
     if losses is None:
         return psi, rebound(psi, chi)
     chis = np.full(psi.size, chi)
-    return psi, lossy_rebounds(psi, chis, scale_free(losses), tolerance=DRAWN).psi_out
+    return psi, lossy_rebounds(psi, chis, scale_free(losses), tolerance=CURVE_TOLERANCE).psi_out
 
 
 def _whole(scene: Scene, psi: Array, out: Array) -> tuple[Array, Array]:
@@ -128,13 +128,13 @@ def _whole(scene: Scene, psi: Array, out: Array) -> tuple[Array, Array]:
     return both[0][shown], both[1][shown]
 
 
-@lru_cache(maxsize=KEPT)
+@lru_cache(maxsize=KEPT_CURVES)
 def _of_law(scene: Scene, label: str) -> LawCurve:
     law = named(label)[0].law
     if scene.restitution != 1.0:
         law = damped(law, scene.restitution)
     grid = np.linspace(0.0, _regimes(scene.chi), POINTS_OF_LAWS)
-    half = _half(law, round(scene.chi, DIGITS), round(scene.kappa, DIGITS))
+    half = _half(law, round(scene.chi, KEY_DIGITS), round(scene.kappa, KEY_DIGITS))
     at, share, force = float("nan"), np.array([]), np.array([])
     if np.isfinite(scene.psi_in):
         at = float(_rebound(law, scene.psi_in, scene.chi, scene.kappa))
@@ -146,12 +146,12 @@ def _in_time(law: Law, scene: Scene) -> tuple[Array, Array]:
     """Return times as shares of the exact duration, and the force in the unit of the scene."""
     if not isinstance(law, ContactLaw):
         return np.array([]), np.array([])  # a hard sphere has no contact to follow
-    course = law.history(scene.psi_in, scene.chi, kappa=scene.kappa, steps=STEPS)
+    course = law.history(scene.psi_in, scene.chi, kappa=scene.kappa, steps=FORCE_STEPS)
     force = course["tangential_force"] * scene.force_scale
-    return course["time"][::EVERY] / scene.lasts, force[::EVERY]
+    return course["time"][::DRAWN_EVERY] / scene.lasts, force[::DRAWN_EVERY]
 
 
-@lru_cache(maxsize=KEPT)
+@lru_cache(maxsize=KEPT_CURVES)
 def _half(law: Law, chi: float, kappa: float) -> Array:
     """Return psi_2 of a law over the regimes; beyond them every law slides."""
     grid = np.linspace(0.0, _regimes(chi), POINTS_OF_LAWS)
@@ -173,5 +173,5 @@ def _span(scene: Scene) -> tuple[float, float]:
     """Return the psi_1 between which curves are drawn: all regimes, and the present point."""
     regimes = _regimes(scene.chi)
     point = scene.psi_in if np.isfinite(scene.psi_in) else 0.0
-    reach = np.ceil(BEYOND * abs(point)) if abs(point) > regimes / BEYOND else regimes
+    reach = np.ceil(MARGIN * abs(point)) if abs(point) > regimes / MARGIN else regimes
     return (-reach if point < 0.0 else 0.0), max(reach, regimes)

@@ -24,15 +24,15 @@ from carom.quantities.arrays import Array
 from carom.quantities.prefixes import prefixed
 from carom.quantities.refusals import InputError
 
-TIMES = 201  # of the histories
-NO_SPIN = 1e-9  # of the spin before: less is rounding
-KEPT = 16  # scenes that are remembered
+HISTORY_TIMES = 201
+SPIN_ROUNDING = 1e-9  # of the spin before
+KEPT_SCENES = 16
 RADII, INSTANTS = 33, 61  # at which tractions are drawn
-FEWER = 31  # instants with losses, of which one takes 2 ms
-HIGHEST = 9.0  # traction that is drawn: at the edge it is infinite where viscous bodies are loaded
+INSTANTS_WITH_LOSSES = 31  # of which one takes 2 ms
+HIGHEST_TRACTION = 9.0  # at the edge it is infinite where viscous bodies are loaded
 ENERGIES: dict[str, str] = PAGE["energies"]
 ENERGIES_OF_CONTACT: dict[str, str] = PAGE["energies_of_contact"]
-FORCE = 1.5  # F_x/(mu F_max) over Q of the theory
+FORCE_SCALE = 1.5  # F_x/(mu F_max) over Q of the theory
 TOO_LARGE = "with the other numbers it leads to some that a computer cannot hold"
 
 
@@ -93,7 +93,7 @@ def scene_of(view: View) -> Scene:
     return _solved(replace(view, law=(), data=""))
 
 
-@lru_cache(maxsize=KEPT)
+@lru_cache(maxsize=KEPT_SCENES)
 def _solved(view: View) -> Scene:
     with refusals("psi" if view.in_numbers else "friction"):
         return _of_numbers(view) if view.in_numbers else _of_bodies(view)
@@ -121,7 +121,7 @@ def _of_bodies(view: View) -> Scene:
     hit = impact_of(view)
     pair, scales = hit.pair, hit.pair.scales(hit.normal_speed)
     before = Tangential(hit.tangential_speed, hit.spin, hit.spin2)
-    column = history_columns(pair, hit.normal_speed, before, hit.solution, TIMES)
+    column = history_columns(pair, hit.normal_speed, before, hit.solution, HISTORY_TIMES)
     seconds, unit = prefixed(hit.duration, "s")
     newtons, force_unit = prefixed(pair.friction * hit.max_force or hit.max_force, "N")
     return Scene(
@@ -161,7 +161,7 @@ def _scalars(hit: Impact) -> Mapping[str, float]:
     """Return the numbers of an impact; what rounding leaves of a spin is none."""
     numbers = hit.scalars()
     left = numbers["spin_out"]
-    return numbers | {"spin_out": 0.0 if abs(left) < NO_SPIN * abs(hit.spin) else left}
+    return numbers | {"spin_out": 0.0 if abs(left) < SPIN_ROUNDING * abs(hit.spin) else left}
 
 
 def columns_of_numbers(history: History) -> dict[str, Array]:
@@ -169,7 +169,7 @@ def columns_of_numbers(history: History) -> dict[str, Array]:
     return {
         "time": history.time,
         "normal_force": history.normal_force,
-        "tangential_force": FORCE * history.force,
+        "tangential_force": FORCE_SCALE * history.force,
         "contact_velocity": history.psi,
         "normal_velocity": history.speed,
         "contact_radius": history.contact_radius,
@@ -185,7 +185,7 @@ def _of_numbers(view: View) -> Scene:
     if not view.friction:
         raise Refused("friction", "must be above 0: without friction there is no ψ₁")
     solution = solve(view.psi, view.chi, losses=view.losses)
-    history = solution.history(TIMES)
+    history = solution.history(HISTORY_TIMES)
     column = columns_of_numbers(history)
     return Scene(
         psi_in=solution.psi_in,
@@ -222,14 +222,14 @@ def _numbers(solution: Solution | LossySolution) -> dict[str, float]:
 
 def _tractions(solution: Solution | LossySolution) -> Array:
     """Return the traction over mu and Hertz's pressure of the largest contact, to the edge."""
-    instants = FEWER if isinstance(solution, LossySolution) else INSTANTS
+    instants = INSTANTS_WITH_LOSSES if isinstance(solution, LossySolution) else INSTANTS
     times = np.linspace(0.0, solution.duration, instants)
     edges = solution.at(times).contact_radius
     tractions = np.zeros((instants, RADII))
     line = np.linspace(0.0, 1.0, RADII)
     for row in range(1, instants - 1):
         tractions[row] = solution.traction(times[row], edges[row] * line)
-    return np.clip(tractions / solution.max_radius, -HIGHEST, HIGHEST)
+    return np.clip(tractions / solution.max_radius, -HIGHEST_TRACTION, HIGHEST_TRACTION)
 
 
 def _rim(solution: Solution | LossySolution, speed: Array) -> Array:

@@ -17,7 +17,7 @@ from carom import datasets
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Cup, Sphere
 from carom.datasets.observables import BEFORE, OBSERVABLES
-from carom.explorer.limits import LARGEST_UPLOAD, MOST_ROWS
+from carom.explorer.limits import LARGEST_UPLOAD, MOST_UPLOADED_ROWS
 from carom.explorer.results import in_words
 from carom.explorer.views import LONGEST_NAME, PAGE, Refused, View
 from carom.fitting import Estimate, Fit, fit
@@ -31,17 +31,17 @@ from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import prefixed, shared, text
 from carom.quantities.refusals import InputError, refusal
 
-KINDS = {
+COLUMN_KINDS = {
     **dict.fromkeys(BEFORE, "before the impact"),
     **dict.fromkeys(OBSERVABLES, "after the impact"),
     **dict.fromkeys(HEIGHTS, "drop and rebound"),
 }
-ASKED = (
+BODIES_ASKED = (
     "{name} does not say which bodies struck each other. The fit needs their radius, their "
     "density and their elastic constants."
 )
-WORDS = {"data": "file", "results": "file", "pair": "bodies"}  # of Python, and of the page
-DIGITS = 6
+PAGE_SUBJECTS = {"data": "file", "results": "file", "pair": "bodies"}  # by those of Python
+SHOWN_DIGITS = 6
 NO_NUMBER = "-"
 LEAST_WEIGHT = 1e-3  # of a law; of less it is said that it is below
 PARAMETERS: dict[str, tuple[str, str]] = PAGE["parameters"]
@@ -78,7 +78,7 @@ def shown_name(name: str) -> str:
 def _in_words_of_the_page(message: str, path: str, name: str) -> str:
     subject, colon, rest = message.replace(path, name).partition(": ")
     rest = rest.replace(", or fix some, e.g. fixed={'restitution': 0.98}", "")
-    return in_words(WORDS.get(subject, subject) + colon + rest)
+    return in_words(PAGE_SUBJECTS.get(subject, subject) + colon + rest)
 
 
 def _decoded(contents: str) -> bytes:
@@ -94,14 +94,14 @@ def _decoded(contents: str) -> bytes:
 
 def _fitted(file: Path, name: str, view: View | None) -> dict[str, Any]:
     table = read_table(file, what="file")
-    if len(table) > MOST_ROWS:
-        allowed = f"must be at most {MOST_ROWS} rows; use carom fit for more"
+    if len(table) > MOST_UPLOADED_ROWS:
+        allowed = f"must be at most {MOST_UPLOADED_ROWS} rows; use carom fit for more"
         raise refusal("file", f"{len(table)} rows", allowed)
     if table.case is None and (view is None or view.in_numbers):
         read_measurements(table)  # what no bodies make right is said before they are asked for
         if not {*table.names} & {*OBSERVABLES, *HEIGHTS}:
             read_problem(table, View().pair)
-        asked = ASKED.format(name=name)
+        asked = BODIES_ASKED.format(name=name)
         return {"asks": "bodies", "name": name, "message": asked, "columns": taken(table.cells)}
     pair: Pair | None = view.pair if table.case is None and view is not None else None
     fitted = fit(table, pair=pair)
@@ -117,9 +117,9 @@ def taken(columns: Mapping[str, Column], fitted: Fit | None = None) -> list[dict
 
 def _taken(name: str, column: Column, empty: bool) -> dict[str, str]:
     quantity = entry(name)
-    if quantity not in KINDS:
+    if quantity not in COLUMN_KINDS:
         return {"head": column.head, "kind": "not used", "meaning": "", "unit": ""}
-    si, kind, meaning = GLOSSARY[quantity].unit, KINDS[quantity], plain_words(quantity)
+    si, kind, meaning = GLOSSARY[quantity].unit, COLUMN_KINDS[quantity], plain_words(quantity)
     if name != quantity:
         kind, meaning = "standard deviation", f"of {meaning}"
     if empty:
@@ -281,7 +281,7 @@ def _line(law: str, x: Array, y: Array) -> dict[str, Any]:
 
 def _plain(values: Iterable[float]) -> list[float | None]:
     """Return numbers of a few digits, None for what is none."""
-    return [float(f"{each:.{DIGITS}g}") if isfinite(each) else None for each in values]
+    return [float(f"{each:.{SHOWN_DIGITS}g}") if isfinite(each) else None for each in values]
 
 
 def _scale(name: str, values: Array) -> tuple[float, str]:

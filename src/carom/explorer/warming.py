@@ -11,7 +11,7 @@ from carom.explorer.scenes import scene_of
 from carom.explorer.views import LAWS, NUMBERS, View
 from carom.io.progress import advancing
 
-PATIENCE = 2.0  # s that a question waits for what is not there yet
+PATIENCE_SECONDS = 2.0  # that a question waits for what is not there yet
 ELASTIC, LOSSY = View(), View(restitution=0.8)
 STEPS: tuple[Callable[[], Any], ...] = (
     lambda: scene_of(ELASTIC),
@@ -60,7 +60,7 @@ class Warming:
         needed = OF_LAWS if laws else OF_LOSSES if view.losses else OF_ELASTIC
         needed = min(needed, len(self._steps))
         with self._news:
-            if not self._news.wait_for(lambda: self._done >= needed, PATIENCE):
+            if not self._news.wait_for(lambda: self._done >= needed, PATIENCE_SECONDS):
                 raise Preparing(100 * self._done // needed)
 
     def _run(self) -> None:

@@ -15,12 +15,12 @@ from carom.io.paths import checked_path
 from carom.io.user_table import ALIASES, GAP, Column, UserTable, spelled
 from carom.quantities.arrays import along_the_same, floats
 from carom.quantities.refusals import InputError, nearest, refusal
-from carom.quantities.texts import LONGEST, UNCHANGED
+from carom.quantities.texts import LONGEST_TEXT, UNCHANGED
 from carom.quantities.units import REAL_KINDS, factor_of, two_units, without_unit
 
-KEPT = ("case", "code", "doi", "law")  # attributes of a dataset that are comments of a file
+COMMENT_ATTRIBUTES = ("case", "code", "doi", "law")  # of a dataset; comments of a file
 HEAD = re.compile(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*")
-RAW = (str, bytes, bytearray, memoryview)  # sequences that are no lists
+TEXT_TYPES = (str, bytes, bytearray, memoryview)  # sequences that are no lists
 
 
 def read_table(
@@ -66,7 +66,8 @@ def _of_object(what: str, source: Any) -> tuple[list[Column], UserTable]:
     """Return the columns of what is no file by their heads, and a table of its rows."""
     comments: dict[str, str] = {}
     if hasattr(source, "data_vars"):
-        comments = {name: str(source.attrs[name]) for name in KEPT if name in source.attrs}
+        there = filter(source.attrs.__contains__, COMMENT_ATTRIBUTES)
+        comments = {name: str(source.attrs[name]) for name in there}
         columns = list(_of_dataset(source))
     else:
         columns = [_column(str(name), cells) for name, cells in _by_name(what, source).items()]
@@ -127,7 +128,7 @@ def _renamed(heads: list[str], columns: Mapping[str, str], what: str) -> list[tu
 
 def _parts(head: str) -> tuple[str, str]:
     """Return what stands before and in the brackets of a head."""
-    match = HEAD.fullmatch(head) if len(head) <= LONGEST else None
+    match = HEAD.fullmatch(head) if len(head) <= LONGEST_TEXT else None
     return (match[1], (match[2] or match[3] or "").strip()) if match else (head, "")
 
 
@@ -145,7 +146,7 @@ def _column(name: str, values: Any, *, gaps: bool = False) -> Column:
     """Return a column of a user's; a gap is what is masked, with `gaps` what is no number, too."""
     plain, unit = without_unit(name, values)
     cells: Any = None
-    if isinstance(plain, Sequence) and not isinstance(plain, RAW):
+    if isinstance(plain, Sequence) and not isinstance(plain, TEXT_TYPES):
         cells = list(plain)
     elif _depth(plain) == 1:
         cells = _of_array(name, plain, gaps)
@@ -156,7 +157,7 @@ def _column(name: str, values: Any, *, gaps: bool = False) -> Column:
 
 def _depth(value: Any) -> int:
     """Return how many dimensions an array has, 1 for lists, 0 for anything else."""
-    shape = () if isinstance(value, RAW) else getattr(value, "shape", ())
+    shape = () if isinstance(value, TEXT_TYPES) else getattr(value, "shape", ())
     return 1 if isinstance(value, list | tuple) else len(shape) if isinstance(shape, tuple) else 0
 
 

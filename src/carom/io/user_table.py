@@ -17,22 +17,22 @@ from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import Faults, InputError, clipped, nearest
 from carom.quantities.symbols import meant
 from carom.quantities.texts import UNCHANGED
-from carom.quantities.units import PURE, WHY_POSITIVE, factor_of, finite_or_text, number
+from carom.quantities.units import PURE_UNITS, WHY_POSITIVE, factor_of, finite_or_text, number
 
 Mask = NDArray[np.bool_]
 
 ALIASES = {"psi_1": "psi_in", "psi_2": "psi_out", "angle_deg": "angle [deg]"}
 SPELLINGS = {name: alias for alias, name in ALIASES.items()}
 CASE = "# case:"  # begins a comment that holds the bodies as JSON
-SHOWN = 5  # rows that a message names
+MOST_NAMED_ROWS = 5  # rows that a message names
 GAP = "-"  # a cell of what was not measured
 ERROR = "_error"  # ends the name of a column of standard deviations
-DELETE = "correct or delete it"
+CORRECT_OR_DELETE = "correct or delete it"
 EMPTY = ("", "nan")
 HEIGHTS = ("drop_height", "rebound_height")  # which are measured in cm and mm as well
-HIGHEST = 3.0  # m, of a drop that is given without a unit
-NEAR = 0.8  # similarity of names from which a column is taken for a misspelt one
-UNITS = {"_deg": "deg", "_rad_s": "rad/s", "_rad": "rad", "_rpm": "rpm", "_m_s": "m/s"}  # in names
+HIGHEST_DROP = 3.0  # m, of a drop that is given without a unit
+LEAST_SIMILARITY = 0.8  # from which a column is taken for a misspelt one
+UNITS_IN_NAMES = {"_deg": "deg", "_rad_s": "rad/s", "_rad": "rad", "_rpm": "rpm", "_m_s": "m/s"}
 
 
 class Column(NamedTuple):
@@ -151,8 +151,8 @@ def named(word: str, rows: Iterable[int], total: int = 0) -> str:
     texts = [str(row) for row in rows]
     if len(texts) == total > 1:
         return f"every {word}"
-    if len(texts) > SHOWN + 1:
-        texts = [*texts[:SHOWN], f"{len(texts) - SHOWN} more"]
+    if len(texts) > MOST_NAMED_ROWS + 1:
+        texts = [*texts[:MOST_NAMED_ROWS], f"{len(texts) - MOST_NAMED_ROWS} more"]
     if len(texts) < 2:
         return " ".join([word, *texts])
     return f"{word}s {', '.join(texts[:-1])} and {texts[-1]}"
@@ -253,20 +253,20 @@ def entry(name: str) -> str:
 def _likely(name: str, names: list[str]) -> str:
     """Return the head of a known column that another one stands for, or nothing."""
     plain = name.lower().replace(" ", "_").replace("-", "_")
-    unit = next((end for end in UNITS if plain.endswith(end)), "")
+    unit = next((end for end in UNITS_IN_NAMES if plain.endswith(end)), "")
     plain = plain.removesuffix(unit)
     end = ERROR if plain.endswith(ERROR) else ""
     plain = plain.removesuffix(ERROR)
     stands = meant(plain, names) or plain
-    close = get_close_matches(stands + end, names, n=1, cutoff=NEAR)
-    return spelled(close[0]) + (f" [{UNITS[unit]}]" if unit else "") if close else ""
+    close = get_close_matches(stands + end, names, n=1, cutoff=LEAST_SIMILARITY)
+    return spelled(close[0]) + (f" [{UNITS_IN_NAMES[unit]}]" if unit else "") if close else ""
 
 
 def _check_error_unit(name: str, table: UserTable) -> None:
     """Raise InputError for an error whose unit can only be guessed."""
     whole = entry(name)
     unit = str(table.cells[whole].unit) if whole in table.cells else ""
-    if name != whole and unit not in ("", *PURE) and not str(table.cells[name].unit):
+    if name != whole and unit not in ("", *PURE_UNITS) and not str(table.cells[name].unit):
         raise InputError(f"{name}: no unit, but {whole} is in {unit}; write '{name} [{unit}]'")
 
 
@@ -280,7 +280,7 @@ def _check_values(name: str, table: UserTable) -> None:
         bare = not isinstance(cells, list) or any(
             str(cell).strip()[-1:].isdigit() for cell in cells
         )
-        if bare and not unit and (table.word == "line" or np.any(np.abs(values) > HIGHEST)):
+        if bare and not unit and (table.word == "line" or np.any(np.abs(values) > HIGHEST_DROP)):
             heads = " or ".join(f"'{name} [{each}]'" for each in ("m", "cm", "mm"))
             table.faults.add(f"{name}: no unit, and heights may be in m, cm or mm; write {heads}")
     if name in GLOSSARY and GLOSSARY[name].unit == "rad":
@@ -302,7 +302,7 @@ def _column(name: str, table: UserTable, open_ended: bool) -> Array:
     values, reason = column_in_si(spelled(name), GLOSSARY[entry(name)].unit, unit, cells)
     missing = ~np.isfinite(values) & ~gap
     if missing.any():
-        todo = f"write '{GAP}' where nothing was measured" if open_ended else DELETE
+        todo = f"write '{GAP}' where nothing was measured" if open_ended else CORRECT_OR_DELETE
         message = f"not a number in {table.named(missing)}; {reason or todo}"
         raise InputError(f"{spelled(name)}: {message}")
     return values

@@ -21,7 +21,7 @@ MOST_POINTS = 10**8  # of a batch
 MOST_PLACES = 1_000_000  # of fields, which take half a minute
 AXES = {"x", "y", "z"}
 IN_METRES = "must be a list of finite numbers in m"
-ASCII = re.compile(r"[0-9.+\-eE \t]*")  # of which NumPy reads the numbers of the grammar alone
+ASCII_NUMBERS = re.compile(r"[0-9.+\-eE \t]*")  # NumPy reads those of the grammar alone
 
 
 class Places(NamedTuple):
@@ -203,7 +203,7 @@ def plain_numbers(texts: Sequence[str]) -> Array | None:
     >>> plain_numbers(["1.5", " -2e3"]), plain_numbers(["1.5", "1_000"])
     (array([ 1.5e+00, -2.0e+03]), None)
     """
-    if not texts or ASCII.fullmatch("".join(texts)) is None:
+    if not texts or ASCII_NUMBERS.fullmatch("".join(texts)) is None:
         return None
     try:
         values = np.array(texts, dtype=np.float64)

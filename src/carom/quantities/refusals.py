@@ -12,11 +12,11 @@ from carom.quantities.symbols import meant, remark
 
 Kind = TypeVar("Kind")
 
-LONGEST = 120  # characters of a value that a refusal shows
+LONGEST_SHOWN = 120  # characters of a value that a refusal shows
 MOST_LISTED = 12  # faults in one message
 
 _short = Repr()
-_short.maxstring = _short.maxother = _short.maxlong = LONGEST
+_short.maxstring = _short.maxother = _short.maxlong = LONGEST_SHOWN
 
 
 class InputError(ValueError):
@@ -36,7 +36,7 @@ def refusal(name: str, value: Any, allowed: str) -> InputError:
 def clipped(text: str) -> str:
     """Return a text of users for a refusal: in one line, its end left out if it is long."""
     line = " ".join(text.split())
-    return line if len(line) <= LONGEST else f"{line[:LONGEST]}..."
+    return line if len(line) <= LONGEST_SHOWN else f"{line[:LONGEST_SHOWN]}..."
 
 
 def nearest(word: str, words: Iterable[str]) -> str:

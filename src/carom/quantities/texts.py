@@ -15,8 +15,8 @@ from functools import lru_cache
 from math import inf, isinf, log10, pi
 from typing import Any, NamedTuple
 
-LONGEST = 200  # characters of a text
-TERMS = 4  # of a unit expression
+LONGEST_TEXT = 200  # characters of a text
+MOST_TERMS = 4  # of a unit expression
 CANNOT_HOLD = "floating point cannot hold it"
 
 BLANKS = " \t\u00a0\u2009\u202f"  # no-break and thin spaces, too
@@ -54,7 +54,7 @@ SPINS = "revolutions_per_minute revolutions_per_second"
 SPEEDS = "knot mile_per_hour kilometer_per_hour meter_per_second foot_per_second"
 RATIOS = "percent permille ppm"
 KINDS = (LENGTHS, MASSES, TIMES, FORCES, PRESSURES, ANGLES, SPINS, SPEEDS, RATIOS)
-UNITS = frozenset(" ".join(KINDS).split())  # pint's whole names; constants of nature are none
+PINT_NAMES = frozenset(" ".join(KINDS).split())  # pint's whole names; constants of nature are none
 COMMON = {  # of most texts: for these pint, which takes a quarter of a second, is not loaded
     "m": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "nm": 1e-9},
     "m/s": {"m/s": 1.0, "cm/s": 1e-2, "mm/s": 1e-3},
@@ -70,11 +70,11 @@ COMMON = {  # of most texts: for these pint, which takes a quarter of a second, 
     "m^2/N": {"m^2/N": 1.0, "mm^3/(N m)": 1e-9},
 }
 TOUGHNESS = "Pa m^0.5"  # the only unit with half a power: read as it is usually written, no other
-WEAR = "m^2/N"
+WEAR_COEFFICIENT = "m^2/N"
 ROOT = r"(?:m(?:\^0\.5|\^\(1/2\)|\^1/2|1/2|½|\*\*0\.5)|sqrt\(m\)|√m)"
 SPELT_OUT = {  # as people write them, which the grammar has no words for; sizes by what is captured
     TOUGHNESS: (re.compile(rf"([kM]?)Pa(?:[ *·.]{ROOT}|√m)"), {"": 1.0, "k": 1e3, "M": 1e6}),
-    WEAR: (
+    WEAR_COEFFICIENT: (
         re.compile(r"(m?m)(?:\^3|³|3)/(?:\(N[ *·.]?m\)|N/?m)|(1/[MG]?Pa)"),
         {"mm": 1e-9, "m": 1.0, "1/Pa": 1.0, "1/MPa": 1e-6, "1/GPa": 1e-9},
     ),
@@ -143,8 +143,8 @@ def split(text: str) -> tuple[float, str]:
 
     Raises Unreadable, also for numbers that floating point cannot hold.
     """
-    if len(text) > LONGEST:
-        raise Unreadable(f"it is longer than {LONGEST} characters", enough=True)
+    if len(text) > LONGEST_TEXT:
+        raise Unreadable(f"it is longer than {LONGEST_TEXT} characters", enough=True)
     plain = text.strip(BLANKS)
     match = NUMBER.match(plain)
     if match is None:
@@ -205,7 +205,7 @@ def _terms(expression: str) -> tuple[tuple[str, int], ...]:
     place, sign = 0, 1
     while True:
         match = TERM.match(expression, place)
-        if match is None or len(terms) == TERMS:
+        if match is None or len(terms) == MOST_TERMS:
             raise Unreadable(f"{expression!r} is not a unit")
         power = next(filter(None, match.groups()[1:]), "1").translate(LOWERED)
         terms.append((match[1], sign * int(power)))
@@ -258,7 +258,7 @@ def _whole_name(name: str) -> str:
     parse, small = _registry().parse_unit_name, name.lower()
     for each, ends in ((SPELT.get(name, name), ()), (small, (small, small.removesuffix("s")))):
         for prefix, unit, _ in parse(each)[:1]:
-            if unit in UNITS and prefix + unit in (ends or (prefix + unit,)):
+            if unit in PINT_NAMES and prefix + unit in (ends or (prefix + unit,)):
                 return str(prefix + unit)
     raise Unreadable(f"unit {name!r} is not known")
 

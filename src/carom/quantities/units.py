@@ -25,13 +25,13 @@ Value = float | str  # a number in SI units, or text with a unit
 
 MOST_COUNTED = 1_000_000
 MOST_THREADS = 1024
-WHOLE = re.compile(r"[+-]?[0-9]{1,40}")
+WHOLE_NUMBER = re.compile(r"[+-]?[0-9]{1,40}")
 REAL_KINDS = "iuf"  # of NumPy's types
-BEARING = ("unit", "units", "Units", "dimension", "dimensionality")  # attributes of quantities
-PACKED = ("scale_factor", "add_offset")  # attributes by which numbers of files are still to change
+UNIT_ATTRIBUTES = ("unit", "units", "Units", "dimension", "dimensionality")
+PACKING_ATTRIBUTES = ("scale_factor", "add_offset")  # of files: their numbers are to change
 APPROACH = ": the bodies must approach"
 WHY_POSITIVE = dict.fromkeys(("speed", "normal_speed"), APPROACH)
-PURE = ("1", "-", "dimensionless")  # how tables and attributes call the unit of pure numbers
+PURE_UNITS = ("1", "-", "dimensionless")  # how tables and attributes call the unit of pure numbers
 
 EXAMPLES = {
     "m": "5 mm",
@@ -159,7 +159,9 @@ def without_unit(name: str, value: Any, unit: str = "") -> tuple[Any, Any]:
 def bears_unit(value: Any) -> bool:
     """Tell whether this is a quantity of some library: its bare numbers may be in any unit."""
     dimensions = getattr(value, "dimensions", ())  # of files they are the names of axes
-    return any(hasattr(value, name) for name in BEARING) or not isinstance(dimensions, tuple)
+    return any(hasattr(value, name) for name in UNIT_ATTRIBUTES) or not isinstance(
+        dimensions, tuple
+    )
 
 
 def _unit_of_attributes(name: str, attributes: Mapping[Any, Any]) -> str:
@@ -169,7 +171,7 @@ def _unit_of_attributes(name: str, attributes: Mapping[Any, Any]) -> str:
     units = list(dict.fromkeys(filter(None, texts)))
     if len(units) > 1:
         raise two_units(name, *units[:2])
-    for key in PACKED:
+    for key in PACKING_ATTRIBUTES:
         if key in attributes:
             allowed = "its numbers are packed; unpack them, e.g. by xarray.decode_cf"
             raise refusal(name, f"an array with the attribute {key}", allowed)
@@ -188,7 +190,7 @@ def factor_of(name: str, own: Any, unit: str) -> Factor:
     """
     try:
         if isinstance(own, str):
-            return factor("" if own in PURE else own, unit)
+            return factor("" if own in PURE_UNITS else own, unit)
         return _of_pint(own, unit)
     except Unreadable as error:
         raise refusal(name, str(own), f"{error}; {_expected(unit)}") from None
@@ -248,7 +250,7 @@ def whole(name: str, text: str, least: int, most: int = MOST_COUNTED) -> int:
     401
     """
     plain = text.strip()
-    return _within(name, text, int(plain) if WHOLE.fullmatch(plain) else None, least, most)
+    return _within(name, text, int(plain) if WHOLE_NUMBER.fullmatch(plain) else None, least, most)
 
 
 def _within(name: str, value: Any, count: int | None, least: int, most: int) -> int:
