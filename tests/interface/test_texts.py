@@ -341,7 +341,8 @@ def test_common_units_are_those_of_pint(unit, monkeypatch):
 
 @pytest.mark.parametrize("unit", ["mm^3/(N m)", "mm³/Nm", "mm^3/N/m", "mm^3 N^-1 m^-1", "1/GPa"])
 def test_coefficients_of_wear_are_read_as_they_are_published(unit):
-    assert texts.read_text(f"1e-4 {unit}", texts.WEAR) == pytest.approx(1e-13, rel=1e-15)
+    read = texts.read_text(f"1e-4 {unit}", texts.WEAR_COEFFICIENT)
+    assert read == pytest.approx(1e-13, rel=1e-15)
 
 
 def test_toughness_is_in_units_of_pint():
