@@ -97,7 +97,7 @@ def test_output_files(run):
 def test_animation(run, monkeypatch):
     from PIL import Image
 
-    monkeypatch.setattr("carom.cli.impact.FRAMES", 3)
+    monkeypatch.setattr("carom.cli.impact.ANIMATION_FRAMES", 3)
     code, _, err = run(*BALL, *SPEED, "--animate", "hit.gif")
     assert code == 0
     assert "Carom has stored hit.gif." in err

@@ -6,8 +6,8 @@ import pytest
 import carom
 from carom.fitting.reading import read_problem
 from carom.io import csv_cells
-from carom.io.columns import column_in_si
 from carom.io.tables import read_table
+from carom.io.user_table import column_in_si
 
 HEAD = "angle [deg],speed [m/s],spin,spin_out [rpm],e_n,tangential_restitution [%]\n"
 COLUMNS = {"e_n": "normal_restitution"}
@@ -98,6 +98,6 @@ def test_the_ends_of_blocks_change_nothing(calls, file, rng, mutated, monkeypatc
         lines = [",".join(rng.choices(numbers, k=3)) for _ in range(rng.randrange(1, 9))]
         path = file("a,b,c\n" + "\n".join([*lines[:-1], mutated(lines[-1])]))
         with monkeypatch.context() as small:
-            small.setattr(csv_cells, "BLOCK", 2)
+            small.setattr(csv_cells, "BLOCK_ROWS", 2)
             found = read(path)
         assert read(path) == found

@@ -11,8 +11,8 @@ import pytest
 import xarray as xr
 
 import carom
-from carom.io.columns import column_in_si, in_units, others, with_errors
 from carom.io.tables import read_table
+from carom.io.user_table import column_in_si, in_units, others, with_errors
 from carom.quantities.refusals import InputError
 from carom.quantities.units import number
 

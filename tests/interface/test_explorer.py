@@ -14,11 +14,10 @@ pytest.importorskip("flask")
 
 from carom.explorer.answers import answer, laws
 from carom.explorer.files import curve_figure
-from carom.explorer.knobs import NUMBERS
 from carom.explorer.overlays import exact_curve, law_curves
 from carom.explorer.scenes import impact_of, scene_of
 from carom.explorer.scripts import script
-from carom.explorer.views import LAWS, View
+from carom.explorer.views import LAWS, NUMBERS, View
 
 PATIENCE = 60.0  # s
 BODIES = [

@@ -51,7 +51,7 @@ def test_an_empty_folder_and_an_older_copy_are_replaced(tmp_path):
     exporting.export(page)
     assert not (page / "assets" / "older.js").exists()
     assert (page / "index.html").read_text(encoding="utf-8") == html
-    assert names(page) == set(exporting.MADE)
+    assert names(page) == set(exporting.COPIED)
     assert names(tmp_path) == {"page"}
     assert page.stat().st_ino == same  # who works in it still does
 

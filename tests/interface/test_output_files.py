@@ -287,7 +287,7 @@ def test_the_longest_name_that_a_file_can_have_is_one(tmp_path):
 def lonely(tmp_path, monkeypatch):
     """A pipe of which nobody opens the other end, and commands that soon give up."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("carom.io.paths.PATIENCE", 0.3)
+    monkeypatch.setattr("carom.io.paths.PIPE_SECONDS", 0.3)
     Path("sweep.toml").write_text(
         "friction = 0.2\nspeed = 1\n[first]\nradius = 1\nmaterial = 'steel'\n"
         "[sweep]\ntable = 'PIPE'\n"

@@ -7,12 +7,10 @@ from urllib.parse import parse_qsl
 import numpy as np
 import pytest
 
-from carom.explorer.config import SYMBOLS
-from carom.explorer.knobs import WORDS
-from carom.explorer.presets import PRESETS
-from carom.explorer.results import OF_LOSSES, SIGNS
+from carom.explorer.page import PRESETS, SYMBOLS
+from carom.explorer.results import SIGNS, SIGNS_OF_LOSSES
 from carom.explorer.scenes import impact_of
-from carom.explorer.views import View
+from carom.explorer.views import FIELDS, View
 from carom.quantities.glossary import GLOSSARY
 
 NAMED = {preset.id: preset for preset in PRESETS}
@@ -161,5 +159,8 @@ def test_symbols_are_sentences_in_letters_of_the_page():
 
 
 def test_every_symbol_of_fields_and_results_is_explained():
-    shown = {words.symbol for words in WORDS.values()} | {*SIGNS.values(), *OF_LOSSES.values()}
+    shown = {words.symbol for words in FIELDS.values()} | {
+        *SIGNS.values(),
+        *SIGNS_OF_LOSSES.values(),
+    }
     assert shown - {""} - set(SYMBOLS) == set()

@@ -19,7 +19,7 @@ LONG = """
 import sys, time, rich.progress
 import carom.io.progress
 from carom.io.progress import advancing
-carom.io.progress.PATIENCE = {patience}
+carom.io.progress.SECONDS_BEFORE_BAR = {patience}
 with advancing("impacts", 30, unit="steps") as advance:
     for step in range(30):
         advance(1)
@@ -118,7 +118,7 @@ def test_short_work_shows_nothing():
 
 def test_work_with_few_steps_is_seen():
     """The bar does not wait for the end of the first step."""
-    code = "import time, carom.io.progress as p\np.PATIENCE = 0.1\n"
+    code = "import time, carom.io.progress as p\np.SECONDS_BEFORE_BAR = 0.1\n"
     code += "with p.advancing('laws', 2):\n    time.sleep(0.6)"
     got, _, _ = on_terminal(code)
     assert "0/2" in got
@@ -186,7 +186,7 @@ def test_a_dumb_terminal_gets_no_control_sequences():
 
 
 def test_work_within_work_has_no_bar_of_its_own():
-    code = "import time, carom.io.progress as p\np.PATIENCE = 0.1\n"
+    code = "import time, carom.io.progress as p\np.SECONDS_BEFORE_BAR = 0.1\n"
     code += "with p.advancing('outer', 2):\n    with p.advancing('inner', 3) as advance:\n"
     code += "        advance(1); time.sleep(0.6); advance(2)\n"
     code += "with p.advancing('after', 2):\n    time.sleep(0.6)"
@@ -208,8 +208,8 @@ def test_a_pipe_gets_nothing_unless_asked():
 
 def test_a_command_shows_how_far_it_is():
     """`carom verify laws` prints its table to a file, and its bar on the terminal."""
-    code = "import carom.io.progress as p, sys\np.PATIENCE = 0.0\nfrom carom.cli import main\n"
-    code += "sys.exit(main(['verify', 'laws', '--psi', '1', '--json']))"
+    code = "import carom.io.progress as p, sys\np.SECONDS_BEFORE_BAR = 0.0\n"
+    code += "from carom.cli import main\nsys.exit(main(['verify', 'laws', '--psi', '1', '--json']))"
     got, stdout, status = on_terminal(code)
     laws = len(json.loads(stdout)["laws"])
     assert f"{laws}/{laws} laws" in got

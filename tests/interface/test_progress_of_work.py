@@ -73,7 +73,7 @@ LONG = [
 
 @pytest.fixture
 def _at_once(monkeypatch):
-    monkeypatch.setattr("carom.io.progress.PATIENCE", 0.0)
+    monkeypatch.setattr("carom.io.progress.SECONDS_BEFORE_BAR", 0.0)
 
 
 @pytest.mark.usefixtures("_at_once")

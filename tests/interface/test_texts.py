@@ -15,12 +15,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from carom.io.columns import column_in_si
+from carom.io.user_table import column_in_si
 from carom.quantities import texts
 from carom.quantities.arrays import numbers, plain_numbers
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError
-from carom.quantities.texts import LONGEST, Unreadable, read_text
+from carom.quantities.texts import LONGEST_TEXT, Unreadable, read_text
 from carom.quantities.units import number
 
 DEGREE = math.pi / 180
@@ -203,7 +203,7 @@ REFUSED = [  # text, quantity, part of the message
     ("100 Bq", "spin", "a spin is not in Bq; write rad/s or rpm"),  # 100 rad/s
     ("100 s^-1", "spin", "write rad/s or rpm"),
     ("20 degC", "angle", "not known"),
-    ("5 mm" + " " * LONGEST + "?", "radius", f"{LONGEST} characters"),
+    ("5 mm" + " " * LONGEST_TEXT + "?", "radius", f"{LONGEST_TEXT} characters"),
 ]
 
 
@@ -341,7 +341,8 @@ def test_common_units_are_those_of_pint(unit, monkeypatch):
 
 @pytest.mark.parametrize("unit", ["mm^3/(N m)", "mm³/Nm", "mm^3/N/m", "mm^3 N^-1 m^-1", "1/GPa"])
 def test_coefficients_of_wear_are_read_as_they_are_published(unit):
-    assert texts.read_text(f"1e-4 {unit}", texts.WEAR) == pytest.approx(1e-13, rel=1e-15)
+    read = texts.read_text(f"1e-4 {unit}", texts.WEAR_COEFFICIENT)
+    assert read == pytest.approx(1e-13, rel=1e-15)
 
 
 def test_toughness_is_in_units_of_pint():

@@ -166,7 +166,7 @@ def test_bodies_swapped_leave_alike():
 
 
 def test_a_bar_is_shown_when_asked_for(capsys, monkeypatch):
-    monkeypatch.setattr("carom.io.progress.PATIENCE", 0.0)
+    monkeypatch.setattr("carom.io.progress.SECONDS_BEFORE_BAR", 0.0)
     carom.impact(against_wall(), speed=1.0, angle="20 deg", method=TINY, progress=True)
     assert "35/35" in capsys.readouterr().err
     carom.impact(against_wall(), speed=1.0, angle="20 deg", method=TINY)

@@ -10,8 +10,8 @@ import carom
 from carom import datasets
 from carom.bodies.cases import pair_of
 from carom.datasets.observables import BEFORE, OBSERVABLES, convert_observables
-from carom.io.columns import in_units, others, with_errors
 from carom.io.tables import read_table
+from carom.io.user_table import in_units, others, with_errors
 
 KHARAZ = ("kharaz2001", "kharaz2001_kratos", "kharaz2001_mfix")
 TOLD = ("title", "references", "doi", "digitised", "bodies", "case", "definitions", "signs")

@@ -14,8 +14,16 @@ from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
 from carom.io.files import read_dataset, read_text
 from carom.io.paths import checked_path
-from carom.quantities.faults import TOLD, Faults
-from carom.quantities.refusals import InputError, checked_type, clipped, hint, one_of, refusal
+from carom.quantities.refusals import (
+    MOST_LISTED,
+    Faults,
+    InputError,
+    checked_type,
+    clipped,
+    hint,
+    one_of,
+    refusal,
+)
 from carom.quantities.units import finite, finite_or_text, not_negative, number, positive
 
 if TYPE_CHECKING:
@@ -90,9 +98,9 @@ def check_case(
 
     def check(table: Mapping[str, Any], allowed: Iterable[str], name: str) -> None:
         unknown = [key for key in table if key not in allowed]
-        for key in unknown[:TOLD]:
+        for key in unknown[:MOST_LISTED]:
             faults.add(f"{clipped(str(key))}: unknown key{place(key, name)}; {hint(key, allowed)}")
-        for key in unknown[TOLD:]:  # which are counted, not told
+        for key in unknown[MOST_LISTED:]:  # which are counted, not told
             faults.add(f"{key}: unknown key")
 
     checked_type("case", case, Mapping, "must be a mapping with friction, speeds, first and second")

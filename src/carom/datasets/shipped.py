@@ -6,10 +6,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from carom.datasets.observables import OBSERVABLES
-from carom.io.columns import ERROR, entry, in_units, with_errors
 from carom.io.labels import attributes, labelled_dataset
 from carom.io.tables import read_table
-from carom.io.user_table import UserTable
+from carom.io.user_table import ERROR, UserTable, entry, in_units, with_errors
 from carom.quantities.refusals import one_of
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.lossy.law import LossNumbers, scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.chebyshev_2d import TERMS, Patches, fitted_patches
-from carom.explorer.results import OF_LOSSES, SIGNS
+from carom.explorer.results import SIGNS, SIGNS_OF_LOSSES
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import READ
@@ -23,28 +23,28 @@ from carom.verify.errors import losses_of
 
 RESTITUTIONS = (1.0, 0.9, 0.7)
 LEAST_CHI, LARGEST_CHI = 0.5, 3.0
-FARTHEST = 10.0  # psi_1 that is promised; the tables reach until everything slides
-SMALLEST = {True: 1e-6, False: 1e-3}  # psi_1, elastic or not: below, psi_2/psi_1 hardly changes
+LARGEST_PSI = 10.0  # that is promised; the tables reach until everything slides
+SMALLEST_PSI = {True: 1e-6, False: 1e-3}  # elastic or not: below, psi_2/psi_1 hardly changes
 TOLERANCE = 5e-7  # of the last terms of a series, for 1e-6 in psi_2
-IMPACTS = 122_000  # that are solved for all tables, about
-SOLVED = 1e-8  # of a panel of a viscous impact, for 5e-9 in psi_2
+SOLVED_IMPACTS = 122_000  # for all tables, about
+PANEL_TOLERANCE = 1e-8  # of a panel of a viscous impact, for 5e-9 in psi_2
 
 Advance = Callable[[int], object]
 
 
 def tables(advance: Advance) -> str:
-    """Return the tables as a script; `advance` is told of impacts that are solved."""
-    found = {
+    """Return the tables as a script; `advance` is called with how many more impacts are solved."""
+    content = {
         "chi": [LEAST_CHI, LARGEST_CHI],
-        "psi": FARTHEST,
+        "psi": LARGEST_PSI,
         "rebounds": {_key(e): _packed(_patches(e, advance), e) for e in RESTITUTIONS},
         "losses": {_key(e): _losses(e) for e in RESTITUTIONS},
         "rows": {name: _row(name, sign) for name, sign in SIGNS.items()},
-        "lossy": {name: _row(name, sign) for name, sign in OF_LOSSES.items()},
+        "lossy": {name: _row(name, sign) for name, sign in SIGNS_OF_LOSSES.items()},
         "prefixes": {unit: _prefixes(unit) for unit in ("s", "N", "J", "m", "m/s")},
     }
-    told = json.dumps(found, ensure_ascii=False, separators=(",", ":"))
-    return f"window.Carom = window.Carom || {{}};\nCarom.tables = {told};\n"
+    text = json.dumps(content, ensure_ascii=False, separators=(",", ":"))
+    return f"window.Carom = window.Carom || {{}};\nCarom.tables = {text};\n"
 
 
 def psi_at(place: Array, chi: Array, restitution: float) -> Array:
@@ -63,12 +63,12 @@ def _patches(restitution: float, advance: Advance) -> Patches:
         advance(place.size)
         return (1.0 + psi) * (1.0 - out / psi)  # an error in it is about that in psi_2
 
-    whole = SMALLEST[law is None], 3.0, LEAST_CHI, LARGEST_CHI
+    whole = SMALLEST_PSI[law is None], 3.0, LEAST_CHI, LARGEST_CHI
     return fitted_patches(lost, whole, (1.0, 2.0), TOLERANCE, singular=1.0)
 
 
 def _viscous(psi: Array, chi: Array, losses: LossNumbers) -> Array:
-    return lossy_rebounds(psi, chi, losses, tolerance=SOLVED).psi_out
+    return lossy_rebounds(psi, chi, losses, tolerance=PANEL_TOLERANCE).psi_out
 
 
 def _packed(patches: Patches, restitution: float) -> dict[str, Any]:
@@ -77,7 +77,7 @@ def _packed(patches: Patches, restitution: float) -> dict[str, Any]:
     number = np.where(leaves, np.cumsum(leaves) - 1, 0)
     children = np.where(leaves[:, np.newaxis], -1, patches.children)
     return {
-        "smallest": SMALLEST[restitution == 1.0],
+        "smallest": SMALLEST_PSI[restitution == 1.0],
         "terms": TERMS,
         "cuts": _text(patches.cuts, np.float64),
         "children": _text(children, np.int16),
@@ -97,8 +97,8 @@ def _losses(restitution: float) -> dict[str, float]:
     if law is None:
         return {"alpha": 0.0, "max_force": 1.0}
     numbers = scale_free(law)
-    found = lossy_rebounds(np.array([1.0]), np.array([1.0]), numbers)
-    return {"alpha": float(numbers.parameter), "max_force": float(found.max_force[0])}
+    rebounds = lossy_rebounds(np.array([1.0]), np.array([1.0]), numbers)
+    return {"alpha": float(numbers.parameter), "max_force": float(rebounds.max_force[0])}
 
 
 def _row(name: str, sign: str) -> dict[str, str]:

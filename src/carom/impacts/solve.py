@@ -10,7 +10,7 @@ from carom.bodies.pairs import Pair, check_second_spin, checked_pair, checked_sc
 from carom.impacts.exact import Impact, solve_exactly
 from carom.io.progress import Progress
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import checked_type, refusal
 from carom.quantities.units import Value, finite
 
 if TYPE_CHECKING:
@@ -42,20 +42,11 @@ def impact(
 def impact(
     pair: Pair,
     *,
-    losses: None = None,
+    losses: LossLaw | None = None,
     method: Literal["halfspace"] | BoundaryElements,
     progress: Progress = None,
     **motion: Unpack[MotionInputs],
 ) -> HalfspaceImpact: ...
-@overload
-def impact(
-    pair: Pair,
-    *,
-    losses: LossLaw | None = None,
-    method: str | BoundaryElements,
-    progress: Progress = None,
-    **motion: Unpack[MotionInputs],
-) -> Impact | HalfspaceImpact: ...
 @known_keywords
 def impact(
     pair: Pair,
@@ -153,14 +144,10 @@ def _elements(method: str | BoundaryElements, losses: LossLaw | None) -> Boundar
     from carom.impacts.boundary_elements import BoundaryElements
 
     named = isinstance(method, str) and method == "halfspace"
+    allowed = "must be 'exact', 'halfspace' or carom.BoundaryElements(elements=, steps=)"
     elements = BoundaryElements() if named else method
-    if not isinstance(elements, BoundaryElements):
-        allowed = "must be 'exact', 'halfspace' or carom.BoundaryElements(elements=, steps=)"
-        raise refusal("method", method, allowed)
+    elements = checked_type("method", elements, BoundaryElements, allowed)
     if losses is not None:
-        raise refusal(
-            "losses",
-            losses,
-            "boundary elements solve elastic bodies only; leave losses or method out",
-        )
+        allowed = "boundary elements solve elastic bodies only; leave losses or method out"
+        raise refusal("losses", losses, allowed)
     return elements

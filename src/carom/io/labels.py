@@ -94,11 +94,6 @@ def labelled_dataset(
     )
 
 
-def is_ours(source: object) -> bool:
-    """Tell whether the attribute `source` of a dataset says that Carom has made it."""
-    return str(source).startswith("carom ")
-
-
 def labelled(
     columns: Mapping[str, ArrayLike],
     scalars: Mapping[str, float],
@@ -144,7 +139,7 @@ def _variable(name: str, entry: Any) -> tuple[Any, Any, dict[str, Any]]:
         dims, values, *more = entry
     else:
         dims, values, more = (name,) if np.ndim(entry) else (), entry, []
-    known: dict[str, Any] = attributes(name) if name in GLOSSARY or not more else {}
+    attrs: dict[str, Any] = attributes(name) if name in GLOSSARY or not more else {}
     if dims in (name, (name,)):
-        known |= AXES.get(name, {})
-    return dims, np.asarray(values), known | dict(*more)
+        attrs |= AXES.get(name, {})
+    return dims, np.asarray(values), attrs | dict(*more)

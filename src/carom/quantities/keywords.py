@@ -7,11 +7,11 @@ from typing import ParamSpec, TypeVar
 
 from carom.quantities.refusals import InputError, hint
 
-Given = ParamSpec("Given")
-Found = TypeVar("Found")
+Parameters = ParamSpec("Parameters")
+Result = TypeVar("Result")
 
 
-def known_keywords(function: Callable[Given, Found]) -> Callable[Given, Found]:
+def known_keywords(function: Callable[Parameters, Result]) -> Callable[Parameters, Result]:
     """Return a function that refuses keywords it does not know with the name that is meant.
 
     Examples
@@ -25,14 +25,14 @@ def known_keywords(function: Callable[Given, Found]) -> Callable[Given, Found]:
     carom.InputError: mu: no keyword of slide; write friction
     """
     parameters = signature(function).parameters.values()
-    known = [each.name for each in parameters if each.kind is not Parameter.POSITIONAL_ONLY]
+    names = [each.name for each in parameters if each.kind is not Parameter.POSITIONAL_ONLY]
     title = function.__qualname__.removesuffix(".__init__").rpartition(".")[2]
 
     @wraps(function)
-    def called(*args: Given.args, **kwargs: Given.kwargs) -> Found:
+    def called(*args: Parameters.args, **kwargs: Parameters.kwargs) -> Result:
         for name in kwargs:
-            if name not in known:
-                words = hint(name, [word for word in known if word != "self"])
+            if name not in names:
+                words = hint(name, [word for word in names if word != "self"])
                 raise InputError(f"{name}: no keyword of {title}; {words}")
         return function(*args, **kwargs)
 

@@ -5,7 +5,7 @@ import json
 import typer
 
 import carom
-from carom.cli.cases import stored, told_case
+from carom.cli.cases import read_case_file, stored
 from carom.cli.options import described, file_option, whole_option
 from carom.quantities.refusals import InputError
 from carom.quantities.units import positive, whole
@@ -66,19 +66,19 @@ def engine_command(
     if target is not None and law is None:
         raise InputError("output: it stores the results of one law; give --law, e.g. --law mindlin")
     engine = getattr(carom.verify, str(context.command.name).capitalize())
-    found = carom.verify.bench(
+    result = carom.verify.bench(
         engine(program),
         named(law),
-        pair=None if case is None else pair_of(told_case(case)),
+        pair=None if case is None else pair_of(read_case_file(case)),
         steps=count,
         time_limit=positive("time_limit", time_limit),
     )
-    if target is not None and not found.failed:
-        text = found.results()
+    if target is not None and not result.failed:
+        text = result.results()
         replace_whole(target, lambda file: file.write_text(text, encoding="utf-8", newline="\n"))
         stored(target)
-    typer.echo(json.dumps(found.to_dict(), indent=2) if as_json else str(found))
-    if found.failed:
+    typer.echo(json.dumps(result.to_dict(), indent=2) if as_json else str(result))
+    if result.failed:
         raise typer.Exit(1)
 
 

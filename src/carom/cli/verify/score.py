@@ -5,7 +5,7 @@ import json
 import typer
 
 import carom
-from carom.cli.cases import check_outputs, named_values, store, told_case
+from carom.cli.cases import check_outputs, named_values, read_case_file, store
 from carom.cli.options import described, file_argument, file_option
 
 OPTIONS = {
@@ -68,7 +68,7 @@ def score_command(
     check_outputs({"plot": plot, "output": output}, results=results, case=case)
     score = carom.verify.score(
         results,
-        case=None if case is None else told_case(case, losses=True),
+        case=None if case is None else read_case_file(case, losses=True),
         chi=chi,
         restitution=restitution,
         tolerance=tolerance,

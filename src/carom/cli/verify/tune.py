@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 import carom
-from carom.cli.cases import told_case
+from carom.cli.cases import read_case_file
 from carom.cli.options import described, file_argument
 from carom.quantities.glossary import GLOSSARY
 
@@ -56,14 +56,14 @@ def tune_command(
     """
     from carom.verify.tuning import setting_of
 
-    content = None if case is None else told_case(case, losses=True)
+    content = None if case is None else read_case_file(case, losses=True)
     setting = setting_of(content, chi, kappa, start, stop, restitution)
     tuning = carom.verify.tune(
         chi=setting.chi, kappa=setting.kappa, psi=setting.psi, measure=measure
     )
-    given = {"normal_speed": setting.normal_speed, "duration": setting.duration}
+    conditions = {"normal_speed": setting.normal_speed, "duration": setting.duration}
     inputs = {"inputs": _inputs(setting, tuning), "exact_law": _exact_law(setting.restitution)}
-    record = tuning.to_dict() | inputs | given
+    record = tuning.to_dict() | inputs | conditions
     typer.echo(json.dumps(record, indent=2) if as_json else _text(tuning, record))
 
 

@@ -12,13 +12,11 @@ import numpy as np
 from carom.bodies.pairs import Pair
 from carom.dem.base import Law
 from carom.impacts.exact import Impact
-from carom.io.columns import in_units, others
 from carom.io.tables import read_table
-from carom.io.user_table import UserTable
+from carom.io.user_table import UserTable, in_units, others
 from carom.quantities.arrays import Array
-from carom.quantities.faults import Faults
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import InputError, nearest, refusal
+from carom.quantities.refusals import Faults, InputError, nearest, refusal
 from carom.quantities.units import positive
 from carom.verify.errors import is_function
 from carom.verify.scoring.cases import Given, given_of, results_of

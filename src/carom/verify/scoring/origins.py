@@ -6,8 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.io.tables import GAP
-from carom.io.user_table import Column, UserTable
+from carom.io.user_table import GAP, Column, UserTable
 from carom.quantities.refusals import refusal
 
 NAMES = ("code", "law")  # columns, or comments "# code: ..." of a file

@@ -13,7 +13,7 @@ from carom.dimensionless.rebounds import rebound, regime_borders
 from carom.impacts.curves import REGIMES, regime_map
 from carom.io.labels import Finding
 from carom.io.progress import advancing
-from carom.io.user_table import SHOWN, Rows, UserTable
+from carom.io.user_table import MOST_NAMED_ROWS, Rows, UserTable
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError
@@ -170,9 +170,9 @@ def energy_audit(points: Points, unit: Array, symbol: str, limit: float) -> Find
     gains = excess > ROUNDING * np.maximum(1.0, before)
     if not gains.any():
         return within("energy gain", 0.0, limit, "no impact gains energy")
-    order = np.argsort(-np.where(gains, change, -np.inf))[: min(SHOWN, gains.sum())]
+    order = np.argsort(-np.where(gains, change, -np.inf))[: min(MOST_NAMED_ROWS, gains.sum())]
     largest = "; ".join(f"{points.one(i)}: {text(change[i], symbol)}" for i in order)
-    more = f"; and {gains.sum() - SHOWN} more" if gains.sum() > SHOWN else ""
+    more = f"; and {gains.sum() - MOST_NAMED_ROWS} more" if gains.sum() > MOST_NAMED_ROWS else ""
     verdict = f"energy is gained in {largest}{more}"
     return within("energy gain", float(excess.max()), limit, verdict)
 
