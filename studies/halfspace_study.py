@@ -23,8 +23,7 @@ from rich.progress import track
 
 from carom.halfspace.compliance import Materials
 from carom.halfspace.motion import NormalSpin
-from carom.halfspace.refinement import Resolution
-from carom.halfspace.solution import HalfspaceSolution, solve
+from carom.halfspace.solution import HalfspaceSolution, Resolution, solve
 from carom.io.files import replace_whole
 
 TABLE = Path(__file__).with_name("halfspace_study.csv")

@@ -21,10 +21,10 @@ from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import flat, stacked
 from carom.dimensionless.fields.subsurface import stresses
 from carom.dimensionless.load_paths import paths
-from carom.dimensionless.lossy.panels.stages import viscous_loss
 from carom.dimensionless.lossy.springs import motion as at
 from carom.dimensionless.lossy.springs.springs import COLUMNS, NEXT, S, step_of, stretched
 from carom.dimensionless.lossy.springs.thornton import bear
+from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 from carom.dimensionless.numerics import hertz
 from carom.halfspace.compliance import Materials
 

@@ -18,8 +18,8 @@ from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.layout import PSI_OUT
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.lossy.springs.march import marched
 from carom.dimensionless.lossy.springs.motion import Inertia, Solid
-from carom.dimensionless.lossy.springs.rebounds import marched
 
 Array = NDArray[np.float64]
 

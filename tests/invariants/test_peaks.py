@@ -5,11 +5,10 @@ import pytest
 
 import carom
 from carom.dimensionless.fields import flaws, peaks as instant
-from carom.dimensionless.fields.extremes import principal_stresses, von_mises
+from carom.dimensionless.fields.peaks import principal_stresses, von_mises
 from carom.dimensionless.fields.subsurface import load_of, stresses
 from carom.dimensionless.strength.cracking import cracking_width, intensity
-from carom.dimensionless.strength.peaks import peaks
-from carom.dimensionless.strength.searching import Contacts
+from carom.dimensionless.strength.peaks import Contacts, peaks
 
 ERROR = 1e-4  # that is promised of the search, as a share of the value
 PROMISED = {"peak_von_mises": "von_mises", "peak_shear": "max_shear", "peak_tension": "principal_1"}
@@ -192,7 +191,7 @@ def test_kernels_are_their_python():
     """What is compiled gives what the plain Python gives."""
     load = load_of(carom.solve(1.5, 1.44).memory(1.3).profile(), 0.3)
     places = np.array([[0.0, 0.4], [0.6, 0.0], [1.0, 0.0], [0.8, 0.2]])
-    plain, compiled = np.zeros((2, instant.FOUND))
+    plain, compiled = np.zeros((2, instant.PEAK_COLUMNS))
     for measure in instant.MEASURES:
         instant.scan(measure, places, 0.4, load, compiled)
         instant.scan.py_func(measure, places, 0.4, load, plain)

@@ -8,8 +8,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.contacts.contact import Contact
 from carom.dimensionless.fields import surface
-from carom.dimensionless.fields.extremes import Largest, largest, principal_stresses, von_mises
-from carom.dimensionless.fields.peaks import TENSION, VON_MISES
+from carom.dimensionless.fields.peaks import (
+    TENSION,
+    VON_MISES,
+    Largest,
+    largest,
+    principal_stresses,
+    von_mises,
+)
 from carom.dimensionless.fields.profile import borne
 from carom.dimensionless.fields.subsurface import COMPONENTS, stresses
 from carom.dimensionless.numerics.chebyshev import evaluate

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from enum import IntEnum
-from typing import Any, Literal, overload
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,28 +18,6 @@ from carom.quantities.arrays import along_the_same, pure_numbers, together
 from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag
 from carom.quantities.units import threads_or_none
-
-
-@overload
-def rebound(
-    psi: ArrayLike,
-    chi: ArrayLike,
-    *,
-    threads: int | None = ...,
-    return_status: Literal[False] = ...,
-    losses: ScaleFreeLaw | None = ...,
-) -> Any: ...
-
-
-@overload
-def rebound(
-    psi: ArrayLike,
-    chi: ArrayLike,
-    *,
-    threads: int | None = ...,
-    return_status: Literal[True],
-    losses: ScaleFreeLaw | None = ...,
-) -> tuple[Any, Any]: ...
 
 
 @known_keywords
@@ -99,15 +77,15 @@ def rebound(
     """
     threads, return_status = threads_or_none(threads), flag("return_status", return_status)
     along_the_same(psi=psi, chi=chi)
-    given = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
-    shape = together(given)
-    flat_psi, flat_chi = (np.array(np.broadcast_to(x, shape)).ravel() for x in given.values())
+    numbers = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
+    shape = together(numbers)
+    flat_psi, flat_chi = (np.array(np.broadcast_to(x, shape)).ravel() for x in numbers.values())
     if losses is None:
-        psi_out, status, _ = solved(flat_psi, flat_chi, threads)
+        psi_2, status, _ = solved(flat_psi, flat_chi, threads)
     else:
-        found = lossy_rebounds(flat_psi, flat_chi, scale_free(losses), threads)
-        psi_out, status = found.psi_out, found.status
-    result = psi_out.reshape(shape) if shape else float(psi_out[0])
+        outcome = lossy_rebounds(flat_psi, flat_chi, scale_free(losses), threads)
+        psi_2, status = outcome.psi_out, outcome.status
+    result = psi_2.reshape(shape) if shape else float(psi_2[0])
     if return_status:
         return result, status.reshape(shape) if shape else int(status[0])
     warn_of_unsolved(status.reshape(shape))
@@ -120,9 +98,9 @@ def regime_borders(chi: ArrayLike, restitution: ArrayLike = 1.0) -> Array:
     They are 1; 2 chi, up to which gross slip ends before the largest compression; and
     2 chi (1 + e) - e, from which on gross slip lasts to the end. All are 1 for chi <= 1/2.
     """
-    given = np.broadcast_arrays(np.asarray(chi, dtype=np.float64), np.asarray(restitution))
+    chi, e = np.broadcast_arrays(np.asarray(chi, dtype=np.float64), np.asarray(restitution))
     with np.errstate(over="ignore"):
-        twice, e = 2.0 * given[0], given[1]
+        twice = 2.0 * chi
         borders = np.ones_like(twice), twice, twice * (1.0 + e) - e
     return np.asarray(np.maximum(np.stack(borders, axis=-1), 1.0))
 

@@ -7,10 +7,8 @@ import numpy as np
 
 from carom.halfspace.compliance import Compliance, Materials
 from carom.halfspace.grid import Grid, elements_across
-from carom.halfspace.influence import Field, Mask
-from carom.halfspace.second_order import aside_of_bodies, before_touch, turn_to_end
 from carom.halfspace.traction import at_bound, solve_pressure, solve_traction
-from carom.halfspace.transforms import NO_MIRRORS, Mirrors
+from carom.halfspace.transforms import NO_MIRRORS, Field, Mask, Mirrors
 
 EXCHANGES = 60  # between normal and tangential contact
 FIRST, NEXT = 1e-3, 0.03  # how far they are solved first, and then by what they still change
@@ -18,6 +16,9 @@ RELAXED = 0.8  # of a change of direction: friction turned one way makes slip tu
 TINY = 1e-300  # tractions of no motion are zero
 TURNS = 8  # exchanges after which the direction of slip is left as it is
 SLIPPING = 1e-5  # of its bound: as near to that a traction slips
+
+CLOSING = 1e-3  # of the approach: a gap that closes by less tells nothing of the edge
+LARGEST_TURN = 0.5  # its cosine: slip that turns by more in a step starts anew
 
 
 class Tolerances(NamedTuple):
@@ -192,3 +193,42 @@ def _change(before: tuple[Field, Field], after: tuple[Field, Field]) -> float:
     """Return the largest change of pressure or traction, as a share of the largest."""
     pairs = zip(before, after, strict=True)
     return max(float(np.abs(new - old).max() / max(np.abs(new).max(), TINY)) for old, new in pairs)
+
+
+def before_touch(gap: Field, carried: Field, approach: float, aside: Field) -> Field:
+    """Return how far surfaces that do not touch yet move along each other before they do.
+
+    Outside the edge both gap and motion fall as the distance to the power 3/2, so that motion goes
+    with the closing of the gap: as that of the bodies does with their approach, and `aside` more.
+    """
+    if approach <= 0.0:
+        return np.zeros_like(carried)
+    return gap * (carried / approach + aside)
+
+
+def aside_of_bodies(closed: Field, moved: Field, carried: Field, approach: float) -> Field:
+    """Return the motion of the surfaces over the closing of their gap, less that of the bodies.
+
+    Where nothing closes it is zero. `moved` is the motion in a step, `closed` what the gap did.
+    """
+    tells = closed > max(CLOSING * approach, 0.0)
+    if approach <= 0.0 or not tells.any():
+        return np.zeros_like(moved)
+    return np.where(tells, moved / np.where(tells, closed, 1.0) - carried / approach, 0.0)
+
+
+def turn_to_end(moved: Field, slips: Mask, last: Field, share: float) -> Field:
+    """Return what of the slip in a step is not along its direction at the end of the step.
+
+    The slip of this step and of the `last` tell the direction in the middle of each; the end is
+    ahead of this middle by `share` of the time between them.
+    """
+    middle, before = _unit(moved), _unit(last)
+    end = _unit(middle + share * (middle - before))
+    turns = slips & (np.sum(middle * before, axis=0) > LARGEST_TURN)
+    return np.where(turns, moved - np.sum(moved * end, axis=0) * end, 0.0)
+
+
+def _unit(vectors: Field) -> Field:
+    size = np.hypot(*vectors)
+    return vectors / np.where(size > 0.0, size, 1.0)

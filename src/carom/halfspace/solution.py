@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import groupby, pairwise
 from math import ceil
 from typing import NamedTuple
 
@@ -10,17 +10,90 @@ import numpy as np
 
 from carom.halfspace import motion
 from carom.halfspace.compliance import Materials
-from carom.halfspace.influence import Field
-from carom.halfspace.ledger import LedgerEntry, entry
+from carom.halfspace.motion import LedgerEntry, entry
 from carom.halfspace.quasistatic import ContactStep, Patch
-from carom.halfspace.refinement import STANDARD, Resolution
-from carom.halfspace.stages import SlipStage, stages
-from carom.halfspace.transforms import Mirrors
+from carom.halfspace.transforms import Field, Mirrors
+from carom.quantities.causes import Cause, cause_between
+
+LEAST = 0.3  # of the last but one refinement: what errors of both signs may hide in the last
+MOST = 3.0  # refinements of the last kind are still to come, if they do not get smaller
+
+SHARE = 0.02  # of the contact: as little as this of a zone is the grid's
+SHORTEST = 0.02  # of the contact time
 
 Progress = Callable[[int], object]
 FAINT = 1e-6  # of the normal force: slip that pulls so little has no sign
 VELOCITIES = ("velocity", "velocity_across", "turn_velocity")
 SNAPSHOTS = 60  # steps of an impact whose fields are kept, about
+
+
+class Resolution(NamedTuple):
+    """Elements across the largest contact, and steps in the duration of Hertz's impact."""
+
+    elements: int = 64
+    steps: int = 300
+
+    @property
+    def half(self) -> "Resolution":
+        """Half as fine in space and time."""
+        return Resolution(max(self.elements // 2, 2), max(self.steps // 2, 2))
+
+
+STANDARD = Resolution()
+
+
+def refinement_error(quarter: float, half: float, whole: float) -> float:
+    """Return about the error of a number that was found on a whole grid, half and a quarter of it.
+
+    The last change, as for an error of first order in the grid; more where changes fall by less
+    than that, less than half, by their geometric series; and at least three tenths of the change
+    before.
+    """
+    before, last = abs(half - quarter), abs(whole - half)
+    slow = before < 2.0 * last
+    series = last * min(last / (before - last), MOST) if before > last else MOST * last
+    return max(series if slow else last, LEAST * before)
+
+
+class SlipStage(NamedTuple):
+    """A stretch of time in which all sticks, all slips, or both; `cause` is what ends it."""
+
+    kind: str
+    sign: int  # of slip along the direction of the motion before
+    start: float
+    end: float
+    cause: str
+
+
+def stages(time: Field, slipping: Field, sign: Field) -> tuple[SlipStage, ...]:
+    """Return the stages of an impact, those too short for the grid left out.
+
+    `slipping` is the share of the contact that slips in the step that ends at each time, `sign` the
+    sign of that slip.
+    """
+    kinds = [_kind(*step) for step in zip(slipping[1:-1], sign[1:-1], strict=True)]
+    runs = [(kind, len(list(group))) for kind, group in groupby(kinds)]
+    starts = np.cumsum([0, *(length for _, length in runs)])
+    long = [
+        (kind, float(time[first]))
+        for (kind, length), first in zip(runs, starts, strict=False)
+        if time[first + length] - time[first] >= SHORTEST * time[-1]
+    ] or [(kinds[0], 0.0)]
+    kept = [next(group) for _, group in groupby(long, key=lambda item: item[0])]
+    begins = [0.0, *(start for _, start in kept[1:])]
+    ends = [*begins[1:], float(time[-1])]
+    changes = pairwise(kind for (kind, _), _ in kept)
+    causes = [*(cause_between(*change).message for change in changes), Cause.SEPARATION.message]
+    return tuple(
+        SlipStage(kind, sign, begin, end, cause)
+        for ((kind, sign), _), begin, end, cause in zip(kept, begins, ends, causes, strict=True)
+    )
+
+
+def _kind(slipping: float, sign: float) -> tuple[str, int]:
+    if slipping <= SHARE:
+        return "stick", 0
+    return "slip" if slipping < 1.0 - SHARE else "gross slip", int(sign)
 
 
 class GridHistory(NamedTuple):

@@ -14,10 +14,8 @@ from carom.contacts.fields import OUTSIDE, SLIP, STICK, ZONES
 from carom.dimensionless import solution as theory
 from carom.dimensionless.states import SlipAngle
 from carom.halfspace.compliance import Materials
-from carom.halfspace.ledger import LedgerEntry
-from carom.halfspace.motion import NormalSpin
-from carom.halfspace.refinement import Resolution, refinement_error
-from carom.halfspace.solution import HalfspaceSolution, solve
+from carom.halfspace.motion import LedgerEntry, NormalSpin
+from carom.halfspace.solution import HalfspaceSolution, Resolution, refinement_error, solve
 from carom.impacts.peaks import judge_strength, struck_bodies
 from carom.impacts.result import ImpactResult
 from carom.impacts.validity import WEAK_COUPLING, judge_contact, judge_errors

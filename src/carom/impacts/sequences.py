@@ -15,7 +15,7 @@ from carom.dimensionless.lossy.law import ScaleFreeLaw
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.threads import in_blocks
 from carom.dimensionless.rebounds import regime_borders
-from carom.dimensionless.solution import SHORTEST, solve
+from carom.dimensionless.solution import SHORTEST_PHASE, solve
 from carom.dimensionless.states import KIND_NAMES
 from carom.quantities.arrays import Array
 
@@ -79,7 +79,7 @@ class Sequences:
         mirror = -1 if np.signbit(psi) else 1
         found: list[tuple[str, int]] = []
         for row, after in pairwise(rows):
-            if abs(row[AT_V] - after[AT_V]) < NEAR and lasts(row, after) <= SHORTEST:
+            if abs(row[AT_V] - after[AT_V]) < NEAR and lasts(row, after) <= SHORTEST_PHASE:
                 continue
             phase = KIND_NAMES[Kind(int(row[KIND]))], mirror * int(row[KIND_SIGN])
             if not found or found[-1] != phase:

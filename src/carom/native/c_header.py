@@ -5,13 +5,13 @@ from typing import Any
 
 from carom.dimensionless.elastic import phases, record as elastic
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.panels import work
 from carom.dimensionless.lossy.rebounds import NEARLY_ELASTIC
+from carom.dimensionless.lossy.viscoelastic import work
 from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE
 from carom.dimensionless.lossy.viscoelastic.record import new_record
 
 ELASTIC = "carom_dimensionless_elastic_batch_fill"
-LOSSY = "carom_dimensionless_lossy_rebounds_fill"
+LOSSY = "carom_dimensionless_lossy_viscoelastic_impacts_fill"
 
 
 def kernels_h() -> str:

@@ -6,7 +6,7 @@ import numpy as np
 
 from carom.dimensionless.elastic.memory import COLUMNS, Stack
 from carom.dimensionless.elastic.motion import ORDER, SLOWER, B, Series, V
-from carom.dimensionless.numerics.arrays import Counts, Cube, Matrix
+from carom.dimensionless.numerics.arrays import Counts, Cube, Matrix, Vector
 from carom.dimensionless.numerics.kernels import kernel
 
 MAX_NODES = 8000
@@ -29,6 +29,16 @@ class Record(NamedTuple):
     depths: Counts
     changes: Matrix
     counts: Counts
+
+
+class Steps(NamedTuple):
+    """Recorded steps for a chi: when each begins, and displacement and frictional work then."""
+
+    nodes: Matrix
+    series: Cube
+    chi: float
+    times: Vector
+    moved: Matrix
 
 
 def new_record(wanted: bool) -> Record:

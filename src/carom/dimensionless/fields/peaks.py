@@ -4,17 +4,20 @@ At a radius and depth, stress depends on the angle by its cosine and sine alone 
 that the largest value around a circle needs no stress but that of one point.
 """
 
+from math import inf
+from typing import NamedTuple
+
 import numpy as np
 
 from carom.dimensionless.fields import subsurface as at
 from carom.dimensionless.fields.profile import Profile
-from carom.dimensionless.fields.subsurface import Load, stress_parts
+from carom.dimensionless.fields.subsurface import Load, load_of, stress_parts
 from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 VON_MISES, SHEAR, TENSION = MEASURES = range(3)
 VALUE, RADIUS, DEPTH, COSINE = range(4)  # columns of what is found
-FOUND = 4
+PEAK_COLUMNS = 4
 
 COSINES = np.cos(np.linspace(0.0, np.pi, 9))
 ALIKE = 1e-7  # a place in the plane of the motion whose value comes so near is taken
@@ -31,7 +34,9 @@ BELOW = np.stack(
 BEHIND = np.stack(
     np.meshgrid([0.0, 0.5, 1.0, 1.4, 1.8, 2.4, 3.2, 4.5, 6.0], [0.0, 0.15, 0.5, 1.2]), -1
 ).reshape(-1, 2)
-FAR = 20.0  # from the centre, in radii of the contact or depths of the search: no climb goes beyond
+FARTHEST_CLIMB = 20.0  # from the centre, in radii of the contact or depths of the search
+TENSOR = np.array([[0, 3, 4], [3, 1, 5], [4, 5, 2]])  # where components xx, yy, zz, xy, xz, yz go
+FIRST_STEP, LAST_STEP = 0.1, 1e-6  # of the climb, in contact radii
 
 
 @kernel
@@ -127,7 +132,7 @@ def climb(
 
     No place leaves the depths between `shallow` and `deepest`.
     """
-    farthest = FAR * max(1.0, shallow)
+    farthest = FARTHEST_CLIMB * max(1.0, shallow)
     for _ in range(MOST_STEPS):
         moved = False
         for way in range(WAYS.shape[0]):
@@ -166,3 +171,60 @@ def regions(profile: Profile, shallow: float = 0.0, deepest: float = np.inf) -> 
         wide = max(1.0, shallow) * BEHIND + [0.0, shallow]
         return [np.concatenate((near, wide)), below]
     return [near, below]
+
+
+class Largest(NamedTuple):
+    """The largest value of a measure of stress and where it lies."""
+
+    value: float
+    x: float
+    y: float
+    z: float
+
+
+def principal_stresses(stress: Array) -> Array:
+    """Return the principal stresses (n, 3) of stresses (n, 6), the largest first."""
+    return np.asarray(np.linalg.eigvalsh(stress[:, TENSOR])[:, ::-1], dtype=np.float64)
+
+
+def von_mises(stress: Array) -> Array:
+    """Return the von Mises stress (n,) of stresses (n, 6)."""
+    xx, yy, zz, xy, xz, yz = stress.T
+    differences = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
+    return np.asarray(np.sqrt(0.5 * differences + 3.0 * (xy**2 + xz**2 + yz**2)))
+
+
+def largest(
+    measure: int,
+    profile: Profile,
+    *,
+    friction: float,
+    poisson: float,
+    rim: float = 0.0,
+    shallow: float = 0.0,
+    deepest: float = inf,
+) -> Largest:
+    """Return the largest value of a measure of the stress below a contact at an instant.
+
+    Friction, Poisson's ratio and rim are as of `stresses`; depths are in contact radii.
+
+    >>> from carom.dimensionless.fields.peaks import VON_MISES, largest
+    >>> from carom.dimensionless.fields.profile import flat, stacked
+    >>> hertz = stacked([1.0], [flat(0.0, 1.0, 1.0, 0.0)])
+    >>> found = largest(VON_MISES, hertz, friction=0.0, poisson=0.3)
+    >>> round(found.value, 4), round(found.z, 4)
+    (0.62, 0.4809)
+    """
+    b = profile.edges[-1]
+    if b == 0.0:
+        return Largest(0.0, 0.0, 0.0, 0.0)
+    load, best = load_of(profile, poisson, rim), np.zeros(PEAK_COLUMNS)
+    for places in regions(profile, shallow, deepest):
+        found = np.zeros(PEAK_COLUMNS)
+        scan(measure, places, friction, load, found)
+        climb(measure, friction, load, shallow, deepest, FIRST_STEP, LAST_STEP, found)
+        if found[VALUE] > best[VALUE]:
+            best = found
+    sine = np.sqrt(max(1.0 - best[COSINE] ** 2, 0.0))
+    x, y = best[RADIUS] * best[COSINE], best[RADIUS] * sine
+    return Largest(*map(float, (b * best[VALUE], b * x, b * y, b * best[DEPTH])))

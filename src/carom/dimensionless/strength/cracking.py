@@ -5,9 +5,9 @@ from math import inf
 import numpy as np
 
 from carom.dimensionless.fields import flaws
-from carom.dimensionless.fields.peaks import FOUND, RADIUS, VALUE
+from carom.dimensionless.fields.peaks import PEAK_COLUMNS, RADIUS, VALUE
 from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.strength.searching import Contacts, Peak, Search
+from carom.dimensionless.strength.peaks import Contacts, Peak, Search
 
 COARSE_STEP = 8e-3  # last one of a climb, in contact radii, before that to the place told
 LEAST = 1e-12  # of a pull: less is rounding
@@ -42,7 +42,7 @@ class _FlawSearch(Search):
     def pulled(self, time: float, radius: float) -> Array:
         """Return the hardest pull at an instant at a radius, in radii of the contact."""
         if self.contacts.size(time) == 0.0:
-            return np.zeros(FOUND)
+            return np.zeros(PEAK_COLUMNS)
         radii = np.array([radius])
         return self._hardest(time, radii, self._tensions(time, radii))
 
@@ -55,7 +55,7 @@ class _FlawSearch(Search):
         return series
 
     def _hardest(self, time: float, radii: Array, series: Array | None) -> Array:
-        best, size = np.zeros(FOUND), self.contacts.size(time)
+        best, size = np.zeros(PEAK_COLUMNS), self.contacts.size(time)
         if series is not None:
             flaws.hardest_among(radii, series, self.flaw / size, best)
             best[VALUE] *= size**1.5
@@ -72,7 +72,7 @@ def intensity(contacts: Contacts, poisson: float, flaw: float = inf) -> Peak:
     --------
     >>> import carom
     >>> from carom.dimensionless.strength.cracking import intensity
-    >>> from carom.dimensionless.strength.searching import Contacts
+    >>> from carom.dimensionless.strength.peaks import Contacts
     >>> sliding = Contacts(carom.solve(9.0, 1.44), friction=0.2)
     >>> round(intensity(sliding, 0.3, 1e-8).value / 1e-4, 3)  # 1.122 times the stress at the edge
     0.528
@@ -101,7 +101,7 @@ def cracking_width(contacts: Contacts, poisson: float, flaw: float, wanted: floa
     --------
     >>> import carom
     >>> from carom.dimensionless.strength.cracking import cracking_width, intensity
-    >>> from carom.dimensionless.strength.searching import Contacts
+    >>> from carom.dimensionless.strength.peaks import Contacts
     >>> contacts = Contacts(carom.solve(0.5, 1.44), friction=0.2)
     >>> width = cracking_width(contacts, 0.23, flaw=1.0, wanted=100.0)
     >>> round(width**1.5 * intensity(contacts, 0.23, 1.0 / width).value, 2)

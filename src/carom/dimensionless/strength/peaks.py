@@ -1,15 +1,165 @@
 """The largest stresses below a contact through a whole impact, each with its place and instant."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
 from carom.dimensionless.fields import peaks as instant
-from carom.dimensionless.fields.peaks import MEASURES, SHEAR, TENSION, VON_MISES
+from carom.dimensionless.fields.peaks import COSINE, DEPTH, MEASURES, RADIUS, VALUE
+from carom.dimensionless.fields.profile import Profile
+from carom.dimensionless.fields.subsurface import Load, load_of
+from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.strength.searching import LAST_STEP, Contacts, Peak, Search
+from carom.dimensionless.solution import Solution
+from carom.dimensionless.states import Phase
 
-__all__ = ("MEASURES", "SHEAR", "TENSION", "VON_MISES", "peaks")
+TIMES = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 9))  # of the scan, within a phase
+# Of the contact, in depths of the search.
+FIRST_RADII = np.array([0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0])
+NEAR = 0.95  # of the largest value of the scan: instants that are searched, too
+WITHIN = 1e-2  # of the time between two scans, to which the instant is found
+RESOLVED = 1e-6  # of the memory
+FIRST_STEP, NEXT_STEP = 0.1, 0.03  # of a climb, in contact radii, and of those beside it
+LAST_STEP, FINEST_STEP = 2e-3, 1e-4  # of a climb: peaks are round; of the last one
+
+
+class Peak(NamedTuple):
+    """The largest value of a measure in units of p_L, its place and its instant."""
+
+    value: float
+    x: float
+    y: float
+    z: float
+    time: float
+
+
+class Contacts:
+    """The contacts of an impact, each solved for once; `depth` is where the search begins.
+
+    Instants of the scan are nine in each phase; in gross slip of elastic bodies the stress keeps
+    its shape, so that the largest contact is enough, unless the search begins at a depth.
+    """
+
+    def __init__(
+        self, solution: Solution | LossySolution, friction: float, depth: float = 0.0
+    ) -> None:
+        self.solution, self.friction, self.depth = solution, friction, depth
+        self.times = self._instants()
+        self.peaks: dict[tuple[float, int], Peak] = {}  # those that are known, by nu and measure
+        self.tensions: dict[tuple[float, float], Array] = {}  # beside it, by nu and time
+        self._kept: dict[float, tuple[Profile, float]] = {}
+
+    def at(self, time: float) -> tuple[Profile, float]:
+        """Return the memory of the contact at a time and the density of pressure at its edge."""
+        if time not in self._kept:
+            if isinstance(self.solution, Solution):
+                self._kept[time] = self.solution.memory(time).profile(RESOLVED), 0.0
+            else:
+                state = self.solution.contact_at(time)
+                self._kept[time] = state.profile, state.rim
+        return self._kept[time]
+
+    def size(self, time: float) -> float:
+        """Return the radius of the contact at a time."""
+        return float(self.at(time)[0].edges[-1])
+
+    def shallow(self, time: float) -> float:
+        """Return the depth from which on is searched, in radii of the contact."""
+        return self.depth / self.size(time)
+
+    def load(self, time: float, poisson: float) -> Load:
+        """Return what acts on a body at a time."""
+        profile, rim = self.at(time)
+        return load_of(profile, poisson, rim)
+
+    def _instants(self) -> Array:
+        widest = float(self.solution.touched([self.solution.max_radius])[0])
+        phases = self.solution.phases
+        if self.depth > 0.0:  # where stresses do not keep their shape; a viscous touch is a blow
+            radii = np.minimum(self.depth * FIRST_RADII, self.solution.max_radius)
+            spread = [_spread(phase) for phase in phases]
+            return np.unique(np.concatenate([self.solution.touched(radii), *spread]))
+        keeps_shape = isinstance(self.solution, Solution)
+        if self.friction == 0.0 and keeps_shape:
+            return np.array([widest])
+        of_phase = partial(_of_elastic, widest) if keeps_shape else _spread
+        return np.unique(np.concatenate([of_phase(phase) for phase in phases]))
+
+
+def _of_elastic(widest: float, phase: Phase) -> Array:
+    if phase.kind == "gross slip":
+        return np.array([min(max(widest, phase.start), phase.end)])
+    return _spread(phase)
+
+
+def _spread(phase: Phase) -> Array:
+    return phase.start + (phase.end - phase.start) * TIMES
+
+
+class Search(ABC):
+    """A search for the largest value of one measure through the contacts of an impact."""
+
+    def __init__(self, contacts: Contacts) -> None:
+        self.contacts = contacts
+
+    @abstractmethod
+    def scanned(self, time: float) -> Array:
+        """Return the largest values at an instant and where they are: a row for each region."""
+
+    @abstractmethod
+    def climbed(self, time: float, start: Array, step: float, last: float = LAST_STEP) -> Array:
+        """Return the largest value at an instant near a place, and where it is.
+
+        `step` and `last` are the first and the last of the steps to it, in contact radii.
+        """
+
+    def peak(self) -> Peak:
+        """Return the largest value through the impact."""
+        times = self.contacts.times
+        rows = np.array([self.scanned(time) for time in times.tolist()])
+        highest = rows[..., VALUE].max()
+        least = highest - (1.0 - NEAR) * abs(highest)
+        found = [
+            self._between(times, i, region[i])
+            for region in np.moveaxis(rows, 1, 0)
+            for i in _maxima(region[:, VALUE], least)
+        ]
+        time, row = max(found, key=lambda one: one[1][VALUE])
+        return self.told(time, self.climbed(time, row, LAST_STEP, FINEST_STEP))
+
+    def told(self, time: float, row: Array) -> Peak:
+        """Return a place at an instant in units of the impact."""
+        size = self.contacts.size(time)
+        r, z = size * row[RADIUS], size * row[DEPTH]
+        sine = np.sqrt(max(1.0 - row[COSINE] ** 2, 0.0))
+        return Peak(*map(float, (row[VALUE], r * row[COSINE], r * sine, z, time)))
+
+    def _between(self, times: Array, i: int, start: Array) -> tuple[float, Array]:
+        """Return the instant and the place of a peak, between the neighbours of an instant."""
+        from scipy.optimize import minimize_scalar
+
+        low, time, high = times[[max(i - 1, 0), i, min(i + 1, times.size - 1)]].tolist()
+        row = self.climbed(time, start, FIRST_STEP)
+        best = [(time, row)]
+
+        def lost(instant: float) -> float:
+            best.append((float(instant), self.climbed(float(instant), row, NEXT_STEP)))
+            return -float(best[-1][1][VALUE])
+
+        if high > low:
+            options = {"xatol": WITHIN * (high - low)}
+            minimize_scalar(lost, bounds=(low, high), method="bounded", options=options)
+        return max(best, key=lambda one: one[1][VALUE])
+
+
+def _maxima(values: Array, least: float) -> list[int]:
+    """Return which values have no higher neighbour and are not below the least."""
+    padded = np.concatenate(([-np.inf], values, [-np.inf]))
+    tops = (values >= padded[:-2]) & (values > padded[2:])
+    return np.flatnonzero(tops & (values >= least)).tolist()
 
 
 class _StressSearch(Search):
@@ -21,7 +171,7 @@ class _StressSearch(Search):
 
     def scanned(self, time: float) -> Array:
         if self.contacts.size(time) == 0.0:
-            return np.zeros((2, instant.FOUND))
+            return np.zeros((2, instant.PEAK_COLUMNS))
         shallow = self.contacts.shallow(time)
         regions = instant.regions(self.contacts.at(time)[0], shallow)
         return np.array([self._best(time, places) for places in regions])
@@ -29,9 +179,9 @@ class _StressSearch(Search):
     def climbed(self, time: float, start: Array, step: float, last: float = LAST_STEP) -> Array:
         size = self.contacts.size(time)
         if size == 0.0:
-            return np.zeros(instant.FOUND)
+            return np.zeros(instant.PEAK_COLUMNS)
         shallow = self.contacts.shallow(time)
-        place = np.array([[start[instant.RADIUS], max(start[instant.DEPTH], shallow)]])
+        place = np.array([[start[RADIUS], max(start[DEPTH], shallow)]])
         starts = [place]
         if place[0, 1] == shallow:  # at the surface jumps move with the front
             starts.append(instant.jumps(self.contacts.at(time)[0], shallow))
@@ -39,15 +189,15 @@ class _StressSearch(Search):
         given = self.measure, self.contacts.friction, load, shallow, np.inf
         found = [self._best(time, places) for places in starts]
         for best in found:
-            best[instant.VALUE] /= size
+            best[VALUE] /= size
             instant.climb(*given, step, last, best)
-            best[instant.VALUE] *= size
-        return max(found, key=lambda best: best[instant.VALUE])
+            best[VALUE] *= size
+        return max(found, key=lambda best: best[VALUE])
 
     def _best(self, time: float, places: Array) -> Array:
-        best, load = np.zeros(instant.FOUND), self.contacts.load(time, self.poisson)
+        best, load = np.zeros(instant.PEAK_COLUMNS), self.contacts.load(time, self.poisson)
         instant.scan(self.measure, places, self.contacts.friction, load, best)
-        best[instant.VALUE] *= self.contacts.size(time)
+        best[VALUE] *= self.contacts.size(time)
         return best
 
 

@@ -4,13 +4,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.lossy.panels import collocation, normal, work as at
-from carom.dimensionless.lossy.panels.collocation import NODES, PLACES, evaluate
-from carom.dimensionless.lossy.panels.normal import Motion, Stage
-from carom.dimensionless.lossy.panels.work import Arrays, Panel, State, state_at, state_at_node
-from carom.dimensionless.lossy.viscoelastic import passed
-from carom.dimensionless.lossy.viscoelastic.memory import FLAT, lay_flat, level_at, rim, trim
-from carom.dimensionless.lossy.viscoelastic.passed import AT_ONCE, left, push, push_at_once
+from carom.dimensionless.lossy.viscoelastic import collocation, memory, normal, work as at
+from carom.dimensionless.lossy.viscoelastic.collocation import NODES, PLACES, evaluate
+from carom.dimensionless.lossy.viscoelastic.memory import (
+    AT_ONCE,
+    FLAT,
+    lay_flat,
+    left,
+    level_at,
+    push,
+    push_at_once,
+    rim,
+    trim,
+)
+from carom.dimensionless.lossy.viscoelastic.normal import Motion, Stage
 from carom.dimensionless.lossy.viscoelastic.ring import (
     Mode,
     excess,
@@ -19,6 +26,13 @@ from carom.dimensionless.lossy.viscoelastic.ring import (
     level_now,
     ring_of,
     set_ring,
+)
+from carom.dimensionless.lossy.viscoelastic.work import (
+    Arrays,
+    Panel,
+    State,
+    state_at,
+    state_at_node,
 )
 from carom.dimensionless.numerics.kernels import kernel
 
@@ -166,10 +180,10 @@ def give_back_rest(
     """Shorten what slip passed by what sticks again; return how many pieces there are."""
     ring, stuck = ring_of(work), rim(work.pieces, count)
     row = work.passed[ring.depth - 1]
-    row[passed.X_INNER], row[passed.R_INNER] = x, stuck
-    if event == ARRIVES and row[passed.R_OUTER] > stuck:  # its front is too fast to be followed
+    row[memory.X_INNER], row[memory.R_INNER] = x, stuck
+    if event == ARRIVES and row[memory.R_OUTER] > stuck:  # its front is too fast to be followed
         level = level_now(motion, ring.sign, now)
-        lay_flat(work.pieces, count, ring.sign, stuck, row[passed.R_OUTER], level)
+        lay_flat(work.pieces, count, ring.sign, stuck, row[memory.R_OUTER], level)
         return count + 1
     return count
 
@@ -223,7 +237,7 @@ def retreat(work: Arrays, motion: Motion, count: int, now: State, time: float) -
         i = count - 1
         if count == 0:
             depth = ring_of(work).depth
-            rest = work.passed[depth - 1, passed.R_INNER] if depth > 0 else 0.0
+            rest = work.passed[depth - 1, memory.R_INNER] if depth > 0 else 0.0
             if rest > 0.0:  # the centre is reached to rounding of levels, that is of r^2
                 depth = push_at_once(work, depth, rest, 0.0, time, excess(ring.sign, now))
             set_ring(work, Mode.SLIPS.value, ring.sign, depth)
@@ -254,11 +268,11 @@ def give_back(work: Arrays, motion: Motion, count: int, now: State, time: float)
         if left(work, top, False, ring.sign, motion.alpha, time) < g * (1.0 - 1e-8) - 1e-14:
             set_ring(work, Mode.STANDS.value if count > 0 else Mode.SLIPS.value, ring.sign, top + 1)
             return count
-        if row[passed.PANEL] != AT_ONCE:
+        if row[memory.PASSED_PANEL] != AT_ONCE:
             set_ring(work, Mode.RETURNS.value, ring.sign, top + 1)
             return count
-        outer = min(row[passed.R_OUTER], now.radius)
-        lay_flat(work.pieces, count, ring.sign, row[passed.R_INNER], outer, level)
+        outer = min(row[memory.R_OUTER], now.radius)
+        lay_flat(work.pieces, count, ring.sign, row[memory.R_INNER], outer, level)
         count += 1
     set_ring(work, Mode.STANDS.value if count > 0 else Mode.SLIPS.value, ring.sign, 0)
     return count

@@ -2,19 +2,21 @@
 
 from typing import NamedTuple
 
+import numpy as np
+
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.law import why_not
-from carom.dimensionless.lossy.panels import collocation, work as at
-from carom.dimensionless.lossy.panels.collocation import EVEN, NODES, clock, tail
-from carom.dimensionless.lossy.panels.normal import Motion, Stage
-from carom.dimensionless.lossy.panels.stages import cut_to_stage, next_stage
-from carom.dimensionless.lossy.panels.work import Arrays, Panel, state_at_node
+from carom.dimensionless.lossy import layout
+from carom.dimensionless.lossy.law import LARGEST_PSI, keep_energy, why_not
+from carom.dimensionless.lossy.viscoelastic import collocation, work as at
+from carom.dimensionless.lossy.viscoelastic.collocation import EVEN, NODES, clock, tail
 from carom.dimensionless.lossy.viscoelastic.events import NOTHING, begin, commit, first_event
 from carom.dimensionless.lossy.viscoelastic.memory import row_of
+from carom.dimensionless.lossy.viscoelastic.normal import Motion, Stage, cut_to_stage, next_stage
 from carom.dimensionless.lossy.viscoelastic.panels import solve_panel
 from carom.dimensionless.lossy.viscoelastic.record import Trace, keep, note_numbers, note_shear
 from carom.dimensionless.lossy.viscoelastic.ring import Mode, ring_of, set_ring
-from carom.dimensionless.numerics.arrays import Array, Vector
+from carom.dimensionless.lossy.viscoelastic.work import Arrays, Panel, state_at_node
+from carom.dimensionless.numerics.arrays import Codes, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 FIRST, LONGEST, SHORTEST = 0.3, 0.8, 1e-8  # lengths of panels
@@ -25,8 +27,17 @@ ORDER = 9.0  # of the error of a panel in its length, about
 NORMAL_WEIGHT = 30.0  # of the error of the normal motion, which is cheap to keep small
 SAFETY, STEEPEST, GROWTH = 0.8, 0.2, 4.0
 NEVER = -1  # instead of a panel
+SMALLEST_PSI = 1e-3  # psi_1 that is solved
 AFTER_EVENT = 0.02  # length at least tried after an event
 HALF, STOPPED = 1e-4, 4e-9  # about chi = 1/2; the speed at which a stick phase has lasted to v = 0
+
+
+class Solid(NamedTuple):
+    """The numbers of an impact but psi_1, and the error that a panel may have."""
+
+    chi: float
+    alpha: float
+    tolerance: float
 
 
 class Plan(NamedTuple):
@@ -45,22 +56,16 @@ class Plan(NamedTuple):
     error: float  # with an even clock
 
 
-@kernel
+@entry_point()
 def run(
-    psi: float,
-    chi: float,
-    alpha: float,
-    tolerance: float,
-    until: int,
-    work: Arrays,
-    numbers: Array,
-    record: Trace,
+    psi: float, solid: Solid, until: int, work: Arrays, numbers: Vector, record: Trace
 ) -> tuple[int, int]:
     """Run an impact, psi_1 >= 0; return its status and the number of panels.
 
     It ends with the contact; or in the panel `until`, which is left as it was solved, and returns
     how many pieces of memory that finds.
     """
+    chi, tolerance = solid.chi, solid.tolerance
     refused = why_not(psi, chi)
     if refused != Status.SOLVED.value:
         return refused, 0
@@ -69,7 +74,7 @@ def run(
     work.values[at.SPEED, 0], work.values[at.PSI, 0] = 1.0, psi
     slips = psi > 1.0 or (psi == 1.0 and chi <= 0.5)
     set_ring(work, Mode.SLIPS.value if slips else Mode.STICKS.value, 1 if slips else 0, 0)
-    motion = Motion(Stage.LOADING.value, alpha, chi)
+    motion = Motion(Stage.LOADING.value, solid.alpha, chi)
     pieces, natural, from_change = 0, FIRST, False
     for number in range(at.MAX_PANELS):
         plan = Plan(natural, EVEN, natural, from_change, NOTHING, False, False, 0.0)
@@ -198,15 +203,49 @@ def error_of(work: Arrays, panel: Panel) -> float:
 
 
 @entry_point()
-def run_until(
-    psi: float,
-    chi: float,
-    alpha: float,
+def outgoing(
+    psi: float, solid: Solid, work: Arrays, record: Trace, numbers: Vector
+) -> tuple[int, int]:
+    """Run a viscoelastic impact of any psi_1; return its status and the number of panels.
+
+    Below SMALLEST_PSI psi_2/psi_1 is linear in psi_1, and friction's share of the loss the same;
+    beyond LARGEST_PSI psi_1 - psi_2 is the same.
+    """
+    speed, bent, other = abs(psi), False, 0.0
+    how = solid, NEVER, work, numbers, record
+    if speed < SMALLEST_PSI:
+        twice, _ = run(2.0 * SMALLEST_PSI, *how)
+        bent, other = twice == Status.SOLVED.value, 0.5 * numbers[layout.PSI_OUT] / SMALLEST_PSI
+    near = min(max(speed, SMALLEST_PSI), LARGEST_PSI) if np.isfinite(psi) else psi
+    status, panels = run(near, *how)
+    keep_energy(near, numbers)
+    if speed < SMALLEST_PSI:
+        ratio = numbers[layout.PSI_OUT] / SMALLEST_PSI
+        more = (ratio - other) * (1.0 - speed / SMALLEST_PSI) if bent else 0.0
+        lost, solved_lost = 1.0 - (ratio + more) ** 2, 1.0 - ratio**2
+        numbers[layout.PSI_OUT] = speed * (ratio + more)
+        share = lost / solved_lost if solved_lost > 0.0 else 1.0
+        numbers[layout.SHEAR_LOST] *= share * (speed / SMALLEST_PSI) ** 2
+    elif speed > LARGEST_PSI:
+        numbers[layout.PSI_OUT] += speed - LARGEST_PSI
+    numbers[layout.PSI_OUT] *= np.copysign(1.0, psi)
+    if status != Status.SOLVED.value:
+        numbers[:] = np.nan
+    return status, panels
+
+
+@entry_point()
+def fill(
+    psi: Vector,
+    chi: Vector,
+    alpha: Vector,
     tolerance: float,
-    until: int,
     work: Arrays,
-    numbers: Vector,
     record: Trace,
-) -> int:
-    """Run an impact up to a panel, left as it was solved; return the pieces that it finds."""
-    return run(psi, chi, alpha, tolerance, until, work, numbers, record)[1]
+    numbers: Matrix,
+    status: Codes,
+) -> None:
+    """Write what every viscoelastic impact comes to, and its status."""
+    for i in range(psi.size):
+        solid = Solid(chi[i], alpha[i], tolerance)
+        status[i], _ = outgoing(psi[i], solid, work, record, numbers[i])

@@ -6,20 +6,31 @@ one ring, and its front stands where A, for slip +, or B, for slip -, is at its 
 piece was laid at the edge of the contact, or where slip of a sign has stopped: there A or B is the
 level of that moment, the same all over a flat piece, and nearly so over one left by a front that
 returned.
+
+What slip has passed is a stack of springs that slid from when its front went by. Where the front
+was at t0 the rate of slip is g - h, h = g(t0) exp(-(t - t0)/alpha), with the excess g = sigma psi -
+v. Springs stick again when g has fallen to their h, the last one passed first, so that the front
+returns over the stack. What slips since it was touched has h = 0 and is not in it.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.lossy.panels import work as at
-from carom.dimensionless.lossy.panels.collocation import evaluate, place
-from carom.dimensionless.lossy.panels.work import Arrays
+from carom.dimensionless.lossy.viscoelastic import work as at
+from carom.dimensionless.lossy.viscoelastic.collocation import evaluate, place
+from carom.dimensionless.lossy.viscoelastic.work import Arrays
 from carom.dimensionless.numerics.arrays import Cube
 from carom.dimensionless.numerics.kernels import kernel
 
 Pieces = NDArray[np.float64]
 FLAT = -1.0  # instead of a panel
-HALVINGS = 54
+LEVEL_HALVINGS = 54
+
+# Columns: the panel, the places in it and radii of the outer and the inner end; of what was passed
+# in an instant, which has no panel, the time and excess then.
+PASSED_PANEL, X_OUTER, X_INNER, R_OUTER, R_INNER, INSTANT, EXCESS = range(7)
+AT_ONCE = -1.0
+FRONT_HALVINGS = 36  # errors of the front count in second order
 
 
 @kernel
@@ -66,7 +77,7 @@ def passed_level(work: Arrays, i: int, sign: int, level: float) -> tuple[float, 
 @kernel
 def opposite(table: Cube, n: int, row: int, level: float, low: float, high: float) -> float:
     """Return where 2 r^2 less a row passes a level."""
-    for _ in range(HALVINGS):
+    for _ in range(LEVEL_HALVINGS):
         x = 0.5 * (low + high)
         r = evaluate(table, n, at.LAID_RADIUS, x)
         if 2.0 * r * r - evaluate(table, n, row, x) < level:
@@ -134,3 +145,62 @@ def lay_flat(pieces: Pieces, i: int, sign: int, r0: float, r1: float, level: flo
     pieces[i, at.W0], pieces[i, at.W1] = 0.0, 0.0
     pieces[i, at.A0] = level if sign > 0 else 2.0 * r0 * r0 - level
     pieces[i, at.A1] = level if sign > 0 else 2.0 * r1 * r1 - level
+
+
+@kernel
+def push(work: Arrays, depth: int, panel: int, r_outer: float, r_inner: float) -> int:
+    """Add what the front passes in a whole panel; return how many there are."""
+    row = work.passed[depth]
+    row[PASSED_PANEL], row[X_OUTER], row[X_INNER] = panel, -1.0, 1.0
+    row[R_OUTER], row[R_INNER] = r_outer, r_inner
+    return depth + 1
+
+
+@kernel
+def push_at_once(
+    work: Arrays, depth: int, r_outer: float, r_inner: float, instant: float, excess: float
+) -> int:
+    """Add what the front passes in an instant; return how many there are."""
+    row = work.passed[depth]
+    row[PASSED_PANEL], row[R_OUTER], row[R_INNER] = AT_ONCE, r_outer, r_inner
+    row[INSTANT], row[EXCESS] = instant, excess
+    return depth + 1
+
+
+@kernel
+def left_at(work: Arrays, n: int, sign: int, alpha: float, x: float, time: float) -> float:
+    """Return h, at a time, of the spring that was passed at this place of a panel."""
+    excess = sign * evaluate(work.series, n, at.PSI, x) - evaluate(work.series, n, at.SPEED, x)
+    return float(excess * np.exp((evaluate(work.series, n, at.TIME, x) - time) / alpha))
+
+
+@kernel
+def left(work: Arrays, top: int, outer: bool, sign: int, alpha: float, time: float) -> float:
+    """Return h, at a time, at an end of an entry of the stack."""
+    row = work.passed[top]
+    if row[PASSED_PANEL] == AT_ONCE:
+        return float(row[EXCESS] * np.exp((row[INSTANT] - time) / alpha))
+    return left_at(
+        work, int(row[PASSED_PANEL]), sign, alpha, row[X_OUTER if outer else X_INNER], time
+    )
+
+
+@kernel
+def returned(
+    work: Arrays, top: int, sign: int, alpha: float, time: float, excess: float
+) -> tuple[float, float]:
+    """Return where in an entry h is the excess, as radius and place."""
+    n, low, high = (
+        int(work.passed[top, PASSED_PANEL]),
+        work.passed[top, X_OUTER],
+        work.passed[top, X_INNER],
+    )
+    if left_at(work, n, sign, alpha, high, time) <= excess:
+        low = high
+    for _ in range(FRONT_HALVINGS):
+        middle = 0.5 * (low + high)
+        if left_at(work, n, sign, alpha, middle, time) < excess:
+            low = middle
+        else:
+            high = middle
+    return np.sqrt(max(evaluate(work.series, n, at.FRONT, high), 0.0)), high

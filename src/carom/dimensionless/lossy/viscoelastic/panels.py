@@ -2,13 +2,18 @@
 
 import numpy as np
 
-from carom.dimensionless.lossy.panels import collocation, normal, work as at
-from carom.dimensionless.lossy.panels.collocation import NODES, PLACES, TO_SERIES, expand, integrate
-from carom.dimensionless.lossy.panels.normal import Motion
-from carom.dimensionless.lossy.panels.work import Arrays, Panel, state_at_node
-from carom.dimensionless.lossy.viscoelastic import ring
+from carom.dimensionless.lossy.viscoelastic import collocation, normal, ring, work as at
+from carom.dimensionless.lossy.viscoelastic.collocation import (
+    NODES,
+    PLACES,
+    TO_SERIES,
+    expand,
+    integrate,
+)
 from carom.dimensionless.lossy.viscoelastic.memory import rim, row_of
+from carom.dimensionless.lossy.viscoelastic.normal import Motion
 from carom.dimensionless.lossy.viscoelastic.ring import Mode
+from carom.dimensionless.lossy.viscoelastic.work import Arrays, Panel, state_at_node
 from carom.dimensionless.numerics.kernels import kernel
 
 

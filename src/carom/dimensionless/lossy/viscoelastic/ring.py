@@ -3,12 +3,11 @@
 from enum import IntEnum
 from typing import NamedTuple
 
-from carom.dimensionless.lossy.panels import normal, work as at
-from carom.dimensionless.lossy.panels.collocation import evaluate
-from carom.dimensionless.lossy.panels.normal import Motion
-from carom.dimensionless.lossy.panels.work import Arrays, Panel, State
-from carom.dimensionless.lossy.viscoelastic import memory
-from carom.dimensionless.lossy.viscoelastic.passed import returned
+from carom.dimensionless.lossy.viscoelastic import memory, normal, work as at
+from carom.dimensionless.lossy.viscoelastic.collocation import evaluate
+from carom.dimensionless.lossy.viscoelastic.memory import returned
+from carom.dimensionless.lossy.viscoelastic.normal import Motion
+from carom.dimensionless.lossy.viscoelastic.work import Arrays, Panel, State
 from carom.dimensionless.numerics.kernels import kernel
 
 

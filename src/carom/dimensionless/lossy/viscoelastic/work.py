@@ -1,10 +1,10 @@
-"""The arrays in which an impact with losses is solved, their rows and columns; panels, states."""
+"""The arrays in which a viscoelastic impact is solved, their rows and columns; panels, states."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.lossy.panels.collocation import NODES, evaluate
+from carom.dimensionless.lossy.viscoelastic.collocation import NODES, evaluate
 from carom.dimensionless.numerics.arrays import Cube, Matrix, Vector
 from carom.dimensionless.numerics.kernels import kernel
 

@@ -1,21 +1,105 @@
-"""The normal motion alone: on a panel, to the end of a stage, and as a whole."""
+"""Normal motion of a viscoelastic impact, in units of the elastic one, d_max, V_1, P_max.
+
+Springs bear D - s, D = d + alpha v, without tension. The clock d(tau) = dt/(2 b), with b^2 = s at
+the edge of the contact, makes all of it analytic. While loading the edge is where the surfaces
+meet, b^2 = d; b' = v, v' = -(5/2) b^2 (b^2 + (3/2) alpha v). While unloading it is where the
+springs let go, b^2 = D; b' = v - (5/4) alpha b^3, v' = -(5/2) b^4.
+"""
+
+from enum import IntEnum
+from typing import NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.lossy.panels import normal
-from carom.dimensionless.lossy.panels.collocation import CLOCKS, EVEN, NODES, PLACES, integrate
-from carom.dimensionless.lossy.panels.normal import Motion, Stage
-from carom.dimensionless.lossy.panels.work import MAX_PANELS, RADIUS, SPEED, Arrays, new_work
+from carom.dimensionless.lossy.viscoelastic.collocation import (
+    CLOCKS,
+    EVEN,
+    NODES,
+    PLACES,
+    integrate,
+)
+from carom.dimensionless.lossy.viscoelastic.work import MAX_PANELS, RADIUS, SPEED, Arrays, new_work
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
-MAX_ITERATIONS = 40
+MOST_ITERATIONS = 40
 SETTLED = 1e-15
 CORRECTIONS = 8
 AT_END = 1e-13  # a panel that ends so near to the end of its stage ends with it
-FARTHEST = 2.0  # times the way to the end of a stage, to first order
-SLOPE = 1.89171  # of 1 - e in alpha where it is small, (3/2) B(3/5, 3/2)
-NEARLY_ELASTIC, LARGEST = 1.0 - 1e-12, 100.0
-LENGTH = 0.1  # of a panel on which the normal motion is good to rounding
+FARTHEST_TRY = 2.0  # times the way to the end of a stage, to first order
+LOSS_SLOPE = 1.89171  # of 1 - e in alpha where it is small, (3/2) B(3/5, 3/2)
+NEARLY_ELASTIC, LARGEST_ALPHA = 1.0 - 1e-12, 100.0
+PANEL_LENGTH = 0.1  # on which the normal motion is good to rounding
+
+
+class Stage(IntEnum):
+    """Part of the normal motion that one set of equations rules."""
+
+    LOADING = 0
+    UNLOADING = 1
+
+
+class Motion(NamedTuple):
+    """What rules the motion at a time: its stage, and the numbers of the impact."""
+
+    stage: int
+    alpha: float
+    chi: float
+
+
+@kernel
+def is_shifted(motion: Motion) -> bool:
+    """Tell whether the limit is ahead of the edge: while loading."""
+    return motion.stage == Stage.LOADING.value
+
+
+@kernel
+def edge_rate(motion: Motion, b: float, v: float) -> float:
+    """Return b', which is the speed of the edge, d(b^2)/dt."""
+    return v if is_shifted(motion) else v - 1.25 * motion.alpha * b * b * b
+
+
+@kernel
+def speed_rate(motion: Motion, b: float, v: float) -> float:
+    """Return v' = -(5/2) b P/P_max."""
+    return -2.5 * b * normal_force(motion, b, v)
+
+
+@kernel
+def normal_force(motion: Motion, b: float, v: float) -> float:
+    """Return P/P_max, the integral of (3/2) (D - s) over the contact."""
+    if is_shifted(motion):
+        return b * (b * b + 1.5 * motion.alpha * v)
+    return b * b * b
+
+
+@kernel
+def limit(motion: Motion, b: float, v: float) -> float:
+    """Return D: springs at s bear D - s."""
+    return b * b + motion.alpha * v if is_shifted(motion) else b * b
+
+
+@kernel
+def limit_rate(motion: Motion, b: float, v: float) -> float:
+    """Return dD/dt."""
+    if is_shifted(motion):
+        return v - 1.25 * motion.alpha * b * (b * b + 1.5 * motion.alpha * v)
+    return edge_rate(motion, b, v)
+
+
+@kernel
+def stored(b: float, d: float) -> float:
+    """Return the elastic energy that is left in the normal springs, in units of m_n V_1^2/2."""
+    return b * (1.875 * d * d - b * b * (1.25 * d - 0.375 * b * b))
+
+
+@kernel
+def loss_rate(motion: Motion, b: float, v: float) -> float:
+    """Return the rate of viscous loss by the clock, in dashpots and in springs that let go."""
+    rate = 7.5 * motion.alpha * v * v * b * b
+    if motion.stage == Stage.UNLOADING.value:
+        let_go = motion.alpha * v
+        rate -= 1.875 * let_go * let_go * edge_rate(motion, b, v)
+    return rate
 
 
 @kernel
@@ -23,16 +107,16 @@ def solve_normal(work: Arrays, motion: Motion, kind: int, h: float) -> None:
     """Solve for b and v at the nodes, from their values at the first."""
     b, v, rates = work.values[RADIUS], work.values[SPEED], work.rates
     b0, v0 = b[0], v[0]
-    pace = normal.edge_rate(motion, b0, v0)
+    pace = edge_rate(motion, b0, v0)
     for j in range(NODES):
         b[j], v[j] = b0 + h * CLOCKS[kind, j] * pace, v0
-    for _ in range(MAX_ITERATIONS):
+    for _ in range(MOST_ITERATIONS):
         last_b, last_v = b[NODES - 1], v[NODES - 1]
         for j in range(NODES):
-            rates[0, j] = normal.speed_rate(motion, b[j], v[j])
+            rates[0, j] = speed_rate(motion, b[j], v[j])
         integrate(kind, v0, h, rates[0], v)
         for j in range(NODES):
-            rates[0, j] = normal.edge_rate(motion, b[j], v[j])
+            rates[0, j] = edge_rate(motion, b[j], v[j])
         integrate(kind, b0, h, rates[0], b)
         if abs(b[NODES - 1] - last_b) + abs(v[NODES - 1] - last_v) <= SETTLED:
             break
@@ -68,8 +152,8 @@ def stage_end(work: Arrays, motion: Motion) -> float:
 def until_stage_end(motion: Motion, b: float, v: float) -> float:
     """Return the clock time to the end of a stage, to first order."""
     if motion.stage == Stage.UNLOADING.value:
-        return -b / normal.edge_rate(motion, b, v)
-    return -v / normal.speed_rate(motion, b, v)
+        return -b / edge_rate(motion, b, v)
+    return -v / speed_rate(motion, b, v)
 
 
 @kernel
@@ -81,7 +165,7 @@ def cut_to_stage(work: Arrays, motion: Motion, kind: int, h: float) -> tuple[flo
     b, v, last = work.values[RADIUS], work.values[SPEED], NODES - 1
     ahead = until_stage_end(motion, b[0], v[0])
     if ahead > 0.0:  # far beyond the end of a stage its equations mean nothing
-        h = min(h, FARTHEST * ahead)
+        h = min(h, FARTHEST_TRY * ahead)
     solve_normal(work, motion, EVEN, h)
     if beyond_stage(motion, b[last], v[last]) < -AT_END:
         if kind != EVEN:
@@ -111,7 +195,7 @@ def restitution(alpha: float, work: Arrays) -> float:
     values[RADIUS, 0], values[SPEED, 0] = 0.0, 1.0
     motion = Motion(Stage.LOADING.value, alpha, 1.0)
     for _ in range(MAX_PANELS):
-        _, ends = cut_to_stage(work, motion, EVEN, LENGTH)
+        _, ends = cut_to_stage(work, motion, EVEN, PANEL_LENGTH)
         for row in (RADIUS, SPEED):
             values[row, 0] = values[row, NODES - 1]
         if ends and motion.stage == Stage.UNLOADING.value:
@@ -124,7 +208,7 @@ def restitution(alpha: float, work: Arrays) -> float:
 def viscous_loss(wanted: float) -> float:
     """Return alpha, loss time in d_max/V_1, that gives a restitution 0 < e <= 1, to 1e-12 or so.
 
-    >>> from carom.dimensionless.lossy.panels.stages import viscous_loss
+    >>> from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
     >>> round(viscous_loss(0.9), 10)
     0.0576035799
     """
@@ -135,8 +219,8 @@ def viscous_loss(wanted: float) -> float:
     def excess(log_alpha: float) -> float:
         return float(restitution(np.exp(log_alpha), work)) - wanted
 
-    first = (1.0 - wanted) / SLOPE  # e is convex: alpha is larger than this
+    first = (1.0 - wanted) / LOSS_SLOPE  # e is convex: alpha is larger than this
     if wanted > NEARLY_ELASTIC:
         return first
-    low, high = np.log(0.5 * first), np.log(min(4.0 / wanted * first, LARGEST))
+    low, high = np.log(0.5 * first), np.log(min(4.0 / wanted * first, LARGEST_ALPHA))
     return float(np.exp(brentq(excess, low, high, xtol=1e-14, rtol=1e-14)))
