@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from math import gamma, pi, sqrt
-from typing import NamedTuple
+from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -15,6 +15,7 @@ REACH = 1.0  # elements by which the edge may move in a step
 SLOWEST = 0.05  # of V_1: near the turning point the number of steps decides
 SLOW_CHI = 2.0  # beyond it the tangential motion on its springs decides the length of steps
 
+Number = TypeVar("Number", float, Field)
 FROM_TOUCH = 2.0 / 3.0  # of its end, a traction that grows from zero as a square root
 
 
@@ -101,7 +102,7 @@ def _edge_limit(now: BodyMotion, spacing: float) -> float:
     return REACH * spacing * 2.0 * radius / max(abs(now.approach), SLOWEST)
 
 
-class LedgerEntry(NamedTuple):
+class LedgerEntry(NamedTuple, Generic[Number]):
     """One instant of an impact, or all of them; `across` is along y, `turn` about the normal.
 
     Units as in `Compliance` and `BodyMotion`; energies of the normal motion in E* a_max d_max^2, of
@@ -109,44 +110,44 @@ class LedgerEntry(NamedTuple):
     that ends here.
     """
 
-    time: float
-    depth: float
-    approach: float
-    displacement: float
-    velocity: float
-    velocity_across: float
-    turn_velocity: float
-    force: float
-    drag: float
-    moment: float
-    contact_radius: float  # of the circle of the same area
-    slip_share: float  # of the elements that touch
-    normal_stored: float
-    tangential_stored: float
-    lost: float  # to friction
-    lost_across: float  # of that, by slip across
-    slip_angle: float  # between slip and x, averaged over the work of friction
-    slip_angle_max: float
-    slip_drag: float  # what of the drag is that of slipping elements
+    time: Number
+    depth: Number
+    approach: Number
+    displacement: Number
+    velocity: Number
+    velocity_across: Number
+    turn_velocity: Number
+    force: Number
+    drag: Number
+    moment: Number
+    contact_radius: Number  # of the circle of the same area
+    slip_share: Number  # of the elements that touch
+    normal_stored: Number
+    tangential_stored: Number
+    lost: Number  # to friction
+    lost_across: Number  # of that, by slip across
+    slip_angle: Number  # between slip and x, averaged over the work of friction
+    slip_angle_max: Number
+    slip_drag: Number  # what of the drag is that of slipping elements
 
     @property
-    def stick_radius(self) -> float:
+    def stick_radius(self) -> Number:
         """Radius of the circle of the area that sticks."""
-        share: float = (1.0 - self.slip_share) ** 0.5
+        share: Number = (1.0 - self.slip_share) ** 0.5
         return share * self.contact_radius
 
     @property
-    def normal_force(self) -> float:
+    def normal_force(self) -> Number:
         """Normal force in the largest of Hertz's impact."""
         return 0.75 * self.force
 
     @property
-    def tangential_force(self) -> float:
+    def tangential_force(self) -> Number:
         """Tangential force in (3/2) friction times that."""
         return 0.5 * self.drag
 
 
-def entry(patch: Patch, before: BodyMotion, now: BodyMotion) -> LedgerEntry:
+def entry(patch: Patch, before: BodyMotion, now: BodyMotion) -> LedgerEntry[float]:
     """Return what the step from one instant to the next comes to."""
     state, old, grid = now.step.state, before.step.state, patch.grid
     moved, slips = now.step.moved, now.step.slips

@@ -34,6 +34,15 @@ class Work(NamedTuple):
     stack: Matrix
 
 
+class Run(NamedTuple):
+    """An impact that is solved: its arrays, what is kept of it, chi, and the error of a step."""
+
+    work: Work
+    record: Record
+    chi: float
+    tolerance: float
+
+
 @kernel
 def evaluate(coefficients: Series, h: float) -> float:
     """Return a series at h."""
@@ -192,24 +201,16 @@ def first_event(work: Work, mode: int, sign: int, inner: float, h: float) -> tup
 
 
 @kernel
-def run_stretch(
-    work: Work,
-    record: Record,
-    mode: int,
-    sign: int,
-    chi: float,
-    inner: float,
-    starts: bool,
-    tolerance: float,
-) -> int:
+def run_stretch(run: Run, mode: int, sign: int, inner: float, starts: bool) -> int:
     """Advance the state in row 0 of the series to the next event and return that event."""
+    work, record = run.work, run.record
     s = work.series
     for _ in range(MAX_STEPS):
         if is_full(record):
             break
         clock = choose_clock(s, mode, sign, starts)
-        at.expand(s, mode, clock, sign, chi)
-        event, h = first_event(work, mode, sign, inner, reach(s, mode, tolerance))
+        at.expand(s, mode, clock, sign, run.chi)
+        event, h = first_event(work, mode, sign, inner, reach(s, mode, run.tolerance))
         note_node(record, mode, clock, sign, h, s)
         move(s, h)
         if event != NOTHING:

@@ -213,21 +213,10 @@ def stresses(
     sigma = integral of s Im[N(z + i s) + mu g(s) T(z + i s)] ds over 0 <= s <= b, with N and T the
     antiderivatives of Boussinesq's and Cerruti's stresses.
 
-    Parameters
-    ----------
-    points : array_like, shape (n, 3)
-        x, y and depth z >= 0 in sqrt(R* L).
-    profile : Profile
-        The memory of the contact; its last edge is the radius of the contact.
-    friction : float
-        mu for the body that positive friction drags along +x (the second), -mu for the other.
-    poisson : float
-        Poisson's ratio of the body.
-    rim : float
-        Density of the pressure at the edge, where it ends with a jump; stresses are infinite there.
+    Points have x, y and depth z >= 0 in sqrt(R* L), the last edge of the profile is the radius of
+    the contact; `friction` is mu for the body that positive friction drags along +x (the second),
+    -mu for the other; `rim` is the density of pressure at the edge, where stresses are infinite.
 
-    Examples
-    --------
     >>> from carom.dimensionless.fields.profile import flat, stacked
     >>> from carom.dimensionless.fields.subsurface import stresses
     >>> hertz = stacked([1.0], [flat(0.0, 1.0, 1.0, 0.0)])

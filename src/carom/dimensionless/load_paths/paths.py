@@ -27,6 +27,16 @@ ROUNDING = 16.0 * np.finfo(np.float64).eps  # relative; differences of forces be
 INSIDE = -1  # no step lies outside Coulomb's cone
 
 
+class Way(NamedTuple):
+    """A straight step as it is wanted: d and U before it, d after it, and U or, by force, Q."""
+
+    d0: float
+    u0: float
+    d1: float
+    target: float
+    by_force: bool
+
+
 class Step(NamedTuple):
     """A straight step: d and U before and after."""
 
@@ -113,12 +123,10 @@ def sign_of(value: float, rounding: float) -> int:
 
 
 @kernel
-def find_front(
-    stack: Array, j: int, sign: int, d: float, target: float, by_force: bool
-) -> tuple[int, float, float]:
+def find_front(stack: Array, j: int, sign: int, way: Way) -> tuple[int, float, float]:
     """Return annulus and s of the front of slip, and U, in a step to d and a wanted U or Q."""
-    i, s = 0, 0.0
-    if not by_force:
+    i, s, d, target = 0, 0.0, way.d1, way.target
+    if not way.by_force:
         rounding = ROUNDING * (d + abs(target))
         i, s = memory.front_at_limit(stack, j, sign, d - sign * target, rounding)
         return i, min(s, d), target
@@ -131,10 +139,9 @@ def find_front(
 
 
 @kernel
-def load(
-    stack: Array, top: int, d0: float, u0: float, d1: float, target: float, by_force: bool
-) -> tuple[int, float, float]:
+def load(stack: Array, top: int, way: Way) -> tuple[int, float, float]:
     """Take a step that deepens the contact; return the new top, U and the work of slip."""
+    d0, u0, d1, target, by_force = way
     rise, b = d1 - d0, np.sqrt(d1)
     if by_force:
         g = (target - stack[top, memory.FORCE]) / memory.cubes(stack[top, RADIUS], b)
@@ -147,17 +154,16 @@ def load(
         below = top - 1 if top > 0 and stack[top, SLOPE] == g else top
         return memory.add(stack, below, d1, g, -u1), u1, 0.0
     sign = 1 if g > 0.0 else -1
-    i, s, u1 = find_front(stack, top, sign, d1, target, by_force)
+    i, s, u1 = find_front(stack, top, sign, way)
     step = Step(d0, u0, d1, u1)
     work = work_within(stack, i, s, top, sign, step) + work_on_new(step)
     return memory.slip_outside(stack, i, s, sign, d1, u1), u1, work
 
 
 @kernel
-def unload(
-    stack: Array, top: int, d0: float, u0: float, d1: float, target: float, by_force: bool
-) -> tuple[int, float, float]:
+def unload(stack: Array, top: int, way: Way) -> tuple[int, float, float]:
     """Take a step that does not deepen the contact; return as `load`."""
+    d0, u0, d1, target, by_force = way
     j = memory.annulus_at(stack, top, d1)
     c, force = memory.edge_at(stack, j, d1)
     if by_force:
@@ -166,7 +172,7 @@ def unload(
         sign = sign_of(target + c, ROUNDING * (d1 + abs(target)))
     i, s, u1 = j, d1, -c if by_force else target
     if sign != 0:
-        i, s, u1 = find_front(stack, j, sign, d1, target, by_force)
+        i, s, u1 = find_front(stack, j, sign, way)
     step = Step(d0, u0, d1, u1)
     work = work_within(stack, i, s, j, sign, step) + work_leaving(stack, j, top, step)
     if sign == 0:
@@ -175,19 +181,18 @@ def unload(
 
 
 @kernel
-def part(
-    stack: Array, top: int, d0: float, u0: float, d1: float, target: float, by_force: bool
-) -> tuple[int, float, float]:
+def part(stack: Array, top: int, way: Way) -> tuple[int, float, float]:
     """Take a step that ends in separation; return as `load`. A force has then let go of U."""
-    u1 = -stack[0, SHIFT] if by_force else target
-    work = work_leaving(stack, 0, top, Step(d0, u0, d1, u1))
+    u1 = -stack[0, SHIFT] if way.by_force else way.target
+    work = work_leaving(stack, 0, top, Step(way.d0, way.u0, way.d1, u1))
     stack[0, SHIFT] = -u1
     return 0, u1, work
 
 
 @kernel
-def touch(stack: Array, d0: float, u0: float, d1: float, target: float, by_force: bool) -> float:
+def touch(stack: Array, way: Way) -> float:
     """Start the memory at the first touch within a step; return U there."""
+    d0, u0, d1, target, by_force = way
     if by_force:
         g = min(max(target / memory.cubes(0.0, np.sqrt(d1)), -1.0), 1.0)
     else:
@@ -197,17 +202,15 @@ def touch(stack: Array, d0: float, u0: float, d1: float, target: float, by_force
 
 
 @kernel
-def advance(
-    stack: Array, top: int, d0: float, u0: float, d1: float, target: float, by_force: bool
-) -> tuple[int, float, float]:
+def advance(stack: Array, top: int, way: Way) -> tuple[int, float, float]:
     """Take a step to a depth and a wanted U or, `by_force`, Q; return the new top, U and work."""
-    if d1 <= 0.0:
-        return part(stack, top, d0, u0, d1, target, by_force)
-    if d0 < 0.0:
-        d0, u0 = 0.0, touch(stack, d0, u0, d1, target, by_force)
-    if np.sqrt(d1) > stack[top, RADIUS]:
-        return load(stack, top, d0, u0, d1, target, by_force)
-    return unload(stack, top, d0, u0, d1, target, by_force)
+    if way.d1 <= 0.0:
+        return part(stack, top, way)
+    if way.d0 < 0.0:
+        way = Way(0.0, touch(stack, way), way.d1, way.target, way.by_force)
+    if np.sqrt(way.d1) > stack[top, RADIUS]:
+        return load(stack, top, way)
+    return unload(stack, top, way)
 
 
 @entry_point()
@@ -223,7 +226,7 @@ def follow(
         cone = memory.cubes(0.0, np.sqrt(max(depths[n], 0.0)))
         if by_force[n] and abs(targets[n]) > cone * (1.0 + ROUNDING):
             return top, n
-        top, u, work = advance(stack, top, d, u, depths[n], targets[n], by_force[n])
+        top, u, work = advance(stack, top, Way(d, u, depths[n], targets[n], by_force[n]))
         d = depths[n]
         total += work
         results[n, DISPLACEMENT] = u
@@ -244,7 +247,7 @@ def motion_of_surfaces(
     """
     top, d, u = 0, 0.0, 0.0
     for n in range(depths.size):
-        top, u, _ = advance(stack, top, d, u, depths[n], displacements[n], False)
+        top, u, _ = advance(stack, top, Way(d, u, depths[n], displacements[n], False))
         d = depths[n]
         if radii[n] >= 0.0:
             mean, lateral = memory.carried(stack, top, radii[n])

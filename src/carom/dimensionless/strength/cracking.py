@@ -68,8 +68,6 @@ def intensity(contacts: Contacts, poisson: float, flaw: float = inf) -> Peak:
     `value` is K/(p_L sqrt(pi) (R* L)^(1/4)) and z the depth of the flaw, `flaw` at most, both in
     sqrt(R* L); otherwise as `peaks`.
 
-    Examples
-    --------
     >>> import carom
     >>> from carom.dimensionless.strength.cracking import intensity
     >>> from carom.dimensionless.strength.peaks import Contacts
@@ -88,17 +86,9 @@ def cracking_width(contacts: Contacts, poisson: float, flaw: float, wanted: floa
     w: the larger K_c, the wider. Once the flaw is deeper than those that are pulled at hardest,
     w^(3/2) is K_c/f alone, which is Auerbach's law. Infinite where nothing pulls.
 
-    Parameters
-    ----------
-    contacts, poisson
-        As of `peaks`.
-    flaw : float
-        Depth of the deepest flaws, in any unit of length.
-    wanted : float
-        K_c pi R*/(2 E* sqrt(pi)), in that unit to the power 3/2.
+    `flaw` is the depth of the deepest flaws, in any unit of length, `wanted` K_c pi R*/(2 E*
+    sqrt(pi)), in that unit to the power 3/2.
 
-    Examples
-    --------
     >>> import carom
     >>> from carom.dimensionless.strength.cracking import cracking_width, intensity
     >>> from carom.dimensionless.strength.peaks import Contacts

@@ -2,7 +2,6 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +13,6 @@ from carom.dimensionless.fields.subsurface import Load, load_of
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.solution import Solution
-from carom.dimensionless.states import Phase
 
 TIMES = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 9))  # of the scan, within a phase
 # Of the contact, in depths of the search.
@@ -76,27 +74,20 @@ class Contacts:
         return load_of(profile, poisson, rim)
 
     def _instants(self) -> Array:
-        widest = float(self.solution.touched([self.solution.max_radius])[0])
-        phases = self.solution.phases
-        if self.depth > 0.0:  # where stresses do not keep their shape; a viscous touch is a blow
-            radii = np.minimum(self.depth * FIRST_RADII, self.solution.max_radius)
-            spread = [_spread(phase) for phase in phases]
-            return np.unique(np.concatenate([self.solution.touched(radii), *spread]))
-        keeps_shape = isinstance(self.solution, Solution)
-        if self.friction == 0.0 and keeps_shape:
+        solution, of_elastic = self.solution, isinstance(self.solution, Solution)
+        widest = float(solution.touched([solution.max_radius])[0])
+        if self.depth == 0.0 and of_elastic and self.friction == 0.0:
             return np.array([widest])
-        of_phase = partial(_of_elastic, widest) if keeps_shape else _spread
-        return np.unique(np.concatenate([of_phase(phase) for phase in phases]))
-
-
-def _of_elastic(widest: float, phase: Phase) -> Array:
-    if phase.kind == "gross slip":
-        return np.array([min(max(widest, phase.start), phase.end)])
-    return _spread(phase)
-
-
-def _spread(phase: Phase) -> Array:
-    return phase.start + (phase.end - phase.start) * TIMES
+        instants = []
+        if self.depth > 0.0:  # where stresses do not keep their shape; a viscous touch is a blow
+            radii = np.minimum(self.depth * FIRST_RADII, solution.max_radius)
+            instants.append(solution.touched(radii))
+        for phase in solution.phases:
+            if self.depth == 0.0 and of_elastic and phase.kind == "gross slip":
+                instants.append(np.array([min(max(widest, phase.start), phase.end)]))
+            else:
+                instants.append(phase.start + (phase.end - phase.start) * TIMES)
+        return np.unique(np.concatenate(instants))
 
 
 class Search(ABC):
@@ -210,22 +201,9 @@ def peaks(
     (`tests/invariants/test_peaks.py`). Of viscous bodies the stress is infinite at the edge while
     they are loaded, and at the first touch: the depth of `contacts` keeps the search away.
 
-    Parameters
-    ----------
-    contacts : Contacts
-        Those of an impact, and its friction.
-    poisson : float
-        Poisson's ratio of the body.
-    measures : sequence of int, optional
-        Some of VON_MISES, SHEAR, TENSION.
+    `poisson` is that of the body, `measures` some of VON_MISES, SHEAR, TENSION. For each the result
+    has `value` in p_L, x, y, z in sqrt(R* L), time in d_max/V_1.
 
-    Returns
-    -------
-    tuple of Peak
-        For each measure `value` in p_L, x, y, z in sqrt(R* L), time in d_max/V_1.
-
-    Examples
-    --------
     >>> import carom
     >>> from carom.dimensionless.strength.peaks import Contacts, peaks
     >>> mises, shear, tension = peaks(Contacts(carom.solve(0.5, 1.44), friction=0.2), 0.3)

@@ -45,26 +45,18 @@ def place_of_clock(kind: int, part: float) -> float:
     return 2.0 * part - 1.0
 
 
-def _clocks() -> np.ndarray:
-    """Return theta at the nodes, by clock."""
-    return np.array([[plain(clock)(kind, x) for x in PLACES] for kind in range(4)])
+CLOCKS = np.array([[plain(clock)(kind, x) for x in PLACES] for kind in range(4)])  # at the nodes
 
 
-def _integrals() -> np.ndarray:
-    """Return, by clock, the matrix that makes integrals over theta up to the nodes of values."""
+def _integrals(kind: int) -> np.ndarray:
+    """Return the matrix that makes integrals over theta up to the nodes of values."""
     chebyshev = np.polynomial.chebyshev
-    paces = (chebyshev.chebder(TO_SERIES @ theta) for theta in _clocks())
-    return np.array([[_up_to_nodes(series, pace) for series in TO_SERIES.T] for pace in paces])
+    pace = chebyshev.chebder(TO_SERIES @ CLOCKS[kind])
+    rises = (chebyshev.chebint(chebyshev.chebmul(one, pace), lbnd=-1.0) for one in TO_SERIES.T)
+    return np.array([chebyshev.chebval(PLACES, rise) for rise in rises])
 
 
-def _up_to_nodes(series: np.ndarray, pace: np.ndarray) -> np.ndarray:
-    chebyshev = np.polynomial.chebyshev
-    rise = chebyshev.chebint(chebyshev.chebmul(series, pace), lbnd=-1.0)
-    return chebyshev.chebval(PLACES, rise)
-
-
-CLOCKS = _clocks()
-INTEGRALS = np.ascontiguousarray(np.swapaxes(_integrals(), 1, 2))
+INTEGRALS = np.ascontiguousarray(np.swapaxes([_integrals(kind) for kind in range(4)], 1, 2))
 
 
 @kernel

@@ -4,36 +4,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.lossy.viscoelastic import collocation, memory, normal, work as at
-from carom.dimensionless.lossy.viscoelastic.collocation import NODES, PLACES, evaluate
-from carom.dimensionless.lossy.viscoelastic.memory import (
-    AT_ONCE,
-    FLAT,
-    lay_flat,
-    left,
-    level_at,
-    push,
-    push_at_once,
-    rim,
-    trim,
-)
+from carom.dimensionless.lossy.viscoelastic import collocation, memory, normal, slipping, work as at
+from carom.dimensionless.lossy.viscoelastic.collocation import NODES, PLACES
+from carom.dimensionless.lossy.viscoelastic.memory import Fading
 from carom.dimensionless.lossy.viscoelastic.normal import Motion, Stage
-from carom.dimensionless.lossy.viscoelastic.ring import (
-    Mode,
-    excess,
-    force,
-    front,
-    level_now,
-    ring_of,
-    set_ring,
-)
-from carom.dimensionless.lossy.viscoelastic.work import (
-    Arrays,
-    Panel,
-    State,
-    state_at,
-    state_at_node,
-)
+from carom.dimensionless.lossy.viscoelastic.slipping import Mode
+from carom.dimensionless.lossy.viscoelastic.work import Arrays, Panel, State
 from carom.dimensionless.numerics.kernels import kernel
 
 # Slip begins at the edge; it stops all over; the front turns; it comes to the end of a piece, or of
@@ -41,12 +17,12 @@ from carom.dimensionless.numerics.kernels import kernel
 NOTHING, BEGINS, STOPS, TURNS, ARRIVES, CLOSES = range(6)
 
 ROUNDING = 1e-12
-EARLY = 5e-4  # part of a panel in which zones that begin with it are too thin to be told
-TURNED = 1e-10
-STILL = 1e-10  # alpha times the rate of slip below which all that slips sticks at once
-PARTING = 2e-3  # radius below which what still happens changes psi by less than chi b^5
+EARLY_PART = 5e-4  # part of a panel in which zones that begin with it are too thin to be told
+TURNING_RATE = 1e-10
+STILL_RATE = 1e-10  # alpha times the rate of slip below which all that slips sticks at once
+PARTING_RADIUS = 2e-3  # radius below which what still happens changes psi by less than chi b^5
 BISECTIONS = 40
-SAME = 1e-10  # levels nearer than this are one
+SAME_LEVEL = 1e-10  # levels nearer than this are one
 
 
 class Event(NamedTuple):
@@ -60,62 +36,59 @@ class Event(NamedTuple):
 def inwards(motion: Motion, sign: int, now: State, q: float) -> float:
     """Return g + alpha g': the level of slip falls, and its front goes inwards, while positive."""
     loading = 1.25 * normal.normal_force(motion, now.radius, now.speed)
-    return excess(sign, now) + motion.alpha * (loading - 3.75 * motion.chi * sign * q)
+    return slipping.excess(sign, now) + motion.alpha * (loading - 3.75 * motion.chi * sign * q)
 
 
 @kernel
-def happened(work: Arrays, motion: Motion, panel: Panel, x: float, now: State, time: float) -> int:
+def happened(work: Arrays, motion: Motion, panel: Panel, x: float) -> int:
     """Return what has happened at a place of a solved panel."""
-    ring, alpha, small = ring_of(work), motion.alpha, ROUNDING * (1.0 + abs(now.psi))
+    now = at.state_at(work, panel, x)
+    ring, alpha, small = slipping.ring_of(work), motion.alpha, ROUNDING * (1.0 + abs(now.psi))
+    fading = Fading(ring.sign, alpha, now.time)
     if ring.mode == Mode.RETRACES:
         return NOTHING
     if ring.mode == Mode.STICKS:
         return BEGINS if abs(now.psi) - now.speed > small else NOTHING
-    g = excess(ring.sign, now)
-    if g < (STILL / alpha if ring.mode == Mode.RETURNS else -small):
+    g = slipping.excess(ring.sign, now)
+    if g < (STILL_RATE / alpha if ring.mode == Mode.RETURNS else -small):
         return STOPS
     if ring.mode == Mode.STANDS or ring.mode == Mode.SLIPS:
-        if ring.depth > 0 and left(work, ring.depth - 1, False, ring.sign, alpha, time) > g:
-            return TURNS if g > STILL / alpha else STOPS
+        if ring.depth > 0 and memory.left(work, ring.depth - 1, False, fading) > g:
+            return TURNS if g > STILL_RATE / alpha else STOPS
         if ring.mode == Mode.SLIPS:
             return NOTHING
-    border, last = front(work, motion, panel, now, time), panel.pieces - 1
-    level = level_now(motion, ring.sign, now)
+    border, last = slipping.front(work, motion, panel, now), panel.pieces - 1
+    level = slipping.level_now(motion, ring.sign, now)
     if ring.mode == Mode.STANDS:
-        if level < level_at(work.pieces, last, ring.sign, True) - small:
+        if level < memory.level_at(work.pieces, last, ring.sign, True) - small:
             return ARRIVES
     else:
-        way = inwards(motion, ring.sign, now, force(work, motion, panel, x, now, border))
-        if (way if ring.mode == Mode.RETURNS else -way) > TURNED:
+        way = inwards(motion, ring.sign, now, slipping.force(work, motion, panel, x, now, border))
+        if (way if ring.mode == Mode.RETURNS else -way) > TURNING_RATE:
             return TURNS
         top = ring.depth - 1
-        if ring.mode == Mode.RETURNS and left(work, top, True, ring.sign, alpha, time) > g:
+        if ring.mode == Mode.RETURNS and memory.left(work, top, True, fading) > g:
             return ARRIVES
-        if ring.mode == Mode.RETREATS and level < level_at(work.pieces, last, ring.sign, False):
+        if ring.mode == Mode.RETREATS and level < memory.level_at(
+            work.pieces, last, ring.sign, False
+        ):
             return ARRIVES
     return CLOSES if border.radius > now.radius + ROUNDING else NOTHING
 
 
 @kernel
-def happened_at(work: Arrays, motion: Motion, panel: Panel, x: float) -> int:
-    """Return what has happened at a place of a solved panel."""
-    time = evaluate(work.series, panel.number, at.TIME, x)
-    return happened(work, motion, panel, x, state_at(work, panel, x), time)
-
-
-@kernel
 def first_event(work: Arrays, motion: Motion, panel: Panel) -> Event:
     """Return what first happens in a solved panel."""
-    if motion.stage == Stage.UNLOADING.value and work.values[at.RADIUS, 0] < PARTING:
+    if motion.stage == Stage.UNLOADING.value and work.values[at.RADIUS, 0] < PARTING_RADIUS:
         return Event(2.0, NOTHING)
     flat = panel.clock == collocation.FLAT_START or panel.clock == collocation.FLAT_ENDS
-    early = 2.0 * (np.sqrt(EARLY) if flat else EARLY) - 1.0
+    early = 2.0 * (np.sqrt(EARLY_PART) if flat else EARLY_PART) - 1.0
     low = -1.0
     for j in range(NODES):
         high = early if j == 0 else PLACES[j]
         if high < early:
             continue
-        found = happened_at(work, motion, panel, high)
+        found = happened(work, motion, panel, high)
         if found != NOTHING:
             return event_between(work, motion, panel, low, Event(high, found))
         low = high
@@ -127,7 +100,7 @@ def event_between(work: Arrays, motion: Motion, panel: Panel, low: float, event:
     """Return the first event after a place where nothing has happened, by bisection."""
     for _ in range(BISECTIONS):
         middle = 0.5 * (low + event.place)
-        found = happened_at(work, motion, panel, middle)
+        found = happened(work, motion, panel, middle)
         if found == NOTHING:
             low = middle
         else:
@@ -138,22 +111,22 @@ def event_between(work: Arrays, motion: Motion, panel: Panel, low: float, event:
 @kernel
 def commit(work: Arrays, motion: Motion, panel: Panel, event: int) -> int:
     """Change the memory at the end of a panel, and what comes next; return the pieces left."""
-    ring, count, last = ring_of(work), panel.pieces, NODES - 1
-    now, time = state_at_node(work, last), work.values[at.TIME, last]
-    border = front(work, motion, panel, now, time)
+    ring, count, last = slipping.ring_of(work), panel.pieces, NODES - 1
+    now = at.state_at_node(work, last)
+    border = slipping.front(work, motion, panel, now)
     if ring.mode == Mode.STICKS:
         count = lay(work, panel, 0)
     elif ring.mode == Mode.RETREATS:
-        trim(work, count - 1, border.radius, border.place)
+        memory.trim(work, count - 1, border.radius, border.place)
         outer = np.sqrt(work.values[at.FRONT, 0])
-        depth = push(work, ring.depth, panel.number, outer, border.radius)
-        set_ring(work, ring.mode, ring.sign, depth)
+        depth = memory.push(work, ring.depth, panel.number, outer, border.radius)
+        slipping.set_ring(work, ring.mode, ring.sign, depth)
         if event == ARRIVES:
             count -= 1
     elif ring.mode == Mode.RETURNS:
         count = lay(work, panel, ring.sign)
         count = give_back_rest(work, motion, count, border.place, event, now)
-    return follow_event(work, motion, count, event, now, time)
+    return follow_event(work, motion, count, event, now)
 
 
 @kernel
@@ -178,101 +151,108 @@ def give_back_rest(
     work: Arrays, motion: Motion, count: int, x: float, event: int, now: State
 ) -> int:
     """Shorten what slip passed by what sticks again; return how many pieces there are."""
-    ring, stuck = ring_of(work), rim(work.pieces, count)
+    ring, stuck = slipping.ring_of(work), memory.rim(work.pieces, count)
     row = work.passed[ring.depth - 1]
     row[memory.X_INNER], row[memory.R_INNER] = x, stuck
     if event == ARRIVES and row[memory.R_OUTER] > stuck:  # its front is too fast to be followed
-        level = level_now(motion, ring.sign, now)
-        lay_flat(work.pieces, count, ring.sign, stuck, row[memory.R_OUTER], level)
+        level = slipping.level_now(motion, ring.sign, now)
+        memory.lay_flat(work.pieces, count, ring.sign, stuck, row[memory.R_OUTER], level)
         return count + 1
     return count
 
 
 @kernel
-def follow_event(
-    work: Arrays, motion: Motion, count: int, event: int, now: State, time: float
-) -> int:
+def follow_event(work: Arrays, motion: Motion, count: int, event: int, now: State) -> int:
     """Decide what comes next; return how many pieces there are then."""
-    ring = ring_of(work)
+    ring = slipping.ring_of(work)
     if event == BEGINS:
-        return begin(work, motion, count, 1 if now.psi > 0.0 else -1, now, time)
+        return begin(work, motion, count, 1 if now.psi > 0.0 else -1, now)
     if event == CLOSES:  # to rounding: what was left of the ring slips the other way at once
-        stuck, g = rim(work.pieces, count), excess(-ring.sign, now)
-        depth = push_at_once(work, 0, max(now.radius, stuck), stuck, time, g)
-        set_ring(work, Mode.RETREATS.value, -ring.sign, depth)
-        return retreat(work, motion, count, now, time)
+        stuck, g = memory.rim(work.pieces, count), slipping.excess(-ring.sign, now)
+        depth = memory.push_at_once(work, 0, max(now.radius, stuck), stuck, now.time, g)
+        slipping.set_ring(work, Mode.RETREATS.value, -ring.sign, depth)
+        return retreat(work, motion, count, now)
     if event == STOPS:
-        level = level_now(motion, ring.sign, now)
-        lay_flat(work.pieces, count, ring.sign, rim(work.pieces, count), now.radius, level)
+        level = slipping.level_now(motion, ring.sign, now)
+        memory.lay_flat(
+            work.pieces, count, ring.sign, memory.rim(work.pieces, count), now.radius, level
+        )
         if motion.stage == Stage.UNLOADING.value:
-            return begin(work, motion, count + 1, -ring.sign, now, time)
-        set_ring(work, Mode.STICKS.value, 0, 0)
+            return begin(work, motion, count + 1, -ring.sign, now)
+        slipping.set_ring(work, Mode.STICKS.value, 0, 0)
         return count + 1
     if event == TURNS and ring.mode == Mode.RETURNS:
-        set_ring(work, Mode.RETREATS.value, ring.sign, ring.depth)
+        slipping.set_ring(work, Mode.RETREATS.value, ring.sign, ring.depth)
         return count
     if event == ARRIVES and ring.mode == Mode.RETURNS:
-        set_ring(work, ring.mode, ring.sign, ring.depth - 1)
-        return give_back(work, motion, count, now, time)
+        slipping.set_ring(work, ring.mode, ring.sign, ring.depth - 1)
+        return give_back(work, motion, count, now)
     if event == TURNS:
-        return give_back(work, motion, count, now, time)
+        return give_back(work, motion, count, now)
     if event == ARRIVES:
-        return retreat(work, motion, count, now, time)
+        return retreat(work, motion, count, now)
     return count
 
 
 @kernel
-def begin(work: Arrays, motion: Motion, count: int, sign: int, now: State, time: float) -> int:
+def begin(work: Arrays, motion: Motion, count: int, sign: int, now: State) -> int:
     """Begin a ring of slip at the edge; return how many pieces there are."""
-    set_ring(work, Mode.RETREATS.value, sign, 0)
-    return retreat(work, motion, count, now, time)
+    slipping.set_ring(work, Mode.RETREATS.value, sign, 0)
+    return retreat(work, motion, count, now)
 
 
 @kernel
-def retreat(work: Arrays, motion: Motion, count: int, now: State, time: float) -> int:
+def retreat(work: Arrays, motion: Motion, count: int, now: State) -> int:
     """Let the front pass what is flat for it, and decide how it goes on; return the pieces left."""
-    pieces, ring = work.pieces, ring_of(work)
-    level = level_now(motion, ring.sign, now)
+    pieces, ring = work.pieces, slipping.ring_of(work)
+    level = slipping.level_now(motion, ring.sign, now)
     for _ in range(at.MAX_PIECES):
         i = count - 1
         if count == 0:
-            depth = ring_of(work).depth
+            depth = slipping.ring_of(work).depth
             rest = work.passed[depth - 1, memory.R_INNER] if depth > 0 else 0.0
             if rest > 0.0:  # the centre is reached to rounding of levels, that is of r^2
-                depth = push_at_once(work, depth, rest, 0.0, time, excess(ring.sign, now))
-            set_ring(work, Mode.SLIPS.value, ring.sign, depth)
+                depth = memory.push_at_once(
+                    work, depth, rest, 0.0, now.time, slipping.excess(ring.sign, now)
+                )
+            slipping.set_ring(work, Mode.SLIPS.value, ring.sign, depth)
             return 0
         if pieces[i, at.R1] <= pieces[i, at.R0]:
             count = i
             continue
-        if level > level_at(pieces, i, ring.sign, True) + SAME:
-            set_ring(work, Mode.STANDS.value, ring.sign, ring_of(work).depth)
+        if level > memory.level_at(pieces, i, ring.sign, True) + SAME_LEVEL:
+            slipping.set_ring(work, Mode.STANDS.value, ring.sign, slipping.ring_of(work).depth)
             return count
-        if pieces[i, at.SIGN] != ring.sign or pieces[i, at.PANEL] != FLAT:
-            set_ring(work, Mode.RETREATS.value, ring.sign, ring_of(work).depth)
+        if pieces[i, at.SIGN] != ring.sign or pieces[i, at.PANEL] != memory.FLAT:
+            slipping.set_ring(work, Mode.RETREATS.value, ring.sign, slipping.ring_of(work).depth)
             return count
-        depth, g = ring_of(work).depth, excess(ring.sign, now)
-        depth = push_at_once(work, depth, pieces[i, at.R1], pieces[i, at.R0], time, g)
-        set_ring(work, Mode.RETREATS.value, ring.sign, depth)
+        depth, g = slipping.ring_of(work).depth, slipping.excess(ring.sign, now)
+        depth = memory.push_at_once(work, depth, pieces[i, at.R1], pieces[i, at.R0], now.time, g)
+        slipping.set_ring(work, Mode.RETREATS.value, ring.sign, depth)
         count = i
     return count
 
 
 @kernel
-def give_back(work: Arrays, motion: Motion, count: int, now: State, time: float) -> int:
+def give_back(work: Arrays, motion: Motion, count: int, now: State) -> int:
     """Let what was passed at once stick again, and decide how the front goes on."""
-    ring, g = ring_of(work), excess(ring_of(work).sign, now)
-    level = level_now(motion, ring.sign, now)
+    ring, g = slipping.ring_of(work), slipping.excess(slipping.ring_of(work).sign, now)
+    level, fading = (
+        slipping.level_now(motion, ring.sign, now),
+        Fading(ring.sign, motion.alpha, now.time),
+    )
     for top in range(ring.depth - 1, -1, -1):
         row = work.passed[top]
-        if left(work, top, False, ring.sign, motion.alpha, time) < g * (1.0 - 1e-8) - 1e-14:
-            set_ring(work, Mode.STANDS.value if count > 0 else Mode.SLIPS.value, ring.sign, top + 1)
+        if memory.left(work, top, False, fading) < g * (1.0 - 1e-8) - 1e-14:
+            slipping.set_ring(
+                work, Mode.STANDS.value if count > 0 else Mode.SLIPS.value, ring.sign, top + 1
+            )
             return count
-        if row[memory.PASSED_PANEL] != AT_ONCE:
-            set_ring(work, Mode.RETURNS.value, ring.sign, top + 1)
+        if row[memory.PASSED_PANEL] != memory.AT_ONCE:
+            slipping.set_ring(work, Mode.RETURNS.value, ring.sign, top + 1)
             return count
         outer = min(row[memory.R_OUTER], now.radius)
-        lay_flat(work.pieces, count, ring.sign, row[memory.R_INNER], outer, level)
+        memory.lay_flat(work.pieces, count, ring.sign, row[memory.R_INNER], outer, level)
         count += 1
-    set_ring(work, Mode.STANDS.value if count > 0 else Mode.SLIPS.value, ring.sign, 0)
+    slipping.set_ring(work, Mode.STANDS.value if count > 0 else Mode.SLIPS.value, ring.sign, 0)
     return count

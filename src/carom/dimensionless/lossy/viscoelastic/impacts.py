@@ -13,23 +13,24 @@ from carom.dimensionless.lossy.viscoelastic.events import NOTHING, begin, commit
 from carom.dimensionless.lossy.viscoelastic.memory import row_of
 from carom.dimensionless.lossy.viscoelastic.normal import Motion, Stage, cut_to_stage, next_stage
 from carom.dimensionless.lossy.viscoelastic.panels import solve_panel
-from carom.dimensionless.lossy.viscoelastic.record import Trace, keep, note_numbers, note_shear
-from carom.dimensionless.lossy.viscoelastic.ring import Mode, ring_of, set_ring
+from carom.dimensionless.lossy.viscoelastic.record import Trace, note_numbers, note_shear
+from carom.dimensionless.lossy.viscoelastic.slipping import Mode, ring_of, set_ring
 from carom.dimensionless.lossy.viscoelastic.work import Arrays, Panel, state_at_node
 from carom.dimensionless.numerics.arrays import Codes, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
-FIRST, LONGEST, SHORTEST = 0.3, 0.8, 1e-8  # lengths of panels
+FIRST_LENGTH, LONGEST, SHORTEST = 0.3, 0.8, 1e-8  # of panels
 TOLERANCE = 1e-9  # of a panel; keeps psi_2 to 1e-8 max(1, |psi_1|)
-TRIALS = 60  # of a panel
+MOST_TRIALS = 60  # of a panel
 NEAR, NEAR_FLAT = 1e-9, 1e-5  # part of a panel: a change so near its end is its end
 ORDER = 9.0  # of the error of a panel in its length, about
 NORMAL_WEIGHT = 30.0  # of the error of the normal motion, which is cheap to keep small
 SAFETY, STEEPEST, GROWTH = 0.8, 0.2, 4.0
-NEVER = -1  # instead of a panel
+NO_PANEL = -1
 SMALLEST_PSI = 1e-3  # psi_1 that is solved
-AFTER_EVENT = 0.02  # length at least tried after an event
-HALF, STOPPED = 1e-4, 4e-9  # about chi = 1/2; the speed at which a stick phase has lasted to v = 0
+LENGTH_AFTER_EVENT = 0.02  # length at least tried after an event
+NEAR_HALF = 1e-4  # of chi, about 1/2
+STOPPED = 4e-9  # the speed at which a stick phase has lasted to v = 0
 
 
 class Solid(NamedTuple):
@@ -75,7 +76,7 @@ def run(
     slips = psi > 1.0 or (psi == 1.0 and chi <= 0.5)
     set_ring(work, Mode.SLIPS.value if slips else Mode.STICKS.value, 1 if slips else 0, 0)
     motion = Motion(Stage.LOADING.value, solid.alpha, chi)
-    pieces, natural, from_change = 0, FIRST, False
+    pieces, natural, from_change = 0, FIRST_LENGTH, False
     for number in range(at.MAX_PANELS):
         plan = Plan(natural, EVEN, natural, from_change, NOTHING, False, False, 0.0)
         plan, error = solved_panel(work, motion, number, pieces, plan, tolerance * (1.0 + psi))
@@ -84,10 +85,7 @@ def run(
         panel = Panel(number, plan.clock, plan.length, pieces)
         if number == until:
             return Status.SOLVED.value, pieces
-        if record.rows.shape[0] > 0:
-            keep(work, motion, panel, numbers, record)
-        else:
-            note_shear(work, motion, panel, numbers)
+        note_shear(work, motion, panel, numbers, record)
         note_numbers(work, motion, panel, numbers)
         if goes_back(work, motion, plan):
             set_ring(work, Mode.RETRACES.value, 0, 0)
@@ -99,7 +97,7 @@ def run(
         if plan.to_stage_end and motion.stage == Stage.UNLOADING.value:
             return Status.SOLVED.value, number + 1
         from_change = plan.change != NOTHING or plan.to_stage_end
-        natural = max(plan.natural, AFTER_EVENT)
+        natural = max(plan.natural, LENGTH_AFTER_EVENT)
         if plan.to_stage_end:
             motion = next_stage(work, motion)
             pieces = unload(work, motion, pieces)
@@ -113,7 +111,7 @@ def run(
 def goes_back(work: Arrays, motion: Motion, plan: Plan) -> bool:
     """Tell whether the impact goes back as it came: for chi = 1/2 psi stays in proportion to v."""
     stops = motion.stage == Stage.LOADING.value and work.values[at.SPEED, NODES - 1] < STOPPED
-    return bool(stops and abs(motion.chi - 0.5) < HALF and ring_of(work).mode == Mode.STICKS)
+    return bool(stops and abs(motion.chi - 0.5) < NEAR_HALF and ring_of(work).mode == Mode.STICKS)
 
 
 @kernel
@@ -122,7 +120,7 @@ def unload(work: Arrays, motion: Motion, pieces: int) -> int:
     if ring_of(work).mode != Mode.STICKS:
         return pieces
     now = state_at_node(work, 0)
-    return begin(work, motion, pieces, 1 if now.psi > 0.0 else -1, now, work.values[at.TIME, 0])
+    return begin(work, motion, pieces, 1 if now.psi > 0.0 else -1, now)
 
 
 @kernel
@@ -134,7 +132,7 @@ def solved_panel(
     The error is negative if it cannot be solved.
     """
     before = Panel(number, EVEN, 0.0, pieces)
-    for _ in range(TRIALS):
+    for _ in range(MOST_TRIALS):
         h, ends = cut_to_stage(work, motion, plan.clock, plan.length)
         plan = with_length(plan, h, plan.natural, plan.change, ends)
         panel = Panel(number, plan.clock, plan.length, pieces)
@@ -212,7 +210,7 @@ def outgoing(
     beyond LARGEST_PSI psi_1 - psi_2 is the same.
     """
     speed, bent, other = abs(psi), False, 0.0
-    how = solid, NEVER, work, numbers, record
+    how = solid, NO_PANEL, work, numbers, record
     if speed < SMALLEST_PSI:
         twice, _ = run(2.0 * SMALLEST_PSI, *how)
         bent, other = twice == Status.SOLVED.value, 0.5 * numbers[layout.PSI_OUT] / SMALLEST_PSI

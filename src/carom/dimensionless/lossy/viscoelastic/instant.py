@@ -13,7 +13,7 @@ from carom.dimensionless.lossy.viscoelastic.collocation import NODES, place
 from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE, Solid, run
 from carom.dimensionless.lossy.viscoelastic.memory import FLAT, row_of
 from carom.dimensionless.lossy.viscoelastic.record import new_record
-from carom.dimensionless.lossy.viscoelastic.ring import Mode
+from carom.dimensionless.lossy.viscoelastic.slipping import Mode
 from carom.dimensionless.lossy.viscoelastic.work import new_work
 from carom.dimensionless.numerics.arrays import Array
 

@@ -13,6 +13,8 @@ v. Springs stick again when g has fallen to their h, the last one passed first, 
 returns over the stack. What slips since it was touched has h = 0 and is not in it.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -147,6 +149,14 @@ def lay_flat(pieces: Pieces, i: int, sign: int, r0: float, r1: float, level: flo
     pieces[i, at.A1] = level if sign > 0 else 2.0 * r1 * r1 - level
 
 
+class Fading(NamedTuple):
+    """What h depends on besides its spring: the sign of slip, alpha and the time."""
+
+    sign: int
+    alpha: float
+    time: float
+
+
 @kernel
 def push(work: Arrays, depth: int, panel: int, r_outer: float, r_inner: float) -> int:
     """Add what the front passes in a whole panel; return how many there are."""
@@ -168,38 +178,33 @@ def push_at_once(
 
 
 @kernel
-def left_at(work: Arrays, n: int, sign: int, alpha: float, x: float, time: float) -> float:
-    """Return h, at a time, of the spring that was passed at this place of a panel."""
-    excess = sign * evaluate(work.series, n, at.PSI, x) - evaluate(work.series, n, at.SPEED, x)
-    return float(excess * np.exp((evaluate(work.series, n, at.TIME, x) - time) / alpha))
+def left_at(work: Arrays, n: int, fading: Fading, x: float) -> float:
+    """Return h of the spring that was passed at this place of a panel."""
+    table = work.series
+    excess = fading.sign * evaluate(table, n, at.PSI, x) - evaluate(table, n, at.SPEED, x)
+    ago = evaluate(table, n, at.TIME, x) - fading.time
+    return float(excess * np.exp(ago / fading.alpha))
 
 
 @kernel
-def left(work: Arrays, top: int, outer: bool, sign: int, alpha: float, time: float) -> float:
-    """Return h, at a time, at an end of an entry of the stack."""
+def left(work: Arrays, top: int, outer: bool, fading: Fading) -> float:
+    """Return h at an end of an entry of the stack."""
     row = work.passed[top]
     if row[PASSED_PANEL] == AT_ONCE:
-        return float(row[EXCESS] * np.exp((row[INSTANT] - time) / alpha))
-    return left_at(
-        work, int(row[PASSED_PANEL]), sign, alpha, row[X_OUTER if outer else X_INNER], time
-    )
+        return float(row[EXCESS] * np.exp((row[INSTANT] - fading.time) / fading.alpha))
+    return left_at(work, int(row[PASSED_PANEL]), fading, row[X_OUTER if outer else X_INNER])
 
 
 @kernel
-def returned(
-    work: Arrays, top: int, sign: int, alpha: float, time: float, excess: float
-) -> tuple[float, float]:
+def returned(work: Arrays, top: int, fading: Fading, excess: float) -> tuple[float, float]:
     """Return where in an entry h is the excess, as radius and place."""
-    n, low, high = (
-        int(work.passed[top, PASSED_PANEL]),
-        work.passed[top, X_OUTER],
-        work.passed[top, X_INNER],
-    )
-    if left_at(work, n, sign, alpha, high, time) <= excess:
+    row = work.passed[top]
+    n, low, high = int(row[PASSED_PANEL]), row[X_OUTER], row[X_INNER]
+    if left_at(work, n, fading, high) <= excess:
         low = high
     for _ in range(FRONT_HALVINGS):
         middle = 0.5 * (low + high)
-        if left_at(work, n, sign, alpha, middle, time) < excess:
+        if left_at(work, n, fading, middle) < excess:
             low = middle
         else:
             high = middle

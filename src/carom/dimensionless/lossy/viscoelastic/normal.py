@@ -11,13 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.lossy.viscoelastic.collocation import (
-    CLOCKS,
-    EVEN,
-    NODES,
-    PLACES,
-    integrate,
-)
+from carom.dimensionless.lossy.viscoelastic import collocation
+from carom.dimensionless.lossy.viscoelastic.collocation import EVEN, NODES, PLACES, integrate
 from carom.dimensionless.lossy.viscoelastic.work import MAX_PANELS, RADIUS, SPEED, Arrays, new_work
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
@@ -109,7 +104,7 @@ def solve_normal(work: Arrays, motion: Motion, kind: int, h: float) -> None:
     b0, v0 = b[0], v[0]
     pace = edge_rate(motion, b0, v0)
     for j in range(NODES):
-        b[j], v[j] = b0 + h * CLOCKS[kind, j] * pace, v0
+        b[j], v[j] = b0 + h * collocation.CLOCKS[kind, j] * pace, v0
     for _ in range(MOST_ITERATIONS):
         last_b, last_v = b[NODES - 1], v[NODES - 1]
         for j in range(NODES):

@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.dimensionless.elastic.phases import Kind
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.viscoelastic import memory, normal, work as at
+from carom.dimensionless.lossy.viscoelastic import memory, normal, slipping, work as at
 from carom.dimensionless.lossy.viscoelastic.collocation import (
     NODES,
     PLACES,
@@ -20,34 +20,18 @@ from carom.dimensionless.lossy.viscoelastic.collocation import (
     place,
     slope,
 )
-from carom.dimensionless.lossy.viscoelastic.memory import (
-    AT_ONCE,
-    FLAT,
-    cubes,
-    left,
-    left_at,
-    level_at,
-    row_of,
-)
+from carom.dimensionless.lossy.viscoelastic.memory import Fading, cubes
 from carom.dimensionless.lossy.viscoelastic.normal import Motion, Stage
-from carom.dimensionless.lossy.viscoelastic.ring import (
-    Front,
-    Mode,
-    Ring,
-    force,
-    front,
-    moved,
-    ring_of,
-)
+from carom.dimensionless.lossy.viscoelastic.slipping import Front, Mode, Ring
 from carom.dimensionless.lossy.viscoelastic.work import Arrays, Panel, State, state_at_node
 from carom.dimensionless.numerics.arrays import Array, CodePairs, Cube
 from carom.dimensionless.numerics.kernels import kernel
 
 ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(8)
-ROUNDING = 1e-6  # relative, of squares of radii at which a ring begins
+NEAR_FRONT = 1e-6  # relative, of squares of radii at which a ring begins
 LAYERS = np.array([0.0, 2.0, 6.0, 14.0, 38.0])  # ages of h, in alpha, between which it is smooth
 
-SEARCH = 40
+TERNARY_STEPS = 40
 
 
 class Moments(NamedTuple):
@@ -61,31 +45,31 @@ class Moments(NamedTuple):
 
 @kernel
 def passed_moments(
-    work: Arrays, n: int, sign: int, alpha: float, x0: float, x1: float, time: float
+    work: Arrays, n: int, fading: Fading, x0: float, x1: float
 ) -> tuple[float, float, float]:
     """Return the integrals of h, h s and h^2 over what the front passed in part of a panel.
 
     By parts, as the front comes to the centre like the root of time: -[h r] + integral of r dh.
     """
-    plain, weighted, square, high = 0.0, 0.0, 0.0, x1
+    table, plain, weighted, square, high = work.series, 0.0, 0.0, 0.0, x1
     for layer in range(1, LAYERS.size):
         if high <= x0:
             break
-        oldest = time - LAYERS[layer] * alpha
+        oldest = fading.time - LAYERS[layer] * fading.alpha
         low = x0
-        if evaluate(work.series, n, at.TIME, x0) < oldest:
-            low = max(x0, min(high, place(work.series, n, at.TIME, oldest, x0, high)))
+        if evaluate(table, n, at.TIME, x0) < oldest:
+            low = max(x0, min(high, place(table, n, at.TIME, oldest, x0, high)))
         half = 0.5 * (high - low)
         for k in range(ABSCISSAS.size):
             x = low + half * (1.0 + ABSCISSAS[k])
-            r, h = front_at(work, n, x), left_at(work, n, sign, alpha, x, time)
-            rise = half * WEIGHTS[k] * slope_of_left(work, n, sign, alpha, x, time)
+            r, h = front_at(work, n, x), memory.left_at(work, n, fading, x)
+            rise = half * WEIGHTS[k] * slope_of_left(work, n, fading, x)
             plain += rise * r
             weighted += rise * r * r * r / 3.0
             square += rise * 2.0 * h * r
         high = low
     for end, x in ((1.0, x0), (-1.0, x1)):
-        r, h = front_at(work, n, x), left_at(work, n, sign, alpha, x, time)
+        r, h = front_at(work, n, x), memory.left_at(work, n, fading, x)
         plain += end * h * r
         weighted += end * h * r * r * r / 3.0
         square += end * h * h * r
@@ -99,9 +83,10 @@ def front_at(work: Arrays, n: int, x: float) -> float:
 
 
 @kernel
-def slope_of_left(work: Arrays, n: int, sign: int, alpha: float, x: float, time: float) -> float:
+def slope_of_left(work: Arrays, n: int, fading: Fading, x: float) -> float:
     """Return the derivative of h by the place where its spring was passed."""
-    table, ago = work.series, evaluate(work.series, n, at.TIME, x) - time
+    table, alpha, sign = work.series, fading.alpha, fading.sign
+    ago = evaluate(table, n, at.TIME, x) - fading.time
     excess = sign * evaluate(table, n, at.PSI, x) - evaluate(table, n, at.SPEED, x)
     change = sign * slope(table, n, at.PSI, x) - slope(table, n, at.SPEED, x)
     return float(np.exp(ago / alpha) * (change + excess * slope(table, n, at.TIME, x) / alpha))
@@ -109,20 +94,20 @@ def slope_of_left(work: Arrays, n: int, sign: int, alpha: float, x: float, time:
 
 @kernel
 def entry_moments(
-    work: Arrays, i: int, ring: Ring, alpha: float, edge: float, x1: float, time: float
+    work: Arrays, i: int, fading: Fading, edge: float, x1: float
 ) -> tuple[float, float, float]:
     """Return the integrals over an entry of the stack, from the edge to a place of its panel."""
     row, n = work.passed[i], int(work.passed[i, memory.PASSED_PANEL])
     outer, inner = min(row[memory.R_OUTER], edge), row[memory.R_INNER]
     if outer <= inner:
         return 0.0, 0.0, 0.0
-    if row[memory.PASSED_PANEL] == AT_ONCE:
-        h = left(work, i, True, ring.sign, alpha, time)
+    if row[memory.PASSED_PANEL] == memory.AT_ONCE:
+        h = memory.left(work, i, True, fading)
         return h * (outer - inner), h * cubes(inner, outer), h * h * (outer - inner)
     x0 = row[memory.X_OUTER]
     if outer < row[memory.R_OUTER]:
         x0 = place(work.series, n, at.FRONT, outer * outer, x0, x1)
-    return passed_moments(work, n, ring.sign, alpha, x0, x1, time)
+    return passed_moments(work, n, fading, x0, x1)
 
 
 @kernel
@@ -139,45 +124,43 @@ def gap_end(work: Arrays, i: int, ring: Ring, front: float) -> float:
 
 
 @kernel
-def edge_left(work: Arrays, i: int, ring: Ring, alpha: float, edge: float, time: float) -> float:
+def edge_left(work: Arrays, i: int, fading: Fading, edge: float) -> float:
     """Return h at the edge, which an entry of the stack holds."""
     row, n = work.passed[i], int(work.passed[i, memory.PASSED_PANEL])
-    if row[memory.PASSED_PANEL] == AT_ONCE or edge <= row[memory.R_INNER]:
-        return left(work, i, False, ring.sign, alpha, time)
-    x = place(work.series, n, at.FRONT, edge * edge, row[memory.X_OUTER], row[memory.X_INNER])
-    return left_at(work, n, ring.sign, alpha, x, time)
+    if row[memory.PASSED_PANEL] == memory.AT_ONCE or edge <= row[memory.R_INNER]:
+        return memory.left(work, i, False, fading)
+    x0, x1 = row[memory.X_OUTER], row[memory.X_INNER]
+    return memory.left_at(work, n, fading, place(work.series, n, at.FRONT, edge * edge, x0, x1))
 
 
 @kernel
 def ring_moments(
-    work: Arrays, motion: Motion, panel: Panel, x: float, now: State, border: Front, time: float
+    work: Arrays, motion: Motion, panel: Panel, x: float, now: State, border: Front
 ) -> Moments:
     """Return what the ledger needs to know of h in the ring, at a place of a panel."""
-    ring, alpha, edge = ring_of(work), motion.alpha, now.radius
+    ring, edge = slipping.ring_of(work), now.radius
+    fading = Fading(ring.sign, motion.alpha, now.time)
     plain, weighted, square, at_edge = 0.0, 0.0, 0.0, 0.0
     for i in range(ring.depth):
-        row = work.passed[i]
-        last = (
-            border.place
-            if ring.mode == Mode.RETURNS and i == ring.depth - 1
-            else row[memory.X_INNER]
-        )
-        found = entry_moments(work, i, ring, alpha, edge, last, time)
-        plain, weighted, square = plain + found[0], weighted + found[1], square + found[2]
+        row, last = work.passed[i], work.passed[i, memory.X_INNER]
+        if ring.mode == Mode.RETURNS and i == ring.depth - 1:
+            last = border.place
+        part = entry_moments(work, i, fading, edge, last)
+        plain, weighted, square = plain + part[0], weighted + part[1], square + part[2]
         inner, outer = gap_end(work, i, ring, border.radius), min(row[memory.R_INNER], edge)
         if inner < outer:
-            h = left(work, i, False, ring.sign, alpha, time)
+            h = memory.left(work, i, False, fading)
             plain, weighted = plain + h * (outer - inner), weighted + h * cubes(inner, outer)
             square += h * h * (outer - inner)
         if edge <= row[memory.R_OUTER] and (edge > inner or i == ring.depth - 1):
-            at_edge = edge_left(work, i, ring, alpha, edge, time)
+            at_edge = edge_left(work, i, fading, edge)
     if ring.mode == Mode.RETREATS:
         n, x0 = panel.number, -1.0
-        if edge * edge <= work.values[at.FRONT, 0] * (1.0 + ROUNDING):
+        if edge * edge <= work.values[at.FRONT, 0] * (1.0 + NEAR_FRONT):
             x0 = place(work.series, n, at.FRONT, edge * edge, -1.0, x)
-            at_edge = left_at(work, n, ring.sign, alpha, x0, time)
-        found = passed_moments(work, n, ring.sign, alpha, x0, x, time)
-        plain, weighted, square = plain + found[0], weighted + found[1], square + found[2]
+            at_edge = memory.left_at(work, n, fading, x0)
+        part = passed_moments(work, n, fading, x0, x)
+        plain, weighted, square = plain + part[0], weighted + part[1], square + part[2]
     return Moments(plain, weighted, square, at_edge)
 
 
@@ -195,25 +178,21 @@ def loss_rate(motion: Motion, now: State, ring: Ring, border: Front, h: Moments)
 
 @kernel
 def square_of_u(
-    work: Arrays,
-    motion: Motion,
-    panel: Panel,
-    x: float,
-    now: State,
-    border: Front,
-    depth: float,
-    force: float,
-    h: Moments,
+    work: Arrays, motion: Motion, panel: Panel, j: int, border: Front, h: Moments, rows: Array
 ) -> float:
-    """Return the integral of u^2 over the contact at a place of a panel; `force` is Q there."""
-    ring, a, b, u = ring_of(work), border.radius, now.radius, now.moved
+    """Return the integral of u^2 over the contact at a node, whose depth and force are known."""
+    now, ring, a = state_at_node(work, j), slipping.ring_of(work), border.radius
+    b, u, depth, alpha = now.radius, now.moved, rows[layout.AT_D, j], motion.alpha
     if ring.mode == Mode.RETRACES:
         return float(work.ring[at.RATIO] ** 2 * squares(depth, 0.0, b))
     limit = normal.limit(motion, b, now.speed)
-    laid = force - moved(motion, now) * a - ring.sign * (limit * (b - a) - cubes(a, b))
-    total = u * u * a + 2.0 * u * laid + squares_of_c(work, panel, x, border)
+    laid = (
+        rows[layout.AT_Q, j]
+        - slipping.moved(motion, now) * a
+        - ring.sign * (limit * (b - a) - cubes(a, b))
+    )
+    total = u * u * a + 2.0 * u * laid + squares_of_c(work, panel, PLACES[j], border)
     total += squares(depth, a, b)
-    alpha = motion.alpha
     return float(total - 2.0 * alpha * (depth * h.plain - h.weighted) + alpha * alpha * h.square)
 
 
@@ -227,7 +206,7 @@ def squares(level: float, inner: float, outer: float) -> float:
 @kernel
 def squares_of_c(work: Arrays, panel: Panel, x: float, border: Front) -> float:
     """Return the integral of c^2 over what sticks, at a place of a panel."""
-    pieces, ring, total = work.pieces, ring_of(work), 0.0
+    pieces, ring, total = work.pieces, slipping.ring_of(work), 0.0
     whole = panel.pieces - 1 if ring.mode == Mode.RETREATS else panel.pieces
     for i in range(whole):
         total += square_of_piece(work, i, pieces[i, at.R1], pieces[i, at.X1])
@@ -245,14 +224,14 @@ def square_of_piece(work: Arrays, i: int, r1: float, x1: float) -> float:
     """Return the integral of c^2 over a piece up to a radius, which is at this place."""
     pieces, sign, n = work.pieces, int(work.pieces[i, at.SIGN]), int(work.pieces[i, at.PANEL])
     r0 = pieces[i, at.R0]
-    if pieces[i, at.PANEL] == FLAT:
-        level = level_at(pieces, i, sign, False)
+    if pieces[i, at.PANEL] == memory.FLAT:
+        level = memory.level_at(pieces, i, sign, False)
         return squares(level, r0, r1)
     if sign != 0:
         return square_left(work, n, sign, pieces[i, at.X0], x1)
-    last = (
-        pieces[i, at.S1] if x1 == pieces[i, at.X1] else evaluate(work.series, n, at.LAID_SQUARE, x1)
-    )
+    last = pieces[i, at.S1]
+    if x1 != pieces[i, at.X1]:
+        last = evaluate(work.series, n, at.LAID_SQUARE, x1)
     return float(last - pieces[i, at.S0])
 
 
@@ -263,7 +242,7 @@ def square_left(work: Arrays, n: int, sign: int, x0: float, x1: float) -> float:
     for k in range(ABSCISSAS.size):
         x = x0 + half * (1.0 + ABSCISSAS[k])
         r = evaluate(work.series, n, at.LAID_RADIUS, x)
-        c = evaluate(work.series, n, row_of(sign), x) - r * r
+        c = evaluate(work.series, n, memory.row_of(sign), x) - r * r
         total += WEIGHTS[k] * half * slope(work.series, n, at.LAID_RADIUS, x) * c * c
     return total
 
@@ -309,11 +288,9 @@ def strongest(work: Arrays, motion: Motion, panel: Panel) -> float:
             best, largest = j, force
     low, high = PLACES[max(best - 1, 0)], PLACES[min(best + 1, NODES - 1)]
     series, n = work.series, panel.number
-    for _ in range(SEARCH):
+    for _ in range(TERNARY_STEPS):
         near, far = (2.0 * low + high) / 3.0, (low + 2.0 * high) / 3.0
-        if force_at(motion, work.series, panel.number, near) < force_at(
-            motion, work.series, panel.number, far
-        ):
+        if force_at(motion, series, n, near) < force_at(motion, series, n, far):
             low = near
         else:
             high = far
@@ -323,9 +300,8 @@ def strongest(work: Arrays, motion: Motion, panel: Panel) -> float:
 @kernel
 def force_at(motion: Motion, series: Array, n: int, x: float) -> float:
     """Return the normal force at a place of a panel."""
-    return normal.normal_force(
-        motion, evaluate(series, n, at.RADIUS, x), evaluate(series, n, at.SPEED, x)
-    )
+    b, v = evaluate(series, n, at.RADIUS, x), evaluate(series, n, at.SPEED, x)
+    return normal.normal_force(motion, b, v)
 
 
 @kernel
@@ -348,35 +324,29 @@ def keep_normal(work: Arrays, motion: Motion, panel: Panel, numbers: Array, rows
 
 
 @kernel
-def keep(work: Arrays, motion: Motion, panel: Panel, numbers: Array, record: Trace) -> None:
-    """Keep a panel: what there is at its nodes, and what it does."""
-    rows, kind, ring = record.rows[panel.number], record.kinds[panel.number], ring_of(work)
-    keep_normal(work, motion, panel, numbers, rows)
+def note_shear(work: Arrays, motion: Motion, panel: Panel, numbers: Array, record: Trace) -> None:
+    """Add what is lost in shear in a panel; keep the panel, if wanted."""
+    wanted, ring, rates = record.rows.shape[0] > 0, slipping.ring_of(work), work.rates
+    rows = record.rows[panel.number] if wanted else work.values
+    if wanted:
+        keep_normal(work, motion, panel, numbers, rows)
     for j in range(NODES):
-        x, now, time = PLACES[j], state_at_node(work, j), work.values[at.TIME, j]
-        border = front(work, motion, panel, now, time)
-        h = ring_moments(work, motion, panel, x, now, border, time)
-        q, d = force(work, motion, panel, x, now, border), rows[layout.AT_D, j]
-        rows[layout.AT_Q, j], rows[layout.AT_STUCK, j] = q, border.radius
-        rows[layout.AT_SQUARE, j] = square_of_u(work, motion, panel, x, now, border, d, q, h)
-    kind[0], kind[1] = Kind.SLIP.value, ring.sign
-    if ring.mode == Mode.STICKS or ring.mode == Mode.RETRACES:
-        kind[0] = Kind.STICK.value
-    elif ring.mode == Mode.SLIPS:
-        kind[0] = Kind.GROSS_SLIP.value
-    note_shear(work, motion, panel, numbers)
-    for j in range(NODES):
-        rows[layout.AT_SHEAR_LOST, j] = work.rates[2, j]
-
-
-@kernel
-def note_shear(work: Arrays, motion: Motion, panel: Panel, numbers: Array) -> None:
-    """Write what is lost in shear up to each node of a panel into the rates; add it all."""
-    rates, ring = work.rates, ring_of(work)
-    for j in range(NODES):
-        x, now, time = PLACES[j], state_at_node(work, j), work.values[at.TIME, j]
-        border = front(work, motion, panel, now, time)
-        h = ring_moments(work, motion, panel, x, now, border, time)
+        x, now = PLACES[j], state_at_node(work, j)
+        border = slipping.front(work, motion, panel, now)
+        h = ring_moments(work, motion, panel, x, now, border)
         rates[0, j] = loss_rate(motion, now, ring, border, h)
+        if wanted:
+            rows[layout.AT_Q, j] = slipping.force(work, motion, panel, x, now, border)
+            rows[layout.AT_STUCK, j] = border.radius
+            rows[layout.AT_SQUARE, j] = square_of_u(work, motion, panel, j, border, h, rows)
     integrate(panel.clock, numbers[layout.SHEAR_LOST], panel.length, rates[0], rates[2])
     numbers[layout.SHEAR_LOST] = rates[2, NODES - 1]
+    if wanted:
+        for j in range(NODES):
+            rows[layout.AT_SHEAR_LOST, j] = rates[2, j]
+        kind = Kind.SLIP.value
+        if ring.mode == Mode.STICKS or ring.mode == Mode.RETRACES:
+            kind = Kind.STICK.value
+        elif ring.mode == Mode.SLIPS:
+            kind = Kind.GROSS_SLIP.value
+        record.kinds[panel.number, 0], record.kinds[panel.number, 1] = kind, ring.sign

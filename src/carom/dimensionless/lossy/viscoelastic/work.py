@@ -58,19 +58,20 @@ class Panel(NamedTuple):
 
 
 class State(NamedTuple):
-    """The state at an instant: radius of the edge, normal speed, U, psi."""
+    """The state at an instant: radius of the edge, normal speed, U, psi, time."""
 
     radius: float
     speed: float
     moved: float
     psi: float
+    time: float
 
 
 @kernel
 def state_at_node(work: Arrays, j: int) -> State:
     """Return the state at a node."""
-    values = work.values
-    return State(values[RADIUS, j], values[SPEED, j], values[MOVED, j], values[PSI, j])
+    at = work.values[:, j]
+    return State(at[RADIUS], at[SPEED], at[MOVED], at[PSI], at[TIME])
 
 
 @kernel
@@ -78,4 +79,5 @@ def state_at(work: Arrays, panel: Panel, x: float) -> State:
     """Return the state at a place of a solved panel."""
     table, n = work.series, panel.number
     b, v = evaluate(table, n, RADIUS, x), evaluate(table, n, SPEED, x)
-    return State(b, v, evaluate(table, n, MOVED, x), evaluate(table, n, PSI, x))
+    u, psi = evaluate(table, n, MOVED, x), evaluate(table, n, PSI, x)
+    return State(b, v, u, psi, evaluate(table, n, TIME, x))

@@ -68,7 +68,7 @@ def excess(sign: int, now: State) -> float:
 
 
 @kernel
-def front(work: Arrays, motion: Motion, panel: Panel, now: State, time: float) -> Front:
+def front(work: Arrays, motion: Motion, panel: Panel, now: State) -> Front:
     """Return where slip begins."""
     ring, stuck = ring_of(work), memory.rim(work.pieces, panel.pieces)
     if ring.mode == Mode.STICKS or ring.mode == Mode.RETRACES:
@@ -79,18 +79,9 @@ def front(work: Arrays, motion: Motion, panel: Panel, now: State, time: float) -
         return Front(radius, x)
     if ring.mode == Mode.RETURNS:
         g, top = excess(ring.sign, now), ring.depth - 1
-        radius, x = returned(work, top, ring.sign, motion.alpha, time, g)
+        radius, x = returned(work, top, memory.Fading(ring.sign, motion.alpha, now.time), g)
         return Front(max(radius, stuck), x)
     return Front(stuck, 0.0)
-
-
-@kernel
-def add_up(work: Arrays, panel: Panel) -> None:
-    """Write the force of the pieces that stay whole in a panel."""
-    whole = panel.pieces - 1 if ring_of(work).mode == Mode.RETREATS else panel.pieces
-    work.ring[at.WHOLE] = 0.0
-    for i in range(whole):
-        work.ring[at.WHOLE] += memory.piece_force(work.pieces, i)
 
 
 @kernel
