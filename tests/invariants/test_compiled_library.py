@@ -9,9 +9,9 @@ import carom
 from carom.dem import lattice
 from carom.dimensionless import interpolation
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics import chebyshev, hertz, permutation, shared_library
 from carom.dimensionless.numerics.kernels import ENTRIES
+from carom.dimensionless.rebounds import lossy_rebounds
 from carom.dimensionless.solution import solve_lossy
 
 pytestmark = pytest.mark.skipif(bool(shared_library.reason()), reason=shared_library.reason())

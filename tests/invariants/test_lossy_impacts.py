@@ -18,11 +18,11 @@ import carom
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.layout import NUMBERS, PSI_OUT
-from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE, Solid, outgoing
 from carom.dimensionless.lossy.viscoelastic.record import new_record
 from carom.dimensionless.lossy.viscoelastic.work import new_work
+from carom.dimensionless.rebounds import LossyRebounds, lossy_rebounds
 from carom.dimensionless.solution import solve_lossy
 
 Array = NDArray[np.float64]

@@ -9,8 +9,8 @@ from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import borne
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.lossy.springs.solution import solve_by_marching
+from carom.dimensionless.rebounds import lossy_rebounds
 from carom.dimensionless.solution import solve_lossy
 
 LAWS = {

@@ -113,7 +113,7 @@ class InContact(ABC):
         >>> round(float(path.fields(points=[[0.0, 0.0]]).pressure[0]) / 1e9, 2)  # in GPa
         1.01
         """
-        return surface_fields(self.contact(at), x, y, points=points)
+        return surface_fields(self.contact(at), x, y, points)
 
     @with_old_keywords
     def stress(
@@ -171,7 +171,7 @@ class InContact(ABC):
         0.31
         """
         self._refuse_stress()
-        return stress_dataset(self.contact(at), x=x, z=z, points=points, body=body)
+        return stress_dataset(self.contact(at), x, z, points, body)
 
     @with_old_keywords
     def radial(self, at: Value | None = None, n: int = 401) -> xr.Dataset:

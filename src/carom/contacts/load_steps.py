@@ -56,7 +56,7 @@ class Steps(NamedTuple):
         return self.penetration / scales.length, (self.target.T / unit).T, self.by_force
 
     def as_given(self, moved: Array, force: Array) -> tuple[Array, Array]:
-        """Return displacements and tangential forces: those that were given to the bit."""
+        """Return displacements and tangential forces: those that were control to the bit."""
         by_force = self.by_force.reshape(-1, *[1] * (self.target.ndim - 1))
         return np.where(by_force, moved, self.target), np.where(by_force, self.target, force)
 
@@ -79,44 +79,44 @@ def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved
         allowed = f"must have {across[1].size} values as {across[0]}, or a single one"
         raise refusal(along[0], f"an array of {len(along[1])} values", allowed)
     n = max(sizes, default=1)
-    given = np.broadcast_to(across[1], n).copy()
+    control = np.broadcast_to(across[1], n).copy()
     target = np.broadcast_to(along[1], (n, *along[1].shape[1:])).copy()
     unit = pair.contact_scales(1.0).force
     if across[0] == "penetration":
         with np.errstate(over="ignore"):
-            depth, force = given, np.maximum(given, 0.0) ** 1.5 * unit
+            depth, force = control, np.maximum(control, 0.0) ** 1.5 * unit
     else:
-        if np.any(given < 0.0):
-            at = int(np.argmax(given < 0.0))
-            raise refusal("normal_force", float(given[at]), f"step {at}: it must not be negative")
-        depth, force = np.cbrt(given / unit) ** 2, given
+        if np.any(control < 0.0):
+            at = int(np.argmax(control < 0.0))
+            raise refusal("normal_force", float(control[at]), f"step {at}: it must not be negative")
+        depth, force = np.cbrt(control / unit) ** 2, control
     return Steps(depth, force, target, np.full(n, along[0] == "tangential_force"))
 
 
-def _directions_last(given: Given, first: bool = False) -> Given:
+def _directions_last(control: Given, first: bool = False) -> Given:
     """Return an array of xarray's with its `direction` as the last dimension, or the first one."""
-    if "direction" not in getattr(given, "dims", ()):
-        return given
-    array = cast("xr.DataArray", given)
+    if "direction" not in getattr(control, "dims", ()):
+        return control
+    array = cast("xr.DataArray", control)
     return array.isel(direction=0) if first else array.transpose(..., "direction")
 
 
 def _one_of(most: int, **controls: Given) -> tuple[str, Array]:
-    given = {name: value for name, value in controls.items() if value is not None}
-    if len(given) != 1:
+    control = {name: value for name, value in controls.items() if value is not None}
+    if len(control) != 1:
         raise InputError(
-            f"load path: give {' or '.join(controls)}, {'not both' if given else 'one of them'}"
+            f"load path: give {' or '.join(controls)}, {'not both' if control else 'one of them'}"
         )
-    name, value = next(iter(given.items()))
+    name, value = next(iter(control.items()))
     return name, _values(name, value, most)
 
 
-def _values(name: str, given: ArrayLike | str, most: int) -> Array:
+def _values(name: str, control: ArrayLike | str, most: int) -> Array:
     """Return a control as numbers in SI units, without a dimension if it is a single one."""
     allowed = "must be one or a list of numbers in SI units, or texts with a unit"
     if most == 2:
         allowed += ", or of shape (n, 2), along x and y"
-    values = numbers(name, given, allowed)
+    values = numbers(name, control, allowed)
     if values.ndim > most or values.size == 0 or (values.ndim == 2 and values.shape[1] != 2):
         raise refusal(name, values, allowed)
     if not np.all(np.isfinite(values)):

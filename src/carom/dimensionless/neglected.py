@@ -1,4 +1,4 @@
-"""Bounds on the error of psi_2 by what the theory neglects, and where they are known.
+"""Bounds on the error of psi_2 by what the theory neglects, and where they are studied.
 
 Envelopes of full solutions by boundary elements, studies/halfspace_study.csv; fitted, not proved.
 """
@@ -28,11 +28,11 @@ TURNED = 1.45
 
 def not_studied(kappa: float, beta: float, friction: float, chi: float) -> str:
     """Return a sentence on the parameter that lies outside the study of the bounds, or nothing."""
-    known = [("chi", chi, CHI), ("kappa", kappa, KAPPA)]
+    studied = [("chi", chi, CHI), ("kappa", kappa, KAPPA)]
     if abs(beta) > LIKE and friction > 0.0:
-        known += [("Dundurs' beta", beta, BETA), ("friction", friction, FRICTION)]
-        known += [("Dundurs' beta over friction", abs(beta) / friction, RATIO)]
-    for name, value, (least, most) in known:
+        studied += [("Dundurs' beta", beta, BETA), ("friction", friction, FRICTION)]
+        studied += [("Dundurs' beta over friction", abs(beta) / friction, RATIO)]
+    for name, value, (least, most) in studied:
         slack = ROUNDING * max(abs(least), abs(most))
         if not least - slack <= value <= most + slack:
             return f"{name} of {value:.3g} is outside {least:.3g} to {most:.3g}"

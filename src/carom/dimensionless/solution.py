@@ -16,12 +16,12 @@ from carom.dimensionless.elastic.record import Record, Steps, new_record, trimme
 from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import Memory
 from carom.dimensionless.lossy.law import Loss, LossNumbers, ScaleFreeLaw, scale_free
-from carom.dimensionless.lossy.rebounds import is_elastic
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.lossy.springs.solution import solve_by_marching
 from carom.dimensionless.lossy.viscoelastic.solution import solve_viscoelastic
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
+from carom.dimensionless.rebounds import is_elastic
 from carom.dimensionless.states import ContactState, History, Phase, SlipAngle, Trajectory
 from carom.quantities.causes import Cause
 from carom.quantities.keywords import known_keywords
@@ -187,26 +187,7 @@ class Solution(Trajectory):
     def slip_rate(self, time: float) -> float:
         """Return psi - sigma v, the rate of slip far outside the stick region; zero in stick.
 
-        Parameters
-        ----------
-        time : float
-            Time in units of d_max/V_1, from 0 to `duration`.
-
-        Returns
-        -------
-        float
-            Rate of slip in units of mu V_1/kappa.
-
-        Raises
-        ------
-        InputError
-            If the time is outside the contact, or the impact is not solved.
-
-        Examples
-        --------
-        >>> import carom
-        >>> carom.solve(0.5, 1.44).slip_rate(1.0)
-        0.0
+        In mu V_1/kappa, at a time in d_max/V_1. Raises InputError as `at`.
         """
         sign = self.phase_at(time).sign
         now = states.now_at(self.at(self._time_within(time)))
@@ -347,40 +328,40 @@ def solve(
     return solve_elastic(psi, chi) if losses is None else solve_with(psi, chi, scale_free(losses))
 
 
-def solve_with(psi: float, chi: float, losses: LossNumbers) -> Solution | LossySolution:
+def solve_with(psi_1: float, chi: float, losses: LossNumbers) -> Solution | LossySolution:
     """Solve one impact with losses, as elastic if that is nothing."""
-    return solve_elastic(psi, chi) if is_elastic(*losses) else solve_lossy(psi, chi, losses)
+    return solve_elastic(psi_1, chi) if is_elastic(*losses) else solve_lossy(psi_1, chi, losses)
 
 
-def solve_lossy(psi: float, chi: float, losses: LossNumbers) -> LossySolution:
+def solve_lossy(psi_1: float, chi: float, losses: LossNumbers) -> LossySolution:
     """Solve one impact in the way that suits its losses."""
     viscous = losses.loss == Loss.VISCOUS
-    solution = (solve_viscoelastic if viscous else solve_by_marching)(psi, chi, losses)
-    _refuse_unfit(psi, chi, solution.status)
+    solution = (solve_viscoelastic if viscous else solve_by_marching)(psi_1, chi, losses)
+    _refuse_unfit(psi_1, chi, solution.status)
     return solution
 
 
-def solve_elastic(psi: float, chi: float) -> Solution:
+def solve_elastic(psi_1: float, chi: float) -> Solution:
     """Solve one elastic impact."""
     work, record = new_work(), new_record(True)
-    solved_for = max(abs(psi), LINEAR) if psi != 0.0 else 0.0
+    solved_for = max(abs(psi_1), LINEAR) if psi_1 != 0.0 else 0.0
     status = Status(run_phases(solved_for, chi, TOLERANCE, work, record))
-    _refuse_unfit(psi, chi, status)
+    _refuse_unfit(psi_1, chi, status)
     record = trimmed(record)
     count, change_times = len(record.nodes), np.zeros(len(record.changes))
     steps = Steps(record.nodes, record.series, chi, np.zeros(count), np.zeros((count + 1, 2)))
     dense.tabulate(record.changes, steps, change_times)
-    mirror = -1 if np.signbit(psi) else 1
+    mirror = -1 if np.signbit(psi_1) else 1
     phases = _phases(record.changes, change_times, mirror)
     psi_out = float("nan")
     if status is Status.SOLVED:
-        psi_out = mirror * min(1.0, abs(psi) / LINEAR) * float(work.series[0, PSI])
-    return Solution(psi, chi, psi_out, status, phases, record, steps)
+        psi_out = mirror * min(1.0, abs(psi_1) / LINEAR) * float(work.series[0, PSI])
+    return Solution(psi_1, chi, psi_out, status, phases, record, steps)
 
 
-def _refuse_unfit(psi: float, chi: float, status: Status) -> None:
+def _refuse_unfit(psi_1: float, chi: float, status: Status) -> None:
     if status in (Status.PSI_NOT_FINITE, Status.CHI_NOT_POSITIVE):
-        name, value = ("psi", psi) if status is Status.PSI_NOT_FINITE else ("chi", chi)
+        name, value = ("psi", psi_1) if status is Status.PSI_NOT_FINITE else ("chi", chi)
         raise refusal(name, value, f"not allowed: {status.message}")
 
 

@@ -113,21 +113,23 @@ class Patch:
         slip at the end of the step. `length` is that of the step, in any unit.
         """
         carried = self.grid.carried(displacement - state.displacement)
-        given, approach = carried + state.yielded, depth - state.depth
+        followed, approach = carried + state.yielded, depth - state.depth
         open_ = np.where(state.pressure > 0.0, 0.0, state.gap)
         early = before_touch(open_, carried, approach, state.aside)
         share = length / (length + state.length)
         start = (now + length * rate for now, rate in zip(state.loads, state.rates, strict=True))
-        found = self._balance(_Asked(depth, given, early, state.slip, share), *start)
-        rates = [(now - last) / length for now, last in zip(found.loads, state.loads, strict=True)]
-        closed = np.where(found.gap > 0.0, state.gap - found.gap, 0.0)
-        aside = aside_of_bodies(closed, given - found.yielded, carried, approach)
-        slip = np.where(slipping(found.loads[1], found.bound), found.moved / length, 0.0)
-        surfaces = (*found.loads, found.bound, found.yielded, found.gap, aside, slip)
+        balanced = self._balance(_Asked(depth, followed, early, state.slip, share), *start)
+        rates = [
+            (now - last) / length for now, last in zip(balanced.loads, state.loads, strict=True)
+        ]
+        closed = np.where(balanced.gap > 0.0, state.gap - balanced.gap, 0.0)
+        aside = aside_of_bodies(closed, followed - balanced.yielded, carried, approach)
+        slip = np.where(slipping(balanced.loads[1], balanced.bound), balanced.moved / length, 0.0)
+        surfaces = (*balanced.loads, balanced.bound, balanced.yielded, balanced.gap, aside, slip)
         reached = ContactState(depth, displacement, *surfaces, rates, length)
-        return ContactStep(reached, found.moved, found.moved - found.turn)
+        return ContactStep(reached, balanced.moved, balanced.moved - balanced.turn)
 
-    def _balance(self, asked: "_Asked", pressure: Field, traction: Field) -> "_Found":
+    def _balance(self, asked: "_Asked", pressure: Field, traction: Field) -> "_Balance":
         """Return normal and tangential contact and the direction of slip that agree.
 
         They are solved in turns, each with the others' results, from loads to begin with.
@@ -140,7 +142,7 @@ class Patch:
             finer = max(tolerances.normal, rough), max(tolerances.tangential, rough)
             pressure, sunk = solve_pressure(surface, overlap, pressure, finer[0])
             skewed = surface.tangential_of_pressure(pressure)
-            since = asked.given - np.where(pressure > 0.0, asked.early, 0.0)
+            since = asked.followed - np.where(pressure > 0.0, asked.early, 0.0)
             pull = since - skewed - used
             bound = self.bound(pressure)
             traction, dragged = solve_traction(surface, pull, bound, traction, finer[1])
@@ -154,7 +156,7 @@ class Patch:
             straight = np.abs(turn - used).max() <= tolerances.turn * own
             if straight and max(change, 3.0 * rough) <= tolerances.exchange:
                 gap = np.maximum(sunk - overlap, 0.0)
-                return _Found((pressure, traction), bound, skewed + dragged, gap, moved, used)
+                return _Balance((pressure, traction), bound, skewed + dragged, gap, moved, used)
             rough = min(rough, NEXT * change)
         product = surface.materials.friction * abs(surface.materials.beta)
         raise RuntimeError(
@@ -167,13 +169,13 @@ class _Asked(NamedTuple):
     """What a step is about: positions, and what is known of slip."""
 
     depth: float
-    given: Field  # what the surfaces gave way before, and the motion of the bodies since
+    followed: Field  # what the surfaces gave way before, and the motion of the bodies since
     early: Field  # of that, what comes before they touch
     slip: Field  # of the last step
     share: float  # of the time between the middles of steps, that the end of this one is ahead
 
 
-class _Found(NamedTuple):
+class _Balance(NamedTuple):
     """What a step comes to."""
 
     loads: tuple[Field, Field]

@@ -58,7 +58,7 @@ class Operator(NamedTuple):
 
 
 def minimise(
-    operator: Operator, given: Field, bounds: AdmissibleSet, start: Field, tolerance: float
+    operator: Operator, wanted: Field, bounds: AdmissibleSet, start: Field, tolerance: float
 ) -> SurfaceLoad:
     """Return the tractions of least energy within the bounds.
 
@@ -71,7 +71,7 @@ def minimise(
     load = bounds.project(start)
     displacement = operator.displacement(load)
     for _ in range(ITERATIONS):
-        pull = given - displacement
+        pull = wanted - displacement
         downhill = pull / operator.diagonal
         allowed = tolerance * bounds.largest(load)
         if np.abs(bounds.project(load + downhill) - load).max() <= allowed:
@@ -198,18 +198,18 @@ def at_bound(traction: Field, bound: Field, within: float = 1e-12) -> Mask:
 
 
 def solve_traction(
-    compliance: Compliance, given: Field, bound: Field, start: Field, tolerance: float = 1e-6
+    compliance: Compliance, wanted: Field, bound: Field, start: Field, tolerance: float = 1e-6
 ) -> SurfaceLoad:
-    """Return the traction with |q| <= bound that follows a given displacement as far as it can.
+    """Return the traction with |q| <= bound that follows a displacement as far as it can.
 
-    Of all such tractions it has the least energy (1/2) q.T q - given.q (Kalker 1990, section 4.2):
-    where |q| < bound the surfaces give way by what is given, elsewhere given - T q is slip along q.
+    Of all such tractions it has the least energy (1/2) q.T q - wanted.q (Kalker 1990, section 4.2):
+    where |q| < bound the surfaces give way as wanted, elsewhere wanted - T q is slip along q.
     `tolerance` is a share of the largest bound, or of what would meet the displacement if that is
     less.
     """
     operator = Operator(
         compliance.tangential, compliance.roughly_traction, compliance.tangential_diagonal
     )
-    met = float(np.abs(given * (bound > 0.0)).max()) / compliance.tangential_diagonal
+    met = float(np.abs(wanted * (bound > 0.0)).max()) / compliance.tangential_diagonal
     bounds = Discs(bound, min(float(bound.max()), met))
-    return minimise(operator, given, bounds, start, tolerance)
+    return minimise(operator, wanted, bounds, start, tolerance)

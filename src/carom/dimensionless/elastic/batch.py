@@ -17,9 +17,9 @@ BLOCK, SMALLEST_BLOCK = 256, 8  # impacts that a thread takes at once
 
 
 @kernel
-def outgoing(psi: float, chi: float, work: Work, record: Record) -> tuple[float, int]:
+def outgoing(psi_1: float, chi: float, work: Work, record: Record) -> tuple[float, int]:
     """Return psi_2 of one impact, of either sign, and its status."""
-    speed = abs(psi)
+    speed = abs(psi_1)
     scale = 1.0
     if 0.0 < speed < LINEAR:
         scale = speed / LINEAR
@@ -28,7 +28,7 @@ def outgoing(psi: float, chi: float, work: Work, record: Record) -> tuple[float,
     if status != Status.SOLVED:
         return np.nan, status
     result = scale * work.series[0, PSI] if speed > 0.0 else 0.0
-    return -result if np.signbit(psi) else result, status
+    return -result if np.signbit(psi_1) else result, status
 
 
 @kernel
@@ -43,31 +43,31 @@ def code_of_phases(record: Record) -> int:
 
 @entry_point()
 def fill(
-    psi: Vector,
+    psi_1: Vector,
     chi: Vector,
     work: Work,
     record: Record,
-    psi_out: Vector,
+    psi_2: Vector,
     status: Codes,
     sequence: Counts,
 ) -> None:
     """Write psi_2, the status and the sequence of phases of every impact."""
-    for i in range(psi.size):
+    for i in range(psi_1.size):
         record.counts[:] = 0
-        psi_out[i], status[i] = outgoing(psi[i], chi[i], work, record)
+        psi_2[i], status[i] = outgoing(psi_1[i], chi[i], work, record)
         sequence[i] = code_of_phases(record)
 
 
 def solved(
-    psi: Array, chi: Array, threads: int | None = None
+    psi_1: Array, chi: Array, threads: int | None = None
 ) -> tuple[Array, NDArray[np.int8], NDArray[np.int64]]:
     """Return psi_2, `Status` and a number for the sequence of phases of impacts, in threads."""
-    psi_out, status = np.empty(psi.size), np.empty(psi.size, dtype=np.int8)
-    sequence = np.empty(psi.size, dtype=np.int64)
+    psi_2, status = np.empty(psi_1.size), np.empty(psi_1.size, dtype=np.int8)
+    sequence = np.empty(psi_1.size, dtype=np.int64)
 
     def block(part: slice) -> None:
-        results = psi_out[part], status[part], sequence[part]
-        fill(psi[part], chi[part], new_work(), new_record(False), *results)
+        results = psi_2[part], status[part], sequence[part]
+        fill(psi_1[part], chi[part], new_work(), new_record(False), *results)
 
-    in_blocks(block, psi.size, BLOCK, SMALLEST_BLOCK, threads)
-    return psi_out, status, sequence
+    in_blocks(block, psi_1.size, BLOCK, SMALLEST_BLOCK, threads)
+    return psi_2, status, sequence

@@ -191,13 +191,13 @@ def first_closing(gap: Series, h: float) -> float:
 @kernel
 def first_event(work: Work, mode: int, sign: int, inner: float, h: float) -> tuple[int, float]:
     """Return the first event within the step h, and the step that leads to it."""
-    found = NOTHING
+    first = NOTHING
     for event in range(2 if mode == at.STICK else 3):
         write_gap(work.series, mode, sign, inner, event, work.gap)
         closing = first_closing(work.gap, h)
         if closing <= h:
-            found, h = event, closing
-    return found, h
+            first, h = event, closing
+    return first, h
 
 
 @kernel

@@ -174,28 +174,28 @@ def gross_slip(run: Run, sign: int) -> tuple[int, int]:
 
 
 @entry_point()
-def run_phases(psi: float, chi: float, tolerance: float, work: Work, record: Record) -> int:
-    """Run a whole impact, psi >= 0, to its last state in row 0 of the series; return its status."""
-    if not np.isfinite(psi):
+def run_phases(psi_1: float, chi: float, tolerance: float, work: Work, record: Record) -> int:
+    """Run an impact, psi_1 >= 0, to its last state in row 0 of the series; return its status."""
+    if not np.isfinite(psi_1):
         return Status.PSI_NOT_FINITE.value
     if not (0.0 < chi < np.inf):
         return Status.CHI_NOT_POSITIVE.value
     s = work.series
     s[0] = 0.0
     s[0, at.V] = 1.0
-    s[0, at.PSI] = psi
+    s[0, at.PSI] = psi_1
     # psi and Q are of the order of psi_1; errors grow with the number of oscillations
-    tolerance *= min(1.0, max(psi, SMALLEST)) / max(1.0, chi)
+    tolerance *= min(1.0, max(psi_1, SMALLEST)) / max(1.0, chi)
     run, depth = Run(work, record, chi, tolerance), 0
-    slides = psi > 1.0 or (psi == 1.0 and chi < 0.5)
+    slides = psi_1 > 1.0 or (psi_1 == 1.0 and chi < 0.5)
     kind = Kind.GROSS_SLIP.value if slides else Kind.STICK.value
     sign = 1 if slides else 0
     cause = Cause.FIRST_TOUCH.value
     for _ in range(MAX_PHASES if chi <= LARGEST_CHI else 1):
         note_change(record, kind, sign, cause, s)
-        given = 0
+        slipping = 0
         if kind == Kind.STICK:
-            cause, depth, given = stick(run, depth, psi)
+            cause, depth, slipping = stick(run, depth, psi_1)
         elif kind == Kind.SLIP:
             cause, depth = slip(run, depth, sign, cause == Cause.EDGE_AT_LIMIT.value)
         else:
@@ -206,7 +206,7 @@ def run_phases(psi: float, chi: float, tolerance: float, work: Work, record: Rec
             solved = cause == Cause.SEPARATION
             return Status.SOLVED.value if solved else Status.UNRESOLVED.value
         kind = following[0]
-        sign = given if following[1] == GIVEN else sign * following[1]
+        sign = slipping if following[1] == GIVEN else sign * following[1]
     return Status.TOO_MANY_PHASES.value
 
 

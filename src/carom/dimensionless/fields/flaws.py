@@ -19,7 +19,7 @@ TERMS = 16  # of the stress over the root of the depth, in which it is smooth be
 ROOTS = 0.5 + 0.5 * nodes(TERMS)
 TO_SERIES = transform(TERMS)
 TRIALS = 10  # depths, evenly spaced by their roots
-TURNS = 8  # by which the depth that is pulled at hardest is found between two of them
+TURNS = 8  # by which the depth that is pulled at hardest is is_harder between two of them
 RADII = np.array([1.0, 1.03, 1.1])  # of the scan, in contact radii
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(10)
 _PARTS = 0.5 + 0.5 * _NODES
@@ -71,14 +71,14 @@ def hardest(series: Array, limit: float) -> tuple[float, float]:
 @kernel
 def keep_harder(r: float, series: Matrix, limit: float, best: Array) -> bool:
     """Write the hardest pull at flaws at a radius, if it is harder than the best."""
-    found = False
+    is_harder = False
     for side in range(2):
         value, root = hardest(series[side], limit)
         if value > best[VALUE]:
             best[VALUE], best[RADIUS], best[DEPTH] = value, r, DEEPEST * root * root
             best[COSINE] = 1.0 - 2.0 * side
-            found = True
-    return found
+            is_harder = True
+    return is_harder
 
 
 @kernel

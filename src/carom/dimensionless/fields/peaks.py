@@ -16,7 +16,7 @@ from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 VON_MISES, SHEAR, TENSION = MEASURES = range(3)
-VALUE, RADIUS, DEPTH, COSINE = range(4)  # columns of what is found
+VALUE, RADIUS, DEPTH, COSINE = range(4)  # columns of a peak
 PEAK_COLUMNS = 4
 
 COSINES = np.cos(np.linspace(0.0, np.pi, 9))
@@ -28,12 +28,11 @@ WAYS = np.array([[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, -1], [1, -1], [-
 
 # Places of the scan in contact radii: on the surface, and below.
 ON_SURFACE = np.array([0.0, 0.25, 0.5, 0.7, 0.85, 0.95, 1.05, 1.15])
-BELOW = np.stack(
-    np.meshgrid([0.0, 0.25, 0.5, 0.75, 1.0], [0.1, 0.25, 0.38, 0.5, 0.65]), -1
-).reshape(-1, 2)
-BEHIND = np.stack(
-    np.meshgrid([0.0, 0.5, 1.0, 1.4, 1.8, 2.4, 3.2, 4.5, 6.0], [0.0, 0.15, 0.5, 1.2]), -1
-).reshape(-1, 2)
+BELOW = np.array(
+    [(r, z) for z in (0.1, 0.25, 0.38, 0.5, 0.65) for r in (0.0, 0.25, 0.5, 0.75, 1.0)]
+)
+RADII_BEHIND = (0.0, 0.5, 1.0, 1.4, 1.8, 2.4, 3.2, 4.5, 6.0)
+BEHIND = np.array([(r, z) for z in (0.0, 0.15, 0.5, 1.2) for r in RADII_BEHIND])
 FARTHEST_CLIMB = 20.0  # from the centre, in radii of the contact or depths of the search
 TENSOR = np.array([[0, 3, 4], [3, 1, 5], [4, 5, 2]])  # where components xx, yy, zz, xy, xz, yz go
 FIRST_STEP, LAST_STEP = 0.1, 1e-6  # of the climb, in contact radii
@@ -80,10 +79,8 @@ def measured(measure: int, parts: Array, cos: float, friction: float) -> float:
 @kernel
 def around(measure: int, parts: Array, friction: float) -> tuple[float, float]:
     """Return the largest value around the circle and the cosine of its angle."""
-    ahead, behind = (
-        measured(measure, parts, 1.0, friction),
-        measured(measure, parts, -1.0, friction),
-    )
+    ahead = measured(measure, parts, 1.0, friction)
+    behind = measured(measure, parts, -1.0, friction)
     best, end = (ahead, 1.0) if ahead >= behind else (behind, -1.0)
     place, least = -1, best + ALIKE * abs(best)
     for i in range(1, COSINES.size - 1):
@@ -95,9 +92,8 @@ def around(measure: int, parts: Array, friction: float) -> tuple[float, float]:
     low, high = np.arccos(COSINES[place - 1]), np.arccos(COSINES[place + 1])
     for _ in range(TURNS):
         one, two = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-        if measured(measure, parts, np.cos(one), friction) > measured(
-            measure, parts, np.cos(two), friction
-        ):
+        first = measured(measure, parts, np.cos(one), friction)
+        if first > measured(measure, parts, np.cos(two), friction):
             high = two
         else:
             low = one
@@ -105,16 +101,22 @@ def around(measure: int, parts: Array, friction: float) -> tuple[float, float]:
     return max(best, measured(measure, parts, cos, friction)), cos
 
 
+@kernel
+def try_place(measure: int, r: float, z: float, friction: float, load: Load, best: Array) -> bool:
+    """Write the largest value around a circle and where it is, if it is larger than the best."""
+    value, cos = around(measure, stress_parts(max(r, at.NEGLIGIBLE), z, load), friction)
+    larger = value > best[VALUE]
+    if larger:
+        best[VALUE], best[RADIUS], best[DEPTH], best[COSINE] = value, r, z, cos
+    return bool(larger)
+
+
 @entry_point()
 def scan(measure: int, places: Matrix, friction: float, load: Load, best: Vector) -> None:
     """Write the largest value of a measure among places (radius, depth), and where it is."""
     best[VALUE] = -np.inf
     for row in range(places.shape[0]):
-        r, z = places[row, 0], places[row, 1]
-        parts = stress_parts(max(r, at.NEGLIGIBLE), z, load)
-        value, cos = around(measure, parts, friction)
-        if value > best[VALUE]:
-            best[VALUE], best[RADIUS], best[DEPTH], best[COSINE] = value, r, z, cos
+        try_place(measure, places[row, 0], places[row, 1], friction, load, best)
 
 
 @entry_point()
@@ -138,11 +140,8 @@ def climb(
         for way in range(WAYS.shape[0]):
             r = min(abs(best[RADIUS] + step * WAYS[way, 0]), farthest)
             z = min(max(best[DEPTH] + step * WAYS[way, 1], shallow), min(deepest, farthest))
-            parts = stress_parts(max(r, at.NEGLIGIBLE), z, load)
-            value, cos = around(measure, parts, friction)
-            if value > best[VALUE]:
-                best[VALUE], best[RADIUS], best[DEPTH], best[COSINE] = value, r, z, cos
-                moved = True
+            moved = try_place(measure, r, z, friction, load, best)
+            if moved:
                 break
         if not moved:
             step *= 0.5
@@ -211,8 +210,8 @@ def largest(
     >>> from carom.dimensionless.fields.peaks import VON_MISES, largest
     >>> from carom.dimensionless.fields.profile import flat, stacked
     >>> hertz = stacked([1.0], [flat(0.0, 1.0, 1.0, 0.0)])
-    >>> found = largest(VON_MISES, hertz, friction=0.0, poisson=0.3)
-    >>> round(found.value, 4), round(found.z, 4)
+    >>> peak = largest(VON_MISES, hertz, friction=0.0, poisson=0.3)
+    >>> round(peak.value, 4), round(peak.z, 4)
     (0.62, 0.4809)
     """
     b = profile.edges[-1]
@@ -220,11 +219,11 @@ def largest(
         return Largest(0.0, 0.0, 0.0, 0.0)
     load, best = load_of(profile, poisson, rim), np.zeros(PEAK_COLUMNS)
     for places in regions(profile, shallow, deepest):
-        found = np.zeros(PEAK_COLUMNS)
-        scan(measure, places, friction, load, found)
-        climb(measure, friction, load, shallow, deepest, FIRST_STEP, LAST_STEP, found)
-        if found[VALUE] > best[VALUE]:
-            best = found
+        peak = np.zeros(PEAK_COLUMNS)
+        scan(measure, places, friction, load, peak)
+        climb(measure, friction, load, shallow, deepest, FIRST_STEP, LAST_STEP, peak)
+        if peak[VALUE] > best[VALUE]:
+            best = peak
     sine = np.sqrt(max(1.0 - best[COSINE] ** 2, 0.0))
     x, y = best[RADIUS] * best[COSINE], best[RADIUS] * sine
     return Largest(*map(float, (b * best[VALUE], b * x, b * y, b * best[DEPTH])))

@@ -251,8 +251,8 @@ def push(state: State, h: float, depth: float, wanted: Array) -> State | None:
         if now.even(state) or count >= MOST_PARTS:
             break
         count *= 2
-    found = now.corrected()
-    return found if np.hypot(*(found.force - wanted)) <= FORCE_REACHED * most else None
+    reached = now.corrected()
+    return reached if np.hypot(*(reached.force - wanted)) <= FORCE_REACHED * most else None
 
 
 def first_guess(state: State, h: float, depth: float, wanted: Array) -> Array:

@@ -9,9 +9,9 @@ from carom.dimensionless.fields.peaks import PEAK_COLUMNS, RADIUS, VALUE
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.strength.peaks import Contacts, Peak, Search
 
-COARSE_STEP = 8e-3  # last one of a climb, in contact radii, before that to the place told
-LEAST = 1e-12  # of a pull: less is rounding
-SETTLED = 1e-4  # relative change of the width from one round to the next
+COARSE_STEP = 8e-3  # last one of a climb, in contact radii, but for the last climb
+LEAST_PULL = 1e-12  # less is rounding
+WIDTH_SETTLED = 1e-4  # relative change from one round to the next
 MOST_ROUNDS = 12
 WIDER, MOST_TRIALS = 1.5, 60  # from one trial width to the next
 
@@ -24,18 +24,18 @@ class _FlawSearch(Search):
         self.poisson, self.flaw = poisson, flaw
 
     def scanned(self, time: float) -> Array:
-        known, key = self.contacts.tensions, (self.poisson, time)
-        if key not in known and self.contacts.size(time) > 0.0:
-            known[key] = self._tensions(time, flaws.RADII)
-        return self._hardest(time, flaws.RADII, known.get(key))[np.newaxis]
+        tensions, key = self.contacts.tensions, (self.poisson, time)
+        if key not in tensions and self.contacts.size(time) > 0.0:
+            tensions[key] = self._tensions(time, flaws.RADII)
+        return self._hardest(time, flaws.RADII, tensions.get(key))[np.newaxis]
 
     def climbed(self, time: float, start: Array, step: float, last: float = COARSE_STEP) -> Array:
         best, size = self.pulled(time, start[RADIUS]), self.contacts.size(time)
         if size > 0.0:
             load, series = self.contacts.load(time, self.poisson), np.empty((2, flaws.TERMS))
-            given = self.flaw / size, self.contacts.friction, load, series
+            problem = self.flaw / size, self.contacts.friction, load, series
             best[VALUE] /= size**1.5
-            flaws.climb_flaws(step, last, *given, best)
+            flaws.climb_flaws(step, last, *problem, best)
             best[VALUE] *= size**1.5
         return best
 
@@ -75,8 +75,8 @@ def intensity(contacts: Contacts, poisson: float, flaw: float = inf) -> Peak:
     >>> round(intensity(sliding, 0.3, 1e-8).value / 1e-4, 3)  # 1.122 times the stress at the edge
     0.528
     """
-    found = _FlawSearch(contacts, poisson, flaw).peak()
-    return found if found.value > LEAST else found._replace(value=0.0)
+    peak = _FlawSearch(contacts, poisson, flaw).peak()
+    return peak if peak.value > LEAST_PULL else peak._replace(value=0.0)
 
 
 def cracking_width(contacts: Contacts, poisson: float, flaw: float, wanted: float) -> float:
@@ -105,7 +105,7 @@ def cracking_width(contacts: Contacts, poisson: float, flaw: float, wanted: floa
         return width
     for _ in range(MOST_ROUNDS):
         before, width = width, _width_there(contacts, poisson, flaw, wanted, peak, least)
-        if abs(width - before) <= SETTLED * width:
+        if abs(width - before) <= WIDTH_SETTLED * width:
             break
         peak = intensity(contacts, poisson, flaw / width)
     return width
@@ -127,6 +127,6 @@ def _width_there(
     for _ in range(MOST_TRIALS):
         high *= WIDER
         if missing(high) <= 0.0:
-            return float(brentq(missing, low, high, rtol=0.1 * SETTLED))
+            return float(brentq(missing, low, high, rtol=0.1 * WIDTH_SETTLED))
         low = high
     return inf

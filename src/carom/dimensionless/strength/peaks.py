@@ -17,9 +17,9 @@ from carom.dimensionless.solution import Solution
 TIMES = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 9))  # of the scan, within a phase
 # Of the contact, in depths of the search.
 FIRST_RADII = np.array([0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0])
-NEAR = 0.95  # of the largest value of the scan: instants that are searched, too
-WITHIN = 1e-2  # of the time between two scans, to which the instant is found
-RESOLVED = 1e-6  # of the memory
+NEARLY_LARGEST = 0.95  # of the values of the scan: instants that are searched, too
+INSTANT_TOLERANCE = 1e-2  # of the time between two scans, to which the instant is found
+MEMORY_TOLERANCE = 1e-6
 FIRST_STEP, NEXT_STEP = 0.1, 0.03  # of a climb, in contact radii, and of those beside it
 LAST_STEP, FINEST_STEP = 2e-3, 1e-4  # of a climb: peaks are round; of the last one
 
@@ -46,15 +46,15 @@ class Contacts:
     ) -> None:
         self.solution, self.friction, self.depth = solution, friction, depth
         self.times = self._instants()
-        self.peaks: dict[tuple[float, int], Peak] = {}  # those that are known, by nu and measure
-        self.tensions: dict[tuple[float, float], Array] = {}  # beside it, by nu and time
+        self.peaks: dict[tuple[float, int], Peak] = {}  # by nu and measure
+        self.tensions: dict[tuple[float, float], Array] = {}  # beside the contact, by nu and time
         self._kept: dict[float, tuple[Profile, float]] = {}
 
     def at(self, time: float) -> tuple[Profile, float]:
         """Return the memory of the contact at a time and the density of pressure at its edge."""
         if time not in self._kept:
             if isinstance(self.solution, Solution):
-                self._kept[time] = self.solution.memory(time).profile(RESOLVED), 0.0
+                self._kept[time] = self.solution.memory(time).profile(MEMORY_TOLERANCE), 0.0
             else:
                 state = self.solution.contact_at(time)
                 self._kept[time] = state.profile, state.rim
@@ -112,16 +112,16 @@ class Search(ABC):
         times = self.contacts.times
         rows = np.array([self.scanned(time) for time in times.tolist()])
         highest = rows[..., VALUE].max()
-        least = highest - (1.0 - NEAR) * abs(highest)
-        found = [
+        least = highest - (1.0 - NEARLY_LARGEST) * abs(highest)
+        candidates = [
             self._between(times, i, region[i])
             for region in np.moveaxis(rows, 1, 0)
             for i in _maxima(region[:, VALUE], least)
         ]
-        time, row = max(found, key=lambda one: one[1][VALUE])
-        return self.told(time, self.climbed(time, row, LAST_STEP, FINEST_STEP))
+        time, row = max(candidates, key=lambda one: one[1][VALUE])
+        return self.in_units(time, self.climbed(time, row, LAST_STEP, FINEST_STEP))
 
-    def told(self, time: float, row: Array) -> Peak:
+    def in_units(self, time: float, row: Array) -> Peak:
         """Return a place at an instant in units of the impact."""
         size = self.contacts.size(time)
         r, z = size * row[RADIUS], size * row[DEPTH]
@@ -141,7 +141,7 @@ class Search(ABC):
             return -float(best[-1][1][VALUE])
 
         if high > low:
-            options = {"xatol": WITHIN * (high - low)}
+            options = {"xatol": INSTANT_TOLERANCE * (high - low)}
             minimize_scalar(lost, bounds=(low, high), method="bounded", options=options)
         return max(best, key=lambda one: one[1][VALUE])
 
@@ -177,13 +177,13 @@ class _StressSearch(Search):
         if place[0, 1] == shallow:  # at the surface jumps move with the front
             starts.append(instant.jumps(self.contacts.at(time)[0], shallow))
         load = self.contacts.load(time, self.poisson)
-        given = self.measure, self.contacts.friction, load, shallow, np.inf
-        found = [self._best(time, places) for places in starts]
-        for best in found:
+        problem = self.measure, self.contacts.friction, load, shallow, np.inf
+        climbs = [self._best(time, places) for places in starts]
+        for best in climbs:
             best[VALUE] /= size
-            instant.climb(*given, step, last, best)
+            instant.climb(*problem, step, last, best)
             best[VALUE] *= size
-        return max(found, key=lambda best: best[VALUE])
+        return max(climbs, key=lambda best: best[VALUE])
 
     def _best(self, time: float, places: Array) -> Array:
         best, load = np.zeros(instant.PEAK_COLUMNS), self.contacts.load(time, self.poisson)
@@ -210,9 +210,9 @@ def peaks(
     >>> round(mises.value, 4), round(mises.z, 2)
     (0.6214, 0.48)
     """
-    known = contacts.peaks
+    peaks = contacts.peaks
     for each in measures:
-        if (poisson, each) not in known:
-            found = _StressSearch(contacts, poisson, each).peak()
-            known[poisson, each] = found._replace(value=max(found.value, 0.0))
-    return tuple(known[poisson, each] for each in measures)
+        if (poisson, each) not in peaks:
+            peak = _StressSearch(contacts, poisson, each).peak()
+            peaks[poisson, each] = peak._replace(value=max(peak.value, 0.0))
+    return tuple(peaks[poisson, each] for each in measures)

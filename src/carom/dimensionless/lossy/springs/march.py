@@ -67,7 +67,7 @@ def new_work(steps: int = 0, springs: int = 0, most: int = MOST_SPRINGS) -> Arra
 
 @kernel
 def march(
-    psi: float, inertia: Inertia, solid: Solid, h: float, work: Arrays, numbers: Array
+    psi_1: float, inertia: Inertia, solid: Solid, h: float, work: Arrays, numbers: Array
 ) -> tuple[int, float]:
     """March an impact in steps of the clock; return their number, and the clock of the loading.
 
@@ -75,7 +75,7 @@ def march(
     """
     now, new, turned = work.motion[0], work.motion[1], work.motion[2]
     springs, state = work.springs, work.state
-    begin(psi, work)
+    begin(psi_1, work)
     laid, touching, since, widest, strongest, clock = 0, 0, 0, 0.0, 0.0, 0.0
     for i in range(LONGEST):
         again = now[at.SPEED] > 0.0 and turned[at.EDGE] > 0.0
@@ -116,14 +116,14 @@ def march(
 
 
 @kernel
-def begin(psi: float, work: Arrays) -> None:
+def begin(psi_1: float, work: Arrays) -> None:
     """Put the bodies to their first touch."""
     work.motion[:], work.springs[:], work.state[:] = 0.0, 0.0, 0.0
     work.motion[0, at.SPEED], work.motion[0, at.PACE] = 1.0, 1.0
-    work.state[at.PSI] = psi
+    work.state[at.PSI] = psi_1
     if work.rows.shape[0] > 0:
         work.rows[0] = 0.0
-        work.rows[0, layout.AT_V], work.rows[0, layout.AT_PSI] = 1.0, psi
+        work.rows[0, layout.AT_V], work.rows[0, layout.AT_PSI] = 1.0, psi_1
 
 
 @kernel
@@ -246,26 +246,26 @@ def note(now: Array, turned: Array, state: Array, numbers: Array) -> None:
 
 
 @kernel
-def step_for(psi: float, inertia: Inertia, solid: Solid, count: int, work: Arrays) -> float:
+def step_for(psi_1: float, inertia: Inertia, solid: Solid, count: int, work: Arrays) -> float:
     """Return the step of the clock with which the contact is cut into so many springs."""
     trial = ELASTIC_CLOCK / (PER_SPRING * TRIAL_SPRINGS)
-    _, clock = march(psi, inertia, solid, trial, work, work.coarse)
+    _, clock = march(psi_1, inertia, solid, trial, work, work.coarse)
     return float(clock / (PER_SPRING * count))
 
 
 @entry_point()
 def run(
-    psi: float, inertia: Inertia, solid: Solid, work: Arrays, numbers: Vector
+    psi_1: float, inertia: Inertia, solid: Solid, work: Arrays, numbers: Vector
 ) -> tuple[int, float]:
     """Run an impact of any psi_1; return its status, and an estimate of the error of psi_2.
 
     Beyond LARGEST_PSI psi_1 - psi_2 is the same. Numbers are Richardson's (1911), of two numbers of
     springs, and the error is what he adds, but not below LEAST_ERROR, as that may be by chance.
     """
-    status, error = why_not(psi, inertia.chi), 0.0
+    status, error = why_not(psi_1, inertia.chi), 0.0
     if status == Status.SOLVED.value:
-        speed = min(abs(psi), LARGEST_PSI)
-        if psi < 0.0:
+        speed = min(abs(psi_1), LARGEST_PSI)
+        if psi_1 < 0.0:
             inertia = Inertia(inertia.chi, -inertia.eps, -inertia.zeta)
         h = step_for(speed, inertia, solid, FEW, work)
         coarse, _ = march(speed, inertia, solid, h, work, work.coarse)
@@ -283,8 +283,8 @@ def run(
             if solid.loss == Loss.PLASTIC.value:
                 thornton.come_to(solid.parameter, numbers)
             keep_energy(speed, numbers)
-        numbers[layout.PSI_OUT] += abs(psi) - speed
-        numbers[layout.PSI_OUT] *= np.copysign(1.0, psi)
+        numbers[layout.PSI_OUT] += abs(psi_1) - speed
+        numbers[layout.PSI_OUT] *= np.copysign(1.0, psi_1)
     if status != Status.SOLVED.value:
         numbers[:], error = np.nan, np.nan
     return status, error
@@ -292,16 +292,16 @@ def run(
 
 @entry_point()
 def trace(
-    psi: float, inertia: Inertia, solid: Solid, count: int, trial: Arrays, work: Arrays
+    psi_1: float, inertia: Inertia, solid: Solid, count: int, trial: Arrays, work: Arrays
 ) -> int:
     """Fill in a row for each step over so many springs; return the number of steps."""
-    h = step_for(psi, inertia, solid, count, trial)
-    return march(psi, inertia, solid, h, work, work.coarse)[0]
+    h = step_for(psi_1, inertia, solid, count, trial)
+    return march(psi_1, inertia, solid, h, work, work.coarse)[0]
 
 
 @entry_point()
 def fill(
-    psi: Vector,
+    psi_1: Vector,
     chi: Vector,
     loss: int,
     parameter: Vector,
@@ -311,12 +311,12 @@ def fill(
     status: Codes,
 ) -> None:
     """Write what every impact comes to, and its status."""
-    for i in range(psi.size):
+    for i in range(psi_1.size):
         solid = Solid(loss, parameter[i], extra[i] if loss == Loss.RELAXING.value else 0.0)
-        status[i], _ = run(psi[i], Inertia(chi[i], 0.0, 0.0), solid, work, numbers[i])
+        status[i], _ = run(psi_1[i], Inertia(chi[i], 0.0, 0.0), solid, work, numbers[i])
 
 
-def march_rebound(psi: float, inertia: Inertia, solid: Solid) -> tuple[float, float]:
+def march_rebound(psi_1: float, inertia: Inertia, solid: Solid) -> tuple[float, float]:
     """Return psi_2 by the march, and an estimate of its error; NaN if it is not solved.
 
     >>> from carom.dimensionless.lossy.springs.motion import ELASTIC, Inertia
@@ -326,12 +326,12 @@ def march_rebound(psi: float, inertia: Inertia, solid: Solid) -> tuple[float, fl
     (-0.3, True)
     """
     numbers = np.empty(layout.NUMBERS)
-    _, error = run(psi, inertia, solid, new_work(), numbers)
+    _, error = run(psi_1, inertia, solid, new_work(), numbers)
     return float(numbers[layout.PSI_OUT]), error
 
 
-def marched(psi: float, inertia: Inertia, solid: Solid, springs: int) -> Vector:
+def marched(psi_1: float, inertia: Inertia, solid: Solid, springs: int) -> Vector:
     """Return what an impact comes to over so many springs, not extrapolated."""
     work = new_work(most=springs)
-    steps = trace(psi, inertia, solid, springs, work, work)
+    steps = trace(psi_1, inertia, solid, springs, work, work)
     return work.coarse if steps else np.full(layout.NUMBERS, np.nan)

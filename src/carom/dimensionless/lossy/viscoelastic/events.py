@@ -88,9 +88,9 @@ def first_event(work: Arrays, motion: Motion, panel: Panel) -> Event:
         high = early if j == 0 else PLACES[j]
         if high < early:
             continue
-        found = happened(work, motion, panel, high)
-        if found != NOTHING:
-            return event_between(work, motion, panel, low, Event(high, found))
+        what = happened(work, motion, panel, high)
+        if what != NOTHING:
+            return event_between(work, motion, panel, low, Event(high, what))
         low = high
     return Event(2.0, NOTHING)
 
@@ -100,11 +100,11 @@ def event_between(work: Arrays, motion: Motion, panel: Panel, low: float, event:
     """Return the first event after a place where nothing has happened, by bisection."""
     for _ in range(BISECTIONS):
         middle = 0.5 * (low + event.place)
-        found = happened(work, motion, panel, middle)
-        if found == NOTHING:
+        what = happened(work, motion, panel, middle)
+        if what == NOTHING:
             low = middle
         else:
-            event = Event(middle, found)
+            event = Event(middle, what)
     return event
 
 
@@ -119,8 +119,7 @@ def commit(work: Arrays, motion: Motion, panel: Panel, event: int) -> int:
     elif ring.mode == Mode.RETREATS:
         memory.trim(work, count - 1, border.radius, border.place)
         outer = np.sqrt(work.values[at.FRONT, 0])
-        depth = memory.push(work, ring.depth, panel.number, outer, border.radius)
-        slipping.set_ring(work, ring.mode, ring.sign, depth)
+        memory.push(work, panel.number, outer, border.radius)
         if event == ARRIVES:
             count -= 1
     elif ring.mode == Mode.RETURNS:
@@ -133,12 +132,8 @@ def commit(work: Arrays, motion: Motion, panel: Panel, event: int) -> int:
 def lay(work: Arrays, panel: Panel, sign: int) -> int:
     """Write the piece that the panel has laid behind the others; return how many there are."""
     pieces, values, i, last = work.pieces, work.values, panel.pieces, NODES - 1
-    pieces[i, at.SIGN], pieces[i, at.PANEL], pieces[i, at.X0], pieces[i, at.X1] = (
-        sign,
-        panel.number,
-        -1.0,
-        1.0,
-    )
+    pieces[i, at.SIGN], pieces[i, at.PANEL] = sign, panel.number
+    pieces[i, at.X0], pieces[i, at.X1] = -1.0, 1.0
     pieces[i, at.R0], pieces[i, at.R1] = values[at.LAID_RADIUS, 0], values[at.LAID_RADIUS, last]
     pieces[i, at.A0], pieces[i, at.A1] = values[at.LAID_A, 0], values[at.LAID_A, last]
     pieces[i, at.W0], pieces[i, at.W1] = 0.0, values[at.LAID, last]
@@ -164,34 +159,30 @@ def give_back_rest(
 @kernel
 def follow_event(work: Arrays, motion: Motion, count: int, event: int, now: State) -> int:
     """Decide what comes next; return how many pieces there are then."""
-    ring = slipping.ring_of(work)
+    ring, stuck = slipping.ring_of(work), memory.rim(work.pieces, count)
     if event == BEGINS:
         return begin(work, motion, count, 1 if now.psi > 0.0 else -1, now)
     if event == CLOSES:  # to rounding: what was left of the ring slips the other way at once
-        stuck, g = memory.rim(work.pieces, count), slipping.excess(-ring.sign, now)
-        depth = memory.push_at_once(work, 0, max(now.radius, stuck), stuck, now.time, g)
-        slipping.set_ring(work, Mode.RETREATS.value, -ring.sign, depth)
+        slipping.set_ring(work, Mode.RETREATS.value, -ring.sign, 0)
+        g = slipping.excess(-ring.sign, now)
+        memory.push_at_once(work, max(now.radius, stuck), stuck, now.time, g)
         return retreat(work, motion, count, now)
     if event == STOPS:
         level = slipping.level_now(motion, ring.sign, now)
-        memory.lay_flat(
-            work.pieces, count, ring.sign, memory.rim(work.pieces, count), now.radius, level
-        )
+        memory.lay_flat(work.pieces, count, ring.sign, stuck, now.radius, level)
         if motion.stage == Stage.UNLOADING.value:
             return begin(work, motion, count + 1, -ring.sign, now)
         slipping.set_ring(work, Mode.STICKS.value, 0, 0)
         return count + 1
-    if event == TURNS and ring.mode == Mode.RETURNS:
-        slipping.set_ring(work, Mode.RETREATS.value, ring.sign, ring.depth)
+    if ring.mode == Mode.RETURNS and event == TURNS:
+        work.ring[at.MODE] = Mode.RETREATS.value
         return count
-    if event == ARRIVES and ring.mode == Mode.RETURNS:
-        slipping.set_ring(work, ring.mode, ring.sign, ring.depth - 1)
+    if ring.mode == Mode.RETURNS and event == ARRIVES:
+        work.ring[at.DEPTH] -= 1
         return give_back(work, motion, count, now)
     if event == TURNS:
         return give_back(work, motion, count, now)
-    if event == ARRIVES:
-        return retreat(work, motion, count, now)
-    return count
+    return retreat(work, motion, count, now) if event == ARRIVES else count
 
 
 @kernel
@@ -204,31 +195,27 @@ def begin(work: Arrays, motion: Motion, count: int, sign: int, now: State) -> in
 @kernel
 def retreat(work: Arrays, motion: Motion, count: int, now: State) -> int:
     """Let the front pass what is flat for it, and decide how it goes on; return the pieces left."""
-    pieces, ring = work.pieces, slipping.ring_of(work)
-    level = slipping.level_now(motion, ring.sign, now)
+    pieces, sign = work.pieces, slipping.ring_of(work).sign
+    level, g = slipping.level_now(motion, sign, now), slipping.excess(sign, now)
     for _ in range(at.MAX_PIECES):
         i = count - 1
         if count == 0:
             depth = slipping.ring_of(work).depth
             rest = work.passed[depth - 1, memory.R_INNER] if depth > 0 else 0.0
             if rest > 0.0:  # the centre is reached to rounding of levels, that is of r^2
-                depth = memory.push_at_once(
-                    work, depth, rest, 0.0, now.time, slipping.excess(ring.sign, now)
-                )
-            slipping.set_ring(work, Mode.SLIPS.value, ring.sign, depth)
+                memory.push_at_once(work, rest, 0.0, now.time, g)
+            work.ring[at.MODE] = Mode.SLIPS.value
             return 0
         if pieces[i, at.R1] <= pieces[i, at.R0]:
             count = i
             continue
-        if level > memory.level_at(pieces, i, ring.sign, True) + SAME_LEVEL:
-            slipping.set_ring(work, Mode.STANDS.value, ring.sign, slipping.ring_of(work).depth)
+        if level > memory.level_at(pieces, i, sign, True) + SAME_LEVEL:
+            work.ring[at.MODE] = Mode.STANDS.value
             return count
-        if pieces[i, at.SIGN] != ring.sign or pieces[i, at.PANEL] != memory.FLAT:
-            slipping.set_ring(work, Mode.RETREATS.value, ring.sign, slipping.ring_of(work).depth)
+        work.ring[at.MODE] = Mode.RETREATS.value
+        if pieces[i, at.SIGN] != sign or pieces[i, at.PANEL] != memory.FLAT:
             return count
-        depth, g = slipping.ring_of(work).depth, slipping.excess(ring.sign, now)
-        depth = memory.push_at_once(work, depth, pieces[i, at.R1], pieces[i, at.R0], now.time, g)
-        slipping.set_ring(work, Mode.RETREATS.value, ring.sign, depth)
+        memory.push_at_once(work, pieces[i, at.R1], pieces[i, at.R0], now.time, g)
         count = i
     return count
 
@@ -236,23 +223,21 @@ def retreat(work: Arrays, motion: Motion, count: int, now: State) -> int:
 @kernel
 def give_back(work: Arrays, motion: Motion, count: int, now: State) -> int:
     """Let what was passed at once stick again, and decide how the front goes on."""
-    ring, g = slipping.ring_of(work), slipping.excess(slipping.ring_of(work).sign, now)
-    level, fading = (
-        slipping.level_now(motion, ring.sign, now),
-        Fading(ring.sign, motion.alpha, now.time),
-    )
+    ring = slipping.ring_of(work)
+    level, g = slipping.level_now(motion, ring.sign, now), slipping.excess(ring.sign, now)
+    fading = Fading(ring.sign, motion.alpha, now.time)
+    mode, depth = Mode.STANDS.value, ring.depth
     for top in range(ring.depth - 1, -1, -1):
         row = work.passed[top]
         if memory.left(work, top, False, fading) < g * (1.0 - 1e-8) - 1e-14:
-            slipping.set_ring(
-                work, Mode.STANDS.value if count > 0 else Mode.SLIPS.value, ring.sign, top + 1
-            )
-            return count
+            break
         if row[memory.PASSED_PANEL] != memory.AT_ONCE:
-            slipping.set_ring(work, Mode.RETURNS.value, ring.sign, top + 1)
-            return count
+            mode = Mode.RETURNS.value
+            break
         outer = min(row[memory.R_OUTER], now.radius)
         memory.lay_flat(work.pieces, count, ring.sign, row[memory.R_INNER], outer, level)
-        count += 1
-    slipping.set_ring(work, Mode.STANDS.value if count > 0 else Mode.SLIPS.value, ring.sign, 0)
+        count, depth = count + 1, top
+    if count == 0 and mode == Mode.STANDS.value:
+        mode = Mode.SLIPS.value
+    slipping.set_ring(work, mode, ring.sign, depth)
     return count

@@ -64,9 +64,11 @@ class Panel(NamedTuple):
                 high[side * (last - radii) <= 0.0] = -1.0
                 continue
             table = self.series[np.newaxis]
-            found = np.array([place(table, 0, row, r, -1.0, 1.0) for r in radii.tolist()])
+            places = np.array([place(table, 0, row, r, -1.0, 1.0) for r in radii.tolist()])
             enters = side * (last - first) > 0.0
-            low, high = (np.maximum(low, found), high) if enters else (low, np.minimum(high, found))
+            low, high = (
+                (np.maximum(low, places), high) if enters else (low, np.minimum(high, places))
+            )
         return low, np.maximum(low, high)
 
     def pressure(self, x: Array, radii: Array) -> Array:
@@ -78,13 +80,13 @@ class Panel(NamedTuple):
     def slip_rate(self, replay: Replay) -> Callable[[Array, Array], tuple[Array, Array]]:
         """Return what tells the radial functions of the slip rate at places and radii."""
         instants = [Instant(replay, float(x)) for x in nodes(IN_TIME)]
-        known = [instant.rates() for instant in instants]
-        rate = transform(IN_TIME) @ np.array([each for each, _ in known])
+        rates = [instant.rates() for instant in instants]
+        rate = transform(IN_TIME) @ np.array([each for each, _ in rates])
         across = 0.5 * (1.0 + nodes(IN_RING))
         rest = np.array(
             [
                 displaced(change, at.stuck + (at.radius - at.stuck) * _ring(across))
-                for at, (_, change) in zip(instants, known, strict=True)
+                for at, (_, change) in zip(instants, rates, strict=True)
             ]
         )
         table = np.einsum("im,mkc,jk->ijc", transform(IN_TIME), rest, transform(IN_RING))

@@ -59,7 +59,7 @@ class Plan(NamedTuple):
 
 @entry_point()
 def run(
-    psi: float, solid: Solid, until: int, work: Arrays, numbers: Vector, record: Trace
+    psi_1: float, solid: Solid, until: int, work: Arrays, numbers: Vector, record: Trace
 ) -> tuple[int, int]:
     """Run an impact, psi_1 >= 0; return its status and the number of panels.
 
@@ -67,19 +67,19 @@ def run(
     how many pieces of memory that finds.
     """
     chi, tolerance = solid.chi, solid.tolerance
-    refused = why_not(psi, chi)
+    refused = why_not(psi_1, chi)
     if refused != Status.SOLVED.value:
         return refused, 0
     numbers[:] = 0.0
     work.values[:, 0], work.ring[:] = 0.0, 0.0
-    work.values[at.SPEED, 0], work.values[at.PSI, 0] = 1.0, psi
-    slips = psi > 1.0 or (psi == 1.0 and chi <= 0.5)
+    work.values[at.SPEED, 0], work.values[at.PSI, 0] = 1.0, psi_1
+    slips = psi_1 > 1.0 or (psi_1 == 1.0 and chi <= 0.5)
     set_ring(work, Mode.SLIPS.value if slips else Mode.STICKS.value, 1 if slips else 0, 0)
     motion = Motion(Stage.LOADING.value, solid.alpha, chi)
     pieces, natural, from_change = 0, FIRST_LENGTH, False
     for number in range(at.MAX_PANELS):
         plan = Plan(natural, EVEN, natural, from_change, NOTHING, False, False, 0.0)
-        plan, error = solved_panel(work, motion, number, pieces, plan, tolerance * (1.0 + psi))
+        plan, error = solved_panel(work, motion, number, pieces, plan, tolerance * (1.0 + psi_1))
         if error < 0.0 or pieces > at.MAX_PIECES // 2:
             return Status.UNRESOLVED.value, number
         panel = Panel(number, plan.clock, plan.length, pieces)
@@ -89,7 +89,7 @@ def run(
         note_numbers(work, motion, panel, numbers)
         if goes_back(work, motion, plan):
             set_ring(work, Mode.RETRACES.value, 0, 0)
-            work.ring[at.RATIO], pieces = psi, 0
+            work.ring[at.RATIO], pieces = psi_1, 0
         else:
             pieces = commit(work, motion, panel, plan.change)
         for row in range(at.VALUES):
@@ -102,7 +102,7 @@ def run(
             motion = next_stage(work, motion)
             pieces = unload(work, motion, pieces)
         elif plan.change == NOTHING:
-            growth = SAFETY * (tolerance * (1.0 + psi) / (error + 1e-18)) ** (1.0 / ORDER)
+            growth = SAFETY * (tolerance * (1.0 + psi_1) / (error + 1e-18)) ** (1.0 / ORDER)
             natural = min(LONGEST, plan.length * min(GROWTH, growth))
     return Status.UNRESOLVED.value, at.MAX_PANELS
 
@@ -202,19 +202,19 @@ def error_of(work: Arrays, panel: Panel) -> float:
 
 @entry_point()
 def outgoing(
-    psi: float, solid: Solid, work: Arrays, record: Trace, numbers: Vector
+    psi_1: float, solid: Solid, work: Arrays, record: Trace, numbers: Vector
 ) -> tuple[int, int]:
     """Run a viscoelastic impact of any psi_1; return its status and the number of panels.
 
     Below SMALLEST_PSI psi_2/psi_1 is linear in psi_1, and friction's share of the loss the same;
     beyond LARGEST_PSI psi_1 - psi_2 is the same.
     """
-    speed, bent, other = abs(psi), False, 0.0
+    speed, bent, other = abs(psi_1), False, 0.0
     how = solid, NO_PANEL, work, numbers, record
     if speed < SMALLEST_PSI:
         twice, _ = run(2.0 * SMALLEST_PSI, *how)
         bent, other = twice == Status.SOLVED.value, 0.5 * numbers[layout.PSI_OUT] / SMALLEST_PSI
-    near = min(max(speed, SMALLEST_PSI), LARGEST_PSI) if np.isfinite(psi) else psi
+    near = min(max(speed, SMALLEST_PSI), LARGEST_PSI) if np.isfinite(psi_1) else psi_1
     status, panels = run(near, *how)
     keep_energy(near, numbers)
     if speed < SMALLEST_PSI:
@@ -226,7 +226,7 @@ def outgoing(
         numbers[layout.SHEAR_LOST] *= share * (speed / SMALLEST_PSI) ** 2
     elif speed > LARGEST_PSI:
         numbers[layout.PSI_OUT] += speed - LARGEST_PSI
-    numbers[layout.PSI_OUT] *= np.copysign(1.0, psi)
+    numbers[layout.PSI_OUT] *= np.copysign(1.0, psi_1)
     if status != Status.SOLVED.value:
         numbers[:] = np.nan
     return status, panels
@@ -234,7 +234,7 @@ def outgoing(
 
 @entry_point()
 def fill(
-    psi: Vector,
+    psi_1: Vector,
     chi: Vector,
     alpha: Vector,
     tolerance: float,
@@ -244,6 +244,6 @@ def fill(
     status: Codes,
 ) -> None:
     """Write what every viscoelastic impact comes to, and its status."""
-    for i in range(psi.size):
+    for i in range(psi_1.size):
         solid = Solid(chi[i], alpha[i], tolerance)
-        status[i], _ = outgoing(psi[i], solid, work, record, numbers[i])
+        status[i], _ = outgoing(psi_1[i], solid, work, record, numbers[i])

@@ -158,23 +158,21 @@ class Fading(NamedTuple):
 
 
 @kernel
-def push(work: Arrays, depth: int, panel: int, r_outer: float, r_inner: float) -> int:
-    """Add what the front passes in a whole panel; return how many there are."""
-    row = work.passed[depth]
+def push(work: Arrays, panel: int, r_outer: float, r_inner: float) -> None:
+    """Add what the front passes in a whole panel."""
+    row = work.passed[int(work.ring[at.DEPTH])]
     row[PASSED_PANEL], row[X_OUTER], row[X_INNER] = panel, -1.0, 1.0
     row[R_OUTER], row[R_INNER] = r_outer, r_inner
-    return depth + 1
+    work.ring[at.DEPTH] += 1
 
 
 @kernel
-def push_at_once(
-    work: Arrays, depth: int, r_outer: float, r_inner: float, instant: float, excess: float
-) -> int:
-    """Add what the front passes in an instant; return how many there are."""
-    row = work.passed[depth]
+def push_at_once(work: Arrays, r_outer: float, r_inner: float, time: float, excess: float) -> None:
+    """Add what the front passes in an instant."""
+    row = work.passed[int(work.ring[at.DEPTH])]
     row[PASSED_PANEL], row[R_OUTER], row[R_INNER] = AT_ONCE, r_outer, r_inner
-    row[INSTANT], row[EXCESS] = instant, excess
-    return depth + 1
+    row[INSTANT], row[EXCESS] = time, excess
+    work.ring[at.DEPTH] += 1
 
 
 @kernel

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 from functools import cache, cached_property
+from typing import Any
 
 import numpy as np
 
@@ -32,7 +33,7 @@ class ViscoelasticSolution(LossySolution):
     _record: Trace = field(repr=False)
 
     def _contact_at(self, time: float) -> ContactState:
-        number, x = self._places(np.array([time]))[0]
+        number, x = self._places_in_time(np.array([time]))[0]
         instant = Instant(self._replay(number), x)
         rates, lags = cache(instant.rates), cache(instant.lags)  # which tractions do without
 
@@ -72,14 +73,8 @@ class ViscoelasticSolution(LossySolution):
 
     def _touches(self, radii: Array) -> list[tuple[int, float]]:
         """Return the panels and places at which the edge first passed radii."""
-        edges, series = self._record.rows[:, layout.AT_B], self._record.rows @ TO_SERIES.T
-        grows = np.flatnonzero(edges[:, -1] > edges[:, 0])
-        panels = np.clip(np.searchsorted(edges[grows, 0], radii, side="right") - 1, 0, None)
-        numbers = grows[np.minimum(panels, grows.size - 1)]
-        return [
-            (int(n), place(series, int(n), layout.AT_B, r, -1.0, 1.0))
-            for n, r in zip(numbers, radii, strict=True)
-        ]
+        edges = self._record.rows[:, layout.AT_B]
+        return self._places(layout.AT_B, radii, np.flatnonzero(edges[:, -1] > edges[:, 0]))
 
     def _read(self, number: int, x: float, row: int) -> float:
         return float(np.polynomial.chebyshev.chebval(x, TO_SERIES @ self._record.rows[number, row]))
@@ -104,23 +99,25 @@ class ViscoelasticSolution(LossySolution):
         ]
         return np.array(rows).reshape(-1, 2)
 
-    def _places(self, wanted: Array) -> list[tuple[int, float]]:
-        """Return the panels and places in them of times."""
-        rows, starts = self._record.rows, self._record.rows[:, layout.AT_TIME, 0]
-        panels = np.clip(np.searchsorted(starts, wanted, side="right") - 1, 0, len(rows) - 1)
-        series = rows @ TO_SERIES.T
-        return [
-            (int(n), place(series, int(n), layout.AT_TIME, instant, -1.0, 1.0))
-            for n, instant in zip(panels, wanted, strict=True)
-        ]
+    @cached_property
+    def _series(self) -> Array:
+        """The record as Chebyshev series, shape (panels, rows, NODES)."""
+        return np.asarray(self._record.rows @ TO_SERIES.T)
+
+    def _places(self, row: int, levels: Array, among: Any) -> list[tuple[int, float]]:
+        """Return the panels, among some, and places in them at which a row has these values."""
+        starts = self._record.rows[among, row, 0]
+        panels = np.clip(np.searchsorted(starts, levels, side="right") - 1, 0, among.size - 1)
+        at = zip(among[panels].tolist(), levels.tolist(), strict=True)
+        return [(n, place(self._series, n, row, level, -1.0, 1.0)) for n, level in at]
+
+    def _places_in_time(self, times: Array) -> list[tuple[int, float]]:
+        return self._places(layout.AT_TIME, times, np.arange(len(self._record.rows)))
 
     def _sampled(self, wanted: Array) -> Array:
-        """Return all rows of the record at these times, shape (rows, times)."""
-        rows = self._record.rows
-        sampled, series = np.empty((rows.shape[1], wanted.size)), rows @ TO_SERIES.T
-        for i, (panel, x) in enumerate(self._places(wanted)):
-            sampled[:, i] = np.polynomial.chebyshev.chebval(x, series[panel].T)
-        return sampled
+        places = self._places_in_time(wanted)
+        columns = [np.polynomial.chebyshev.chebval(x, self._series[n].T) for n, x in places]
+        return np.array(columns).reshape(wanted.size, -1).T
 
 
 def _scaled(profile: Profile, scale: float) -> Profile:
