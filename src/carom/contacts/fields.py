@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 GRID_POINTS, GRID_REACH = 101, 1.5  # along x and y where none are asked for; in contact radii
 STRESS_POINTS, STRESS_REACH = (101, 61), 2.0  # the same along x and z
 FARTHEST, DEEPEST = 1e50, 1e300  # dimensionless; nothing changes beyond
-ROUNDING = 8.0 * np.finfo(np.float64).eps
+RADIUS_ROUNDING = 8.0 * np.finfo(np.float64).eps
 OUTSIDE, STICK, SLIP = 0, 1, 2
 ZONES = {"long_name": "zone of the contact", **flags(("outside", "stick", "slip"))}
 BODIES = ("first", "second")
@@ -90,7 +90,7 @@ def _distances(contact: Contact, px: Array, py: Array) -> Array:
     with np.errstate(over="ignore"):
         r = np.minimum(np.hypot(px, py) / contact.scales.radius, FARTHEST)
     edge = contact.edge
-    return np.where(np.abs(r - edge) <= ROUNDING * edge, edge, r)
+    return np.where(np.abs(r - edge) <= RADIUS_ROUNDING * edge, edge, r)
 
 
 def _radial(contact: Contact, r: Array) -> Array:

@@ -32,14 +32,8 @@ if TYPE_CHECKING:
 
 
 COLUMNS = (
-    "penetration",
-    "displacement",
-    "normal_force",
-    "tangential_force",
-    "contact_radius",
-    "stick_radius",
-    "frictional_work",
-    "tangential_elastic_energy",
+    *("penetration", "displacement", "normal_force", "tangential_force"),
+    *("contact_radius", "stick_radius", "frictional_work", "tangential_elastic_energy"),
 )
 
 

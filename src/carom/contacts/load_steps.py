@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from math import isfinite
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Given = ArrayLike | str | None
-ROUNDING = 1e-12
+FORCE_ROUNDING = 1e-12
 BEYOND = "its forces are too large or small for floating point; check the units"
 
 
@@ -38,17 +38,14 @@ class Steps(NamedTuple):
         targets = [self.target, more.target]
         if self.target.ndim != more.target.ndim:  # what had one direction goes along x
             targets = [t if t.ndim == 2 else t[:, None] * [1.0, 0.0] for t in targets]
-        return Steps(
-            np.append(self.penetration, more.penetration),
-            np.append(self.normal_force, more.normal_force),
-            np.concatenate(targets),
-            np.append(self.by_force, more.by_force),
-        )
+        pairs = zip(self._replace(target=targets[0]), more._replace(target=targets[1]), strict=True)
+        columns: list[Any] = [np.concatenate(pair) for pair in pairs]
+        return Steps(*columns)
 
     def first(self, n: int) -> "Steps":
         """Return the first n steps."""
-        depth, force, target, by_force = self
-        return Steps(depth[:n], force[:n], target[:n], by_force[:n])
+        columns: list[Any] = [column[:n] for column in self]
+        return Steps(*columns)
 
     def dimensionless(self, scales: ContactScales) -> tuple[Array, Array, NDArray[np.bool_]]:
         """Return penetrations d, displacements U or forces Q, and where these are forces."""
@@ -163,7 +160,7 @@ def _refused(steps: Steps, n: int, friction: float) -> InputError:
     most = friction * normal
     limit, pressed = text(most, "N"), text(normal, "N")
     allowed = f"step {n}: Coulomb's law allows at most {limit} at F_z = {pressed}"
-    if float(np.linalg.norm(wanted)) <= most * (1.0 + ROUNDING):
+    if float(np.linalg.norm(wanted)) <= most * (1.0 + FORCE_ROUNDING):
         allowed += "; near this limit give displacements instead"
     return refusal("tangential_force", wanted.tolist(), allowed)
 

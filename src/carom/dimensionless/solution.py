@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from carom.dimensionless import states
 from carom.dimensionless.elastic import dense_output as dense, record as recorded, slip
-from carom.dimensionless.elastic.batch import LINEAR, TOLERANCE
+from carom.dimensionless.elastic.batch import LINEAR_PSI, STEP_TOLERANCE
 from carom.dimensionless.elastic.motion import PSI
 from carom.dimensionless.elastic.phases import Kind, Status, new_work, run_phases
 from carom.dimensionless.elastic.record import Record, Steps, new_record, trimmed
@@ -78,7 +78,7 @@ class Solution(Trajectory):
         The impact is recorded at |psi_1|, and at 1e-6 if that is smaller, because all tangential
         quantities are proportional to psi_1 below 1e-6.
         """
-        return float(np.copysign(min(1.0, abs(self.psi_in) / LINEAR), self.psi_in))
+        return float(np.copysign(min(1.0, abs(self.psi_in) / LINEAR_PSI), self.psi_in))
 
     def at(self, time: ArrayLike) -> History:
         """Return the state at the given times, one row for each.
@@ -344,8 +344,8 @@ def solve_lossy(psi_1: float, chi: float, losses: LossNumbers) -> LossySolution:
 def solve_elastic(psi_1: float, chi: float) -> Solution:
     """Solve one elastic impact."""
     work, record = new_work(), new_record(True)
-    solved_for = max(abs(psi_1), LINEAR) if psi_1 != 0.0 else 0.0
-    status = Status(run_phases(solved_for, chi, TOLERANCE, work, record))
+    solved_for = max(abs(psi_1), LINEAR_PSI) if psi_1 != 0.0 else 0.0
+    status = Status(run_phases(solved_for, chi, STEP_TOLERANCE, work, record))
     _refuse_unfit(psi_1, chi, status)
     record = trimmed(record)
     count, change_times = len(record.nodes), np.zeros(len(record.changes))
@@ -355,7 +355,7 @@ def solve_elastic(psi_1: float, chi: float) -> Solution:
     phases = _phases(record.changes, change_times, mirror)
     psi_out = float("nan")
     if status is Status.SOLVED:
-        psi_out = mirror * min(1.0, abs(psi_1) / LINEAR) * float(work.series[0, PSI])
+        psi_out = mirror * min(1.0, abs(psi_1) / LINEAR_PSI) * float(work.series[0, PSI])
     return Solution(psi_1, chi, psi_out, status, phases, record, steps)
 
 

@@ -10,8 +10,8 @@ from carom.halfspace.quasistatic import ContactStep, Patch
 from carom.halfspace.transforms import Field
 
 DURATION = 0.8 * sqrt(pi) * gamma(0.4) / gamma(0.9)  # of Hertz's impact, 2.9433 d_max/V_1
-NORMAL = 15.0 / 16.0  # d'' = -NORMAL P
-REACH = 1.0  # elements by which the edge may move in a step
+NORMAL_RATE = 15.0 / 16.0  # d'' = -NORMAL_RATE P
+EDGE_REACH = 1.0  # elements by which the edge may move in a step
 SLOWEST = 0.05  # of V_1: near the turning point the number of steps decides
 SLOW_CHI = 2.0  # beyond it the tangential motion on its springs decides the length of steps
 
@@ -50,8 +50,8 @@ NO_SPIN = NormalSpin()
 
 def responses(chi: float, kappa: float, lightness: float) -> Field:
     """Return how forces along x and y and the moment change velocities, V' = -response F."""
-    along = 2.0 * NORMAL * chi / kappa
-    return np.array([along, along, NORMAL * lightness])
+    along = 2.0 * NORMAL_RATE * chi / kappa
+    return np.array([along, along, NORMAL_RATE * lightness])
 
 
 def move(
@@ -74,7 +74,7 @@ def move(
     while True:
         state = now.step.state
         length = min(longest, _edge_limit(now, spacing))
-        approach = now.approach - 0.5 * length * NORMAL * now.force
+        approach = now.approach - 0.5 * length * NORMAL_RATE * now.force
         velocity = now.velocity - 0.5 * length * response * now.drag
         depth = state.depth + length * approach
         if depth <= 0.0:
@@ -84,7 +84,7 @@ def move(
             return
         step = patch.advance(state, depth, state.displacement + length * velocity, length)
         force, drag = patch.grid.force(step.state.pressure), patch.grid.drag(step.state.traction)
-        approach = approach - 0.5 * length * NORMAL * force
+        approach = approach - 0.5 * length * NORMAL_RATE * force
         velocity = velocity - 0.5 * length * response * drag
         now = BodyMotion(now.time + length, approach, velocity, step, force, drag)
         yield now
@@ -97,9 +97,9 @@ def _apart(patch: Patch, displacement: Field) -> ContactStep:
 
 
 def _edge_limit(now: BodyMotion, spacing: float) -> float:
-    """Return the time in which the edge, a = sqrt d, moves by REACH elements."""
+    """Return the time in which the edge, a = sqrt d, moves by EDGE_REACH elements."""
     radius = max(sqrt(now.step.state.depth), 0.25 * spacing)
-    return REACH * spacing * 2.0 * radius / max(abs(now.approach), SLOWEST)
+    return EDGE_REACH * spacing * 2.0 * radius / max(abs(now.approach), SLOWEST)
 
 
 class LedgerEntry(NamedTuple, Generic[Number]):

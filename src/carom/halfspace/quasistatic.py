@@ -10,11 +10,11 @@ from carom.halfspace.grid import Grid, elements_across
 from carom.halfspace.traction import at_bound, solve_pressure, solve_traction
 from carom.halfspace.transforms import NO_MIRRORS, Field, Mask, Mirrors
 
-EXCHANGES = 60  # between normal and tangential contact
-FIRST, NEXT = 1e-3, 0.03  # how far they are solved first, and then by what they still change
+MOST_EXCHANGES = 60  # between normal and tangential contact
+FIRST_TOLERANCE, NEXT_TOLERANCE = (1e-3, 0.03)  # first, and then of what changes
 RELAXED = 0.8  # of a change of direction: friction turned one way makes slip turn back
 TINY = 1e-300  # tractions of no motion are zero
-TURNS = 8  # exchanges after which the direction of slip is left as it is
+TURNING_EXCHANGES = 8  # exchanges after which the direction of slip is left as it is
 SLIPPING = 1e-5  # of its bound: as near to that a traction slips
 
 CLOSING = 1e-3  # of the approach: a gap that closes by less tells nothing of the edge
@@ -135,8 +135,8 @@ class Patch:
         They are solved in turns, each with the others' results, from loads to begin with.
         """
         surface, tolerances = self.compliance, self.tolerances
-        turn, rough = np.zeros_like(traction), FIRST if surface.couples else 0.0
-        for count in range(EXCHANGES):
+        turn, rough = np.zeros_like(traction), FIRST_TOLERANCE if surface.couples else 0.0
+        for count in range(MOST_EXCHANGES):
             before, used = (pressure, traction), turn
             overlap = asked.depth - self.grid.apart - surface.normal_of_traction(traction)
             finer = max(tolerances.normal, rough), max(tolerances.tangential, rough)
@@ -147,7 +147,7 @@ class Patch:
             bound = self.bound(pressure)
             traction, dragged = solve_traction(surface, pull, bound, traction, finer[1])
             moved = since - skewed - dragged
-            if count < TURNS:
+            if count < TURNING_EXCHANGES:
                 slips = slipping(traction, bound)
                 turned = turn_to_end(moved, slips, asked.slip, asked.share)
                 turn = used + RELAXED * (turned - used)
@@ -157,11 +157,11 @@ class Patch:
             if straight and max(change, 3.0 * rough) <= tolerances.exchange:
                 gap = np.maximum(sunk - overlap, 0.0)
                 return _Balance((pressure, traction), bound, skewed + dragged, gap, moved, used)
-            rough = min(rough, NEXT * change)
+            rough = min(rough, NEXT_TOLERANCE * change)
         product = surface.materials.friction * abs(surface.materials.beta)
         raise RuntimeError(
-            f"normal and tangential contact differ after {EXCHANGES} exchanges; friction times "
-            f"Dundurs' beta is {product:.3g}, and boundary elements need about 1 at most"
+            f"normal and tangential contact differ after {MOST_EXCHANGES} exchanges; friction "
+            f"times Dundurs' beta is {product:.3g}, and boundary elements need about 1 at most"
         )
 
 

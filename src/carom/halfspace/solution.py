@@ -49,11 +49,8 @@ def refinement_error(quarter: float, half: float, whole: float) -> float:
     before.
     """
     before, last = abs(half - quarter), abs(whole - half)
-    slow = before < 2.0 * last
-    series = (
-        last * min(last / (before - last), MOST_TO_COME) if before > last else MOST_TO_COME * last
-    )
-    return max(series if slow else last, LEAST_SHARE * before)
+    to_come = min(last / (before - last), MOST_TO_COME) if before > last else MOST_TO_COME
+    return max(last * to_come if before < 2.0 * last else last, LEAST_SHARE * before)
 
 
 class SlipStage(NamedTuple):
@@ -166,7 +163,7 @@ class HalfspaceSolution:
         )
         lost = np.cumsum(ledger.lost)
         tangential = along + across + around - around[-1] + ledger.tangential_stored + lost
-        normal = 0.5 * ledger.approach**2 / motion.NORMAL + ledger.normal_stored
+        normal = 0.5 * ledger.approach**2 / motion.NORMAL_RATE + ledger.normal_stored
         total = normal + self.materials.friction**2 * tangential
         return float(np.abs(total - total[0]).max() / total[0])
 
@@ -193,7 +190,7 @@ class HalfspaceSolution:
 
     def at(self, time: Field) -> GridHistory:
         """Return the impact at times, linear between the steps."""
-        ledger, kappa, of_normal = self.ledger, self.materials.kappa, 2.0 * motion.NORMAL
+        ledger, kappa, of_normal = self.ledger, self.materials.kappa, 2.0 * motion.NORMAL_RATE
         energy = kappa * of_normal * self.chi  # of psi^2/2 in those of the tangential motion
         none = np.zeros(ledger.time.size)
         columns = {

@@ -6,19 +6,19 @@ compliance. What is left, wanted - A x, is the pull on each element: a gap that 
 """
 
 from collections.abc import Callable
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 
 from carom.halfspace.compliance import Compliance
 from carom.halfspace.transforms import Field, Mask
 
-ITERATIONS = 200
-INNER = 80  # conjugate gradients within one face
+MOST_ITERATIONS = 200
+MOST_INNER = 80  # conjugate gradients within one face
 FORCING = 1e-4  # what they leave of the squared residual
 FINEST = 0.3  # of what ends the whole
 HALVINGS = 30
-ROUNDING = 8.0 * np.finfo(np.float64).eps  # of the work that energies are made of
+ENERGY_ROUNDING = 8.0 * np.finfo(np.float64).eps  # of the work that energies are made of
 DECREASE = 1e-4  # of what the slope promises (Armijo)
 
 
@@ -36,19 +36,6 @@ class Face(NamedTuple):
     bend: Field | float
 
 
-class AdmissibleSet(Protocol):
-    """Where tractions may be."""
-
-    def project(self, load: Field) -> Field:
-        """Return the nearest tractions within the bounds."""
-
-    def face(self, load: Field, pull: Field) -> Face:
-        """Return where tractions may move, those at their bound if the pull is inwards alone."""
-
-    def largest(self, load: Field) -> float:
-        """Return the traction that errors are measured by."""
-
-
 class Operator(NamedTuple):
     """A compliance: its displacements, roughly its inverse, and its diagonal."""
 
@@ -58,7 +45,7 @@ class Operator(NamedTuple):
 
 
 def minimise(
-    operator: Operator, wanted: Field, bounds: AdmissibleSet, start: Field, tolerance: float
+    operator: Operator, wanted: Field, bounds: "Pushing | Discs", start: Field, tolerance: float
 ) -> SurfaceLoad:
     """Return the tractions of least energy within the bounds.
 
@@ -70,7 +57,7 @@ def minimise(
     """
     load = bounds.project(start)
     displacement = operator.displacement(load)
-    for _ in range(ITERATIONS):
+    for _ in range(MOST_ITERATIONS):
         pull = wanted - displacement
         downhill = pull / operator.diagonal
         allowed = tolerance * bounds.largest(load)
@@ -83,7 +70,7 @@ def minimise(
         if change is None:
             raise RuntimeError("no traction of lower energy was found")
         load, displacement = load + change.load, displacement + change.displacement
-    raise RuntimeError(f"the tractions did not converge in {ITERATIONS} iterations")
+    raise RuntimeError(f"the tractions did not converge in {MOST_ITERATIONS} iterations")
 
 
 def _newton(operator: Operator, face: Face, pull: Field, finest: float) -> Field:
@@ -95,7 +82,7 @@ def _newton(operator: Operator, face: Face, pull: Field, finest: float) -> Field
 
     step, direction = np.zeros_like(pull), scaled(residual)
     square = first = float(np.sum(residual * direction))
-    for _ in range(INNER):
+    for _ in range(MOST_INNER):
         if square <= FORCING * first or np.abs(residual).max() <= finest:
             break
         bent = face.project(operator.displacement(direction)) + face.bend * direction
@@ -109,10 +96,10 @@ def _newton(operator: Operator, face: Face, pull: Field, finest: float) -> Field
 
 
 def _search(
-    operator: Operator, bounds: AdmissibleSet, load: Field, direction: Field, pull: Field
+    operator: Operator, bounds: "Pushing | Discs", load: Field, direction: Field, pull: Field
 ) -> SurfaceLoad | None:
     """Return a change along the projected direction that lowers the energy, or None."""
-    length, rounding = 1.0, ROUNDING * float(np.sum(np.abs(pull * load)))
+    length, rounding = 1.0, ENERGY_ROUNDING * float(np.sum(np.abs(pull * load)))
     for _ in range(HALVINGS):
         change = bounds.project(load + length * direction) - load
         slope = float(np.sum(pull * change))

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.elastic.batch import LINEAR, TOLERANCE
+from carom.dimensionless.elastic.batch import LINEAR_PSI, STEP_TOLERANCE
 from carom.dimensionless.elastic.integration import Work
 from carom.dimensionless.elastic.phases import Kind, Status, new_work, run_phases
 from carom.dimensionless.elastic.record import AT_B, AT_V, KIND, KIND_SIGN, Record, new_record
@@ -73,7 +73,7 @@ class Sequences:
         """Return the phases that `solve` tells, without what else it makes."""
         work, record = self._room
         record.counts[:] = 0
-        if run_phases(max(abs(psi), LINEAR) if psi else 0.0, chi, TOLERANCE, work, record):
+        if run_phases(max(abs(psi), LINEAR_PSI) if psi else 0.0, chi, STEP_TOLERANCE, work, record):
             return ""
         rows = record.changes[: record.counts[2]].tolist()
         mirror = -1 if np.signbit(psi) else 1

@@ -11,8 +11,8 @@ from carom.dimensionless.numerics.arrays import Array, Codes, Counts, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 from carom.dimensionless.numerics.threads import in_blocks
 
-TOLERANCE = 1e-10  # of one Taylor step; keeps psi_2 to a tenth of what `rebound` promises
-LINEAR = 1e-6  # below, psi_2 is taken proportional to psi_1: rounding would cost more
+STEP_TOLERANCE = 1e-10  # of one Taylor step; keeps psi_2 to a tenth of what `rebound` promises
+LINEAR_PSI = 1e-6  # below, psi_2 is taken proportional to psi_1: rounding would cost more
 BLOCK, SMALLEST_BLOCK = 256, 8  # impacts that a thread takes at once
 
 
@@ -21,10 +21,10 @@ def outgoing(psi_1: float, chi: float, work: Work, record: Record) -> tuple[floa
     """Return psi_2 of one impact, of either sign, and its status."""
     speed = abs(psi_1)
     scale = 1.0
-    if 0.0 < speed < LINEAR:
-        scale = speed / LINEAR
-        speed = LINEAR
-    status = run_phases(speed, chi, TOLERANCE, work, record)
+    if 0.0 < speed < LINEAR_PSI:
+        scale = speed / LINEAR_PSI
+        speed = LINEAR_PSI
+    status = run_phases(speed, chi, STEP_TOLERANCE, work, record)
     if status != Status.SOLVED:
         return np.nan, status
     result = scale * work.series[0, PSI] if speed > 0.0 else 0.0

@@ -117,12 +117,8 @@ def sample(steps: Steps, wanted: Vector, out: Matrix) -> None:
 @kernel
 def write_sample(steps: Steps, i: int, d: float, v: float, out: Array) -> None:
     """Write what there is to tell at penetration d and speed v inside a step."""
-    node, series, chi, psi_1 = (
-        steps.nodes[i],
-        steps.series[i],
-        steps.chi,
-        steps.series[0, 0, at.PSI],
-    )
+    node, series, chi = steps.nodes[i], steps.series[i], steps.chi
+    psi_1 = steps.series[0, 0, at.PSI]
     b = np.sqrt(d)
     h = 0.0
     if node[MODE] == GROSS:

@@ -82,13 +82,13 @@ class Status(WordedStatus):
 # came: the second where F is a polynomial, so that only rounding keeps it from the turning point.
 RETRACE, RETRACE_EXACTLY = 4e-12, 1e-7
 # Speeds nearer to 0 or -1 than this are the border between two regimes.
-ROUNDING = 1e-13
+SPEED_ROUNDING = 1e-13
 # Below this psi_1 the series are not resolved any better.
-SMALLEST = 1e-6
+SMALLEST_PSI = 1e-6
 # Beyond it impacts that do not slip throughout have too many phases, and take long to show it.
 LARGEST_CHI = 1e5
 # A contact radius below which nothing of the impact is left: psi changes by less than 1e-28.
-TINY = 1e-6
+TINY_RADIUS = 1e-6
 
 
 @kernel
@@ -141,7 +141,7 @@ def slip(run: Run, depth: int, sign: int, after_stick: bool) -> tuple[int, int]:
         memory.trim(work.stack, depth, s)
         if event == integration.UNRESOLVED:
             break
-        if s[0, at.B] < TINY:
+        if s[0, at.B] < TINY_RADIUS:
             return Cause.SEPARATION.value, depth
         if event == integration.RING_CLOSES:
             return Cause.RING_CLOSES.value, depth
@@ -161,12 +161,12 @@ def gross_slip(run: Run, sign: int) -> tuple[int, int]:
     note_node(record, GROSS, at.CONTACT, sign, 0.0, s)
     excess = sign * s[0, at.PSI] - s[0, at.V]
     fall = 2.0 * chi - 1.0  # of the excess, per fall in speed
-    if not excess < fall * (1.0 + s[0, at.V]) - ROUNDING:
+    if not excess < fall * (1.0 + s[0, at.V]) - SPEED_ROUNDING:
         s[0, at.PSI] -= 2.0 * chi * sign * (1.0 + s[0, at.V])
         s[0, at.B], s[0, at.V], s[0, at.Q] = 0.0, -1.0, 0.0
         return Cause.SEPARATION.value, 0
     fallen = (1.0 - s[0, at.V]) + excess / fall
-    s[0, at.V] = 1.0 - fallen if abs(1.0 - fallen) > ROUNDING else 0.0
+    s[0, at.V] = 1.0 - fallen if abs(1.0 - fallen) > SPEED_ROUNDING else 0.0
     s[0, at.B] = (fallen * (2.0 - fallen)) ** 0.2
     s[0, at.PSI] = sign * s[0, at.V]
     s[0, at.Q] = sign * (2.0 / 3.0) * s[0, at.B] ** 3
@@ -185,7 +185,7 @@ def run_phases(psi_1: float, chi: float, tolerance: float, work: Work, record: R
     s[0, at.V] = 1.0
     s[0, at.PSI] = psi_1
     # psi and Q are of the order of psi_1; errors grow with the number of oscillations
-    tolerance *= min(1.0, max(psi_1, SMALLEST)) / max(1.0, chi)
+    tolerance *= min(1.0, max(psi_1, SMALLEST_PSI)) / max(1.0, chi)
     run, depth = Run(work, record, chi, tolerance), 0
     slides = psi_1 > 1.0 or (psi_1 == 1.0 and chi < 0.5)
     kind = Kind.GROSS_SLIP.value if slides else Kind.STICK.value

@@ -30,8 +30,8 @@ SHRINKING, PANELS_OF_SLIP = 0.3, 12
 FAST = 0.8  # speed beyond which gross slip is integrated over the radius of the contact
 WIDE = float((1.0 - FAST**2) ** 0.2)  # that radius there
 GROWTH, NARROWEST, PANELS_OF_WORK = 3.0, 1e-3, 8  # of panels beside the roots of the work
-NEVER = 1e9
-ALIKE = 1e-12  # radii nearer to each other are one
+FAR_AWAY = 1e9
+ALIKE_RADII = 1e-12  # radii nearer to each other are one
 
 
 @kernel
@@ -227,12 +227,12 @@ def room(steps: Steps, i: int, r: float, h: float, side: float, own: float) -> f
     series, rate = steps.series[i], pace(steps, i, h)
     a, a_rate = value_and_slope(series[:, at.A], h)
     b, v = evaluate(series[:, at.B], h), evaluate(series[:, at.V], h)
-    to_front = (r - side * a) / max(-a_rate, 1.0 / NEVER)
+    to_front = (r - side * a) / max(-a_rate, 1.0 / FAR_AWAY)
     if r < 0.8:
-        to_edge = (b - r) / max(side * v * rate, 1.0 / NEVER)
+        to_edge = (b - r) / max(side * v * rate, 1.0 / FAR_AWAY)
     else:
         limit = np.sqrt(max(1.0 - r**5, 0.0))
-        to_edge = abs(limit - side * v) / max(2.5 * b**4 * rate, 1.0 / NEVER)
+        to_edge = abs(limit - side * v) / max(2.5 * b**4 * rate, 1.0 / FAR_AWAY)
     nearer, farther = min(to_front, to_edge), max(to_front, to_edge)
     return float(farther if nearer <= own else nearer)
 
@@ -325,4 +325,4 @@ def borders(steps: Steps) -> Array:
     for i in np.intersect1d(rings, np.append(new[1:], len(nodes)) - 1):
         radii += [evaluate(series[i][:, column], nodes[i, STEP]) for column in (at.A, at.B)]
     borders = np.unique(np.clip(radii, 0.0, 1.0))
-    return np.asarray(borders[np.append(np.diff(borders) > ALIKE, True)])
+    return np.asarray(borders[np.append(np.diff(borders) > ALIKE_RADII, True)])

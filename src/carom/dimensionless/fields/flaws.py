@@ -14,12 +14,12 @@ from carom.dimensionless.numerics.arrays import Array, Cube, Matrix, Vector
 from carom.dimensionless.numerics.chebyshev import evaluate, nodes, transform
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
-DEEPEST = 0.25  # of the flaws, in contact radii: deeper, nothing pulls harder
+DEEPEST_FLAW = 0.25  # of the flaws, in contact radii: deeper, nothing pulls harder
 TERMS = 16  # of the stress over the root of the depth, in which it is smooth beside the edge
 ROOTS = 0.5 + 0.5 * nodes(TERMS)
 TO_SERIES = transform(TERMS)
-TRIALS = 10  # depths, evenly spaced by their roots
-TURNS = 8  # by which the depth that is pulled at hardest is is_harder between two of them
+TRIAL_DEPTHS = 10  # depths, evenly spaced by their roots
+GOLDEN_STEPS = 8  # by which the depth that is pulled at hardest is is_harder between two of them
 RADII = np.array([1.0, 1.03, 1.1])  # of the scan, in contact radii
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(10)
 _PARTS = 0.5 + 0.5 * _NODES
@@ -33,7 +33,7 @@ def stress_at_depths(series: Matrix, r: float, friction: float, load: Load) -> N
     """Write the tension before (row 0) and behind the contact as series in the root of depth."""
     series[:] = 0.0
     for k in range(TERMS):
-        parts = stress_parts(max(r, NEGLIGIBLE), DEEPEST * ROOTS[k] ** 2, load)
+        parts = stress_parts(max(r, NEGLIGIBLE), DEEPEST_FLAW * ROOTS[k] ** 2, load)
         for i in range(TERMS):
             series[0, i] += TO_SERIES[i, k] * (parts[P_RR] + friction * parts[C_RR])
             series[1, i] += TO_SERIES[i, k] * (parts[P_RR] - friction * parts[C_RR])
@@ -45,20 +45,21 @@ def pull(root: float, series: Array) -> float:
     total = 0.0
     for k in range(PLACES.size):
         total += SHARES[k] * evaluate(series, 0.0, 1.0, root * PLACES[k])
-    return float(np.sqrt(DEEPEST) * root * total)
+    return float(np.sqrt(DEEPEST_FLAW) * root * total)
 
 
 @kernel
 def hardest(series: Array, limit: float) -> tuple[float, float]:
     """Return the hardest pull at cracks up to a root of the depth, and that root."""
     best, place = -np.inf, 0
-    for i in range(1, TRIALS + 1):
-        value = pull(limit * i / TRIALS, series)
+    for i in range(1, TRIAL_DEPTHS + 1):
+        value = pull(limit * i / TRIAL_DEPTHS, series)
         if value > best:
             best, place = value, i
-    root = limit * place / TRIALS
-    low, high = limit * (place - 1) / TRIALS, limit * min(place + 1, TRIALS) / TRIALS
-    for _ in range(TURNS):
+    root = limit * place / TRIAL_DEPTHS
+    low = limit * (place - 1) / TRIAL_DEPTHS
+    high = limit * min(place + 1, TRIAL_DEPTHS) / TRIAL_DEPTHS
+    for _ in range(GOLDEN_STEPS):
         one, two = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
         if pull(one, series) > pull(two, series):
             high = two
@@ -75,7 +76,7 @@ def keep_harder(r: float, series: Matrix, limit: float, best: Array) -> bool:
     for side in range(2):
         value, root = hardest(series[side], limit)
         if value > best[VALUE]:
-            best[VALUE], best[RADIUS], best[DEPTH] = value, r, DEEPEST * root * root
+            best[VALUE], best[RADIUS], best[DEPTH] = value, r, DEEPEST_FLAW * root * root
             best[COSINE] = 1.0 - 2.0 * side
             is_harder = True
     return is_harder
@@ -100,7 +101,7 @@ def tensions(radii: Vector, friction: float, load: Load, series: Cube) -> None:
 @entry_point()
 def hardest_among(radii: Vector, series: Cube, flaw: float, best: Vector) -> None:
     """Write the hardest pull at flaws of this depth at most among radii, and where it is."""
-    limit = np.sqrt(min(flaw / DEEPEST, 1.0))
+    limit = np.sqrt(min(flaw / DEEPEST_FLAW, 1.0))
     best[VALUE] = -np.inf
     for i in range(radii.size):
         keep_harder(radii[i], series[i], limit, best)
@@ -111,7 +112,7 @@ def climb_flaws(
     step: float, last: float, flaw: float, friction: float, load: Load, series: Matrix, best: Vector
 ) -> None:
     """Move along the radius to where the pull is hardest."""
-    limit = np.sqrt(min(flaw / DEEPEST, 1.0))
+    limit = np.sqrt(min(flaw / DEEPEST_FLAW, 1.0))
     for _ in range(MOST_STEPS):
         further = try_radius(abs(best[RADIUS] + step), limit, friction, load, series, best)
         if further or try_radius(abs(best[RADIUS] - step), limit, friction, load, series, best):

@@ -20,8 +20,8 @@ VALUE, RADIUS, DEPTH, COSINE = range(4)  # columns of a peak
 PEAK_COLUMNS = 4
 
 COSINES = np.cos(np.linspace(0.0, np.pi, 9))
-ALIKE = 1e-7  # a place in the plane of the motion whose value comes so near is taken
-TURNS = 24  # by which an angle between two of them is found, to a thousandth
+PLANE_TOLERANCE = 1e-7  # a place in the plane of the motion whose value comes so near is taken
+GOLDEN_STEPS = 24  # by which an angle between two of them is found, to a thousandth
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 MOST_STEPS = 400
 WAYS = np.array([[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, -1], [1, -1], [-1, 1]], dtype=float)
@@ -82,7 +82,7 @@ def around(measure: int, parts: Array, friction: float) -> tuple[float, float]:
     ahead = measured(measure, parts, 1.0, friction)
     behind = measured(measure, parts, -1.0, friction)
     best, end = (ahead, 1.0) if ahead >= behind else (behind, -1.0)
-    place, least = -1, best + ALIKE * abs(best)
+    place, least = -1, best + PLANE_TOLERANCE * abs(best)
     for i in range(1, COSINES.size - 1):
         value = measured(measure, parts, COSINES[i], friction)
         if value > least:
@@ -90,7 +90,7 @@ def around(measure: int, parts: Array, friction: float) -> tuple[float, float]:
     if place < 0:
         return best, end
     low, high = np.arccos(COSINES[place - 1]), np.arccos(COSINES[place + 1])
-    for _ in range(TURNS):
+    for _ in range(GOLDEN_STEPS):
         one, two = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
         first = measured(measure, parts, np.cos(one), friction)
         if first > measured(measure, parts, np.cos(two), friction):

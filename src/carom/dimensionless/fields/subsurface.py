@@ -23,9 +23,9 @@ TangentialStress = tuple[complex, complex, complex, complex, complex, complex]
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
-REACH = 2.5  # of the longest panel: with these nodes the error is near rounding
+PANEL_REACH = 2.5  # of the longest panel: with these nodes the error is near rounding
 NEGLIGIBLE = 1e-30  # of the contact radius: less deep is the surface, nearer the axis is the axis
-FAR = 1e50  # of the contact radius: taken for all that is farther, the stress being nil
+FARTHEST_POINT = 1e50  # of the contact radius: taken for all that is farther, the stress being nil
 
 BELOW, INSIDE, OUTSIDE = range(3)  # ways along s: at depth; on the surface, s < r and s > r
 
@@ -151,7 +151,7 @@ def add_slices(parts: Array, r: float, z: float, way: int, panel: int, load: Loa
     if low >= high:
         return
     start, end = way_to(way, r, z, low), way_to(way, r, z, high)
-    pieces = int(np.ceil((end - start) / REACH))
+    pieces = int(np.ceil((end - start) / PANEL_REACH))
     half = 0.5 * (end - start) / max(pieces, 1)
     for node in range(pieces * NODES.size):
         piece, k = divmod(node, NODES.size)
@@ -228,7 +228,7 @@ def stresses(
     where = np.asarray(points, dtype=np.float64)
     stress = np.zeros((where.shape[0], len(COMPONENTS)))
     if b > 0.0:
-        scaled = np.clip(where / b, -FAR, FAR)
+        scaled = np.clip(where / b, -FARTHEST_POINT, FARTHEST_POINT)
         fill(stress, scaled, float(friction), load_of(profile, poisson, rim))
     stress *= b
     return stress

@@ -45,12 +45,10 @@ def add(stack: Array, top: int, s: float, g: float, c: float) -> int:
     force, fall = stack[top, FORCE], g * (s - stack[top, RIM])
     square = stack[top, SQUARE] + fall * (2.0 * force + fall * inner)
     top += 1
-    stack[top, RIM] = s
-    stack[top, RADIUS] = radius
-    stack[top, SLOPE] = g
-    stack[top, SHIFT] = c
-    stack[top, FORCE] = force + g * cubes(inner, radius)
-    stack[top, SQUARE] = square + g * g * ring_square(inner, radius)
+    row = stack[top]
+    row[RIM], row[RADIUS], row[SLOPE], row[SHIFT] = s, radius, g, c
+    row[FORCE] = force + g * cubes(inner, radius)
+    row[SQUARE] = square + g * g * ring_square(inner, radius)
     return top
 
 

@@ -23,7 +23,7 @@ WEIGHTS = np.array([5.0, 8.0, 5.0]) / 9.0
 # Columns of the results of a step.
 DISPLACEMENT, TRACTION, STICK, STORED, WORK = range(5)
 RESULTS = 5
-ROUNDING = 16.0 * np.finfo(np.float64).eps  # relative; differences of forces below it are none
+FORCE_ROUNDING = 16.0 * np.finfo(np.float64).eps  # relative; smaller differences are none
 INSIDE = -1  # no step lies outside Coulomb's cone
 
 
@@ -127,11 +127,11 @@ def find_front(stack: Array, j: int, sign: int, way: Way) -> tuple[int, float, f
     """Return annulus and s of the front of slip, and U, in a step to d and a wanted U or Q."""
     i, s, d, target = 0, 0.0, way.d1, way.target
     if not way.by_force:
-        rounding = ROUNDING * (d + abs(target))
+        rounding = FORCE_ROUNDING * (d + abs(target))
         i, s = memory.front_at_limit(stack, j, sign, d - sign * target, rounding)
         return i, min(s, d), target
     b = np.sqrt(d)
-    rounding = ROUNDING * memory.cubes(0.0, b)
+    rounding = FORCE_ROUNDING * memory.cubes(0.0, b)
     if abs(target) < memory.cubes(0.0, b) - rounding:
         i, s = memory.front_at_force(stack, j, sign, b, target, rounding)
     s = min(s, d)
@@ -145,7 +145,7 @@ def load(stack: Array, top: int, way: Way) -> tuple[int, float, float]:
     rise, b = d1 - d0, np.sqrt(d1)
     if by_force:
         g = (target - stack[top, memory.FORCE]) / memory.cubes(stack[top, RADIUS], b)
-        if abs(target) >= memory.cubes(0.0, b) * (1.0 - ROUNDING):
+        if abs(target) >= memory.cubes(0.0, b) * (1.0 - FORCE_ROUNDING):
             g = 2.0 * np.sign(target)
     else:
         g = (target - u0) / rise
@@ -167,9 +167,9 @@ def unload(stack: Array, top: int, way: Way) -> tuple[int, float, float]:
     j = memory.annulus_at(stack, top, d1)
     c, force = memory.edge_at(stack, j, d1)
     if by_force:
-        sign = sign_of(target - force, ROUNDING * memory.cubes(0.0, np.sqrt(d1)))
+        sign = sign_of(target - force, FORCE_ROUNDING * memory.cubes(0.0, np.sqrt(d1)))
     else:
-        sign = sign_of(target + c, ROUNDING * (d1 + abs(target)))
+        sign = sign_of(target + c, FORCE_ROUNDING * (d1 + abs(target)))
     i, s, u1 = j, d1, -c if by_force else target
     if sign != 0:
         i, s, u1 = find_front(stack, j, sign, way)
@@ -224,16 +224,15 @@ def follow(
     top, d, u, total = 0, 0.0, 0.0, 0.0
     for n in range(depths.size):
         cone = memory.cubes(0.0, np.sqrt(max(depths[n], 0.0)))
-        if by_force[n] and abs(targets[n]) > cone * (1.0 + ROUNDING):
+        if by_force[n] and abs(targets[n]) > cone * (1.0 + FORCE_ROUNDING):
             return top, n
         top, u, work = advance(stack, top, Way(d, u, depths[n], targets[n], by_force[n]))
         d = depths[n]
         total += work
-        results[n, DISPLACEMENT] = u
-        results[n, TRACTION] = stack[top, memory.FORCE]
-        results[n, STICK] = memory.stick_radius(stack, top)
-        results[n, STORED] = 0.5 * stack[top, memory.SQUARE]
-        results[n, WORK] = total
+        row = results[n]
+        row[DISPLACEMENT], row[TRACTION] = u, stack[top, memory.FORCE]
+        row[STICK], row[STORED] = memory.stick_radius(stack, top), 0.5 * stack[top, memory.SQUARE]
+        row[WORK] = total
     return top, INSIDE
 
 

@@ -20,13 +20,13 @@ from numpy.typing import NDArray
 
 from carom.dimensionless.load_paths import paths
 from carom.dimensionless.load_paths.memory import cubes
-from carom.dimensionless.load_paths.paths import INSIDE, ROUNDING
+from carom.dimensionless.load_paths.paths import FORCE_ROUNDING, INSIDE
 from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, plain
 
 SPRINGS = 64
-SWEEPS = 2000
-SETTLED = 1e-10  # of the radius: the last change of a traction
+MOST_SWEEPS = 2000
+TRACTION_SETTLED = 1e-10  # of the radius: the last change of a traction
 EDGES_KEPT = 256  # whose rings are known
 TINY = 1e-300
 
@@ -34,10 +34,10 @@ TINY = 1e-300
 U_X, U_Y, Q_X, Q_Y, STICK, STORED, WORK = range(7)
 RESULTS = 7
 
-EVEN = 1e-3  # of Coulomb's limit: what twice as many parts may differ by
+PARTS_TOLERANCE = 1e-3  # of Coulomb's limit: what twice as many parts may differ by
 MOST_PARTS = 256
 FORCE_SEARCHED, FORCE_REACHED = 1e-9, 1e-6  # likewise: where a search ends, what it must come to
-HELD = 1e-7  # of the limit: a ring as near has reached it
+LIMIT_TOLERANCE = 1e-7  # of the limit: a ring as near has reached it
 Advance = Callable[[int], object]
 limit_at = plain(cubes)
 
@@ -78,7 +78,7 @@ def relax(
 
     Ring by ring the energy falls (projected Gauss-Seidel).
     """
-    for sweep in range(SWEEPS):
+    for sweep in range(MOST_SWEEPS):
         change = 0.0
         for k in range(limits.size):
             x, y = pulled[k, 0], pulled[k, 1]
@@ -94,7 +94,7 @@ def relax(
             traction[k, 0], traction[k, 1] = x, y
         if change <= settled:
             return sweep + 1
-    return SWEEPS
+    return MOST_SWEEPS
 
 
 def cut(vectors: Array, most: Array) -> Array:
@@ -108,7 +108,7 @@ def held(now: Rings, springs: Array) -> Array:
     edge = now.limits[0]
     traction = cut(now.slopes @ cut(springs, edge**2 - now.squares), now.limits)
     pulled = now.reach.T @ (now.weights[:, None] * springs)
-    relax(now.compliance, pulled, now.limits, traction, SETTLED * edge)
+    relax(now.compliance, pulled, now.limits, traction, TRACTION_SETTLED * edge)
     return traction
 
 
@@ -176,7 +176,7 @@ def stick_radius(state: State, h: float) -> float:
     now = rings_within(h, edge)
     traction = now.slopes @ state.springs[: now.limits.size]
     gap = now.limits - np.hypot(traction[:, 0], traction[:, 1])
-    first = int(np.argmin(np.append(gap > HELD * now.limits, False)))
+    first = int(np.argmin(np.append(gap > LIMIT_TOLERANCE * now.limits, False)))
     if first == now.limits.size:
         return edge
     if first < 2:
@@ -205,7 +205,7 @@ class Taken(NamedTuple):
         """Return whether both come to the same."""
         force, work = self.halves.force - self.parts.force, self.halves.work - self.parts.work
         deepest, way = max(before.depth, self.halves.depth), self.halves.moved - before.moved
-        most = EVEN * limit(deepest)
+        most = PARTS_TOLERANCE * limit(deepest)
         return bool(np.hypot(*force) <= most and abs(work) <= most * (deepest + np.hypot(*way)))
 
     def corrected(self) -> State:
@@ -276,7 +276,7 @@ def follow_turning(
     h = float(np.sqrt(max(depths.max(), 0.0))) / SPRINGS
     state = apart(0.0, np.zeros(2), 0.0)
     for n, (depth, target, forced) in enumerate(zip(depths, targets, by_force, strict=True)):
-        if forced and np.hypot(*target) > limit(depth) * (1.0 + ROUNDING):
+        if forced and np.hypot(*target) > limit(depth) * (1.0 + FORCE_ROUNDING):
             return results, n
         there = (push if forced else move)(state, h, float(depth), target)
         if there is None:
@@ -293,7 +293,7 @@ def direction_of(targets: Array) -> Array | None:
     size = np.hypot(targets[:, 0], targets[:, 1])
     along = targets[np.argmax(size)] / max(float(size.max()), np.finfo(np.float64).tiny)
     aside = targets[:, 1] * along[0] - targets[:, 0] * along[1]
-    return along if np.all(np.abs(aside) <= ROUNDING * size) else None
+    return along if np.all(np.abs(aside) <= FORCE_ROUNDING * size) else None
 
 
 def follow_path(

@@ -20,14 +20,14 @@ Complex = NDArray[np.complex128]
 Amplitude = Callable[[Array], Array]
 
 ABSCISSAS, WEIGHTS = np.polynomial.legendre.leggauss(32)
-CYCLES = 4.0  # of the highest frequency on a panel, about
-AGREED = 1e-12  # of the integral of |F|: what halves of a panel may differ from the whole
+CYCLES_PER_PANEL = 4.0  # of the highest frequency on a panel, about
+HALVES_AGREE = 1e-12  # of the integral of |F|: what halves of a panel may differ from the whole
 MOST_PANELS = 150  # besides four for each that phases and the highest frequency need
 PRODUCTS_HELD = 1_000_000  # of times and frequencies
-STEP = 1.0 / 32.0  # over the duration: what lasts so long has no finer features
-WIDTH = 3.0  # over the duration: where the search ends, if it need not go further
+FREQUENCY_STEP = 1.0 / 32.0  # over the duration: what lasts so long has no finer features
+SEARCH_WIDTH = 3.0  # over the duration: where the search ends, if it need not go further
 FINER = np.linspace(0.0, 1.0, 33)
-ROUNDS = 8  # each takes a place 16 or 32 times as finely as the one before
+REFINEMENTS = 8  # each takes a place 16 or 32 times as finely as the one before
 
 
 class Pulse(NamedTuple):
@@ -100,7 +100,7 @@ def sampled(function: Callable[[Array], Array], instants: Array, highest: float)
         times, values, weights = _on(function, halves)
         finer = (values * weights).sum(-1)
         off = np.abs(finer.reshape(len(finer), -1, 2).sum(-1) - integrals)
-        again = np.repeat(np.any(off > AGREED * size[:, None], axis=0), 2)
+        again = np.repeat(np.any(off > HALVES_AGREE * size[:, None], axis=0), 2)
         if sum(len(part[0]) for part in kept) + 2 * len(times) > most:
             again = np.zeros(again.shape, bool)
         kept.append((times[~again], values[:, ~again], weights[~again]))
@@ -115,7 +115,7 @@ def sampled(function: Callable[[Array], Array], instants: Array, highest: float)
 def _first(instants: Array, highest: float) -> _Panels:
     """Return panels on each of which the highest frequency has a few cycles."""
     start, length = instants[:-1], np.diff(instants)
-    counts = 1 + np.ceil(highest * length / CYCLES).astype(int)
+    counts = 1 + np.ceil(highest * length / CYCLES_PER_PANEL).astype(int)
     angles = [np.linspace(0.0, np.pi, count + 1) for count in counts]
     low = np.concatenate([each[:-1] for each in angles])
     high = np.concatenate([each[1:] for each in angles])
@@ -147,7 +147,7 @@ def widest(pulse: Pulse, duration: float, most: float) -> Array:
 
     A function that rises and falls by V in all has a spectrum below V/(2 pi f).
     """
-    reach, variation = np.full(len(pulse.values), WIDTH / duration), pulse.variation()
+    reach, variation = np.full(len(pulse.values), SEARCH_WIDTH / duration), pulse.variation()
     while True:
         highest = reach.max()
         largest = np.abs(pulse.transform(_grid(highest, duration))).max(axis=1)
@@ -159,7 +159,7 @@ def widest(pulse: Pulse, duration: float, most: float) -> Array:
 
 
 def _grid(highest: float, duration: float) -> Array:
-    return np.arange(0.0, highest * duration + 3.0 * STEP, STEP) / duration
+    return np.arange(0.0, highest * duration + 3.0 * FREQUENCY_STEP, FREQUENCY_STEP) / duration
 
 
 def corners(pulse: Pulse, row: int, duration: float, highest: float) -> Corners:
@@ -188,7 +188,7 @@ def corners(pulse: Pulse, row: int, duration: float, highest: float) -> Corners:
 
 def _fallen(amplitude: Amplitude, level: float, grid: Array, sizes: Array) -> float:
     """Return where the amplitude falls below a level for the first time."""
-    for _ in range(ROUNDS):
+    for _ in range(REFINEMENTS):
         below = np.flatnonzero(sizes < level)
         if not below.size:
             return nan
@@ -200,7 +200,7 @@ def _fallen(amplitude: Amplitude, level: float, grid: Array, sizes: Array) -> fl
 
 def _lowest(function: Amplitude, grid: Array, place: int) -> float:
     """Return where a function is least between the neighbours of a place on a grid."""
-    for _ in range(ROUNDS):
+    for _ in range(REFINEMENTS):
         low, high = grid[max(place - 1, 0)], grid[min(place + 1, grid.size - 1)]
         grid = low + (high - low) * FINER
         place = int(function(grid).argmin())

@@ -47,11 +47,10 @@ class _FlawSearch(Search):
         return self._hardest(time, radii, self._tensions(time, radii))
 
     def _tensions(self, time: float, radii: Array) -> Array:
-        series, load = (
-            np.empty((radii.size, 2, flaws.TERMS)),
-            self.contacts.load(time, self.poisson),
+        series = np.empty((radii.size, 2, flaws.TERMS))
+        flaws.tensions(
+            radii, self.contacts.friction, self.contacts.load(time, self.poisson), series
         )
-        flaws.tensions(radii, self.contacts.friction, load, series)
         return series
 
     def _hardest(self, time: float, radii: Array, series: Array | None) -> Array:

@@ -27,12 +27,12 @@ SPARE_SPRINGS = 40
 PER_SPRING = 2  # steps of the loading to a spring
 LONGEST = 20 * PER_SPRING * MOST_SPRINGS
 ELASTIC_CLOCK = 1.26  # of the loading of elastic bodies
-NEVER = 1e300  # relaxation time of an elastic solid
+ENDLESS = 1e300  # relaxation time of an elastic solid
 
 # Of a row that is kept, besides those of the layout: whether springs slip, either way.
 FORTH, BACK = layout.ROWS, layout.ROWS + 1
 ROWS = layout.ROWS + 2
-AT_LIMIT = 1e-9  # of the limit: a spring nearer to it slips
+LIMIT_TOLERANCE = 1e-9  # of the limit: a spring nearer to it slips
 # Of a frame, for each spring: what it bears in compression and in shear, and how far it is behind.
 PRESSED, PULLED, LAGGING = range(3)
 FRAMES = 3
@@ -187,7 +187,7 @@ def kick_and_stretch(
 ) -> None:
     """Move velocities and springs on by a step."""
     g, dt = solid.extra, new[at.TIME] - now[at.TIME]
-    theta = solid.parameter if g > 0.0 else NEVER
+    theta = solid.parameter if g > 0.0 else ENDLESS
     rate = -at.braking(inertia, now[at.LOAD], state[at.FORCE])
     half = state[at.PSI] + 0.5 * dt * rate
     step = of.step_of(g, theta, dt, state[at.PSI], half, rate)
@@ -218,7 +218,7 @@ def keep(solid: Solid, now: Array, springs: Array, touching: int, state: Array, 
             weight += of.rim(springs, j, now[at.EDGE])
         row[layout.AT_SQUARE] += weight * (u * u + solid.extra * m * m)
         force = u + solid.extra * m
-        if most - abs(force) > AT_LIMIT * most:
+        if most - abs(force) > LIMIT_TOLERANCE * most:
             outer = springs[of.X, j + 1] if springs[of.OUTER, j] > 0.0 else now[at.EDGE]
             row[layout.AT_STUCK] += min(outer, now[at.EDGE]) - springs[of.X, j]
         else:

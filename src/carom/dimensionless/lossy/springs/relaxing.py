@@ -12,7 +12,7 @@ from carom.dimensionless.lossy.springs.motion import DEPTH, EDGE, KEPT, LOAD, SP
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.kernels import kernel
 
-RESOLVED = 2.0  # steps to a relaxation time, below which a rate is that of the whole step
+RESOLVING_STEPS = 2.0  # steps to a relaxation time, below which a rate is that of the whole step
 
 
 @kernel
@@ -52,7 +52,7 @@ def bear(g: float, theta: float, now: Array, new: Array, springs: Array, count: 
         springs[of.PRESSED, j] = springs[of.PRESSED, j] * left + grown
         springs[of.LIMIT, j] = springs[of.NEXT, j]
         springs[of.NEXT, j] = new[DEPTH] - springs[of.S, j] + g * springs[of.PRESSED, j]
-    if theta < RESOLVED * dt:
+    if theta < RESOLVING_STEPS * dt:
         for j in range(count):
             springs[of.RATE, j] = (springs[of.NEXT, j] - springs[of.LIMIT, j]) / dt
 

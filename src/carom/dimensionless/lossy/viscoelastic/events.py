@@ -16,7 +16,7 @@ from carom.dimensionless.numerics.kernels import kernel
 # what slip passed; the ring closes.
 NOTHING, BEGINS, STOPS, TURNS, ARRIVES, CLOSES = range(6)
 
-ROUNDING = 1e-12
+LEVEL_ROUNDING = 1e-12
 EARLY_PART = 5e-4  # part of a panel in which zones that begin with it are too thin to be told
 TURNING_RATE = 1e-10
 STILL_RATE = 1e-10  # alpha times the rate of slip below which all that slips sticks at once
@@ -43,7 +43,7 @@ def inwards(motion: Motion, sign: int, now: State, q: float) -> float:
 def happened(work: Arrays, motion: Motion, panel: Panel, x: float) -> int:
     """Return what has happened at a place of a solved panel."""
     now = at.state_at(work, panel, x)
-    ring, alpha, small = slipping.ring_of(work), motion.alpha, ROUNDING * (1.0 + abs(now.psi))
+    ring, alpha, small = slipping.ring_of(work), motion.alpha, LEVEL_ROUNDING * (1.0 + abs(now.psi))
     fading = Fading(ring.sign, alpha, now.time)
     if ring.mode == Mode.RETRACES:
         return NOTHING
@@ -73,7 +73,7 @@ def happened(work: Arrays, motion: Motion, panel: Panel, x: float) -> int:
             work.pieces, last, ring.sign, False
         ):
             return ARRIVES
-    return CLOSES if border.radius > now.radius + ROUNDING else NOTHING
+    return CLOSES if border.radius > now.radius + LEVEL_ROUNDING else NOTHING
 
 
 @kernel

@@ -22,8 +22,8 @@ from carom.dimensionless.numerics.kernels import entry_point, kernel
 FIRST_LENGTH, LONGEST, SHORTEST = 0.3, 0.8, 1e-8  # of panels
 TOLERANCE = 1e-9  # of a panel; keeps psi_2 to 1e-8 max(1, |psi_1|)
 MOST_TRIALS = 60  # of a panel
-NEAR, NEAR_FLAT = 1e-9, 1e-5  # part of a panel: a change so near its end is its end
-ORDER = 9.0  # of the error of a panel in its length, about
+END_PART, END_PART_FLAT = 1e-9, 1e-5  # part of a panel: a change so near its end is its end
+ERROR_ORDER = 9.0  # of the error of a panel in its length, about
 NORMAL_WEIGHT = 30.0  # of the error of the normal motion, which is cheap to keep small
 SAFETY, STEEPEST, GROWTH = 0.8, 0.2, 4.0
 NO_PANEL = -1
@@ -102,7 +102,7 @@ def run(
             motion = next_stage(work, motion)
             pieces = unload(work, motion, pieces)
         elif plan.change == NOTHING:
-            growth = SAFETY * (tolerance * (1.0 + psi_1) / (error + 1e-18)) ** (1.0 / ORDER)
+            growth = SAFETY * (tolerance * (1.0 + psi_1) / (error + 1e-18)) ** (1.0 / ERROR_ORDER)
             natural = min(LONGEST, plan.length * min(GROWTH, growth))
     return Status.UNRESOLVED.value, at.MAX_PANELS
 
@@ -148,7 +148,7 @@ def solved_panel(
             plan = revised(with_length(plan, h, h, NOTHING, False), error, tolerance)
             continue
         event = first_event(work, motion, panel)
-        near = NEAR if plan.clock == EVEN else NEAR_FLAT
+        near = END_PART if plan.clock == EVEN else END_PART_FLAT
         part = clock(plan.clock, event.place) if event.place < 1.0 else 1.0
         if part < 1.0 - near and plan.length > SHORTEST:
             plan = with_length(plan, plan.length * part, plan.natural, event.what, False)
@@ -183,7 +183,7 @@ def revised(plan: Plan, error: float, tolerance: float) -> Plan:
         kind, worse, error = EVEN, True, last
     elif kind == collocation.FLAT_END or kind == collocation.FLAT_ENDS:
         kind, last = kind - collocation.FLAT_END, error
-    h = plan.length * max(STEEPEST, SAFETY * (tolerance / error) ** (1.0 / ORDER))
+    h = plan.length * max(STEEPEST, SAFETY * (tolerance / error) ** (1.0 / ERROR_ORDER))
     return Plan(h, kind, h, plan.from_change, NOTHING, False, worse, last)
 
 

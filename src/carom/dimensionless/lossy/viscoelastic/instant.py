@@ -18,8 +18,8 @@ from carom.dimensionless.lossy.viscoelastic.work import new_work
 from carom.dimensionless.numerics.arrays import Array
 
 OF_SLOPE = np.polynomial.chebyshev.chebder(np.eye(NODES))  # of a series on a panel
-REPLAYS = 64  # that are kept
-RESOLVED, NARROWEST_PANEL = 1e-10, 1e-6  # of a series on a panel
+REPLAYS_KEPT = 64  # that are kept
+SERIES_TOLERANCE, NARROWEST_PANEL = 1e-10, 1e-6  # of a series on a panel
 
 
 class Stretch(NamedTuple):
@@ -45,7 +45,7 @@ class Replay:
         )
 
 
-replay = lru_cache(REPLAYS)(Replay)
+replay = lru_cache(REPLAYS_KEPT)(Replay)
 
 
 class Instant:
@@ -128,9 +128,9 @@ class Instant:
         self, read: Callable[[Stretch, Array], tuple[Array, Array]], rim: float
     ) -> Profile:
         """Return a profile of values and minus their slopes."""
-        stretches = (
-            (partial(read, each), each.inner, each.outer, RESOLVED) for each in self.stretches
-        )
+        stretches = [
+            (partial(read, it), it.inner, it.outer, SERIES_TOLERANCE) for it in self.stretches
+        ]
         return piecewise(stretches, NARROWEST_PANEL, rim)
 
     def _at(self, panel: int, row: int, x: Array | float) -> Array:

@@ -17,7 +17,7 @@ from carom.dimensionless.lossy.viscoelastic.work import MAX_PANELS, RADIUS, SPEE
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 MOST_ITERATIONS = 40
-SETTLED = 1e-15
+MOTION_SETTLED = 1e-15
 CORRECTIONS = 8
 AT_END = 1e-13  # a panel that ends so near to the end of its stage ends with it
 FARTHEST_TRY = 2.0  # times the way to the end of a stage, to first order
@@ -113,7 +113,7 @@ def solve_normal(work: Arrays, motion: Motion, kind: int, h: float) -> None:
         for j in range(NODES):
             rates[0, j] = edge_rate(motion, b[j], v[j])
         integrate(kind, b0, h, rates[0], b)
-        if abs(b[NODES - 1] - last_b) + abs(v[NODES - 1] - last_v) <= SETTLED:
+        if abs(b[NODES - 1] - last_b) + abs(v[NODES - 1] - last_v) <= MOTION_SETTLED:
             break
 
 
@@ -170,7 +170,7 @@ def cut_to_stage(work: Arrays, motion: Motion, kind: int, h: float) -> tuple[flo
     for _ in range(CORRECTIONS):
         solve_normal(work, motion, kind, h)
         step = until_stage_end(motion, b[last], v[last])
-        if abs(step) <= SETTLED:
+        if abs(step) <= MOTION_SETTLED:
             break
         h += step
     return h, True

@@ -13,13 +13,10 @@ from carom.dimensionless.numerics.kernels import kernel
 chebyshev = np.polynomial.chebyshev
 # What makes derivatives by the even clock of values at the nodes.
 SLOPES = np.ascontiguousarray(
-    2.0
-    * np.array(
-        [chebyshev.chebval(PLACES, chebyshev.chebder(series)) for series in collocation.TO_SERIES.T]
-    ).T
+    2.0 * chebyshev.chebval(PLACES, chebyshev.chebder(collocation.TO_SERIES)).T
 )
-MAX_ITERATIONS = 30
-SETTLED = 1e-13
+MOST_ITERATIONS = 30
+PSI_SETTLED = 1e-13
 
 
 @kernel
@@ -41,7 +38,7 @@ def solve_panel(work: Arrays, motion: Motion, panel: Panel, before: Panel) -> bo
         work.ring[at.WHOLE] += piece_force(work.pieces, i)
     if not guess(work, panel, before):
         psi[:] = psi0
-    for iteration in range(MAX_ITERATIONS):
+    for iteration in range(MOST_ITERATIONS):
         follow(work, motion, panel, u0)
         for j in range(NODES):
             now = state_at_node(work, j)
@@ -53,7 +50,7 @@ def solve_panel(work: Arrays, motion: Motion, panel: Panel, before: Panel) -> bo
         if iteration == 0:
             factorise(work, panel, motion.alpha)
         change = correct(work, panel, psi0)
-        if change <= SETTLED * (1.0 + abs(psi0)):
+        if change <= PSI_SETTLED * (1.0 + abs(psi0)):
             follow(work, motion, panel, u0)
             collocation.expand(psi, series[at.PSI])
             collocation.expand(values[at.FRONT], series[at.FRONT])

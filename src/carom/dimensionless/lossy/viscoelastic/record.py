@@ -186,11 +186,8 @@ def square_of_u(
     if ring.mode == Mode.RETRACES:
         return float(work.ring[at.RATIO] ** 2 * squares(depth, 0.0, b))
     limit = normal.limit(motion, b, now.speed)
-    laid = (
-        rows[layout.AT_Q, j]
-        - slipping.moved(motion, now) * a
-        - ring.sign * (limit * (b - a) - cubes(a, b))
-    )
+    slips = ring.sign * (limit * (b - a) - cubes(a, b))
+    laid = rows[layout.AT_Q, j] - slipping.moved(motion, now) * a - slips
     total = u * u * a + 2.0 * u * laid + squares_of_c(work, panel, PLACES[j], border)
     total += squares(depth, a, b)
     return float(total - 2.0 * alpha * (depth * h.plain - h.weighted) + alpha * alpha * h.square)
