@@ -11,9 +11,8 @@ import pytest
 
 import carom
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.viscoelastic.collocation import INTEGRALS, NODES
 from carom.dimensionless.lossy.viscoelastic.panels import back_substitute, factorise
-from carom.dimensionless.lossy.viscoelastic.work import RADIUS, Panel, new_work
+from carom.dimensionless.lossy.viscoelastic.work import INTEGRALS, NODES, RADIUS, Panel, new_work
 from carom.dimensionless.numerics.kernels import plain
 from carom.dimensionless.rebounds import LossyRebounds, lossy_rebounds
 from carom.dimensionless.solution import solve_lossy

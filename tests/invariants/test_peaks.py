@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.fields import flaws, peaks as instant
+from carom.dimensionless.fields import peaks as instant
 from carom.dimensionless.fields.peaks import principal_stresses, von_mises
 from carom.dimensionless.fields.subsurface import load_of, stresses
+from carom.dimensionless.strength import cracking
 from carom.dimensionless.strength.cracking import cracking_width, intensity
 from carom.dimensionless.strength.peaks import Contacts, peaks
 
@@ -200,14 +201,14 @@ def test_kernels_are_their_python():
         instant.climb(*climb, compiled)
         instant.climb.py_func(*climb, plain)
         assert compiled == pytest.approx(plain, rel=1e-12)
-    one, other = np.zeros((2, flaws.RADII.size, 2, flaws.TERMS))
-    flaws.tensions(flaws.RADII, 0.4, load, one)
-    flaws.tensions.py_func(flaws.RADII, 0.4, load, other)
+    one, other = np.zeros((2, cracking.RADII.size, 2, cracking.TERMS))
+    cracking.tensions(cracking.RADII, 0.4, load, one)
+    cracking.tensions.py_func(cracking.RADII, 0.4, load, other)
     assert one == pytest.approx(other, rel=1e-12, abs=1e-15)
-    flaws.hardest_among(flaws.RADII, one, 0.05, compiled)
-    flaws.hardest_among.py_func(flaws.RADII, one, 0.05, plain)
+    cracking.hardest_among(cracking.RADII, one, 0.05, compiled)
+    cracking.hardest_among.py_func(cracking.RADII, one, 0.05, plain)
     assert compiled == pytest.approx(plain, rel=1e-12)
     climb = 0.1, 2e-3, 0.05, 0.4, load, one[0]
-    flaws.climb_flaws(*climb, compiled)
-    flaws.climb_flaws.py_func(*climb, plain)
+    cracking.climb_flaws(*climb, compiled)
+    cracking.climb_flaws.py_func(*climb, plain)
     assert compiled == pytest.approx(plain, rel=1e-12)

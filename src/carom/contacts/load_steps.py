@@ -53,7 +53,7 @@ class Steps(NamedTuple):
         return self.penetration / scales.length, (self.target.T / unit).T, self.by_force
 
     def as_given(self, moved: Array, force: Array) -> tuple[Array, Array]:
-        """Return displacements and tangential forces: those that were control to the bit."""
+        """Return displacements and tangential forces: those that were given to the bit."""
         by_force = self.by_force.reshape(-1, *[1] * (self.target.ndim - 1))
         return np.where(by_force, moved, self.target), np.where(by_force, self.target, force)
 
@@ -99,12 +99,12 @@ def _directions_last(control: Given, first: bool = False) -> Given:
 
 
 def _one_of(most: int, **controls: Given) -> tuple[str, Array]:
-    control = {name: value for name, value in controls.items() if value is not None}
-    if len(control) != 1:
+    chosen = {name: value for name, value in controls.items() if value is not None}
+    if len(chosen) != 1:
         raise InputError(
-            f"load path: give {' or '.join(controls)}, {'not both' if control else 'one of them'}"
+            f"load path: give {' or '.join(controls)}, {'not both' if chosen else 'one of them'}"
         )
-    name, value = next(iter(control.items()))
+    name, value = next(iter(chosen.items()))
     return name, _values(name, value, most)
 
 

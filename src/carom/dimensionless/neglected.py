@@ -1,4 +1,4 @@
-"""Bounds on the error of psi_2 by what the theory neglects, and where they are studied.
+"""Bounds on the error of psi_2 by what the theory neglects, and where they are known.
 
 Envelopes of full solutions by boundary elements, studies/halfspace_study.csv; fitted, not proved.
 """

@@ -9,7 +9,6 @@ from numpy.typing import ArrayLike
 
 from carom.dimensionless import states
 from carom.dimensionless.elastic import dense_output as dense, record as recorded, slip
-from carom.dimensionless.elastic.batch import LINEAR_PSI, STEP_TOLERANCE
 from carom.dimensionless.elastic.motion import PSI
 from carom.dimensionless.elastic.phases import Kind, Status, new_work, run_phases
 from carom.dimensionless.elastic.record import Record, Steps, new_record, trimmed
@@ -21,7 +20,7 @@ from carom.dimensionless.lossy.springs.solution import solve_by_marching
 from carom.dimensionless.lossy.viscoelastic.solution import solve_viscoelastic
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.arrays import Array
-from carom.dimensionless.rebounds import is_elastic
+from carom.dimensionless.rebounds import LINEAR_PSI, STEP_TOLERANCE, is_elastic
 from carom.dimensionless.states import ContactState, History, Phase, SlipAngle, Trajectory
 from carom.quantities.causes import Cause
 from carom.quantities.keywords import known_keywords

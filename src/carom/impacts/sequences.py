@@ -7,14 +7,13 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.elastic.batch import LINEAR_PSI, STEP_TOLERANCE
 from carom.dimensionless.elastic.integration import Work
 from carom.dimensionless.elastic.phases import Kind, Status, new_work, run_phases
 from carom.dimensionless.elastic.record import AT_B, AT_V, KIND, KIND_SIGN, Record, new_record
 from carom.dimensionless.lossy.law import ScaleFreeLaw
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.threads import in_blocks
-from carom.dimensionless.rebounds import regime_borders
+from carom.dimensionless.rebounds import LINEAR_PSI, STEP_TOLERANCE, regime_borders
 from carom.dimensionless.solution import SHORTEST_PHASE, solve
 from carom.dimensionless.states import KIND_NAMES
 from carom.quantities.arrays import Array

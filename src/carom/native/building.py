@@ -42,7 +42,7 @@ FLAGS = ("-O2", "-std=c11", "-fPIC", "-shared", "-fvisibility=hidden")
 ENDINGS = {"darwin": ".dylib", "win32": ".dll"}
 GENERIC = {0: "generic", 1: "x86-64", 2: "x86-64-v2", 3: "x86-64-v3", 4: "x86-64-v4"}
 CACHE = "CAROM_BUILD_CACHE"  # of the environment: a folder
-ELASTIC = "carom_dimensionless_elastic_batch_fill"
+ELASTIC = "carom_dimensionless_rebounds_fill"
 LOSSY = "carom_dimensionless_lossy_viscoelastic_impacts_fill"
 
 

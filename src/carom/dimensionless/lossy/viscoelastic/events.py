@@ -4,12 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.lossy.viscoelastic import collocation, memory, normal, slipping, work as at
-from carom.dimensionless.lossy.viscoelastic.collocation import NODES, PLACES
-from carom.dimensionless.lossy.viscoelastic.memory import Fading
+from carom.dimensionless.lossy.viscoelastic import contact, normal, work as at
+from carom.dimensionless.lossy.viscoelastic.contact import Fading, Mode
 from carom.dimensionless.lossy.viscoelastic.normal import Motion, Stage
-from carom.dimensionless.lossy.viscoelastic.slipping import Mode
-from carom.dimensionless.lossy.viscoelastic.work import Arrays, Panel, State
+from carom.dimensionless.lossy.viscoelastic.work import NODES, PLACES, Arrays, Panel, State
 from carom.dimensionless.numerics.kernels import kernel
 
 # Slip begins at the edge; it stops all over; the front turns; it comes to the end of a piece, or of
@@ -36,40 +34,40 @@ class Event(NamedTuple):
 def inwards(motion: Motion, sign: int, now: State, q: float) -> float:
     """Return g + alpha g': the level of slip falls, and its front goes inwards, while positive."""
     loading = 1.25 * normal.normal_force(motion, now.radius, now.speed)
-    return slipping.excess(sign, now) + motion.alpha * (loading - 3.75 * motion.chi * sign * q)
+    return contact.excess(sign, now) + motion.alpha * (loading - 3.75 * motion.chi * sign * q)
 
 
 @kernel
 def happened(work: Arrays, motion: Motion, panel: Panel, x: float) -> int:
     """Return what has happened at a place of a solved panel."""
     now = at.state_at(work, panel, x)
-    ring, alpha, small = slipping.ring_of(work), motion.alpha, LEVEL_ROUNDING * (1.0 + abs(now.psi))
+    ring, alpha, small = contact.ring_of(work), motion.alpha, LEVEL_ROUNDING * (1.0 + abs(now.psi))
     fading = Fading(ring.sign, alpha, now.time)
     if ring.mode == Mode.RETRACES:
         return NOTHING
     if ring.mode == Mode.STICKS:
         return BEGINS if abs(now.psi) - now.speed > small else NOTHING
-    g = slipping.excess(ring.sign, now)
+    g = contact.excess(ring.sign, now)
     if g < (STILL_RATE / alpha if ring.mode == Mode.RETURNS else -small):
         return STOPS
     if ring.mode == Mode.STANDS or ring.mode == Mode.SLIPS:
-        if ring.depth > 0 and memory.left(work, ring.depth - 1, False, fading) > g:
+        if ring.depth > 0 and contact.left(work, ring.depth - 1, False, fading) > g:
             return TURNS if g > STILL_RATE / alpha else STOPS
         if ring.mode == Mode.SLIPS:
             return NOTHING
-    border, last = slipping.front(work, motion, panel, now), panel.pieces - 1
-    level = slipping.level_now(motion, ring.sign, now)
+    border, last = contact.front(work, motion, panel, now), panel.pieces - 1
+    level = contact.level_now(motion, ring.sign, now)
     if ring.mode == Mode.STANDS:
-        if level < memory.level_at(work.pieces, last, ring.sign, True) - small:
+        if level < contact.level_at(work.pieces, last, ring.sign, True) - small:
             return ARRIVES
     else:
-        way = inwards(motion, ring.sign, now, slipping.force(work, motion, panel, x, now, border))
+        way = inwards(motion, ring.sign, now, contact.force(work, motion, panel, x, now, border))
         if (way if ring.mode == Mode.RETURNS else -way) > TURNING_RATE:
             return TURNS
         top = ring.depth - 1
-        if ring.mode == Mode.RETURNS and memory.left(work, top, True, fading) > g:
+        if ring.mode == Mode.RETURNS and contact.left(work, top, True, fading) > g:
             return ARRIVES
-        if ring.mode == Mode.RETREATS and level < memory.level_at(
+        if ring.mode == Mode.RETREATS and level < contact.level_at(
             work.pieces, last, ring.sign, False
         ):
             return ARRIVES
@@ -81,7 +79,7 @@ def first_event(work: Arrays, motion: Motion, panel: Panel) -> Event:
     """Return what first happens in a solved panel."""
     if motion.stage == Stage.UNLOADING.value and work.values[at.RADIUS, 0] < PARTING_RADIUS:
         return Event(2.0, NOTHING)
-    flat = panel.clock == collocation.FLAT_START or panel.clock == collocation.FLAT_ENDS
+    flat = panel.clock == at.FLAT_START or panel.clock == at.FLAT_ENDS
     early = 2.0 * (np.sqrt(EARLY_PART) if flat else EARLY_PART) - 1.0
     low = -1.0
     for j in range(NODES):
@@ -111,15 +109,15 @@ def event_between(work: Arrays, motion: Motion, panel: Panel, low: float, event:
 @kernel
 def commit(work: Arrays, motion: Motion, panel: Panel, event: int) -> int:
     """Change the memory at the end of a panel, and what comes next; return the pieces left."""
-    ring, count, last = slipping.ring_of(work), panel.pieces, NODES - 1
+    ring, count, last = contact.ring_of(work), panel.pieces, NODES - 1
     now = at.state_at_node(work, last)
-    border = slipping.front(work, motion, panel, now)
+    border = contact.front(work, motion, panel, now)
     if ring.mode == Mode.STICKS:
         count = lay(work, panel, 0)
     elif ring.mode == Mode.RETREATS:
-        memory.trim(work, count - 1, border.radius, border.place)
+        contact.trim(work, count - 1, border.radius, border.place)
         outer = np.sqrt(work.values[at.FRONT, 0])
-        memory.push(work, panel.number, outer, border.radius)
+        contact.push(work, panel.number, outer, border.radius)
         if event == ARRIVES:
             count -= 1
     elif ring.mode == Mode.RETURNS:
@@ -146,12 +144,12 @@ def give_back_rest(
     work: Arrays, motion: Motion, count: int, x: float, event: int, now: State
 ) -> int:
     """Shorten what slip passed by what sticks again; return how many pieces there are."""
-    ring, stuck = slipping.ring_of(work), memory.rim(work.pieces, count)
+    ring, stuck = contact.ring_of(work), contact.rim(work.pieces, count)
     row = work.passed[ring.depth - 1]
-    row[memory.X_INNER], row[memory.R_INNER] = x, stuck
-    if event == ARRIVES and row[memory.R_OUTER] > stuck:  # its front is too fast to be followed
-        level = slipping.level_now(motion, ring.sign, now)
-        memory.lay_flat(work.pieces, count, ring.sign, stuck, row[memory.R_OUTER], level)
+    row[contact.X_INNER], row[contact.R_INNER] = x, stuck
+    if event == ARRIVES and row[contact.R_OUTER] > stuck:  # its front is too fast to be followed
+        level = contact.level_now(motion, ring.sign, now)
+        contact.lay_flat(work.pieces, count, ring.sign, stuck, row[contact.R_OUTER], level)
         return count + 1
     return count
 
@@ -159,20 +157,20 @@ def give_back_rest(
 @kernel
 def follow_event(work: Arrays, motion: Motion, count: int, event: int, now: State) -> int:
     """Decide what comes next; return how many pieces there are then."""
-    ring, stuck = slipping.ring_of(work), memory.rim(work.pieces, count)
+    ring, stuck = contact.ring_of(work), contact.rim(work.pieces, count)
     if event == BEGINS:
         return begin(work, motion, count, 1 if now.psi > 0.0 else -1, now)
     if event == CLOSES:  # to rounding: what was left of the ring slips the other way at once
-        slipping.set_ring(work, Mode.RETREATS.value, -ring.sign, 0)
-        g = slipping.excess(-ring.sign, now)
-        memory.push_at_once(work, max(now.radius, stuck), stuck, now.time, g)
+        contact.set_ring(work, Mode.RETREATS.value, -ring.sign, 0)
+        g = contact.excess(-ring.sign, now)
+        contact.push_at_once(work, max(now.radius, stuck), stuck, now.time, g)
         return retreat(work, motion, count, now)
     if event == STOPS:
-        level = slipping.level_now(motion, ring.sign, now)
-        memory.lay_flat(work.pieces, count, ring.sign, stuck, now.radius, level)
+        level = contact.level_now(motion, ring.sign, now)
+        contact.lay_flat(work.pieces, count, ring.sign, stuck, now.radius, level)
         if motion.stage == Stage.UNLOADING.value:
             return begin(work, motion, count + 1, -ring.sign, now)
-        slipping.set_ring(work, Mode.STICKS.value, 0, 0)
+        contact.set_ring(work, Mode.STICKS.value, 0, 0)
         return count + 1
     if ring.mode == Mode.RETURNS and event == TURNS:
         work.ring[at.MODE] = Mode.RETREATS.value
@@ -188,34 +186,34 @@ def follow_event(work: Arrays, motion: Motion, count: int, event: int, now: Stat
 @kernel
 def begin(work: Arrays, motion: Motion, count: int, sign: int, now: State) -> int:
     """Begin a ring of slip at the edge; return how many pieces there are."""
-    slipping.set_ring(work, Mode.RETREATS.value, sign, 0)
+    contact.set_ring(work, Mode.RETREATS.value, sign, 0)
     return retreat(work, motion, count, now)
 
 
 @kernel
 def retreat(work: Arrays, motion: Motion, count: int, now: State) -> int:
     """Let the front pass what is flat for it, and decide how it goes on; return the pieces left."""
-    pieces, sign = work.pieces, slipping.ring_of(work).sign
-    level, g = slipping.level_now(motion, sign, now), slipping.excess(sign, now)
+    pieces, sign = work.pieces, contact.ring_of(work).sign
+    level, g = contact.level_now(motion, sign, now), contact.excess(sign, now)
     for _ in range(at.MAX_PIECES):
         i = count - 1
         if count == 0:
-            depth = slipping.ring_of(work).depth
-            rest = work.passed[depth - 1, memory.R_INNER] if depth > 0 else 0.0
+            depth = contact.ring_of(work).depth
+            rest = work.passed[depth - 1, contact.R_INNER] if depth > 0 else 0.0
             if rest > 0.0:  # the centre is reached to rounding of levels, that is of r^2
-                memory.push_at_once(work, rest, 0.0, now.time, g)
+                contact.push_at_once(work, rest, 0.0, now.time, g)
             work.ring[at.MODE] = Mode.SLIPS.value
             return 0
         if pieces[i, at.R1] <= pieces[i, at.R0]:
             count = i
             continue
-        if level > memory.level_at(pieces, i, sign, True) + SAME_LEVEL:
+        if level > contact.level_at(pieces, i, sign, True) + SAME_LEVEL:
             work.ring[at.MODE] = Mode.STANDS.value
             return count
         work.ring[at.MODE] = Mode.RETREATS.value
-        if pieces[i, at.SIGN] != sign or pieces[i, at.PANEL] != memory.FLAT:
+        if pieces[i, at.SIGN] != sign or pieces[i, at.PANEL] != contact.FLAT:
             return count
-        memory.push_at_once(work, pieces[i, at.R1], pieces[i, at.R0], now.time, g)
+        contact.push_at_once(work, pieces[i, at.R1], pieces[i, at.R0], now.time, g)
         count = i
     return count
 
@@ -223,21 +221,21 @@ def retreat(work: Arrays, motion: Motion, count: int, now: State) -> int:
 @kernel
 def give_back(work: Arrays, motion: Motion, count: int, now: State) -> int:
     """Let what was passed at once stick again, and decide how the front goes on."""
-    ring = slipping.ring_of(work)
-    level, g = slipping.level_now(motion, ring.sign, now), slipping.excess(ring.sign, now)
+    ring = contact.ring_of(work)
+    level, g = contact.level_now(motion, ring.sign, now), contact.excess(ring.sign, now)
     fading = Fading(ring.sign, motion.alpha, now.time)
     mode, depth = Mode.STANDS.value, ring.depth
     for top in range(ring.depth - 1, -1, -1):
         row = work.passed[top]
-        if memory.left(work, top, False, fading) < g * (1.0 - 1e-8) - 1e-14:
+        if contact.left(work, top, False, fading) < g * (1.0 - 1e-8) - 1e-14:
             break
-        if row[memory.PASSED_PANEL] != memory.AT_ONCE:
+        if row[contact.PASSED_PANEL] != contact.AT_ONCE:
             mode = Mode.RETURNS.value
             break
-        outer = min(row[memory.R_OUTER], now.radius)
-        memory.lay_flat(work.pieces, count, ring.sign, row[memory.R_INNER], outer, level)
+        outer = min(row[contact.R_OUTER], now.radius)
+        contact.lay_flat(work.pieces, count, ring.sign, row[contact.R_INNER], outer, level)
         count, depth = count + 1, top
     if count == 0 and mode == Mode.STANDS.value:
         mode = Mode.SLIPS.value
-    slipping.set_ring(work, mode, ring.sign, depth)
+    contact.set_ring(work, mode, ring.sign, depth)
     return count

@@ -14,9 +14,9 @@ import numpy as np
 from carom.dimensionless.elastic.phases import Kind
 from carom.dimensionless.fields.surface import displaced
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.viscoelastic.collocation import TO_SERIES, place
 from carom.dimensionless.lossy.viscoelastic.instant import Instant, Replay
 from carom.dimensionless.lossy.viscoelastic.record import Trace
+from carom.dimensionless.lossy.viscoelastic.work import TO_SERIES, place
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.chebyshev import nodes, transform
 

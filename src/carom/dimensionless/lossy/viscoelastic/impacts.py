@@ -7,15 +7,13 @@ import numpy as np
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy import layout
 from carom.dimensionless.lossy.law import LARGEST_PSI, keep_energy, why_not
-from carom.dimensionless.lossy.viscoelastic import collocation, work as at
-from carom.dimensionless.lossy.viscoelastic.collocation import EVEN, NODES, clock, tail
+from carom.dimensionless.lossy.viscoelastic import work as at
+from carom.dimensionless.lossy.viscoelastic.contact import Mode, ring_of, row_of, set_ring
 from carom.dimensionless.lossy.viscoelastic.events import NOTHING, begin, commit, first_event
-from carom.dimensionless.lossy.viscoelastic.memory import row_of
 from carom.dimensionless.lossy.viscoelastic.normal import Motion, Stage, cut_to_stage, next_stage
 from carom.dimensionless.lossy.viscoelastic.panels import solve_panel
 from carom.dimensionless.lossy.viscoelastic.record import Trace, note_numbers, note_shear
-from carom.dimensionless.lossy.viscoelastic.slipping import Mode, ring_of, set_ring
-from carom.dimensionless.lossy.viscoelastic.work import Arrays, Panel, state_at_node
+from carom.dimensionless.lossy.viscoelastic.work import EVEN, NODES, Arrays, Panel
 from carom.dimensionless.numerics.arrays import Codes, Matrix, Vector
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
@@ -119,7 +117,7 @@ def unload(work: Arrays, motion: Motion, pieces: int) -> int:
     """Let the edge slip from the turning point on, if all sticks; return the pieces there are."""
     if ring_of(work).mode != Mode.STICKS:
         return pieces
-    now = state_at_node(work, 0)
+    now = at.state_at_node(work, 0)
     return begin(work, motion, pieces, 1 if now.psi > 0.0 else -1, now)
 
 
@@ -149,7 +147,7 @@ def solved_panel(
             continue
         event = first_event(work, motion, panel)
         near = END_PART if plan.clock == EVEN else END_PART_FLAT
-        part = clock(plan.clock, event.place) if event.place < 1.0 else 1.0
+        part = at.clock(plan.clock, event.place) if event.place < 1.0 else 1.0
         if part < 1.0 - near and plan.length > SHORTEST:
             plan = with_length(plan, plan.length * part, plan.natural, event.what, False)
             continue
@@ -175,14 +173,14 @@ def revised(plan: Plan, error: float, tolerance: float) -> Plan:
     kind, worse, last = plan.clock, plan.flat_is_worse, plan.error
     rooted = plan.from_change or plan.change != NOTHING
     if kind == EVEN and rooted and not worse:
-        start = collocation.FLAT_START if plan.from_change else EVEN
-        end = collocation.FLAT_END if plan.change != NOTHING else EVEN
+        start = at.FLAT_START if plan.from_change else EVEN
+        end = at.FLAT_END if plan.change != NOTHING else EVEN
         kept = plan.natural, plan.from_change, plan.change, plan.to_stage_end
         return Plan(plan.length, start + end, *kept, False, error)
     if kind != EVEN and error > last:
         kind, worse, error = EVEN, True, last
-    elif kind == collocation.FLAT_END or kind == collocation.FLAT_ENDS:
-        kind, last = kind - collocation.FLAT_END, error
+    elif kind == at.FLAT_END or kind == at.FLAT_ENDS:
+        kind, last = kind - at.FLAT_END, error
     h = plan.length * max(STEEPEST, SAFETY * (tolerance / error) ** (1.0 / ERROR_ORDER))
     return Plan(h, kind, h, plan.from_change, NOTHING, False, worse, last)
 
@@ -191,12 +189,12 @@ def revised(plan: Plan, error: float, tolerance: float) -> Plan:
 def error_of(work: Arrays, panel: Panel) -> float:
     """Return the error of a solved panel, as the last coefficients of its series tell it."""
     series, ring = work.series[panel.number], ring_of(work)
-    error = max(tail(series[at.PSI]), tail(series[at.MOVED]))
-    error = max(error, NORMAL_WEIGHT * tail(series[at.SPEED]) * (1.0 + abs(series[at.PSI, 0])))
+    error = max(at.tail(series[at.PSI]), at.tail(series[at.MOVED]))
+    error = max(error, NORMAL_WEIGHT * at.tail(series[at.SPEED]) * (1.0 + abs(series[at.PSI, 0])))
     if ring.mode == Mode.RETURNS:
         levels = work.values[row_of(ring.sign)]
-        error = max(error, tail(series[at.LAID]), tail(series[row_of(ring.sign)]))
-        error = max(error, tail(series[at.LAID_RADIUS]) * abs(levels[NODES - 1] - levels[0]))
+        error = max(error, at.tail(series[at.LAID]), at.tail(series[row_of(ring.sign)]))
+        error = max(error, at.tail(series[at.LAID_RADIUS]) * abs(levels[NODES - 1] - levels[0]))
     return float(error)
 
 

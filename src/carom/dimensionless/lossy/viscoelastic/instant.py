@@ -8,13 +8,11 @@ import numpy as np
 
 from carom.dimensionless.fields.profile import Profile, Read, piecewise, stacked
 from carom.dimensionless.lossy.layout import NUMBERS
-from carom.dimensionless.lossy.viscoelastic import memory, work as at
-from carom.dimensionless.lossy.viscoelastic.collocation import NODES, place
+from carom.dimensionless.lossy.viscoelastic import contact, work as at
+from carom.dimensionless.lossy.viscoelastic.contact import FLAT, Mode, row_of
 from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE, Solid, run
-from carom.dimensionless.lossy.viscoelastic.memory import FLAT, row_of
 from carom.dimensionless.lossy.viscoelastic.record import new_record
-from carom.dimensionless.lossy.viscoelastic.slipping import Mode
-from carom.dimensionless.lossy.viscoelastic.work import new_work
+from carom.dimensionless.lossy.viscoelastic.work import NODES, new_work, place
 from carom.dimensionless.numerics.arrays import Array
 
 OF_SLOPE = np.polynomial.chebyshev.chebder(np.eye(NODES))  # of a series on a panel
@@ -193,14 +191,14 @@ class Instant:
             return
         inner = self.stuck
         depth = int(self.work.ring[at.DEPTH])
-        entries = [(row, float(row[memory.X_INNER])) for row in self.work.passed[:depth].copy()]
+        entries = [(row, float(row[contact.X_INNER])) for row in self.work.passed[:depth].copy()]
         if self.mode == Mode.RETREATS:
             row = np.zeros(self.work.passed.shape[1])
-            row[[memory.PASSED_PANEL, memory.X_OUTER]] = self.number, -1.0
-            row[memory.R_OUTER] = np.sqrt(self.work.values[at.FRONT, 0])
+            row[[contact.PASSED_PANEL, contact.X_OUTER]] = self.number, -1.0
+            row[contact.R_OUTER] = np.sqrt(self.work.values[at.FRONT, 0])
             entries.append((row, self.x))
         for row, x_inner in reversed(entries):
-            outer = min(float(row[memory.R_OUTER]), self.radius)
+            outer = min(float(row[contact.R_OUTER]), self.radius)
             if outer > inner:
                 yield Stretch(inner, outer, self.sign, self._left(row, x_inner))
                 inner = outer
@@ -209,13 +207,13 @@ class Instant:
 
     def _left(self, row: Array, x_inner: float) -> Read:
         """Return what reads h on an entry of the stack, and its slope in s."""
-        n, alpha = int(row[memory.PASSED_PANEL]), self.alpha
+        n, alpha = int(row[contact.PASSED_PANEL]), self.alpha
 
         def read(r: Array) -> tuple[Array, Array]:
-            if row[memory.PASSED_PANEL] == memory.AT_ONCE:
-                h = row[memory.EXCESS] * np.exp((row[memory.INSTANT] - self.time) / alpha)
+            if row[contact.PASSED_PANEL] == contact.AT_ONCE:
+                h = row[contact.EXCESS] * np.exp((row[contact.INSTANT] - self.time) / alpha)
                 return np.full(r.shape, h), np.zeros(r.shape)
-            x = self._place(n, at.FRONT, r * r, row[memory.X_OUTER], x_inner)
+            x = self._place(n, at.FRONT, r * r, row[contact.X_OUTER], x_inner)
             decay = np.exp((self._at(n, at.TIME, x) - self.time) / alpha)
             excess = self.sign * self._at(n, at.PSI, x) - self._at(n, at.SPEED, x)
             change = self.sign * self._slope(n, at.PSI, x) - self._slope(n, at.SPEED, x)

@@ -11,9 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.lossy.viscoelastic import collocation
-from carom.dimensionless.lossy.viscoelastic.collocation import EVEN, NODES, PLACES, integrate
-from carom.dimensionless.lossy.viscoelastic.work import MAX_PANELS, RADIUS, SPEED, Arrays, new_work
+from carom.dimensionless.lossy.viscoelastic import work as at
+from carom.dimensionless.lossy.viscoelastic.work import EVEN, NODES, PLACES, Arrays, integrate
 from carom.dimensionless.numerics.kernels import entry_point, kernel
 
 MOST_ITERATIONS = 40
@@ -100,11 +99,11 @@ def loss_rate(motion: Motion, b: float, v: float) -> float:
 @kernel
 def solve_normal(work: Arrays, motion: Motion, kind: int, h: float) -> None:
     """Solve for b and v at the nodes, from their values at the first."""
-    b, v, rates = work.values[RADIUS], work.values[SPEED], work.rates
+    b, v, rates = work.values[at.RADIUS], work.values[at.SPEED], work.rates
     b0, v0 = b[0], v[0]
     pace = edge_rate(motion, b0, v0)
     for j in range(NODES):
-        b[j], v[j] = b0 + h * collocation.CLOCKS[kind, j] * pace, v0
+        b[j], v[j] = b0 + h * at.CLOCKS[kind, j] * pace, v0
     for _ in range(MOST_ITERATIONS):
         last_b, last_v = b[NODES - 1], v[NODES - 1]
         for j in range(NODES):
@@ -129,7 +128,7 @@ def beyond_stage(motion: Motion, b: float, v: float) -> float:
 def stage_end(work: Arrays, motion: Motion) -> float:
     """Return the part of a panel with an even clock after which its stage ends, 1 if not in it."""
     last = NODES - 1
-    b, v = work.values[RADIUS], work.values[SPEED]
+    b, v = work.values[at.RADIUS], work.values[at.SPEED]
     beyond = beyond_stage(motion, b[last], v[last])
     if beyond <= 0.0:
         return 1.0
@@ -157,7 +156,7 @@ def cut_to_stage(work: Arrays, motion: Motion, kind: int, h: float) -> tuple[flo
 
     Return its length, and whether it was cut.
     """
-    b, v, last = work.values[RADIUS], work.values[SPEED], NODES - 1
+    b, v, last = work.values[at.RADIUS], work.values[at.SPEED], NODES - 1
     ahead = until_stage_end(motion, b[0], v[0])
     if ahead > 0.0:  # far beyond the end of a stage its equations mean nothing
         h = min(h, FARTHEST_TRY * ahead)
@@ -179,7 +178,7 @@ def cut_to_stage(work: Arrays, motion: Motion, kind: int, h: float) -> tuple[flo
 @kernel
 def next_stage(work: Arrays, motion: Motion) -> Motion:
     """Return what rules the motion after the loading, whose end the state is put to exactly."""
-    work.values[SPEED, 0] = 0.0
+    work.values[at.SPEED, 0] = 0.0
     return Motion(Stage.UNLOADING.value, motion.alpha, motion.chi)
 
 
@@ -187,14 +186,14 @@ def next_stage(work: Arrays, motion: Motion) -> Motion:
 def restitution(alpha: float, work: Arrays) -> float:
     """Return the normal speed after to before, normal motion alone; NaN if without end."""
     values = work.values
-    values[RADIUS, 0], values[SPEED, 0] = 0.0, 1.0
+    values[at.RADIUS, 0], values[at.SPEED, 0] = 0.0, 1.0
     motion = Motion(Stage.LOADING.value, alpha, 1.0)
-    for _ in range(MAX_PANELS):
+    for _ in range(at.MAX_PANELS):
         _, ends = cut_to_stage(work, motion, EVEN, PANEL_LENGTH)
-        for row in (RADIUS, SPEED):
+        for row in (at.RADIUS, at.SPEED):
             values[row, 0] = values[row, NODES - 1]
         if ends and motion.stage == Stage.UNLOADING.value:
-            return float(-values[SPEED, 0])
+            return float(-values[at.SPEED, 0])
         if ends:
             motion = next_stage(work, motion)
     return np.nan
@@ -209,7 +208,7 @@ def viscous_loss(wanted: float) -> float:
     """
     from scipy.optimize import brentq
 
-    work = new_work()
+    work = at.new_work()
 
     def excess(log_alpha: float) -> float:
         return float(restitution(np.exp(log_alpha), work)) - wanted

@@ -11,19 +11,18 @@ import numpy as np
 
 from carom.dimensionless.elastic.phases import Kind
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.viscoelastic import memory, normal, slipping, work as at
-from carom.dimensionless.lossy.viscoelastic.collocation import (
+from carom.dimensionless.lossy.viscoelastic import contact, normal, work as at
+from carom.dimensionless.lossy.viscoelastic.contact import Fading, Front, Mode, Ring, cubes
+from carom.dimensionless.lossy.viscoelastic.normal import Motion, Stage
+from carom.dimensionless.lossy.viscoelastic.work import (
     NODES,
     PLACES,
+    Arrays,
+    Panel,
+    State,
     evaluate,
     integrate,
-    place,
-    slope,
 )
-from carom.dimensionless.lossy.viscoelastic.memory import Fading, cubes
-from carom.dimensionless.lossy.viscoelastic.normal import Motion, Stage
-from carom.dimensionless.lossy.viscoelastic.slipping import Front, Mode, Ring
-from carom.dimensionless.lossy.viscoelastic.work import Arrays, Panel, State, state_at_node
 from carom.dimensionless.numerics.arrays import Array, CodePairs, Cube
 from carom.dimensionless.numerics.kernels import kernel
 
@@ -58,18 +57,18 @@ def passed_moments(
         oldest = fading.time - LAYERS[layer] * fading.alpha
         low = x0
         if evaluate(table, n, at.TIME, x0) < oldest:
-            low = max(x0, min(high, place(table, n, at.TIME, oldest, x0, high)))
+            low = max(x0, min(high, at.place(table, n, at.TIME, oldest, x0, high)))
         half = 0.5 * (high - low)
         for k in range(ABSCISSAS.size):
             x = low + half * (1.0 + ABSCISSAS[k])
-            r, h = front_at(work, n, x), memory.left_at(work, n, fading, x)
+            r, h = front_at(work, n, x), contact.left_at(work, n, fading, x)
             rise = half * WEIGHTS[k] * slope_of_left(work, n, fading, x)
             plain += rise * r
             weighted += rise * r * r * r / 3.0
             square += rise * 2.0 * h * r
         high = low
     for end, x in ((1.0, x0), (-1.0, x1)):
-        r, h = front_at(work, n, x), memory.left_at(work, n, fading, x)
+        r, h = front_at(work, n, x), contact.left_at(work, n, fading, x)
         plain += end * h * r
         weighted += end * h * r * r * r / 3.0
         square += end * h * h * r
@@ -88,8 +87,8 @@ def slope_of_left(work: Arrays, n: int, fading: Fading, x: float) -> float:
     table, alpha, sign = work.series, fading.alpha, fading.sign
     ago = evaluate(table, n, at.TIME, x) - fading.time
     excess = sign * evaluate(table, n, at.PSI, x) - evaluate(table, n, at.SPEED, x)
-    change = sign * slope(table, n, at.PSI, x) - slope(table, n, at.SPEED, x)
-    return float(np.exp(ago / alpha) * (change + excess * slope(table, n, at.TIME, x) / alpha))
+    change = sign * at.slope(table, n, at.PSI, x) - at.slope(table, n, at.SPEED, x)
+    return float(np.exp(ago / alpha) * (change + excess * at.slope(table, n, at.TIME, x) / alpha))
 
 
 @kernel
@@ -97,16 +96,16 @@ def entry_moments(
     work: Arrays, i: int, fading: Fading, edge: float, x1: float
 ) -> tuple[float, float, float]:
     """Return the integrals over an entry of the stack, from the edge to a place of its panel."""
-    row, n = work.passed[i], int(work.passed[i, memory.PASSED_PANEL])
-    outer, inner = min(row[memory.R_OUTER], edge), row[memory.R_INNER]
+    row, n = work.passed[i], int(work.passed[i, contact.PASSED_PANEL])
+    outer, inner = min(row[contact.R_OUTER], edge), row[contact.R_INNER]
     if outer <= inner:
         return 0.0, 0.0, 0.0
-    if row[memory.PASSED_PANEL] == memory.AT_ONCE:
-        h = memory.left(work, i, True, fading)
+    if row[contact.PASSED_PANEL] == contact.AT_ONCE:
+        h = contact.left(work, i, True, fading)
         return h * (outer - inner), h * cubes(inner, outer), h * h * (outer - inner)
-    x0 = row[memory.X_OUTER]
-    if outer < row[memory.R_OUTER]:
-        x0 = place(work.series, n, at.FRONT, outer * outer, x0, x1)
+    x0 = row[contact.X_OUTER]
+    if outer < row[contact.R_OUTER]:
+        x0 = at.place(work.series, n, at.FRONT, outer * outer, x0, x1)
     return passed_moments(work, n, fading, x0, x1)
 
 
@@ -117,20 +116,20 @@ def gap_end(work: Arrays, i: int, ring: Ring, front: float) -> float:
     Where it arrives is known to rounding of levels, which is much of a thin ring.
     """
     if i < ring.depth - 1:
-        return float(work.passed[i + 1, memory.R_OUTER])
+        return float(work.passed[i + 1, contact.R_OUTER])
     if ring.mode == Mode.RETREATS:
         return float(np.sqrt(work.values[at.FRONT, 0]))
-    return float(work.passed[i, memory.R_INNER]) if ring.mode == Mode.RETURNS else front
+    return float(work.passed[i, contact.R_INNER]) if ring.mode == Mode.RETURNS else front
 
 
 @kernel
 def edge_left(work: Arrays, i: int, fading: Fading, edge: float) -> float:
     """Return h at the edge, which an entry of the stack holds."""
-    row, n = work.passed[i], int(work.passed[i, memory.PASSED_PANEL])
-    if row[memory.PASSED_PANEL] == memory.AT_ONCE or edge <= row[memory.R_INNER]:
-        return memory.left(work, i, False, fading)
-    x0, x1 = row[memory.X_OUTER], row[memory.X_INNER]
-    return memory.left_at(work, n, fading, place(work.series, n, at.FRONT, edge * edge, x0, x1))
+    row, n = work.passed[i], int(work.passed[i, contact.PASSED_PANEL])
+    if row[contact.PASSED_PANEL] == contact.AT_ONCE or edge <= row[contact.R_INNER]:
+        return contact.left(work, i, False, fading)
+    x0, x1 = row[contact.X_OUTER], row[contact.X_INNER]
+    return contact.left_at(work, n, fading, at.place(work.series, n, at.FRONT, edge * edge, x0, x1))
 
 
 @kernel
@@ -138,27 +137,27 @@ def ring_moments(
     work: Arrays, motion: Motion, panel: Panel, x: float, now: State, border: Front
 ) -> Moments:
     """Return what the ledger needs to know of h in the ring, at a place of a panel."""
-    ring, edge = slipping.ring_of(work), now.radius
+    ring, edge = contact.ring_of(work), now.radius
     fading = Fading(ring.sign, motion.alpha, now.time)
     plain, weighted, square, at_edge = 0.0, 0.0, 0.0, 0.0
     for i in range(ring.depth):
-        row, last = work.passed[i], work.passed[i, memory.X_INNER]
+        row, last = work.passed[i], work.passed[i, contact.X_INNER]
         if ring.mode == Mode.RETURNS and i == ring.depth - 1:
             last = border.place
         part = entry_moments(work, i, fading, edge, last)
         plain, weighted, square = plain + part[0], weighted + part[1], square + part[2]
-        inner, outer = gap_end(work, i, ring, border.radius), min(row[memory.R_INNER], edge)
+        inner, outer = gap_end(work, i, ring, border.radius), min(row[contact.R_INNER], edge)
         if inner < outer:
-            h = memory.left(work, i, False, fading)
+            h = contact.left(work, i, False, fading)
             plain, weighted = plain + h * (outer - inner), weighted + h * cubes(inner, outer)
             square += h * h * (outer - inner)
-        if edge <= row[memory.R_OUTER] and (edge > inner or i == ring.depth - 1):
+        if edge <= row[contact.R_OUTER] and (edge > inner or i == ring.depth - 1):
             at_edge = edge_left(work, i, fading, edge)
     if ring.mode == Mode.RETREATS:
         n, x0 = panel.number, -1.0
         if edge * edge <= work.values[at.FRONT, 0] * (1.0 + NEAR_FRONT):
-            x0 = place(work.series, n, at.FRONT, edge * edge, -1.0, x)
-            at_edge = memory.left_at(work, n, fading, x0)
+            x0 = at.place(work.series, n, at.FRONT, edge * edge, -1.0, x)
+            at_edge = contact.left_at(work, n, fading, x0)
         part = passed_moments(work, n, fading, x0, x)
         plain, weighted, square = plain + part[0], weighted + part[1], square + part[2]
     return Moments(plain, weighted, square, at_edge)
@@ -181,13 +180,13 @@ def square_of_u(
     work: Arrays, motion: Motion, panel: Panel, j: int, border: Front, h: Moments, rows: Array
 ) -> float:
     """Return the integral of u^2 over the contact at a node, whose depth and force are known."""
-    now, ring, a = state_at_node(work, j), slipping.ring_of(work), border.radius
+    now, ring, a = at.state_at_node(work, j), contact.ring_of(work), border.radius
     b, u, depth, alpha = now.radius, now.moved, rows[layout.AT_D, j], motion.alpha
     if ring.mode == Mode.RETRACES:
         return float(work.ring[at.RATIO] ** 2 * squares(depth, 0.0, b))
     limit = normal.limit(motion, b, now.speed)
     slips = ring.sign * (limit * (b - a) - cubes(a, b))
-    laid = rows[layout.AT_Q, j] - slipping.moved(motion, now) * a - slips
+    laid = rows[layout.AT_Q, j] - contact.moved(motion, now) * a - slips
     total = u * u * a + 2.0 * u * laid + squares_of_c(work, panel, PLACES[j], border)
     total += squares(depth, a, b)
     return float(total - 2.0 * alpha * (depth * h.plain - h.weighted) + alpha * alpha * h.square)
@@ -203,7 +202,7 @@ def squares(level: float, inner: float, outer: float) -> float:
 @kernel
 def squares_of_c(work: Arrays, panel: Panel, x: float, border: Front) -> float:
     """Return the integral of c^2 over what sticks, at a place of a panel."""
-    pieces, ring, total = work.pieces, slipping.ring_of(work), 0.0
+    pieces, ring, total = work.pieces, contact.ring_of(work), 0.0
     whole = panel.pieces - 1 if ring.mode == Mode.RETREATS else panel.pieces
     for i in range(whole):
         total += square_of_piece(work, i, pieces[i, at.R1], pieces[i, at.X1])
@@ -221,8 +220,8 @@ def square_of_piece(work: Arrays, i: int, r1: float, x1: float) -> float:
     """Return the integral of c^2 over a piece up to a radius, which is at this place."""
     pieces, sign, n = work.pieces, int(work.pieces[i, at.SIGN]), int(work.pieces[i, at.PANEL])
     r0 = pieces[i, at.R0]
-    if pieces[i, at.PANEL] == memory.FLAT:
-        level = memory.level_at(pieces, i, sign, False)
+    if pieces[i, at.PANEL] == contact.FLAT:
+        level = contact.level_at(pieces, i, sign, False)
         return squares(level, r0, r1)
     if sign != 0:
         return square_left(work, n, sign, pieces[i, at.X0], x1)
@@ -239,8 +238,8 @@ def square_left(work: Arrays, n: int, sign: int, x0: float, x1: float) -> float:
     for k in range(ABSCISSAS.size):
         x = x0 + half * (1.0 + ABSCISSAS[k])
         r = evaluate(work.series, n, at.LAID_RADIUS, x)
-        c = evaluate(work.series, n, memory.row_of(sign), x) - r * r
-        total += WEIGHTS[k] * half * slope(work.series, n, at.LAID_RADIUS, x) * c * c
+        c = evaluate(work.series, n, contact.row_of(sign), x) - r * r
+        total += WEIGHTS[k] * half * at.slope(work.series, n, at.LAID_RADIUS, x) * c * c
     return total
 
 
@@ -323,17 +322,17 @@ def keep_normal(work: Arrays, motion: Motion, panel: Panel, numbers: Array, rows
 @kernel
 def note_shear(work: Arrays, motion: Motion, panel: Panel, numbers: Array, record: Trace) -> None:
     """Add what is lost in shear in a panel; keep the panel, if wanted."""
-    wanted, ring, rates = record.rows.shape[0] > 0, slipping.ring_of(work), work.rates
+    wanted, ring, rates = record.rows.shape[0] > 0, contact.ring_of(work), work.rates
     rows = record.rows[panel.number] if wanted else work.values
     if wanted:
         keep_normal(work, motion, panel, numbers, rows)
     for j in range(NODES):
-        x, now = PLACES[j], state_at_node(work, j)
-        border = slipping.front(work, motion, panel, now)
+        x, now = PLACES[j], at.state_at_node(work, j)
+        border = contact.front(work, motion, panel, now)
         h = ring_moments(work, motion, panel, x, now, border)
         rates[0, j] = loss_rate(motion, now, ring, border, h)
         if wanted:
-            rows[layout.AT_Q, j] = slipping.force(work, motion, panel, x, now, border)
+            rows[layout.AT_Q, j] = contact.force(work, motion, panel, x, now, border)
             rows[layout.AT_STUCK, j] = border.radius
             rows[layout.AT_SQUARE, j] = square_of_u(work, motion, panel, j, border, h, rows)
     integrate(panel.clock, numbers[layout.SHEAR_LOST], panel.length, rates[0], rates[2])

@@ -13,11 +13,10 @@ from carom.dimensionless.lossy import layout
 from carom.dimensionless.lossy.law import LARGEST_PSI, LossNumbers
 from carom.dimensionless.lossy.solution import LossySolution, outcome, phases_of
 from carom.dimensionless.lossy.viscoelastic import friction_work
-from carom.dimensionless.lossy.viscoelastic.collocation import NODES, TO_SERIES, place
 from carom.dimensionless.lossy.viscoelastic.impacts import SMALLEST_PSI, TOLERANCE, Solid, outgoing
 from carom.dimensionless.lossy.viscoelastic.instant import Instant, Replay, replay
 from carom.dimensionless.lossy.viscoelastic.record import Trace, new_record
-from carom.dimensionless.lossy.viscoelastic.work import new_work
+from carom.dimensionless.lossy.viscoelastic.work import NODES, TO_SERIES, new_work, place
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.chebyshev import extrema, from_extrema
 from carom.dimensionless.states import ContactState

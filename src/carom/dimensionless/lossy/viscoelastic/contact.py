@@ -1,4 +1,4 @@
-"""What sticks in a viscoelastic contact: pieces of memory, from the centre to the front of slip.
+"""A viscoelastic contact: what sticks, from the centre outwards, and the ring of slip around it.
 
 A spring at s = x^2 that sticks has the deflection u = U + c(s) and bears f = T + c, T = U + alpha
 psi. It sticks while A = s + c <= D - T and B = s - c <= D + T. Both grow outwards, so that slip is
@@ -13,14 +13,15 @@ v. Springs stick again when g has fallen to their h, the last one passed first, 
 returns over the stack. What slips since it was touched has h = 0 and is not in it.
 """
 
+from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.lossy.viscoelastic import work as at
-from carom.dimensionless.lossy.viscoelastic.collocation import evaluate, place
-from carom.dimensionless.lossy.viscoelastic.work import Arrays
+from carom.dimensionless.lossy.viscoelastic import normal, work as at
+from carom.dimensionless.lossy.viscoelastic.normal import Motion
+from carom.dimensionless.lossy.viscoelastic.work import Arrays, Panel, State, evaluate, place
 from carom.dimensionless.numerics.arrays import Cube
 from carom.dimensionless.numerics.kernels import kernel
 
@@ -207,3 +208,95 @@ def returned(work: Arrays, top: int, fading: Fading, excess: float) -> tuple[flo
         else:
             high = middle
     return np.sqrt(max(evaluate(work.series, n, at.FRONT, high), 0.0)), high
+
+
+class Mode(IntEnum):
+    """What a contact does; the front of slip is where it begins."""
+
+    STICKS = 0  # as a whole
+    RETREATS = 1  # the front goes inwards,
+    STANDS = 2
+    RETURNS = 3  # or comes back outwards
+    SLIPS = 4  # as a whole
+    RETRACES = 5  # sticks, and goes back as it came
+
+
+class Ring(NamedTuple):
+    """What the contact does, the sign of slip, and how much of what slip passed still slips."""
+
+    mode: int
+    sign: int
+    depth: int
+
+
+class Front(NamedTuple):
+    """Where slip begins: the radius, and the place there of the panel that it runs through."""
+
+    radius: float
+    place: float
+
+
+@kernel
+def ring_of(work: Arrays) -> Ring:
+    """Return the ring of the moment."""
+    return Ring(int(work.ring[at.MODE]), int(work.ring[at.RING_SIGN]), int(work.ring[at.DEPTH]))
+
+
+@kernel
+def set_ring(work: Arrays, mode: int, sign: int, depth: int) -> None:
+    """Change the ring."""
+    work.ring[at.MODE], work.ring[at.RING_SIGN], work.ring[at.DEPTH] = mode, sign, depth
+
+
+@kernel
+def moved(motion: Motion, now: State) -> float:
+    """Return T = U + alpha psi."""
+    return now.moved + motion.alpha * now.psi
+
+
+@kernel
+def level_now(motion: Motion, sign: int, now: State) -> float:
+    """Return the level at which springs slip: D - T for slip +, D + T for slip -."""
+    return normal.limit(motion, now.radius, now.speed) - sign * moved(motion, now)
+
+
+@kernel
+def excess(sign: int, now: State) -> float:
+    """Return g = sigma psi - v, the rate of slip of what was never stuck."""
+    return sign * now.psi - now.speed
+
+
+@kernel
+def front(work: Arrays, motion: Motion, panel: Panel, now: State) -> Front:
+    """Return where slip begins."""
+    ring, stuck = ring_of(work), rim(work.pieces, panel.pieces)
+    if ring.mode == Mode.STICKS or ring.mode == Mode.RETRACES:
+        return Front(now.radius, 0.0)
+    if ring.mode == Mode.RETREATS:
+        level = level_now(motion, ring.sign, now)
+        radius, x = passed_level(work, panel.pieces - 1, ring.sign, level)
+        return Front(radius, x)
+    if ring.mode == Mode.RETURNS:
+        g, top = excess(ring.sign, now), ring.depth - 1
+        radius, x = returned(work, top, Fading(ring.sign, motion.alpha, now.time), g)
+        return Front(max(radius, stuck), x)
+    return Front(stuck, 0.0)
+
+
+@kernel
+def force(work: Arrays, motion: Motion, panel: Panel, x: float, now: State, border: Front) -> float:
+    """Return Q, the integral of f over the contact, at a place of a panel."""
+    ring, a, b = ring_of(work), border.radius, now.radius
+    if ring.mode == Mode.RETRACES:
+        return float(work.ring[at.RATIO] * 2.0 / 3.0 * normal.normal_force(motion, b, now.speed))
+    total = moved(motion, now) * a + work.ring[at.WHOLE]
+    if ring.mode == Mode.RETREATS:
+        total += part_force(work, panel.pieces - 1, a, border.place)
+    elif ring.mode == Mode.STICKS:
+        total -= evaluate(work.series, panel.number, at.LAID, x)
+    elif ring.mode == Mode.RETURNS:
+        first = work.values[row_of(ring.sign), 0], level_now(motion, ring.sign, now)
+        moment = evaluate(work.series, panel.number, at.LAID, x)
+        total += left_force(ring.sign, work.values[at.LAID_RADIUS, 0], a, *first, moment)
+    limit = normal.limit(motion, b, now.speed)
+    return float(total + ring.sign * (limit * (b - a) - cubes(a, b)))
