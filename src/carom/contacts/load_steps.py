@@ -16,7 +16,7 @@ from carom.quantities.refusals import InputError, refusal
 if TYPE_CHECKING:
     import xarray as xr
 
-Given = ArrayLike | str | None
+Control = ArrayLike | str | None
 FORCE_ROUNDING = 1e-12
 BEYOND = "its forces are too large or small for floating point; check the units"
 
@@ -58,7 +58,9 @@ class Steps(NamedTuple):
         return np.where(by_force, moved, self.target), np.where(by_force, self.target, force)
 
 
-def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved: Given) -> Steps:
+def read_steps(
+    pair: Pair, normal: Control, depth: Control, tangential: Control, moved: Control
+) -> Steps:
     """Return the steps that the four controls describe, or raise InputError."""
     tangential, moved = _directions_last(tangential), _directions_last(moved)
     along_the_same(tangential_force=tangential)  # each with its directions
@@ -90,7 +92,7 @@ def read_steps(pair: Pair, normal: Given, depth: Given, tangential: Given, moved
     return Steps(depth, force, target, np.full(n, along[0] == "tangential_force"))
 
 
-def _directions_last(control: Given, first: bool = False) -> Given:
+def _directions_last(control: Control, first: bool = False) -> Control:
     """Return an array of xarray's with its `direction` as the last dimension, or the first one."""
     if "direction" not in getattr(control, "dims", ()):
         return control
@@ -98,7 +100,7 @@ def _directions_last(control: Given, first: bool = False) -> Given:
     return array.isel(direction=0) if first else array.transpose(..., "direction")
 
 
-def _one_of(most: int, **controls: Given) -> tuple[str, Array]:
+def _one_of(most: int, **controls: Control) -> tuple[str, Array]:
     chosen = {name: value for name, value in controls.items() if value is not None}
     if len(chosen) != 1:
         raise InputError(

@@ -108,7 +108,7 @@ class Solution(Trajectory):
         array([ 0.5   , -0.0419])
         """
         wanted = self._times_within(time)
-        rows, scale = np.empty((wanted.size, dense.COLUMNS)), self.scale
+        rows, scale = np.empty((wanted.size, dense.SAMPLED)), self.scale
         dense.sample(self._steps, wanted, rows)
         return History(
             time=wanted,

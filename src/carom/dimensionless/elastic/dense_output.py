@@ -18,7 +18,7 @@ MAX_BISECTIONS = 80
 # What is sampled: penetration, speed, psi, displacement U, force Q, energy stored and dissipated in
 # units of the ledger, radius of the stick zone, radius of the contact.
 AT_D, AT_V, AT_PSI, AT_U, AT_Q, AT_STORED, AT_DISSIPATED, AT_STICK, AT_CONTACT = range(9)
-COLUMNS = 9
+SAMPLED = 9
 
 
 @entry_point()

@@ -17,7 +17,7 @@ Stack = NDArray[np.float64]
 # Columns: sign of the slip that made the annulus flat (0: laid in stick), its outer radius, the
 # loading state there (for a laid one), the number of steps recorded when it was made.
 SLIP_SIGN, OUTER, OUTER_V, OUTER_PSI, OUTER_Q, MADE = range(6)
-COLUMNS = 6
+STACK_COLUMNS = 6
 
 
 @kernel

@@ -213,7 +213,7 @@ def run_phases(psi_1: float, chi: float, tolerance: float, work: Work, record: R
 def new_work() -> Work:
     """Return the arrays that an impact needs."""
     return Work(
-        series=np.zeros((ORDER + 1, at.COLUMNS)),
+        series=np.zeros((ORDER + 1, at.SERIES_COLUMNS)),
         gap=np.zeros(ORDER + 1),
-        stack=np.zeros((MAX_ANNULI, memory.COLUMNS)),
+        stack=np.zeros((MAX_ANNULI, memory.STACK_COLUMNS)),
     )

@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.dimensionless.elastic.memory import COLUMNS, Stack
+from carom.dimensionless.elastic.memory import STACK_COLUMNS, Stack
 from carom.dimensionless.elastic.motion import ORDER, SLOWER, B, Series, V
 from carom.dimensionless.numerics.arrays import Counts, Cube, Matrix, Vector
 from carom.dimensionless.numerics.kernels import kernel
@@ -47,7 +47,7 @@ def new_record(wanted: bool) -> Record:
     return Record(
         nodes=np.empty((room * MAX_NODES, 5)),
         series=np.empty((room * MAX_NODES, ORDER + 1, KEPT)),
-        stacks=np.empty((room * MAX_STRETCHES, MAX_ANNULI, COLUMNS)),
+        stacks=np.empty((room * MAX_STRETCHES, MAX_ANNULI, STACK_COLUMNS)),
         depths=np.empty(room * MAX_STRETCHES, dtype=np.int64),
         changes=np.empty((MAX_PHASES + 1, 5)),
         counts=np.zeros(3, dtype=np.int64),
@@ -75,7 +75,7 @@ def note_stretch(record: Record, stack: Stack, depth: int) -> None:
     row = record.counts[1]
     if is_wanted(record):
         for i in range(depth):
-            for column in range(COLUMNS):
+            for column in range(STACK_COLUMNS):
                 record.stacks[row, i, column] = stack[i, column]
         record.depths[row] = depth
     record.counts[1] = row + 1

@@ -28,7 +28,7 @@ SPRINGS = 64
 MOST_SWEEPS = 2000
 TRACTION_SETTLED = 1e-10  # of the radius: the last change of a traction
 EDGES_KEPT = 256  # whose rings are known
-TINY = 1e-300
+TINY_LENGTH = 1e-300
 
 # Columns of the results of a step.
 U_X, U_Y, Q_X, Q_Y, STICK, STORED, WORK = range(7)
@@ -100,7 +100,7 @@ def relax(
 def cut(vectors: Array, most: Array) -> Array:
     """Return vectors cut back to lengths."""
     size = np.hypot(vectors[:, 0], vectors[:, 1])
-    return np.asarray((most / np.maximum(size, np.maximum(most, TINY)))[:, None] * vectors)
+    return np.asarray((most / np.maximum(size, np.maximum(most, TINY_LENGTH)))[:, None] * vectors)
 
 
 def held(now: Rings, springs: Array) -> Array:

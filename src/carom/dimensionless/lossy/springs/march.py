@@ -57,7 +57,7 @@ def new_work(steps: int = 0, springs: int = 0, most: int = MOST_SPRINGS) -> Arra
     """Return the arrays of an impact: with rows for so many steps, frames of so many springs."""
     return Arrays(
         motion=np.zeros((3, at.MOTION)),
-        springs=np.zeros((of.COLUMNS, most + SPARE_SPRINGS + 2)),
+        springs=np.zeros((of.SPRING_COLUMNS, most + SPARE_SPRINGS + 2)),
         state=np.zeros(at.STATE),
         coarse=np.zeros(layout.NUMBERS),
         rows=np.zeros((steps + 1 if steps else 0, ROWS)),

@@ -18,7 +18,7 @@ from carom.dimensionless.numerics.kernels import kernel
 # or by how much a spring that yields is softer; Coulomb's limit before and after, and its rate.
 X, S, WEIGHT, OUTER, U, RELAXING, PRESSED, LIMIT, NEXT, RATE = range(10)
 SOFTER = PRESSED
-COLUMNS = 10
+SPRING_COLUMNS = 10
 
 SHORT_STEP = 1e-3  # of a step, in relaxation times: where its functions are series
 
