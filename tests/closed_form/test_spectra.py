@@ -11,8 +11,7 @@ from scipy.optimize import brentq, minimize_scalar
 from scipy.special import beta, betainc, gamma, rgamma
 
 import carom
-from carom.dimensionless.numerics.corners import corners, widest
-from carom.dimensionless.numerics.fourier import sampled
+from carom.dimensionless.numerics.spectra import corners, sampled, widest
 
 DURATION = 0.8 * beta(0.4, 0.5)  # of Hertz's impact in d_max/V_1
 

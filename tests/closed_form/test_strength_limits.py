@@ -9,8 +9,7 @@ from scipy.optimize import minimize, minimize_scalar
 
 import carom
 from carom.dimensionless.strength.cracking import intensity
-from carom.dimensionless.strength.peaks import peaks
-from carom.dimensionless.strength.searching import Contacts
+from carom.dimensionless.strength.peaks import Contacts, peaks
 
 SLIDING = carom.solve(9.0, 1.44)  # in gross slip from the first touch to the last
 EDGE_CRACK = 1.12152  # K/(sigma sqrt(pi c)) of a shallow crack in uniform tension (Koiter 1965)

@@ -6,8 +6,13 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.fields.extremes import largest, principal_stresses, von_mises
-from carom.dimensionless.fields.peaks import TENSION, VON_MISES
+from carom.dimensionless.fields.peaks import (
+    TENSION,
+    VON_MISES,
+    largest,
+    principal_stresses,
+    von_mises,
+)
 from carom.dimensionless.fields.subsurface import COMPONENTS, stresses
 
 STEEL = carom.Material(young="210 GPa", poisson=0.3, density=7850)

@@ -5,9 +5,8 @@ import pytest
 
 import carom
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.panels.stages import viscous_loss
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.rebounds import regime_borders
+from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
+from carom.dimensionless.rebounds import lossy_rebounds, regime_borders
 
 
 def psi_out(psi, chi, e):

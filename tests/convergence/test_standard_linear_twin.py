@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from tests.oracles import rings
 
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.lossy.springs.march import marched
 from carom.dimensionless.lossy.springs.motion import Inertia, Solid
-from carom.dimensionless.lossy.springs.rebounds import marched
+from carom.dimensionless.rebounds import lossy_rebounds
 
 Array = NDArray[np.float64]
 

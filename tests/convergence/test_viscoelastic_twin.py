@@ -13,8 +13,8 @@ from tests.oracles.march import extrapolated, march
 import carom
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.panels.stages import viscous_loss
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
+from carom.dimensionless.rebounds import lossy_rebounds
 
 
 def psi_out(psi, chi, alpha):

@@ -17,9 +17,9 @@ from tests.oracles import rings
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.layout import PSI_OUT
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.lossy.springs.march import marched
 from carom.dimensionless.lossy.springs.motion import Inertia, Solid
-from carom.dimensionless.lossy.springs.rebounds import marched
+from carom.dimensionless.rebounds import lossy_rebounds
 
 Array = NDArray[np.float64]
 

@@ -8,9 +8,9 @@ import pytest
 from scipy.special import beta
 
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.panels.stages import restitution, viscous_loss
-from carom.dimensionless.lossy.panels.work import new_work
-from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds
+from carom.dimensionless.lossy.viscoelastic.normal import restitution, viscous_loss
+from carom.dimensionless.lossy.viscoelastic.work import new_work
+from carom.dimensionless.rebounds import LossyRebounds, lossy_rebounds
 
 WORK = new_work()
 

@@ -12,7 +12,7 @@ from tests.oracles.contact import drive
 
 import carom
 from carom.dem import lattice
-from carom.dimensionless.lossy.panels.stages import viscous_loss
+from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 
 COMPILER = shutil.which("c++")
 pytestmark = pytest.mark.skipif(COMPILER is None, reason="no C++ compiler on this machine")

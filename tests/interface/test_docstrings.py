@@ -69,6 +69,7 @@ WITHOUT_EXAMPLE = {"InputError", "EngineError", "Bench"}  # the last needs a pro
 INNER = {  # what the parts of Carom say to each other
     *("coefficients", "command", "coords", "describe", "description", "executable", "files"),
     *("inputs", "loss", "outcomes", "rule", "scale_free", "supports", "version"),
+    *("contact_at", "friction_work", "pressed", "slip_rate", "touched"),
 }
 NEVER_REFUSE = {
     *("catalogue", "Entry", "names", "materials", "ThorntonLaw", "Lammps", "Liggghts", "Yade"),

@@ -12,7 +12,7 @@ from scipy.special import beta
 import carom
 from carom.bodies.losses import LossLaw, yield_velocity
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.rebounds import lossy_rebounds
 from carom.explorer.files import NumbersImpact
 from carom.impacts.validity import judge_losses
 from carom.io.labels import spheres

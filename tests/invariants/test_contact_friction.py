@@ -11,7 +11,7 @@ import pytest
 
 import carom
 from carom.adapters import lammps
-from carom.dimensionless.lossy.panels.stages import viscous_loss
+from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 
 pytestmark = pytest.mark.skipif(shutil.which("c++") is None, reason="no C++ compiler here")
 SOURCES = Path(__file__).parents[1] / "cpp"

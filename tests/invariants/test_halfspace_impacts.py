@@ -75,7 +75,7 @@ def test_energies_of_the_history_add_up(both):
     assert np.abs(total / total[0] - 1.0).max() < 1e-3  # 16 elements, linear between steps
     masses = full.pair.normal_mass, full.pair.tangential_mass
     moving = sum(m * v**2 / 2.0 for m, v in zip(masses, (1.0, full.contact_velocity), strict=True))
-    steps = full.solution.column("time") * full.scales.time
+    steps = full.solution.ledger.time * full.scales.time
     worst = np.abs(np.interp(steps, history.time, total) - total[0]).max() / moving
     assert full.energy_error == pytest.approx(worst, rel=0.05)
     assert full.energy_error < 1e-3

@@ -18,12 +18,12 @@ import carom
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.layout import NUMBERS, PSI_OUT
-from carom.dimensionless.lossy.panels.work import new_work
-from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds, outgoing
 from carom.dimensionless.lossy.solution import LossySolution
-from carom.dimensionless.lossy.solving import solve_with_losses
-from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE
+from carom.dimensionless.lossy.viscoelastic.impacts import TOLERANCE, Solid, outgoing
 from carom.dimensionless.lossy.viscoelastic.record import new_record
+from carom.dimensionless.lossy.viscoelastic.work import new_work
+from carom.dimensionless.rebounds import LossyRebounds, lossy_rebounds
+from carom.dimensionless.solution import solve_lossy
 
 Array = NDArray[np.float64]
 
@@ -48,7 +48,7 @@ def solved(psi: Array, chi: Array, parameter: Array) -> LossyRebounds:
 
 def histories(seed: int, count: int) -> list[LossySolution]:
     return [
-        solve_with_losses(float(p), float(c), LossNumbers(Loss.VISCOUS, float(a)))
+        solve_lossy(float(p), float(c), LossNumbers(Loss.VISCOUS, float(a)))
         for p, c, a in zip(*impacts(seed, count), strict=True)
     ]
 
@@ -62,8 +62,8 @@ def test_without_losses_it_is_the_elastic_solver() -> None:
     work, record, numbers = new_work(), new_record(False), np.zeros(NUMBERS)
     found = np.empty(700)
     for i in range(700):  # lossy_rebounds would hand them to the elastic solver
-        given = psi[i], chi[i], 0.0, TOLERANCE, work, record, numbers
-        assert outgoing(*given)[0] == Status.SOLVED
+        solid = Solid(chi[i], 0.0, TOLERANCE)
+        assert outgoing(psi[i], solid, work, record, numbers)[0] == Status.SOLVED
         found[i] = numbers[PSI_OUT]
     error = np.abs(found - exact) / np.maximum(1.0, psi)
     assert np.max(error) < PROMISED
@@ -103,7 +103,7 @@ def test_opposite_approach_rebounds_oppositely() -> None:
     for one, other in zip(forth[1:], back[1:], strict=True):
         assert np.array_equal(one, other)
     h, mirrored = (
-        solve_with_losses(p, 1.44, LossNumbers(Loss.VISCOUS, 0.3)).history(50) for p in (2.0, -2.0)
+        solve_lossy(p, 1.44, LossNumbers(Loss.VISCOUS, 0.3)).history(50) for p in (2.0, -2.0)
     )
     for name in ("psi", "displacement", "force"):
         assert np.array_equal(getattr(h, name), -getattr(mirrored, name))
@@ -113,9 +113,7 @@ def test_opposite_approach_rebounds_oppositely() -> None:
 @pytest.mark.parametrize("psi", [0.7, 2.0, 3.4, 6.0])
 def test_opposite_approach_slips_oppositely(psi: float) -> None:
     """The same phases at the same times, every slip the other way."""
-    forth, back = (
-        solve_with_losses(p, 1.44, LossNumbers(Loss.VISCOUS, 0.3)).phases for p in (psi, -psi)
-    )
+    forth, back = (solve_lossy(p, 1.44, LossNumbers(Loss.VISCOUS, 0.3)).phases for p in (psi, -psi))
     assert {phase.sign for phase in forth} & {-1, 1}
     assert [phase._replace(sign=-phase.sign) for phase in forth] == list(back)
 
@@ -172,7 +170,7 @@ def test_ledgers_of_hardly_oblique_impacts(decade: float) -> None:
     for _ in range(25):
         psi, chi = 10.0 ** (decade + rng.uniform()), 0.3 * 10.0 ** rng.uniform(0.0, 1.5)
         alpha = float(rng.uniform(0.005, 0.6))
-        s = solve_with_losses(psi, chi, LossNumbers(Loss.VISCOUS, alpha))
+        s = solve_lossy(psi, chi, LossNumbers(Loss.VISCOUS, alpha))
         h, close = s.history(150), 1e-4 * 0.5 * psi**2
         for taken in (h.dissipated, h.shear_lost):
             assert np.min(np.diff(taken)) > -close, (psi, chi, alpha)
@@ -204,7 +202,7 @@ def test_ledgers_where_rings_end(psi: float, chi: float, e: float) -> None:
 def test_whatever_is_faster_slides(law: Loss, psi: float) -> None:
     """f = mu p all the time, which takes psi_1 - psi_2 = 2 chi (1 + e), and friction the energy."""
     for chi in (0.3, 1.44, 1000.0):
-        s = solve_with_losses(psi, chi, LossNumbers(law, 0.3, 1.0))
+        s = solve_lossy(psi, chi, LossNumbers(law, 0.3, 1.0))
         h, mirror = s.history(2001), np.sign(psi)
         sliding = 2.0 / 3.0 * h.normal_force
         assert [(phase.kind, phase.sign) for phase in s.phases] == [("gross slip", mirror)]
@@ -253,7 +251,7 @@ def test_histories_are_those_of_the_marching_method(impact: tuple[float, float, 
     What is lost the marching method knows to first order only, the rest to second.
     """
     psi, chi, alpha = impact
-    s = solve_with_losses(psi, chi, LossNumbers(Loss.VISCOUS, alpha))
+    s = solve_lossy(psi, chi, LossNumbers(Loss.VISCOUS, alpha))
     ledger = np.zeros((4001, 7))
     march(psi, chi, alpha, 1000, ledger)
     ledger = ledger[20:-3:20]
@@ -291,15 +289,15 @@ def test_small_psi_is_the_impact_without_slip(chi: float, alpha: float) -> None:
         slopes.append(psi)
     limit = (4.0 * slopes[1] - slopes[0]) / 3.0
     for psi in (1e-12, 1e-7, 5e-5):
-        found = solve_with_losses(psi, chi, LossNumbers(Loss.VISCOUS, alpha)).psi_out / psi
+        found = solve_lossy(psi, chi, LossNumbers(Loss.VISCOUS, alpha)).psi_out / psi
         assert found == pytest.approx(limit, abs=2e-4)
 
 
 def test_small_psi_where_twice_the_smallest_is_not_solved() -> None:
     """psi_2/psi_1 is then that of the smallest, which the history holds as well."""
     law = LossNumbers(Loss.VISCOUS, 0.10857)
-    assert solve_with_losses(2e-3, 42.604, law).status is Status.UNRESOLVED
-    s = solve_with_losses(1e-6, 42.604, law)
+    assert solve_lossy(2e-3, 42.604, law).status is Status.UNRESOLVED
+    s = solve_lossy(1e-6, 42.604, law)
     assert s.psi_out == pytest.approx(s.at(s.duration).psi[0], rel=1e-12)
 
 

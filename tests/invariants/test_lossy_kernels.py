@@ -11,12 +11,11 @@ import pytest
 
 import carom
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.panels.collocation import INTEGRALS, NODES
-from carom.dimensionless.lossy.panels.work import RADIUS, Panel, new_work
-from carom.dimensionless.lossy.rebounds import LossyRebounds, lossy_rebounds
-from carom.dimensionless.lossy.solving import solve_with_losses
 from carom.dimensionless.lossy.viscoelastic.panels import back_substitute, factorise
+from carom.dimensionless.lossy.viscoelastic.work import INTEGRALS, NODES, RADIUS, Panel, new_work
 from carom.dimensionless.numerics.kernels import plain
+from carom.dimensionless.rebounds import LossyRebounds, lossy_rebounds
+from carom.dimensionless.solution import solve_lossy
 
 IMPACTS = (
     (0.4, 1.44, (Loss.VISCOUS, 0.1, 0.0)),
@@ -31,16 +30,16 @@ SCRIPT = """
 import json, sys
 import numpy as np
 from carom.dimensionless.lossy.law import LossNumbers
-from carom.dimensionless.lossy.solving import solve_with_losses
-from carom.dimensionless.lossy.springs import march, motion, rebounds
+from carom.dimensionless.solution import solve_lossy
+from carom.dimensionless.lossy.springs import march, motion
 found, springs = [], int(sys.argv[1])
 for psi, chi, losses in json.load(sys.stdin):
     if losses[0] != 1:
         law, kept = (motion.Inertia(chi), motion.Solid(*losses)), march.new_work(1000)
-        steps = rebounds.trace(psi, *law, springs, march.new_work(), kept)
+        steps = march.trace(psi, *law, springs, march.new_work(), kept)
         found += kept.rows[:steps].ravel().tolist()
         continue
-    s = solve_with_losses(psi, chi, LossNumbers(*losses))
+    s = solve_lossy(psi, chi, LossNumbers(*losses))
     h = s.history(7)
     found += [s.psi_out, s.restitution, s.duration, s.max_force, s.max_penetration,
               *h.force, *h.dissipated, *h.normal_lost, *h.stick_radius]
@@ -116,7 +115,7 @@ def test_impacts_do_not_depend_on_those_before_them() -> None:
 @pytest.mark.parametrize("impact", IMPACTS, ids=str)
 def test_a_record_leaves_every_bit(impact: tuple[float, float, tuple[Loss, float, float]]) -> None:
     psi, chi, losses = impact
-    kept = solve_with_losses(psi, chi, LossNumbers(*losses))
+    kept = solve_lossy(psi, chi, LossNumbers(*losses))
     bare = lossy_rebounds(np.array([psi]), np.array([chi]), LossNumbers(*losses))
     for name in set(LossyRebounds._fields) - {"status"}:
         assert getattr(kept, name) == getattr(bare, name)[0], name

@@ -9,9 +9,9 @@ from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.fields import surface
 from carom.dimensionless.fields.profile import borne
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.marched_solution import solve_by_marching
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.lossy.solving import solve_with_losses
+from carom.dimensionless.lossy.springs.solution import solve_by_marching
+from carom.dimensionless.rebounds import lossy_rebounds
+from carom.dimensionless.solution import solve_lossy
 
 LAWS = {
     "yields late": LossNumbers(Loss.PLASTIC, 0.8),
@@ -54,7 +54,7 @@ def test_opposite_approach_rebounds_oppositely(law):
     psi, chi = impacts(7, 12)
     forth, back = (lossy_rebounds(p, chi, law) for p in (psi, -psi))
     assert np.array_equal(forth.psi_out, -back.psi_out)
-    h, mirrored = (solve_with_losses(p, 1.44, law) for p in (2.0, -2.0))
+    h, mirrored = (solve_lossy(p, 1.44, law) for p in (2.0, -2.0))
     assert [p._replace(sign=-p.sign) for p in h.phases] == list(mirrored.phases)
     assert np.array_equal(h.history(50).force, -mirrored.history(50).force)
 
@@ -72,7 +72,7 @@ def test_impacts_come_no_further_apart(law):
 @pytest.mark.parametrize("psi", [0.3, 1.5, 4.0, 8.0])
 def test_ledgers_close_along_the_history(law, psi):
     """v^2 + stored + lost = 1; no work is taken back; springs let go end with nothing stored."""
-    s = solve_with_losses(psi, 1.44, law)
+    s = solve_lossy(psi, 1.44, law)
     h, scale = s.history(800), 1e-4 * (1.0 + psi**2)
     assert np.max(np.abs(h.speed**2 + h.normal_stored + h.normal_lost - 1.0)) < 1e-4
     assert np.min(np.diff(h.normal_lost)) > -1e-5
@@ -91,7 +91,7 @@ def test_ledgers_close_along_the_history(law, psi):
 def test_histories_agree_with_themselves(law):
     """dU = psi dt, dd = v dt; what ends a history is what an impact comes to."""
     for psi, chi in zip(*impacts(11, 4), strict=True):
-        s = solve_with_losses(psi, chi, law)
+        s = solve_lossy(psi, chi, law)
         h = s.history(3001)
         assert np.max(np.abs(h.force) - 2.0 / 3.0 * h.normal_force) < 2e-5
         assert np.all(h.stick_radius <= h.contact_radius + 1e-12)
@@ -107,7 +107,7 @@ def test_histories_agree_with_themselves(law):
 @laws
 def test_phases_are_told(law):
     """Stick from the touch below psi_1 = 1, slip to the end beyond what slides throughout."""
-    kinds = {psi: [p.kind for p in solve_with_losses(psi, 1.44, law).phases] for psi in (0.5, 9.0)}
+    kinds = {psi: [p.kind for p in solve_lossy(psi, 1.44, law).phases] for psi in (0.5, 9.0)}
     assert kinds[0.5][0] == "stick"
     assert kinds[0.5][-1] == "gross slip"
     assert set(kinds[9.0]) == {"gross slip"} or law.loss is Loss.PLASTIC
@@ -144,7 +144,7 @@ def test_fields_are_the_elastic_ones_where_nothing_is_lost(law, psi):
 def test_fields_obey_coulombs_law_and_bear_the_load(law):
     """In the springs; over the contact pressure and traction make the forces of the history."""
     for psi, share in ((0.4, 0.3), (1.5, 0.7), (4.0, 0.5)):
-        s = solve_with_losses(psi, 1.44, law)
+        s = solve_lossy(psi, 1.44, law)
         time = share * s.duration
         now, state = s.at(time), s.contact_at(time)
         edge, profile = state.radius, state.profile
@@ -165,7 +165,7 @@ def test_fields_obey_coulombs_law_and_bear_the_load(law):
 @pytest.mark.parametrize("psi", [0.4, 2.0])
 def test_work_of_friction_is_what_the_ledger_says(law, psi):
     """Summed over the contact, from slip and traction; the ledger is that of energies."""
-    s = solve_with_losses(psi, 1.44, law)
+    s = solve_lossy(psi, 1.44, law)
     radii = np.linspace(0.0, s.max_radius, 801)
     work = s.friction_work(radii)[:, 0]
     total = np.trapezoid(work * radii, radii) * 5.625 * s.chi * (2.0 / 3.0) * 2.0

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless.fields import flaws, peaks as instant
-from carom.dimensionless.fields.extremes import principal_stresses, von_mises
+from carom.dimensionless.fields import peaks as instant
+from carom.dimensionless.fields.peaks import principal_stresses, von_mises
 from carom.dimensionless.fields.subsurface import load_of, stresses
+from carom.dimensionless.strength import cracking
 from carom.dimensionless.strength.cracking import cracking_width, intensity
-from carom.dimensionless.strength.peaks import peaks
-from carom.dimensionless.strength.searching import Contacts
+from carom.dimensionless.strength.peaks import Contacts, peaks
 
 ERROR = 1e-4  # that is promised of the search, as a share of the value
 PROMISED = {"peak_von_mises": "von_mises", "peak_shear": "max_shear", "peak_tension": "principal_1"}
@@ -192,7 +192,7 @@ def test_kernels_are_their_python():
     """What is compiled gives what the plain Python gives."""
     load = load_of(carom.solve(1.5, 1.44).memory(1.3).profile(), 0.3)
     places = np.array([[0.0, 0.4], [0.6, 0.0], [1.0, 0.0], [0.8, 0.2]])
-    plain, compiled = np.zeros((2, instant.FOUND))
+    plain, compiled = np.zeros((2, instant.PEAK_COLUMNS))
     for measure in instant.MEASURES:
         instant.scan(measure, places, 0.4, load, compiled)
         instant.scan.py_func(measure, places, 0.4, load, plain)
@@ -201,14 +201,14 @@ def test_kernels_are_their_python():
         instant.climb(*climb, compiled)
         instant.climb.py_func(*climb, plain)
         assert compiled == pytest.approx(plain, rel=1e-12)
-    one, other = np.zeros((2, flaws.RADII.size, 2, flaws.TERMS))
-    flaws.tensions(flaws.RADII, 0.4, load, one)
-    flaws.tensions.py_func(flaws.RADII, 0.4, load, other)
+    one, other = np.zeros((2, cracking.RADII.size, 2, cracking.TERMS))
+    cracking.tensions(cracking.RADII, 0.4, load, one)
+    cracking.tensions.py_func(cracking.RADII, 0.4, load, other)
     assert one == pytest.approx(other, rel=1e-12, abs=1e-15)
-    flaws.hardest_among(flaws.RADII, one, 0.05, compiled)
-    flaws.hardest_among.py_func(flaws.RADII, one, 0.05, plain)
+    cracking.hardest_among(cracking.RADII, one, 0.05, compiled)
+    cracking.hardest_among.py_func(cracking.RADII, one, 0.05, plain)
     assert compiled == pytest.approx(plain, rel=1e-12)
     climb = 0.1, 2e-3, 0.05, 0.4, load, one[0]
-    flaws.climb_flaws(*climb, compiled)
-    flaws.climb_flaws.py_func(*climb, plain)
+    cracking.climb_flaws(*climb, compiled)
+    cracking.climb_flaws.py_func(*climb, plain)
     assert compiled == pytest.approx(plain, rel=1e-12)

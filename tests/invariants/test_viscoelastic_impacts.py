@@ -10,15 +10,15 @@ import pytest
 
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.panels.stages import viscous_loss
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
+from carom.dimensionless.rebounds import lossy_rebounds
 
 LOSSES = (0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 0.999, 0.9999)
 PROGRAM = """
 import json, sys
 import numpy as np
 from carom.dimensionless.lossy.law import LossNumbers
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.rebounds import lossy_rebounds
 psi, chi, alpha = np.array(json.load(sys.stdin))
 print(json.dumps(lossy_rebounds(psi, chi, LossNumbers(1, alpha)).psi_out.tolist()))
 """

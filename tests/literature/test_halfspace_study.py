@@ -14,8 +14,7 @@ import pytest
 from carom.dimensionless.neglected import not_studied, rebound_error
 from carom.halfspace.compliance import Materials
 from carom.halfspace.motion import NormalSpin
-from carom.halfspace.refinement import Resolution
-from carom.halfspace.solution import solve
+from carom.halfspace.solution import Resolution, solve
 
 STUDIES = Path(__file__).parents[2] / "studies"
 PAGE = (STUDIES.parent / "docs/halfspace_study.md").read_text(encoding="utf-8")

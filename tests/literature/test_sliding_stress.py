@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from carom.dimensionless.fields.extremes import largest
-from carom.dimensionless.fields.peaks import SHEAR, TENSION, VON_MISES
+from carom.dimensionless.fields.peaks import SHEAR, TENSION, VON_MISES, largest
 from carom.dimensionless.fields.profile import flat, stacked
 from carom.dimensionless.fields.subsurface import stresses
 

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 import carom
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.rebounds import lossy_rebounds
 
 Array = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.bodies.pairs import Pair
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.panels.stages import viscous_loss
+from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 from carom.io.citations import VISCOUS
 from carom.quantities.arrays import numbers
 from carom.quantities.elementwise import sqrt

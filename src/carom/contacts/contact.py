@@ -14,7 +14,7 @@ from carom.dimensionless.solution import Solution
 from carom.dimensionless.states import now_at
 from carom.quantities.arrays import Array
 
-ROUNDING = 8.0 * np.finfo(np.float64).eps  # of a time that has passed through seconds
+TIME_ROUNDING = 8.0 * np.finfo(np.float64).eps  # of a time that has passed through seconds
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,6 +118,6 @@ def contact_in_impact(
 def _at_change(instant: float, solution: Solution | LossySolution) -> float:
     """Return the instant, or that of a change of phase that differs only by rounding."""
     for change in (*(phase.start for phase in solution.phases), solution.duration):
-        if abs(instant - change) <= ROUNDING * change:
+        if abs(instant - change) <= TIME_ROUNDING * change:
             return change
     return instant

@@ -78,8 +78,7 @@ class InContact(ABC):
         Parameters
         ----------
         at : float, str or int
-            In an impact the time since the first touch in s, 0 to `duration`; on a load path the
-            step, from the end if negative, by default the last.
+            The instant, as in `contact`.
         x, y : array_like, shapes (nx,) and (ny,)
             Positions in m of a grid around the centre of the contact, with x along V_x; by default
             101 by 101 points over 1.5 contact radii.
@@ -114,7 +113,7 @@ class InContact(ABC):
         >>> round(float(path.fields(points=[[0.0, 0.0]]).pressure[0]) / 1e9, 2)  # in GPa
         1.01
         """
-        return surface_fields(self.contact(at), x, y, points=points)
+        return surface_fields(self.contact(at), x, y, points)
 
     @with_old_keywords
     def stress(
@@ -137,8 +136,7 @@ class InContact(ABC):
         Parameters
         ----------
         at : float, str or int
-            In an impact the time since the first touch in s, 0 to `duration`; on a load path the
-            step, from the end if negative, by default the last.
+            The instant, as in `contact`.
         x, z : array_like, shapes (nx,) and (nz,)
             Positions in m of a grid in the plane y = 0, with x along V_x and z the depth; by
             default 101 by 61 points over 2 contact radii.
@@ -173,7 +171,7 @@ class InContact(ABC):
         0.31
         """
         self._refuse_stress()
-        return stress_dataset(self.contact(at), x=x, z=z, points=points, body=body)
+        return stress_dataset(self.contact(at), x, z, points, body)
 
     @with_old_keywords
     def radial(self, at: Value | None = None, n: int = 401) -> xr.Dataset:
@@ -182,8 +180,7 @@ class InContact(ABC):
         Parameters
         ----------
         at : float, str or int
-            In an impact the time since the first touch in s, 0 to `duration`; on a load path the
-            step, from the end if negative, by default the last.
+            The instant, as in `contact`.
         n : int
             Number of distances from the centre, from 2 to 100,000.
 

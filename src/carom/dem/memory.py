@@ -78,7 +78,7 @@ class ExactContactLaw(ContactLaw):
         """Return alpha in compression and in shear."""
         if self.restitution == 1.0:
             return 0.0, 0.0
-        from carom.dimensionless.lossy.panels.stages import viscous_loss
+        from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 
         alpha = viscous_loss(self.restitution)
         return alpha, alpha if self.viscous_shear else 0.0

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.dimensionless.numerics.arrays import Array, Matrix, Vector
-from carom.dimensionless.numerics.kernels import entry_point
+from carom.dimensionless.numerics.kernels import entry_point, plain
 from carom.dimensionless.rebounds import regime_borders
 
 TABLE = "data/fit_curves.npz"  # made by studies/fit_curves.py
@@ -129,4 +129,5 @@ def _blended(chi: Array, restitution: Array) -> Array:
 
 def _weights(place: Array) -> Array:
     """Return the weights of four values in a row for places counted from the first."""
-    return np.stack(cubic.py_func(place - 1.0), axis=-1)  # type: ignore[attr-defined]
+    weights: Any = plain(cubic)  # of arrays, too
+    return np.stack(weights(place - 1.0), axis=-1)

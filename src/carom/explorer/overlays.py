@@ -11,9 +11,8 @@ import numpy as np
 
 from carom.dem.base import ContactLaw, Law
 from carom.dimensionless.lossy.law import scale_free
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.threads import available_cores
-from carom.dimensionless.rebounds import rebound
+from carom.dimensionless.rebounds import lossy_rebounds, rebound
 from carom.explorer.limits import LAW_SECONDS, MOST_FOLLOWERS
 from carom.explorer.scenes import Scene
 from carom.quantities.arrays import Array

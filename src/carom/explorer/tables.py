@@ -11,10 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.lossy.law import LossNumbers, scale_free
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics.chebyshev_2d import TERMS, Patches, fitted_patches
+from carom.dimensionless.rebounds import lossy_rebounds, solved
 from carom.explorer.results import SIGNS, SIGNS_OF_LOSSES
 from carom.quantities.arrays import Array
 from carom.quantities.glossary import GLOSSARY

@@ -14,10 +14,8 @@ from carom.contacts.fields import OUTSIDE, SLIP, STICK, ZONES
 from carom.dimensionless import solution as theory
 from carom.dimensionless.states import SlipAngle
 from carom.halfspace.compliance import Materials
-from carom.halfspace.ledger import LedgerEntry
-from carom.halfspace.motion import NormalSpin
-from carom.halfspace.refinement import Resolution, refinement_error
-from carom.halfspace.solution import HalfspaceSolution, solve
+from carom.halfspace.motion import LedgerEntry, NormalSpin
+from carom.halfspace.solution import HalfspaceSolution, Resolution, refinement_error, solve
 from carom.impacts.peaks import judge_strength, struck_bodies
 from carom.impacts.result import ImpactResult
 from carom.impacts.validity import WEAK_COUPLING, judge_contact, judge_errors
@@ -115,7 +113,7 @@ class HalfspaceImpact(ImpactResult):
         Along the axis of positive `spin`. Unlike bodies that spin about the normal veer off.
         """
         unit = self.pair.kappa * self.scales.tangential_speed
-        return float(self.solution.column("velocity_across")[-1]) * unit
+        return float(self.solution.ledger.velocity_across[-1]) * unit
 
     @property
     def psi_out_error(self) -> float:
@@ -241,7 +239,7 @@ class HalfspaceImpact(ImpactResult):
         """E* d_max/a_max in Pa: Hertz's largest pressure is 2/pi of it."""
         return 0.5 * np.pi * self.scales.pressure
 
-    def _numbers(self, entry: LedgerEntry) -> dict[str, float]:
+    def _numbers(self, entry: LedgerEntry[float]) -> dict[str, float]:
         scales, kappa = self.scales, self.pair.kappa
         return {
             "friction": self.pair.friction,
@@ -260,18 +258,16 @@ class HalfspaceImpact(ImpactResult):
 
     def _columns(self, n: int) -> dict[str, Any]:
         history = self.solution.history(n)
-        angles = {"slip_angle": history.slip_angle, "slip_angle_max": history.slip_angle_max}
-        return super()._columns(n) | angles | (self._turning(n) if self.normal_spin else {})
-
-    def _turning(self, n: int) -> dict[str, Any]:
-        """Return the columns that spin about the normal adds."""
-        turn = self.solution.turning(n)
-        spin = turn.speed * self._spin_unit
+        columns = super()._columns(n)
+        columns |= {"slip_angle": history.slip_angle, "slip_angle_max": history.slip_angle_max}
+        if not self.normal_spin:
+            return columns
+        spin = history.spin * self._spin_unit
         moment = self.pair.friction * self._pressure_unit * self.scales.radius**3
-        across = self.pair.kappa * self.scales.tangential_speed * turn.velocity_across
-        return {
+        across = self.pair.kappa * self.scales.tangential_speed * history.velocity_across
+        return columns | {
             "normal_spin": spin,
-            "frictional_moment": turn.moment * moment,
+            "frictional_moment": history.moment * moment,
             "contact_velocity_across": across,
             "normal_spin_kinetic_energy": 0.5 * normal_inertia(self.pair) * spin**2,
         }

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.dimensionless.lossy.law import ScaleFreeLaw, scale_free
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
-from carom.dimensionless.rebounds import rebound, regime_borders
+from carom.dimensionless.rebounds import lossy_rebounds, rebound, regime_borders
 from carom.impacts.map_borders import border_variables
 from carom.impacts.sequences import Sequences
 from carom.io.labels import labelled_dataset

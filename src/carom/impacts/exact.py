@@ -17,9 +17,9 @@ from carom.contacts.contact import Contact, contact_in_impact
 from carom.contacts.in_contact import InContact
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers, checked_law
-from carom.dimensionless.lossy.marched_solution import MarchedSolution
 from carom.dimensionless.lossy.solution import LossySolution
-from carom.dimensionless.lossy.viscoelastic_solution import ViscoelasticSolution
+from carom.dimensionless.lossy.springs.solution import MarchedSolution
+from carom.dimensionless.lossy.viscoelastic.solution import ViscoelasticSolution
 from carom.dimensionless.solution import Solution, solve, solve_with
 from carom.dimensionless.states import SlipAngle
 from carom.impacts.peaks import judge_strength, peaks_dataset, struck_bodies

@@ -11,12 +11,12 @@ import numpy as np
 
 from carom.bodies.materials import STRENGTHS, Material
 from carom.bodies.pairs import Pair, Scales
+from carom.dimensionless.fields.peaks import SHEAR, TENSION, VON_MISES
 from carom.dimensionless.lossy.solution import LossySolution
-from carom.dimensionless.lossy.viscoelastic_solution import ViscoelasticSolution
+from carom.dimensionless.lossy.viscoelastic.solution import ViscoelasticSolution
 from carom.dimensionless.solution import Solution
 from carom.dimensionless.strength.cracking import cracking_width, intensity
-from carom.dimensionless.strength.peaks import SHEAR, TENSION, VON_MISES, peaks
-from carom.dimensionless.strength.searching import Contacts, Peak
+from carom.dimensionless.strength.peaks import Contacts, Peak, peaks
 from carom.impacts.validity import WEAK_COUPLING
 from carom.io.labels import Finding, labelled_dataset
 from carom.quantities.glossary import GLOSSARY, PEAKS

@@ -7,15 +7,14 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.elastic.batch import LINEAR, TOLERANCE
 from carom.dimensionless.elastic.integration import Work
 from carom.dimensionless.elastic.phases import Kind, Status, new_work, run_phases
 from carom.dimensionless.elastic.record import AT_B, AT_V, KIND, KIND_SIGN, Record, new_record
 from carom.dimensionless.lossy.law import ScaleFreeLaw
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.threads import in_blocks
-from carom.dimensionless.rebounds import regime_borders
-from carom.dimensionless.solution import SHORTEST, solve
+from carom.dimensionless.rebounds import LINEAR_PSI, STEP_TOLERANCE, regime_borders
+from carom.dimensionless.solution import SHORTEST_PHASE, solve
 from carom.dimensionless.states import KIND_NAMES
 from carom.quantities.arrays import Array
 
@@ -73,13 +72,13 @@ class Sequences:
         """Return the phases that `solve` tells, without what else it makes."""
         work, record = self._room
         record.counts[:] = 0
-        if run_phases(max(abs(psi), LINEAR) if psi else 0.0, chi, TOLERANCE, work, record):
+        if run_phases(max(abs(psi), LINEAR_PSI) if psi else 0.0, chi, STEP_TOLERANCE, work, record):
             return ""
         rows = record.changes[: record.counts[2]].tolist()
         mirror = -1 if np.signbit(psi) else 1
         found: list[tuple[str, int]] = []
         for row, after in pairwise(rows):
-            if abs(row[AT_V] - after[AT_V]) < NEAR and lasts(row, after) <= SHORTEST:
+            if abs(row[AT_V] - after[AT_V]) < NEAR and lasts(row, after) <= SHORTEST_PHASE:
                 continue
             phase = KIND_NAMES[Kind(int(row[KIND]))], mirror * int(row[KIND_SIGN])
             if not found or found[-1] != phase:

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.bodies.pairs import Scales
-from carom.dimensionless.numerics.corners import corners, widest
-from carom.dimensionless.numerics.fourier import Pulse, sampled
+from carom.dimensionless.numerics.spectra import Pulse, corners, sampled, widest
 from carom.impacts.outcome import InTime
 from carom.io.labels import attributes, labelled_dataset
 from carom.quantities.arrays import Array, numbers

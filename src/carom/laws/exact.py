@@ -13,9 +13,9 @@ from numpy.polynomial import chebyshev
 from carom.bodies.losses import KelvinVoigt
 from carom.bodies.pairs import Pair
 from carom.dimensionless.lossy.law import scale_free
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.chebyshev import Panels
+from carom.dimensionless.rebounds import lossy_rebounds
 from carom.io.citations import IMPACT, VISCOUS, bibtex
 from carom.laws.panels import LARGEST_CHI, panel_ends, panels
 from carom.laws.portable import applied, lost

@@ -7,11 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.numerics.arrays import Vector
 from carom.dimensionless.numerics.chebyshev_2d import Patches, fitted_patches, value_at
 from carom.dimensionless.numerics.kernels import entry_point, kernel
-from carom.dimensionless.rebounds import warn_of_unsolved
+from carom.dimensionless.rebounds import solved, warn_of_unsolved
 from carom.io.progress import advancing
 from carom.quantities.arrays import Array, along_the_same, pure_numbers, together
 from carom.quantities.refusals import flag, refusal

@@ -5,13 +5,11 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import Loss, LossNumbers
-from carom.dimensionless.lossy.panels.stages import viscous_loss
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 from carom.dimensionless.numerics.chebyshev import NARROWEST, Panels, fitted
-from carom.dimensionless.rebounds import regime_borders
+from carom.dimensionless.rebounds import lossy_rebounds, regime_borders, solved
 from carom.io.progress import advancing
 from carom.laws.rules import DEGREE
 from carom.quantities.arrays import Array

@@ -18,9 +18,8 @@ from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere
 from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.lossy.law import LossNumbers
-from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.numerics import hertz
-from carom.dimensionless.rebounds import rebound
+from carom.dimensionless.rebounds import lossy_rebounds, rebound
 from carom.dimensionless.solution import solve
 from carom.impacts.outcome import PAIR, Outcome
 from carom.impacts.peaks import BODIES, MEASURES, StruckBody, growth, struck_bodies

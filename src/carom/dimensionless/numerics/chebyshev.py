@@ -90,8 +90,8 @@ def fitted(
     done: list[tuple[float, float, Array]] = []
     while waiting:
         points = _points(waiting, degree)
-        found, branch = recall(points.ravel())
-        values, branches = found.reshape(points.shape), branch.reshape(points.shape)
+        line, branch = recall(points.ravel())
+        values, branches = line.reshape(points.shape), branch.reshape(points.shape)
         rows = values @ from_extrema(degree).T
         errors = points[:, -1] * np.max(np.abs(rows[:, -TAIL:]), axis=1)
         _look_between(function, points, rows, errors, tolerance)
@@ -112,15 +112,15 @@ def fitted(
 
 def _remembering(function: Branched) -> Branched:
     """Return the function, asked once for each point: panels share their ends and middles."""
-    known: dict[float, tuple[float, int]] = {}
+    answered: dict[float, tuple[float, int]] = {}
 
     def recall(x: Array) -> tuple[Array, NDArray[np.int64]]:
         asked = x.tolist()
-        new = [each for each in dict.fromkeys(asked) if each not in known]
+        new = [each for each in dict.fromkeys(asked) if each not in answered]
         if new:
             answers = (part.tolist() for part in function(np.array(new)))
-            known.update(zip(new, zip(*answers, strict=True), strict=True))
-        values, branches = zip(*(known[each] for each in asked), strict=True)
+            answered.update(zip(new, zip(*answers, strict=True), strict=True))
+        values, branches = zip(*(answered[each] for each in asked), strict=True)
         return np.array(values), np.array(branches)
 
     return recall
@@ -147,8 +147,8 @@ def _look_between(
     between = 0.5 * (low + high) - 0.5 * (high - low) * np.cos(angles)
     values = function(between.ravel())[0].reshape(between.shape)
     series = rows[seem] @ np.polynomial.chebyshev.chebvander(-np.cos(angles), degree).T
-    found = np.max(np.abs(between * (series - values)), axis=1)
-    errors[seem] = np.maximum(errors[seem], found)
+    between_nodes = np.max(np.abs(between * (series - values)), axis=1)
+    errors[seem] = np.maximum(errors[seem], between_nodes)
 
 
 def _kinks(

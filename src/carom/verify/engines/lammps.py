@@ -161,7 +161,7 @@ def plugin_lines(experiment: Experiment) -> str:
     young = 2.0 * (1.0 - poisson**2) * pair.effective_modulus
     words = f"young {young!r} poisson {poisson!r} friction {pair.friction!r}"
     if law.restitution < 1.0:
-        from carom.dimensionless.lossy.panels.stages import viscous_loss
+        from carom.dimensionless.lossy.viscoelastic.normal import viscous_loss
 
         words += f" retardation {viscous_loss(law.restitution) * experiment.scales.time!r}"
     style = f"pair_style      carom springs {law.springs} precision double\n"

@@ -7,9 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.elastic.batch import solved
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.rebounds import rebound, regime_borders
+from carom.dimensionless.rebounds import rebound, regime_borders, solved
 from carom.impacts.curves import REGIMES, regime_map
 from carom.io.labels import Finding
 from carom.io.progress import advancing

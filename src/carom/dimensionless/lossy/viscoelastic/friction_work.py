@@ -12,16 +12,17 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.dimensionless.elastic.phases import Kind
+from carom.dimensionless.fields.surface import displaced
 from carom.dimensionless.lossy import layout
-from carom.dimensionless.lossy.panels.collocation import TO_SERIES, place
-from carom.dimensionless.lossy.viscoelastic.instant import Instant, Replay, displaced
+from carom.dimensionless.lossy.viscoelastic.instant import Instant, Replay
 from carom.dimensionless.lossy.viscoelastic.record import Trace
+from carom.dimensionless.lossy.viscoelastic.work import TO_SERIES, place
 from carom.dimensionless.numerics.arrays import Array
 from carom.dimensionless.numerics.chebyshev import nodes, transform
 
 IN_TIME, IN_RING = 12, 12  # terms of the tabulated slip rate: over a panel of time, across the ring
-EDGE = 1e-13  # b^2 - r^2 next to the edge, where rounding would decide
-ALIKE = 1e-9  # radii nearer to each other are one
+EDGE_ROUNDING = 1e-13  # b^2 - r^2 next to the edge, where rounding would decide
+ALIKE_RADII = 1e-9  # radii nearer to each other are one
 chebyshev = np.polynomial.chebyshev
 
 
@@ -59,31 +60,34 @@ class Panel(NamedTuple):
             followed.append((layout.AT_STUCK, -1.0))
         for row, side in followed:
             first, last = self.at(row, np.array([-1.0, 1.0]))
-            if abs(last - first) <= ALIKE:
+            if abs(last - first) <= ALIKE_RADII:
                 high[side * (last - radii) <= 0.0] = -1.0
                 continue
             table = self.series[np.newaxis]
-            found = np.array([place(table, 0, row, r, -1.0, 1.0) for r in radii.tolist()])
+            places = np.array([place(table, 0, row, r, -1.0, 1.0) for r in radii.tolist()])
             enters = side * (last - first) > 0.0
-            low, high = (np.maximum(low, found), high) if enters else (low, np.minimum(high, found))
+            if enters:
+                low = np.maximum(low, places)
+            else:
+                high = np.minimum(high, places)
         return low, np.maximum(low, high)
 
     def pressure(self, x: Array, radii: Array) -> Array:
         """Return the pressure at radii."""
         edge, speed = self.at(layout.AT_B, x), self.at(layout.AT_V, x)
-        root = np.sqrt(np.maximum((edge - radii) * (edge + radii), EDGE))
+        root = np.sqrt(np.maximum((edge - radii) * (edge + radii), EDGE_ROUNDING))
         return np.asarray(root + 0.5 * self.loss * np.maximum(speed, 0.0) / root)
 
     def slip_rate(self, replay: Replay) -> Callable[[Array, Array], tuple[Array, Array]]:
         """Return what tells the radial functions of the slip rate at places and radii."""
         instants = [Instant(replay, float(x)) for x in nodes(IN_TIME)]
-        known = [instant.rates() for instant in instants]
-        rate = transform(IN_TIME) @ np.array([each for each, _ in known])
+        rates = [instant.rates() for instant in instants]
+        rate = transform(IN_TIME) @ np.array([each for each, _ in rates])
         across = 0.5 * (1.0 + nodes(IN_RING))
         rest = np.array(
             [
                 displaced(change, at.stuck + (at.radius - at.stuck) * _ring(across))
-                for at, (_, change) in zip(instants, known, strict=True)
+                for at, (_, change) in zip(instants, rates, strict=True)
             ]
         )
         table = np.einsum("im,mkc,jk->ijc", transform(IN_TIME), rest, transform(IN_RING))
@@ -98,7 +102,7 @@ class Panel(NamedTuple):
             besides = np.einsum("...i,...j,ijc->c...", in_time, in_ring, table, optimize=True)
             speed = 2.0 / np.pi * chebyshev.chebval(x, rate)
             mean = speed * np.arctan2(root + (front == 0.0), front) + besides[0]
-            turned = speed * front * root / np.maximum(radii, ALIKE) ** 2 + besides[1]
+            turned = speed * front * root / np.maximum(radii, ALIKE_RADII) ** 2 + besides[1]
             return mean, turned
 
         return read
@@ -141,8 +145,8 @@ def borders(record: Trace) -> Array:
     """Return radii between which the work is smooth: of edge and front where panels end."""
     ends = record.rows[:, [layout.AT_B, layout.AT_STUCK]][:, :, [0, -1]]
     radii = np.unique(np.clip(ends, 0.0, None))
-    radii = np.append(0.0, radii[radii > ALIKE])
-    return np.asarray(radii[np.append(np.diff(radii) > ALIKE, True)])
+    radii = np.append(0.0, radii[radii > ALIKE_RADII])
+    return np.asarray(radii[np.append(np.diff(radii) > ALIKE_RADII, True)])
 
 
 def _panels(record: Trace, loss: float) -> list[Panel]:

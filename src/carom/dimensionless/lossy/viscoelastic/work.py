@@ -1,13 +1,15 @@
-"""Panels of time: functions as Chebyshev series on them, and their integrals.
+"""Panels of time: functions as Chebyshev series on them, and the arrays that an impact needs.
 
 On a panel of length h the clock is tau = h theta(x), -1 <= x <= 1. Fronts that start or end where
 the memory is at an extreme, or at the centre, go like the square root of time; a clock that is flat
 there makes them smooth in x.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
-from carom.dimensionless.numerics.arrays import Cube
+from carom.dimensionless.numerics.arrays import Cube, Matrix, Vector
 from carom.dimensionless.numerics.chebyshev import extrema, from_extrema
 from carom.dimensionless.numerics.kernels import entry_point, kernel, plain
 
@@ -18,6 +20,20 @@ TO_SERIES = from_extrema(DEGREE)
 
 EVEN, FLAT_START, FLAT_END, FLAT_ENDS = range(4)  # clocks
 MAX_STEPS = 80
+
+MAX_PANELS, MAX_PIECES = 600, 400
+# Series of a panel: b, U, integrals of U db and U^2 db, A and B as they are laid, v, psi; then the
+# radius at which memory is laid, time, the front of slip squared.
+RADIUS, MOVED, LAID, LAID_SQUARE, LAID_A, LAID_B, SPEED, PSI, LAID_RADIUS, TIME, FRONT = range(11)
+VALUES = 11
+# Columns of a piece of memory: sign of the slip that made it flat (0: laid), its panel, where in it
+# the piece begins and ends, and there: radius, A, and the integrals of U db and U^2 db up to it.
+SIGN, PANEL, X0, X1, R0, R1, A0, A1, W0, W1, S0, S1 = range(12)
+PIECE_COLUMNS, PASSED_COLUMNS = 12, 7
+# Numbers of the ring: what it does, the sign of slip, how much of what slip passed still slips, the
+# force for T = 0 of pieces that stay whole in the panel, and psi/v where that is constant.
+MODE, RING_SIGN, DEPTH, WHOLE, RATIO = range(5)
+RING_NUMBERS = 5
 
 
 @kernel
@@ -45,26 +61,18 @@ def place_of_clock(kind: int, part: float) -> float:
     return 2.0 * part - 1.0
 
 
-def _clocks() -> np.ndarray:
-    """Return theta at the nodes, by clock."""
-    return np.array([[plain(clock)(kind, x) for x in PLACES] for kind in range(4)])
+CLOCKS = np.array([[plain(clock)(kind, x) for x in PLACES] for kind in range(4)])  # at the nodes
 
 
-def _integrals() -> np.ndarray:
-    """Return, by clock, the matrix that makes integrals over theta up to the nodes of values."""
+def _integrals(kind: int) -> np.ndarray:
+    """Return the matrix that makes integrals over theta up to the nodes of values."""
     chebyshev = np.polynomial.chebyshev
-    paces = (chebyshev.chebder(TO_SERIES @ theta) for theta in _clocks())
-    return np.array([[_up_to_nodes(series, pace) for series in TO_SERIES.T] for pace in paces])
+    pace = chebyshev.chebder(TO_SERIES @ CLOCKS[kind])
+    rises = (chebyshev.chebint(chebyshev.chebmul(one, pace), lbnd=-1.0) for one in TO_SERIES.T)
+    return np.array([chebyshev.chebval(PLACES, rise) for rise in rises])
 
 
-def _up_to_nodes(series: np.ndarray, pace: np.ndarray) -> np.ndarray:
-    chebyshev = np.polynomial.chebyshev
-    rise = chebyshev.chebint(chebyshev.chebmul(series, pace), lbnd=-1.0)
-    return chebyshev.chebval(PLACES, rise)
-
-
-CLOCKS = _clocks()
-INTEGRALS = np.ascontiguousarray(np.swapaxes(_integrals(), 1, 2))
+INTEGRALS = np.ascontiguousarray(np.swapaxes([_integrals(kind) for kind in range(4)], 1, 2))
 
 
 @kernel
@@ -135,3 +143,63 @@ def place(table: Cube, panel: int, row: int, level: float, low: float, high: flo
                 f_high *= 0.5
             side = -1
     return float(x)
+
+
+class Arrays(NamedTuple):
+    """Arrays that an impact needs, made once and used for many."""
+
+    series: Cube  # (panels, VALUES, NODES)
+    values: Matrix  # (VALUES, NODES), at the nodes of the panel of the moment
+    rates: Matrix  # (3, NODES)
+    matrix: Matrix  # (NODES, NODES)
+    pieces: Matrix
+    passed: Matrix  # what slip has passed
+    ring: Vector  # the ring of slip
+
+
+def new_work() -> Arrays:
+    """Return the arrays that an impact needs."""
+    return Arrays(
+        series=np.zeros((MAX_PANELS, VALUES, NODES)),
+        values=np.zeros((VALUES, NODES)),
+        rates=np.zeros((3, NODES)),
+        matrix=np.zeros((NODES, NODES)),
+        pieces=np.zeros((MAX_PIECES, PIECE_COLUMNS)),
+        passed=np.zeros((MAX_PANELS, PASSED_COLUMNS)),
+        ring=np.zeros(RING_NUMBERS),
+    )
+
+
+class Panel(NamedTuple):
+    """A panel of time: its number, clock and length, and how many pieces of memory it finds."""
+
+    number: int
+    clock: int
+    length: float
+    pieces: int
+
+
+class State(NamedTuple):
+    """The state at an instant: radius of the edge, normal speed, U, psi, time."""
+
+    radius: float
+    speed: float
+    moved: float
+    psi: float
+    time: float
+
+
+@kernel
+def state_at_node(work: Arrays, j: int) -> State:
+    """Return the state at a node."""
+    at = work.values[:, j]
+    return State(at[RADIUS], at[SPEED], at[MOVED], at[PSI], at[TIME])
+
+
+@kernel
+def state_at(work: Arrays, panel: Panel, x: float) -> State:
+    """Return the state at a place of a solved panel."""
+    table, n = work.series, panel.number
+    b, v = evaluate(table, n, RADIUS, x), evaluate(table, n, SPEED, x)
+    u, psi = evaluate(table, n, MOVED, x), evaluate(table, n, PSI, x)
+    return State(b, v, u, psi, evaluate(table, n, TIME, x))
