@@ -15,7 +15,7 @@ from carom.verify.scoring import score
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "studies"))
 
-from lammps_unittest import exact  # noqa: E402
+from lammps_unittest import exact
 
 BALL = carom.Sphere(radius=5e-3, material="steel")
 BEAD = carom.Sphere(radius=3e-3, material="aluminium")

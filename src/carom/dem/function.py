@@ -5,7 +5,7 @@ from collections.abc import Callable
 from copy import deepcopy
 from dataclasses import KW_ONLY, dataclass
 from inspect import signature
-from math import isfinite, isnan
+from math import isfinite, isnan, nan
 from typing import Any, ClassVar
 
 import numpy as np
@@ -22,7 +22,7 @@ from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError, checked_type, clipped, one_of, refusal
 from carom.quantities.units import bears_unit, number, positive
 
-CONVERGED = 2000  # steps where none are asked for
+DEFAULT_STEPS = 2000
 FORCE, REBOUND = "def law(contact, state)", "def rebound(psi, chi)"
 
 
@@ -55,7 +55,7 @@ class ByFunction(Law):
         try:
             self._one(psi, chi, kappa, None)
         except Fault as fault:
-            return _told(self, fault, psi, chi)
+            return _located(self, fault, psi, chi)
         return ""
 
     def _solved(
@@ -120,7 +120,7 @@ class FunctionLaw(ByFunction, ContactLaw):
 
     written: ClassVar[str] = FORCE
     symmetric: ClassVar[bool] = False  # unless the function is
-    most_steps: ClassVar[int] = CONVERGED
+    most_steps: ClassVar[int] = DEFAULT_STEPS
 
     _: KW_ONLY
     initial_state: Any = 0.0
@@ -147,11 +147,11 @@ class FunctionLaw(ByFunction, ContactLaw):
         return contact_step.steel_on_steel() if self.pair is None else self.pair
 
     def _bodies(self, chi: float, kappa: float) -> Bodies:
-        linear = self.normal == "linear"
-        part = 2.0 * SPRING * damping_ratio(self.restitution)
-        damping = part if linear else hertz_damping(self.restitution)
-        given: Any = {"linear": linear, "damping": damping}
-        return contact_step.bodies_of(self._pair(), self.normal_speed, chi, kappa, **given)
+        linear, damping = self.normal == "linear", hertz_damping(self.restitution)
+        if linear:
+            damping = 2.0 * SPRING * damping_ratio(self.restitution)
+        pair, speed = self._pair(), self.normal_speed
+        return contact_step.bodies_of(pair, speed, chi, kappa, linear=linear, damping=damping)
 
     def _stepped(
         self, psi: float, chi: float, kappa: float, steps: int, record: Array
@@ -175,17 +175,17 @@ class FunctionLaw(ByFunction, ContactLaw):
         except (TypeError, ValueError):
             words = f"returned {clipped(repr(answer))}, which is not a force and a state"
             raise Fault(LawStatus.NOT_A_NUMBER, words) from None
-        return force if _is_finite(force) else _number("force", force, "N"), after
+        return _number("force", force, "N"), after
 
     def _one(self, psi: float, chi: float, kappa: float, steps: int | None) -> float:
         nothing = np.empty((0, len(HISTORY)))
-        return self._stepped(psi, chi, kappa, steps or CONVERGED, nothing)[1]
+        return self._stepped(psi, chi, kappa, steps or DEFAULT_STEPS, nothing)[1]
 
     def _recorded(self, psi: float, chi: float, kappa: float, steps: int, record: Array) -> int:
         try:
             return self._stepped(psi, chi, kappa, steps, record)[0]
         except Fault as fault:
-            raise InputError(_told(self, fault, psi, chi)) from fault
+            raise InputError(_located(self, fault, psi, chi)) from fault
 
 
 @dataclass(frozen=True)
@@ -218,11 +218,11 @@ class FunctionRebound(ByFunction):
     written: ClassVar[str] = REBOUND
 
     def _one(self, psi: float, chi: float, kappa: float, steps: int | None) -> float:
-        answer = _answer(self.function, psi, chi)
-        return float(answer) if _is_finite(answer) else _number("psi_2", answer, "1")
+        return float(_number("psi_2", _answer(self.function, psi, chi), "1"))
 
 
-def _told(law: ByFunction, fault: Fault, psi: float, chi: float) -> str:
+def _located(law: ByFunction, fault: Fault, psi: float, chi: float) -> str:
+    """Return what went wrong in which impact, and in which time step if one is meant."""
     where = f"psi_1 = {psi:g}, chi = {chi:g}"
     where = where if fault.step < 0 else f"time step {fault.step + 1}, {where}"
     return f"{law.name.replace(':', ' ')}: {fault} ({where})"
@@ -242,26 +242,25 @@ def _check_function(function: Any, written: str) -> None:
         raise refusal("function", function, f"must take two arguments, {written}") from None
 
 
-def _answer(function: Callable[..., Any], *given: Any) -> Any:
+def _answer(function: Callable[..., Any], *arguments: Any) -> Any:
     try:
-        return function(*given)
+        return function(*arguments)
     except Exception as error:
         words = f"raised {type(error).__name__}: {clipped(str(error))}"
         raise Fault(LawStatus.RAISED, words) from error
 
 
-def _is_finite(value: Any) -> bool:
-    plain = type(value) is float or (isinstance(value, float) and not bears_unit(value))
-    return plain and isfinite(value)
-
-
 def _number(name: str, value: Any, unit: str) -> float:
     """Return what a function has returned as a finite number in a unit, or raise Fault."""
+    plain = type(value) is float or (isinstance(value, float) and not bears_unit(value))
+    if plain and isfinite(value):  # at every time step
+        return float(value)
+    shown = clipped(repr(value))
     try:
-        found = value if isinstance(value, float) and isnan(value) else number(name, value, unit)
+        real = value if isinstance(value, float) and isnan(value) else number(name, value, unit)
+        shown = str(real)
     except InputError:
-        shown = clipped(repr(value))
-        raise Fault(LawStatus.NOT_A_NUMBER, f"returned {shown} as the {name}") from None
-    if not isfinite(found):
-        raise Fault(LawStatus.NOT_A_NUMBER, f"returned {found} as the {name}")
-    return found
+        real = nan
+    if not isfinite(real):
+        raise Fault(LawStatus.NOT_A_NUMBER, f"returned {shown} as the {name}")
+    return real

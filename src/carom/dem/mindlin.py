@@ -38,19 +38,10 @@ class LammpsMindlin(ContactLaw):
     ----------
     variant : str
         "mindlin", "mindlin/force", "mindlin_rescale" or "mindlin_rescale/force".
-    stiffness : float
-        k_t in units of Mindlin's stiffness, positive.
-    restitution : float
-        Restitution e that the damping is designed for, above 0 and at most 1 (no damping).
+    stiffness, restitution
     damping : str
         Damping model of LAMMPS, "coeff_restitution" or "tsuji".
-    tangential_damping : float
-        Tangential damping in units of the normal damping, `x_gamma` of LAMMPS.
-
-    Raises
-    ------
-    InputError
-        If a parameter is out of range.
+    tangential_damping
 
     Examples
     --------
@@ -74,7 +65,6 @@ class LammpsMindlin(ContactLaw):
         super().__post_init__()
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
-        """Return the law as numbers in the units of Hertz's impact."""
         loading, unloading = KEPT[self.variant]
         damping = hertz_damping(self.restitution, self.damping)
         return hertzian(
@@ -99,13 +89,7 @@ class LiggghtsHertz(ContactLaw):
 
     Parameters
     ----------
-    restitution : float
-        Restitution e that the damping is designed for, above 0 and at most 1.
-
-    Raises
-    ------
-    InputError
-        If the restitution is out of range.
+    restitution
 
     Examples
     --------
@@ -121,7 +105,6 @@ class LiggghtsHertz(ContactLaw):
     restitution: float = 1.0
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
-        """Return the law as numbers in the units of Hertz's impact."""
         damping = hertz_damping(self.restitution)
         return hertzian(
             chi,
@@ -141,13 +124,7 @@ class EdemHertzMindlin(LiggghtsHertz):
 
     Parameters
     ----------
-    restitution : float
-        Restitution e that the damping is designed for, above 0 and at most 1.
-
-    Raises
-    ------
-    InputError
-        If the restitution is out of range.
+    restitution
 
     Examples
     --------
@@ -161,7 +138,6 @@ class EdemHertzMindlin(LiggghtsHertz):
     source: ClassVar[str] = "EDEM documentation, Hertz-Mindlin (no slip)"
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
-        """Return the law as numbers in the units of Hertz's impact."""
         return super().coefficients(chi, kappa)._replace(limits_damping=True)
 
 
@@ -172,18 +148,13 @@ class YadeMindlin(ContactLaw):
         dF_t = k_t(a) dU, k_t = 2 G* a, c = 2 beta sqrt(m_n S)
 
     The damping c has S = 2 E* a in the normal direction and S = k_t in the tangential one, with
-    beta after Thornton, Cummins & Cleary (2013), (B6). The contact does not pull, F_n >= 0. The
-    force of the spring alone is limited by mu F_n, and a contact that slides has no damping.
+    beta after Thornton, Cummins & Cleary (2013), (B6), for e, `en` and `es` of YADE. The contact
+    does not pull, F_n >= 0. The force of the spring alone is limited by mu F_n, and a contact that
+    slides has no damping.
 
     Parameters
     ----------
-    restitution : float
-        Restitution e that the damping is designed for (`en` and `es` of YADE), in (0, 1].
-
-    Raises
-    ------
-    InputError
-        If the restitution is out of range.
+    restitution
 
     Examples
     --------
@@ -199,7 +170,6 @@ class YadeMindlin(ContactLaw):
     restitution: float = 1.0
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
-        """Return the law as numbers in the units of Hertz's impact."""
         damping = 2.0 * sqrt(SPRING * MINDLIN) * thornton_damping(self.restitution)
         return hertzian(
             chi, damping, pulls=False, shear_damping=damping * kappa**-0.5, limits_damping=False

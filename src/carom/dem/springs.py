@@ -20,17 +20,7 @@ class LinearSpring(ContactLaw):
 
     Parameters
     ----------
-    stiffness_ratio : float, optional
-        k_t/k_n, positive; by default kappa = G*/E* of elastic bodies (Mindlin 1949).
-    restitution : float
-        Normal coefficient of restitution e, above 0 and at most 1, which sets the dashpot.
-    tangential_damping : float
-        c_t/c_n, zero or positive.
-
-    Raises
-    ------
-    InputError
-        If a parameter is out of range.
+    stiffness_ratio, restitution, tangential_damping
 
     Examples
     --------
@@ -47,7 +37,6 @@ class LinearSpring(ContactLaw):
     tangential_damping: float = 0.0
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
-        """Return the law as numbers in the units of Hertz's impact."""
         damping = 2.0 * SPRING * damping_ratio(self.restitution)
         shear_damping = self.tangential_damping * damping / kappa
         return linear(
@@ -67,13 +56,7 @@ class HertzLinearHistory(ContactLaw):
     ----------
     stiffness : float
         k_t in units of 2 G* a_max, the stiffness of the largest contact (Mindlin 1949), positive.
-    restitution, tangential_damping : float
-        The damping, as for `LammpsMindlin`.
-
-    Raises
-    ------
-    InputError
-        If a parameter is out of range.
+    restitution, tangential_damping
 
     Examples
     --------
@@ -90,7 +73,6 @@ class HertzLinearHistory(ContactLaw):
     tangential_damping: float = 0.0
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
-        """Return the law as numbers in the units of Hertz's impact."""
         damping = hertz_damping(self.restitution)
         return hertzian(
             chi,
@@ -109,7 +91,6 @@ class BilinearLaw(ContactLaw):
     restitution: float = 1.0
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
-        """Return the law as numbers in the units of Hertz's impact."""
         return linear(chi, kappa, self.stiffness_ratio, unloading=self.restitution**-2)
 
 
@@ -120,19 +101,12 @@ class StrongeLaw(BilinearLaw):
         F_n = k_n d while loading, F_n = k_n/e^2 (d - d_p) while unloading
         F_t = k_t U, |F_t| <= mu F_n
 
-    The law is that of Stronge (2000), Impact Mechanics, chapter 5.
+    The law is that of Stronge (2000), Impact Mechanics, chapter 5. e is his energetic coefficient,
+    and k_t/k_n is 1/eta^2 of the loading contact.
 
     Parameters
     ----------
-    stiffness_ratio : float, optional
-        k_t/k_n = 1/eta^2 of the loading contact; by default kappa = G*/E*.
-    restitution : float
-        Energetic coefficient of restitution e, above 0 and at most 1.
-
-    Raises
-    ------
-    InputError
-        If a parameter is out of range.
+    stiffness_ratio, restitution
 
     Examples
     --------
@@ -171,7 +145,6 @@ class ThorntonLaw(ContactLaw):
     source: ClassVar[str] = "Thornton & Yin (1991), Powder Technol. 65:153"
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
-        """Return the law as numbers in the units of Hertz's impact."""
         return Coefficients(chi=chi, shear=Shear.MINDLIN_DERESIEWICZ.value)
 
 
@@ -183,19 +156,11 @@ class WaltonBraunLaw(BilinearLaw):
         dT = K_0 (1 - (T - T*)/(mu N - T*))^(1/3) dU
 
     T* is the force at the last turning point, in proportion to N; for dU < 0 the law is mirrored
-    (Walton & Braun 1986, J. Rheol. 30:949).
+    (Walton & Braun 1986, J. Rheol. 30:949). k_t/k_n is K_0/K_1.
 
     Parameters
     ----------
-    stiffness_ratio : float, optional
-        K_0/K_1, positive; by default kappa = G*/E*.
-    restitution : float
-        Coefficient of restitution e, above 0 and at most 1.
-
-    Raises
-    ------
-    InputError
-        If a parameter is out of range.
+    stiffness_ratio, restitution
 
     Examples
     --------
@@ -208,5 +173,4 @@ class WaltonBraunLaw(BilinearLaw):
     source: ClassVar[str] = "Walton & Braun (1986), J. Rheol. 30:949"
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
-        """Return the law as numbers in the units of Hertz's impact."""
         return super().coefficients(chi, kappa)._replace(shear=Shear.WALTON_BRAUN.value)
