@@ -27,6 +27,11 @@ FEWEST_STEPS, MOST_STEPS = 4, 10_000_000
 IMPACTS_AT_ONCE = 16  # that a thread takes
 
 
+def kappa_or_solid(kappa: Any, chi: Any) -> Any:
+    """Return kappa if there is one, else that of solid spheres with this chi."""
+    return SOLID * chi if kappa is None else positive("kappa", kappa)
+
+
 class Parameter(NamedTuple):
     """A parameter that laws share: what reads it, and what docstrings say of it."""
 
@@ -256,7 +261,7 @@ class ContactLaw(Law):
         """
         counted("steps", steps, FEWEST_STEPS)
         chi, psi = positive("chi", chi), finite("psi", psi, "1")
-        kappa = SOLID * chi if kappa is None else positive("kappa", kappa)
+        kappa = kappa_or_solid(kappa, chi)
         record = np.empty((PATIENCE * steps + 2, len(HISTORY)))
         sign = float(np.copysign(1.0, psi)) if self.symmetric else 1.0
         count = self._recorded(sign * psi, chi, kappa, steps, record)

@@ -17,8 +17,8 @@ from carom.dimensionless.rebounds import rebound
 from carom.explorer.limits import FOLLOWERS, LAW_SECONDS
 from carom.explorer.scenes import Scene
 from carom.quantities.arrays import Array
-from carom.verify.entries import named
-from carom.verify.errors import damped, losses_of
+from carom.verify.entries import damped, named
+from carom.verify.errors import losses_of
 
 POINTS, POINTS_WITH_LOSSES, POINTS_OF_LAWS = 241, 81, 61
 DRAWN = 1e-8  # tolerance of a curve with losses, of which a point takes 0.6 ms

@@ -18,7 +18,7 @@ from carom.quantities.refusals import InputError, checked_type, refusal
 from carom.quantities.units import counted, positive
 
 MOST_STEPS = 10_000_000
-SOLID = 0.4  # K^2/R^2
+SOLID_GYRATION_RATIO = 0.4
 BEFORE = ("normal_speed", "tangential_speed", "spin")
 AFTER = ("normal_speed_out", "tangential_speed_out", "spin_out")
 
@@ -159,7 +159,7 @@ def _refuse_bodies(pair: Pair) -> None:
             "second body", pair.second, "must be a Sphere or HalfSpace; DEM codes have no cups"
         )
     for body in pair.moving:
-        if not isclose(body.gyration_ratio, SOLID):
+        if not isclose(body.gyration_ratio, SOLID_GYRATION_RATIO):
             raise refusal(
                 "sphere", body, "must be solid; DEM codes give every sphere K^2 = 2/5 R^2"
             )

@@ -16,6 +16,7 @@ from carom.dem import LammpsMindlin, LiggghtsHertz
 from carom.dem.base import ContactLaw
 from carom.io.paths import checked_path
 from carom.quantities.refusals import InputError, refusal
+from carom.verify.engines.arrangement import template
 from carom.verify.engines.experiments import Experiment
 from carom.verify.engines.lammps import Lammps
 from carom.verify.engines.liggghts import Liggghts
@@ -31,17 +32,6 @@ PROGRAMS: Mapping[str, tuple[Engine, ContactLaw]] = {  # each with a law that it
     "liggghts": (Liggghts(), LiggghtsHertz()),
     "yade": (Yade(), LammpsMindlin("mindlin/force")),
 }
-RUN = """\
-#!/bin/sh
-# Runs these impacts, leaves results.csv and scores it: exit code 0 if they pass, else 1.
-# What follows the name of this script goes to the scorer, e.g. --tolerance 0.6 --plot score.png
-set -e
-cd "$(dirname "$0")"
-command -v carom >/dev/null || {{ echo "no carom: activate its environment" >&2; exit 2; }}
-{command}
-"${{PYTHON:-python3}}" -m carom.verify.pack.collect .
-carom verify score results.csv --case ../case.toml "$@"
-"""
 
 
 def write_pack(folder: str | Path) -> tuple[str, ...]:
@@ -135,12 +125,13 @@ def _contents(files: dict[str, str]) -> str:
 def program_files() -> dict[str, str]:
     """Return the inputs of each program for each set that it can run, by path in the pack."""
     texts: dict[str, str] = {}
+    run = template("run.sh")
     for folder in filter(is_one_experiment, folders_with(INPUTS)):
         case, inputs = frozen.case_of(folder), frozen.inputs_of(folder)
         for name, (program, _) in PROGRAMS.items():
             experiment = experiment_of(name, case, inputs)
             command = " ".join([program.called, *program.arguments])
-            files = {**program.files(experiment), "run.sh": RUN.format(command=command)}
+            files = {**program.files(experiment), "run.sh": run.substitute(command=command)}
             texts |= {f"{folder}/{name}/{file}": text for file, text in files.items()}
     return texts
 

@@ -12,15 +12,9 @@ from carom.datasets.observables import FASTEST, SLOWEST
 from carom.io.labels import Finding
 from carom.io.user_table import UserTable
 from carom.quantities.refusals import InputError
-from carom.verify.scoring.points import (
-    Points,
-    compared,
-    energy_audit,
-    friction_audit,
-    refuse_large,
-    restitution_audit,
-    within,
-)
+from carom.verify.scoring import points as scored
+from carom.verify.scoring.cases import ScoredCase
+from carom.verify.scoring.points import FEWEST_POINTS, Scored, within
 
 UNITS = {  # by the ratio of the impulse in the spins to that in the speeds
     30.0 / pi: "in rpm; head the columns 'spin [rpm]' and 'spin_out [rpm]'",
@@ -36,7 +30,7 @@ CAUSES = {
     0.5: "is the radius in the case half of the true one?",
     0.8: "is the moment of inertia in the results that of a disc?",
 }
-CLOSE = 0.02  # how near a ratio is to one that is known, relative
+CLOSE = 0.02  # relative difference of ratios that are taken for the same
 BEFORE = ("normal_speed", "tangential_speed", "speed", "angle", "spin", "spin2")
 AFTER = ("normal_speed_out", "tangential_speed_out", "spin_out", "spin2_out")
 
@@ -57,10 +51,10 @@ class Velocities(NamedTuple):
         return 0.5 * pair.normal_mass * centres + self.tangential.spin_energy(pair)
 
 
-def score_velocities(
-    results: UserTable, pair: Pair, expected: float, limit: float
-) -> tuple[Points, tuple[Finding, ...], tuple[str, ...]]:
-    """Return the points that velocities make, what is found of them, and notes."""
+def score_velocities(results: UserTable, case: ScoredCase, limit: float) -> Scored:
+    """Return the points that velocities make, and what is found of them."""
+    results.require_rows(FEWEST_POINTS)
+    pair, expected = case.pair, case.restitution
     _refuse_second_spin(results, pair)
     normal, tangential = _speeds(results)
     nothing = np.zeros(len(results))
@@ -70,19 +64,19 @@ def score_velocities(
     name = "normal_speed" if "normal_speed" in results.columns else "speed"
     results.refuse(name, (normal < SLOWEST) | (normal > FASTEST), "check its unit")
     psi = before.psi(pair, normal), after.psi(pair, normal)
-    refuse_large(*psi, results)
+    scored.refuse_large(*psi, results)
     momentum = momentum_audit(results, pair, before.tangential, after.tangential, normal, limit)
     chi, change = np.full(len(results), pair.chi), after.energy(pair) - before.energy(pair)
-    points = compared(*psi, chi, expected, change, results)
+    points = scored.compared(*psi, chi, expected, change, results)
     unit: Any = 0.5 * pair.tangential_mass * pair.scales(normal).tangential_speed ** 2
     restitution = after.normal_speed / normal
-    findings = (
-        energy_audit(points, unit, "J", limit),
+    audit = (
+        scored.energy_audit(points, unit, "J", limit),
         momentum,
-        friction_audit(points, restitution, limit),
-        restitution_audit(points, restitution, limit),
+        scored.friction_audit(points, restitution, limit),
+        scored.restitution_audit(points, restitution, limit),
     )
-    return points, findings, notes
+    return Scored(points, audit, notes, case.inputs)
 
 
 def _speeds(results: UserTable) -> tuple[Any, Any]:
@@ -117,9 +111,8 @@ def _after(
         notes.append(
             "spin2_out is not given; it was computed from the impulse that changed the first spin"
         )
-    return Velocities(normal, Tangential(results["tangential_speed_out"], spin, spin2)), tuple(
-        notes
-    )
+    tangential = Tangential(results["tangential_speed_out"], spin, spin2)
+    return Velocities(normal, tangential), tuple(notes)
 
 
 def _refuse_second_spin(results: UserTable, pair: Pair) -> None:
@@ -181,5 +174,5 @@ def _cause(ratio: float) -> str:
     """Return what may be wrong if the impulses differ by the same factor in all rows."""
     if abs(ratio - 1.0) < CLOSE:
         return ""
-    known = (words for factor, words in CAUSES.items() if abs(ratio / factor - 1.0) < CLOSE)
-    return f", by the same factor {ratio:.4g}; {next(known, 'check units and sizes')}"
+    causes = (words for factor, words in CAUSES.items() if abs(ratio / factor - 1.0) < CLOSE)
+    return f", by the same factor {ratio:.4g}; {next(causes, 'check units and sizes')}"
