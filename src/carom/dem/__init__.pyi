@@ -1,5 +1,8 @@
-from .contact_step import ContactStep as ContactStep
-from .function import FunctionLaw as FunctionLaw, FunctionRebound as FunctionRebound
+from .function import (
+    ContactStep as ContactStep,
+    FunctionLaw as FunctionLaw,
+    FunctionRebound as FunctionRebound,
+)
 from .hard import HardSphere as HardSphere
 from .memory import ExactContactLaw as ExactContactLaw
 from .mindlin import (
