@@ -61,15 +61,15 @@ class CollisionInputs(TypedDict, total=False):
 
 @overload
 def collide(
-    pair: Pair, *, judge: Literal[False] = False, **given: Unpack[CollisionInputs]
+    pair: Pair, *, judge: Literal[False] = False, **inputs: Unpack[CollisionInputs]
 ) -> Collisions: ...
 @overload
 def collide(
-    pair: Pair, *, judge: Literal[True], **given: Unpack[CollisionInputs]
+    pair: Pair, *, judge: Literal[True], **inputs: Unpack[CollisionInputs]
 ) -> JudgedCollisions: ...
 @overload
 def collide(
-    pair: Pair, *, judge: bool, **given: Unpack[CollisionInputs]
+    pair: Pair, *, judge: bool, **inputs: Unpack[CollisionInputs]
 ) -> Collisions | JudgedCollisions: ...
 @known_keywords
 def collide(

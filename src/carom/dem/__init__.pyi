@@ -5,16 +5,14 @@ from .function import (
 )
 from .hard import HardSphere as HardSphere
 from .memory import ExactContactLaw as ExactContactLaw
-from .mindlin import (
+from .springs import (
     EdemHertzMindlin as EdemHertzMindlin,
+    HertzLinearHistory as HertzLinearHistory,
     LammpsMindlin as LammpsMindlin,
     LiggghtsHertz as LiggghtsHertz,
-    YadeMindlin as YadeMindlin,
-)
-from .springs import (
-    HertzLinearHistory as HertzLinearHistory,
     LinearSpring as LinearSpring,
     StrongeLaw as StrongeLaw,
     ThorntonLaw as ThorntonLaw,
     WaltonBraunLaw as WaltonBraunLaw,
+    YadeMindlin as YadeMindlin,
 )

@@ -14,17 +14,52 @@ from numpy.typing import ArrayLike, NDArray
 from carom.dem.adaptive import WORK, rebounds
 from carom.dem.coefficients import Coefficients
 from carom.dem.damping import damped_restitution
-from carom.dem.status import OF_FUNCTIONS, Codes, LawStatus, status_of
-from carom.dem.stepping import HISTORY, PATIENCE, REMEMBERED, stepped, stepped_rebounds
+from carom.dem.stepping import HISTORY, PATIENCE, REMEMBERED, stepped
 from carom.dimensionless.numerics.threads import available_cores
 from carom.dimensionless.rebounds import warn_of_unsolved
 from carom.quantities.arrays import Array, along_the_same, pure_numbers, together
 from carom.quantities.refusals import flag, refusal
+from carom.quantities.statuses import WordedStatus
 from carom.quantities.units import counted, finite, not_negative, positive, threads_or_none
+
+Codes = NDArray[np.int8]
 
 SOLID = 4.0 / 7.0  # kappa/chi of solid spheres, and of one on a half-space
 FEWEST_STEPS, MOST_STEPS = 4, 10_000_000
 IMPACTS_AT_ONCE = 16  # that a thread takes
+
+
+class LawStatus(WordedStatus):
+    """What became of an impact by a contact law; its `message` says so in words.
+
+    Examples
+    --------
+    >>> import carom
+    >>> carom.status.LawStatus(2).message
+    'chi must be positive and finite'
+    """
+
+    SOLVED = 0, "solved"
+    PSI_NOT_FINITE = 1, "psi must be a finite number"
+    CHI_NOT_POSITIVE = 2, "chi must be positive and finite"
+    KAPPA_NOT_POSITIVE = 3, "kappa must be positive and finite"
+    CHI_TOO_LARGE = 4, "not solved: chi is too large"
+    UNRESOLVED = 5, "not solved: the bodies do not part, or steps are too few"
+    RAISED = 6, "not solved: the function of the law raised an exception"
+    NOT_A_NUMBER = 7, "not solved: the function of the law did not return a finite number"
+
+
+OF_FUNCTIONS = (LawStatus.RAISED, LawStatus.NOT_A_NUMBER)
+
+
+def status_of(psi: Array, chi: Array, kappa: Array, largest_chi: float) -> Codes:
+    """Return what is known of impacts before they are solved; of two faults the first."""
+    status = np.zeros(psi.size, dtype=np.int8)
+    status[chi > largest_chi] = LawStatus.CHI_TOO_LARGE
+    for values, fault in ((kappa, LawStatus.KAPPA_NOT_POSITIVE), (chi, LawStatus.CHI_NOT_POSITIVE)):
+        status[~((values > 0.0) & (values < np.inf))] = fault
+    status[~np.isfinite(psi)] = LawStatus.PSI_NOT_FINITE
+    return status
 
 
 def kappa_or_solid(kappa: Any, chi: Any) -> Any:
@@ -205,25 +240,30 @@ class ContactLaw(Law):
 
     largest_chi: ClassVar[float] = 1e6  # which an adaptive impact takes a tenth of a second for
     symmetric: ClassVar[bool] = True  # in the sign of psi: it is solved for |psi|
+    default_steps: ClassVar[int | None] = None  # None: of adaptive size
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""
         raise NotImplementedError(f"{self.name} is more than coefficients")
 
     def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
-        law = self.coefficients(chi, kappa)
-        out = np.empty(psi.size)
+        steps = steps or self.default_steps
         if steps is None:
-            rebounds(law, psi, np.empty(WORK), out)
-        else:
-            nothing = np.empty((0, len(HISTORY)))
-            stepped_rebounds(law, psi, steps, np.empty(REMEMBERED), nothing, out)
-        return out
+            out = np.empty(psi.size)
+            rebounds(self.coefficients(chi, kappa), psi, np.empty(WORK), out)
+            return out
+        sign, nothing = np.copysign(1.0, psi), np.empty((0, len(HISTORY)))
+        each = (self._stepped(size, chi, kappa, steps, nothing)[1] for size in np.abs(psi).tolist())
+        return np.asarray(sign * np.array(list(each)))
+
+    def _stepped(
+        self, psi: float, chi: float, kappa: float, steps: int, record: Array
+    ) -> tuple[int, float]:
+        """Return how many rows of the record are filled and psi_2; -1 if the bodies do not part."""
+        return stepped(self.coefficients(chi, kappa), psi, steps, np.empty(REMEMBERED), record)
 
     def _recorded(self, psi: float, chi: float, kappa: float, steps: int, record: Array) -> int:
-        """Write what happens in equal steps; return their number, -1 if the bodies do not part."""
-        law = self.coefficients(chi, kappa)
-        return stepped(law, psi, steps, np.empty(REMEMBERED), record)[0]
+        return self._stepped(psi, chi, kappa, steps, record)[0]
 
     def history(
         self, psi: float, chi: float, *, kappa: float | None = None, steps: int = 1000

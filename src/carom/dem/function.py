@@ -3,19 +3,18 @@
 from abc import abstractmethod
 from collections.abc import Callable
 from copy import deepcopy
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, dataclass, field
 from inspect import signature
 from math import isfinite, isnan, nan, sqrt
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from carom.bodies.pairs import Pair, checked_scales, with_friction
+from carom.bodies.pairs import Pair, Scales, checked_scales, with_friction
 from carom.bodies.shapes import HalfSpace, Sphere
-from carom.dem.base import ContactLaw, Law
+from carom.dem.base import Codes, ContactLaw, Law, LawStatus, status_of
 from carom.dem.coefficients import SPRING
 from carom.dem.damping import damping_ratio, hertz_damping
-from carom.dem.status import Codes, LawStatus, status_of
 from carom.dem.stepping import HISTORY, PATIENCE
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.quantities.arrays import Array
@@ -266,6 +265,7 @@ class FunctionLaw(ByFunction, ContactLaw):
     restitution: float = 1.0
     pair: Pair | None = None
     normal_speed: float = 0.1
+    _scaled: tuple[Pair, Scales] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -278,21 +278,21 @@ class FunctionLaw(ByFunction, ContactLaw):
         if self.pair is not None:
             with_friction(self.pair, "psi is infinite without friction")
         speed = positive("normal_speed", self.normal_speed)
-        checked_scales(self._pair(), speed)
+        bodies = steel_on_steel() if self.pair is None else self.pair
         object.__setattr__(self, "normal_speed", speed)
-
-    def _pair(self) -> Pair:
-        return steel_on_steel() if self.pair is None else self.pair
+        object.__setattr__(self, "_scaled", (bodies, checked_scales(bodies, speed)))
 
     def _bodies(self, chi: float, kappa: float) -> Bodies:
         linear, damping = self.normal == "linear", hertz_damping(self.restitution)
         if linear:
             damping = 2.0 * SPRING * damping_ratio(self.restitution)
-        pair, speed = self._pair(), self.normal_speed
-        scales, mass, modulus = pair.scales(speed), pair.normal_mass, pair.effective_modulus
+        pair, scales = self._scaled
+        mass, modulus = pair.normal_mass, pair.effective_modulus
         moduli, masses = (modulus, kappa * modulus), (mass, 0.5 * kappa * mass / chi)
         constants = (pair.friction, pair.effective_radius, *moduli, *masses)
-        return Bodies(constants, speed, scales.length, scales.force, kappa, linear, damping)
+        return Bodies(
+            constants, self.normal_speed, scales.length, scales.force, kappa, linear, damping
+        )
 
     def _stepped(
         self, psi: float, chi: float, kappa: float, steps: int, record: Array

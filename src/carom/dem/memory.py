@@ -7,13 +7,11 @@ import numpy as np
 
 from carom.dem import lattice
 from carom.dem.base import ContactLaw
-from carom.dem.stepping import HISTORY
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import flag, refusal
 from carom.quantities.units import counted
 
 FEWEST_SPRINGS, MOST_SPRINGS = 8, 4096
-CONVERGED_STEPS = 2000  # which cost less than 2e-6 in psi_2
 LOADS = 6  # numbers that a kernel wants for forces and velocities
 
 
@@ -59,6 +57,8 @@ class ExactContactLaw(ContactLaw):
     name: ClassVar[str] = "exact, by springs"
     source: ClassVar[str] = "Barber (1979); Popov & Hess (2015), method of dimensionality reduction"
 
+    default_steps: ClassVar[int | None] = 2000  # which cost less than 2e-6 in psi_2
+
     springs: int = 32
     restitution: float = 1.0
     viscous_shear: bool = True
@@ -68,24 +68,15 @@ class ExactContactLaw(ContactLaw):
         object.__setattr__(self, "springs", read_springs("springs", self.springs))
         object.__setattr__(self, "viscous_shear", flag("viscous_shear", self.viscous_shear))
 
-    def _losses(self) -> tuple[float, float]:
-        """Return alpha in compression and in shear."""
-        if self.restitution == 1.0:
-            return 0.0, 0.0
-        from carom.dimensionless.lossy.panels.stages import viscous_loss
+    def _stepped(
+        self, psi: float, chi: float, kappa: float, steps: int, record: Array
+    ) -> tuple[int, float]:
+        alpha = 0.0
+        if self.restitution < 1.0:
+            from carom.dimensionless.lossy.panels.stages import viscous_loss
 
-        alpha = viscous_loss(self.restitution)
-        return alpha, alpha if self.viscous_shear else 0.0
-
-    def _inputs(self, chi: float, steps: int) -> tuple[float, int, float, float, int, Array, Array]:
-        """Return what kernels take beside psi, with room for their memory and for loads."""
-        memory = np.empty(lattice.places(self.springs))
-        return chi, steps, *self._losses(), self.springs, memory, np.empty(LOADS)
-
-    def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
-        out, nothing = np.empty(psi.size), np.empty((0, len(HISTORY)))
-        lattice.impacts(psi, *self._inputs(chi, steps or CONVERGED_STEPS), nothing, out)
-        return out
-
-    def _recorded(self, psi: float, chi: float, kappa: float, steps: int, record: Array) -> int:
-        return lattice.impact(psi, *self._inputs(chi, steps), record)[0]
+            alpha = viscous_loss(self.restitution)
+        shear_alpha = alpha if self.viscous_shear else 0.0
+        memory, loads = np.empty(lattice.places(self.springs)), np.empty(LOADS)
+        springs = self.springs
+        return lattice.impact(psi, chi, steps, alpha, shear_alpha, springs, memory, loads, record)

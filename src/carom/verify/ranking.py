@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FINE_ERROR = 0.01  # in psi_2, of a fine step
-STEP_KINDS = ["below the error of the law", f"below {FINE_ERROR:g}"]
 MEANINGS = {
     "max_error": "largest |error in psi_2|",
     "rms_error": "root mean square of the error in psi_2",

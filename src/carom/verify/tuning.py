@@ -318,8 +318,8 @@ def setting_of(
     pair, motion = pair_of(case), motion_of(case)
     with_friction(pair, "without friction there is nothing to tune")
     speeds = {name: motion.get(name) for name in SPEEDS}
-    given = any(value is not None for value in speeds.values())
-    speed = approach(**speeds)[0] if given else DEFAULT_SPEED
+    moves = any(value is not None for value in speeds.values())
+    speed = approach(**speeds)[0] if moves else DEFAULT_SPEED
     per_slope = pair.kappa / pair.friction  # psi_1 = kappa tan(angle)/mu
     last = 4.0 * pair.chi if stop is None else per_slope * tan(slope(stop))
     psi = _range(per_slope * tan(slope(start)), last, start, stop)

@@ -90,22 +90,16 @@ def placed(experiment: Experiment) -> list[Placed]:
     All but touch, by a hair. The centre of mass of two spheres rests; a half-space does.
     """
     pair, speed = experiment.pair, experiment.normal_speed
-    motions = list(zip(experiment.tangential_speed, experiment.spin, strict=True))
-    rows = [spacing(pair) * row for row in range(len(motions))]
     share = share_of_first(pair)
-    result = [
-        Placed(
-            pair.first, y, ALMOST_TOUCHING * pair.first.radius, share * drift, -share * speed, spin
-        )
-        for y, (drift, spin) in zip(rows, motions, strict=True)
-    ]
-    if isinstance(pair.second, Sphere):
-        share, depth = 1.0 - share, -ALMOST_TOUCHING * pair.second.radius
-        result += [
-            Placed(pair.second, y, depth, -share * drift, share * speed, 0.0)
-            for y, (drift, _) in zip(rows, motions, strict=True)
-        ]
-    return result
+    spheres = []
+    sides = (share, 1.0, 1.0), (share - 1.0, -1.0, 0.0)
+    motions = list(zip(experiment.tangential_speed, experiment.spin, strict=True))
+    for body, (part, side, spins) in zip(pair.moving, sides, strict=False):
+        z = side * ALMOST_TOUCHING * body.radius
+        for row, (drift, spin) in enumerate(motions):
+            y = spacing(pair) * row
+            spheres.append(Placed(body, y, z, part * drift, -part * speed, spins * spin))
+    return spheres
 
 
 def share_of_first(pair: Pair) -> float:

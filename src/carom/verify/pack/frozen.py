@@ -90,14 +90,14 @@ def title_of(folder: str) -> tuple[str, ...]:
 
 
 def _texts(folder: Traversable, prefix: str) -> dict[str, str]:
-    found: dict[str, str] = {}
+    texts: dict[str, str] = {}
     for entry in folder.iterdir():
         path = f"{prefix}{entry.name}"
         if entry.is_dir():
-            found |= {} if entry.name == COMPILED else _texts(entry, f"{path}/")
+            texts |= {} if entry.name == COMPILED else _texts(entry, f"{path}/")
         else:
-            found[path] = entry.read_bytes().decode("utf-8")
-    return found
+            texts[path] = entry.read_bytes().decode("utf-8")
+    return texts
 
 
 def _parsed(cell: str) -> float | str | None:

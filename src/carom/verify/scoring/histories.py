@@ -33,16 +33,13 @@ NAMES = ("time", "normal_force", "tangential_force", "contact_velocity")
 class Samples(NamedTuple):
     """Forces at times since the first touch, with the instants without force at either end.
 
-    `rows` are the places in the results, -1 for an instant that was added; `touch` is the first
-    touch in the time of the results, `end` the last since then.
+    `rows` are the places in the results, -1 for an instant that was added.
     """
 
     time: Array
     normal_force: Array
     tangential_force: Array
     rows: NDArray[np.int64]
-    touch: float
-    end: float
 
 
 def contact_samples(results: UserTable, hit: Impact) -> Samples:
@@ -60,8 +57,7 @@ def contact_samples(results: UserTable, hit: Impact) -> Samples:
     results.refuse("time", falls, allowed)
     first, last = _ends(results)
     _check_units(time[first : last + 1], force, hit.scales)
-    peak = float(force.max())
-    _check_ends(results, first, last, peak, hit)
+    _check_ends(results, first, last, hit)
     count = last - first + 1
     if count < FEWEST_ROWS:
         raise InputError(
@@ -75,7 +71,14 @@ def contact_samples(results: UserTable, hit: Impact) -> Samples:
         touch = max(touch, float(time[first - 1]))
     if last + 1 < len(results):
         end = min(end, float(time[last + 1]))
-    return _framed(results, first, last, touch, end)
+    part, framed = slice(first, last + 1), {}
+    for name in ("normal_force", "tangential_force"):
+        framed[name] = np.concatenate([[0.0], results[name][part], [0.0]])
+    return Samples(
+        time=np.concatenate([[touch], time[part], [end]]) - touch,
+        rows=np.concatenate([[-1], np.arange(first, last + 1), [-1]]),
+        **framed,
+    )
 
 
 def _when(force: float, hit: Impact, end: float) -> float:
@@ -90,18 +93,6 @@ def _when(force: float, hit: Impact, end: float) -> float:
 
     time = peak if excess(peak) <= 0.0 else brentq(excess, end, peak, xtol=TIME_TOLERANCE)
     return time * hit.scales.time
-
-
-def _framed(results: UserTable, first: int, last: int, touch: float, end: float) -> Samples:
-    """Return the rows from first to last between an instant of touch and one of separation."""
-    part = slice(first, last + 1)
-    normal, tangential = (
-        np.concatenate([[0.0], results[name][part], [0.0]])
-        for name in ("normal_force", "tangential_force")
-    )
-    rows = np.concatenate([[-1], np.arange(first, last + 1), [-1]])
-    time = np.concatenate([[touch], results["time"][part], [end]]) - touch
-    return Samples(time, normal, tangential, rows, touch, end - touch)
 
 
 def _ends(results: UserTable) -> tuple[int, int]:
@@ -119,14 +110,15 @@ def _ends(results: UserTable) -> tuple[int, int]:
     return first, last
 
 
-def _check_ends(results: UserTable, first: int, last: int, peak: float, hit: Impact) -> None:
+def _check_ends(results: UserTable, first: int, last: int, hit: Impact) -> None:
     """Raise InputError if the record does not start at the first touch and end at the last."""
     exact = hit.solution.history(FEWEST_ROWS + 1).normal_force / hit.solution.max_force
+    force = results["normal_force"]
     for place, what, soon in (
         (first, "start at the first touch", exact[1]),
         (last, "go on to the last touch", exact[-2]),
     ):
-        share = float(results["normal_force"][place]) / peak
+        share = float(force[place]) / float(force.max())
         if share > max(SMALL_FORCE, soon):  # forces of viscous bodies rise steeply
             raise InputError(
                 f"normal_force: the history does not {what}; in {results.one(place)} it is "
@@ -228,7 +220,7 @@ def forces_of(hit: Impact, samples: Samples) -> Forces:
         tangential_error=off_tangential / (pair.friction * scales.force),
         psi=exact.psi - impulse / (pair.tangential_mass * scales.tangential_speed),
         restitution=hit.normal_restitution + normal_impulse / (pair.normal_mass * hit.normal_speed),
-        duration_error=samples.end / hit.duration - 1.0,
+        duration_error=samples.time[-1] / hit.duration - 1.0,
         peak_error=float(normal.max() - exact_normal.max()) / scales.force,
     )
 
@@ -241,15 +233,19 @@ def score_history(results: UserTable, case: ScoredCase, limit: float) -> Scored:
     """Return the one point that a history makes, what is found on the way, and the forces."""
     hit = case.impact
     results.require("time", "normal_force", "tangential_force")
-    _refuse_large(results, hit.scales)
+    scales = hit.scales
+    largest = scales.force, scales.force, scales.tangential_speed
+    for name, scale in zip(NAMES[1:], largest, strict=True):
+        if name in results.columns:
+            results.refuse(name, np.abs(results[name]) > LARGEST_PSI * scale, "check its unit")
     forces = forces_of(hit, contact_samples(results, hit))
-    change = np.array([_energy_change(forces)])
     before, after = np.array([hit.psi_in]), forces.psi[-1:]
     one = UserTable({}, np.array([1]), "impact")
     scored.refuse_large(before, after, one)
-    chi = np.array([hit.pair.chi])
+    unit = 0.5 * hit.pair.tangential_mass * np.array([scales.tangential_speed]) ** 2
+    lost = unit * (forces.psi[0] - after) * (forces.psi[0] + after)
+    change, chi = scales.energy * (forces.restitution**2 - 1.0) - lost, np.array([hit.pair.chi])
     points = scored.compared(before, after, chi, case.restitution, change, one)
-    unit = 0.5 * hit.pair.tangential_mass * np.array([hit.scales.tangential_speed]) ** 2
     audit = (
         _off("tangential force", forces, forces.tangential_error, "mu P_max", limit),
         _off("normal force", forces, forces.normal_error, "P_max", limit),
@@ -262,22 +258,6 @@ def score_history(results: UserTable, case: ScoredCase, limit: float) -> Scored:
         *_velocity_audit(results, forces, limit),
     )
     return Scored(points, audit, _notes(forces), hit.inputs(), forces)
-
-
-def _refuse_large(results: UserTable, scales: Scales) -> None:
-    """Raise InputError for numbers in a unit that cannot be theirs."""
-    units = {"normal_force": scales.force, "tangential_force": scales.force}
-    units["contact_velocity"] = scales.tangential_speed
-    for name, unit in units.items():
-        if name in results.columns:
-            results.refuse(name, np.abs(results[name]) > LARGEST_PSI * unit, "check its unit")
-
-
-def _energy_change(forces: Forces) -> float:
-    psi, scales = forces.psi, forces.hit.scales
-    unit = 0.5 * forces.hit.pair.tangential_mass * scales.tangential_speed**2
-    lost = float(unit * (psi[0] - psi[-1]) * (psi[0] + psi[-1]))
-    return scales.energy * (forces.restitution**2 - 1.0) - lost
 
 
 def _off(name: str, forces: Forces, error: Array, unit: str, limit: float) -> Finding:

@@ -41,10 +41,6 @@ class Velocities(NamedTuple):
     normal_speed: Any
     tangential: Tangential
 
-    def psi(self, pair: Pair, normal_speed: Any) -> Any:
-        """Return kappa V_x/(mu V_1)."""
-        return pair.psi(self.tangential.contact_velocity(pair), normal_speed)
-
     def energy(self, pair: Pair) -> Any:
         """Return the kinetic energy in the frame of the centre of mass, in J."""
         centres = self.normal_speed**2 + self.tangential.tangential_speed**2
@@ -55,7 +51,10 @@ def score_velocities(results: UserTable, case: ScoredCase, limit: float) -> Scor
     """Return the points that velocities make, and what is found of them."""
     results.require_rows(FEWEST_POINTS)
     pair, expected = case.pair, case.restitution
-    _refuse_second_spin(results, pair)
+    for name in ("spin2", "spin2_out"):
+        if name in results.columns and not isinstance(pair.second, Sphere):
+            only = "only a second sphere can spin; leave the column out"
+            results.refuse(name, results[name] != 0.0, only)
     normal, tangential = _speeds(results)
     nothing = np.zeros(len(results))
     spins: list[Any] = [results.columns.get(name, nothing) for name in ("spin", "spin2")]
@@ -63,12 +62,16 @@ def score_velocities(results: UserTable, case: ScoredCase, limit: float) -> Scor
     after, notes = _after(results, pair, before, expected)
     name = "normal_speed" if "normal_speed" in results.columns else "speed"
     results.refuse(name, (normal < SLOWEST) | (normal > FASTEST), "check its unit")
-    psi = before.psi(pair, normal), after.psi(pair, normal)
-    scored.refuse_large(*psi, results)
-    momentum = momentum_audit(results, pair, before.tangential, after.tangential, normal, limit)
+    psi_in, psi_out = (
+        np.asarray(pair.psi(each.tangential.contact_velocity(pair), normal))
+        for each in (before, after)
+    )
+    scored.refuse_large(psi_in, psi_out, results)
+    speed_unit: Any = pair.scales(normal).tangential_speed
+    momentum = momentum_audit(results, pair, before.tangential, after.tangential, speed_unit, limit)
     chi, change = np.full(len(results), pair.chi), after.energy(pair) - before.energy(pair)
-    points = scored.compared(*psi, chi, expected, change, results)
-    unit: Any = 0.5 * pair.tangential_mass * pair.scales(normal).tangential_speed ** 2
+    points = scored.compared(psi_in, psi_out, chi, expected, change, results)
+    unit: Any = 0.5 * pair.tangential_mass * speed_unit**2
     restitution = after.normal_speed / normal
     audit = (
         scored.energy_audit(points, unit, "J", limit),
@@ -115,28 +118,19 @@ def _after(
     return Velocities(normal, tangential), tuple(notes)
 
 
-def _refuse_second_spin(results: UserTable, pair: Pair) -> None:
-    if isinstance(pair.second, Sphere):
-        return
-    for name in ("spin2", "spin2_out"):
-        if name in results.columns:
-            only = "only a second sphere can spin; leave the column out"
-            results.refuse(name, results[name] != 0.0, only)
-
-
 def momentum_audit(
     results: UserTable,
     pair: Pair,
     before: Tangential,
     after: Tangential,
-    normal_speed: Any,
+    speed_unit: Any,
     limit: float,
 ) -> Finding:
     """Return whether spins and speeds changed by the same impulse, in units of psi."""
     linear = pair.normal_mass * (before.tangential_speed - after.tangential_speed)
     spins = zip(pair.moving, before[1:], after[1:], strict=False)
     angular = [(was - now) * inertia(body) / body.radius for body, was, now in spins]
-    unit = pair.tangential_mass * pair.scales(normal_speed).tangential_speed
+    unit = pair.tangential_mass * speed_unit
     off = np.max([np.abs(linear - other) for other in angular], axis=0) / unit
     ratio = _constant_ratio(angular[0], linear, limit * unit)
     _refuse_units(ratio)
