@@ -22,7 +22,7 @@ FLAGS = ("-std=gnu++17", "-O3", "-w", *building.MATHS)
 NAME, MACHINE = "liggghts", "serial"  # no MPI
 COMMAND = "liggghts build"
 NEEDED_FILES = ("tangential_model_base.h", "version_liggghts.txt", "utils.h", "finish.cpp")
-MARK = b"tangential_model carom"  # what the model says of itself
+MODEL_MARK = b"tangential_model carom"
 SPRINGS = (16, 32, 64)
 # what C++17 refuses of version 3.8.0, and what wants VTK even where there is none
 REFUSED = (
@@ -41,7 +41,7 @@ def program() -> Path:
 def has_model(executable: Path) -> bool:
     """Tell whether the model was compiled into a program."""
     try:
-        return MARK in executable.read_bytes()
+        return MODEL_MARK in executable.read_bytes()
     except OSError:
         return False
 

@@ -146,7 +146,7 @@ def _data(name: str) -> Path:
 
 
 NUMBERS = ("diameter", "density", *with_errors(("normal_restitution", "friction", "beta_0")))
-WORDS = {  # columns of text
+TEXT_COLUMNS = {
     "body": "sphere that strikes",
     "other": "what it strikes",
     "shape": "sphere, of the same size, or plane",
@@ -181,6 +181,6 @@ def parameters() -> "xr.Dataset":
     values = {name: ("pair", numbers[name], _attributes(name)) for name in NUMBERS}
     words = {
         name: ("pair", [str(cell) for cell in cells.column(name).cells], {"long_name": meaning})
-        for name, meaning in WORDS.items()
+        for name, meaning in TEXT_COLUMNS.items()
     }
     return labelled_dataset(values, words, {"name": "parameters", **cells.comments})

@@ -38,7 +38,7 @@ class Entry(NamedTuple):
 
 
 EXACT = "exact, 32 springs"
-SHORT = {"carom": EXACT}  # as its styles in LAMMPS are called
+SHORT_NAMES = {"carom": EXACT}  # as its styles in LAMMPS are called
 
 CATALOGUE = (
     Entry("linear spring, k_t/k_n = kappa", dem.LinearSpring(), "any code with this ratio"),
@@ -136,7 +136,7 @@ def named(label: str | None) -> Sequence[Entry]:
     """Return the entry with this label, all without one; InputError offers the nearest."""
     if label is None:
         return CATALOGUE
-    entries = [entry for entry in CATALOGUE if entry.label == SHORT.get(label, label)]
+    entries = [entry for entry in CATALOGUE if entry.label == SHORT_NAMES.get(label, label)]
     if not entries:
         labels = [entry.label for entry in CATALOGUE]
         alike = [text for text in labels if label.lower() in text.lower()] or labels

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 INCIDENCES = (0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0)
 CHI = 1.4412  # of solid spheres with nu = 0.3
 LARGEST_PSI, LARGEST_CHI = 1e9, 1e4
-INSTANTS = 400  # at which forces are compared
+FORCE_INSTANTS = 400
 RESTITUTION_MISSED = 1e-3  # less is rounding
 FEWEST_STEPS, MOST_STEPS = 10, 2_000_000
 STEPS_GROW_BY = 2.0**0.5
@@ -244,7 +244,7 @@ def force_error(
     psi, chi = finite("psi", psi, "1"), positive("chi", chi)
     kappa = kappa_or_solid(kappa, chi)
     history = law.history(psi, chi, kappa=kappa)
-    parts = np.linspace(0.0, 1.0, INSTANTS)
+    parts = np.linspace(0.0, 1.0, FORCE_INSTANTS)
     elapsed = history["time"] / history["time"][-1]
     force = np.interp(parts, elapsed, history["tangential_force"])
     restitution = Impacts(np.array([psi]), chi, kappa).restitution(law)

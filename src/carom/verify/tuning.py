@@ -40,7 +40,7 @@ TUNED: tuple[Law, ...] = tuple(  # of each kind the first in the catalogue
     for place, entry in enumerate(CATALOGUE)
     if called(entry.law) not in [called(other.law) for other in CATALOGUE[:place]]
 )
-TRIALS = 17  # of a parameter, before the best is refined
+SCAN_POINTS = 17  # before the best is refined
 INCIDENCES = 61
 SPEEDS = ("speed", "angle", "normal_speed", "tangential_speed")
 DEFAULT_SPEED = 1.0  # m/s: k_n of linear springs depends on it
@@ -259,10 +259,12 @@ def _closest(law: Law, name: str, low: float, high: float, cost: Callable[[Law],
     def changed(value: float) -> Law:
         return replace(law, **{name: float(value)})
 
-    scan = np.geomspace(low, high, TRIALS) if low > 0.0 else np.linspace(low, high, TRIALS)
+    scan = (
+        np.geomspace(low, high, SCAN_POINTS) if low > 0.0 else np.linspace(low, high, SCAN_POINTS)
+    )
     costs = [cost(changed(value)) for value in scan]
     minima = [(costs[0], scan[0]), (costs[-1], scan[-1])]
-    for i in range(1, TRIALS - 1):
+    for i in range(1, SCAN_POINTS - 1):
         if costs[i] <= min(costs[i - 1], costs[i + 1]):
             minimum = minimize_scalar(
                 lambda value: cost(changed(value)),

@@ -26,7 +26,7 @@ ON_WALL = "fix             contact all wall/gran granular {words} zplane 0.0 NUL
 PLUGIN_ON_WALL = """\
 region          wall plane 0.0 0.0 0.0 0.0 0.0 1.0
 fix             contact all wall/carom {words} region wall"""
-SPRINGS = (16, 32, 64)  # that the plugin is compiled for
+PLUGIN_SPRINGS = (16, 32, 64)
 IN_PAIRS = "pair_style      granular\npair_coeff      * * {words}"
 MPI_LIBRARY = "libmpi.so.12"
 NUMBERS = ("kn", "kt", "loss", "xgamma", "mu")  # variables of the script
@@ -114,7 +114,7 @@ def granular(experiment: Experiment) -> str:
 
 def plugin_supports(law: ContactLaw) -> bool:
     """Tell whether the plugin has this law; only where it has been built."""
-    fits = isinstance(law, ExactContactLaw) and law.springs in SPRINGS and law.viscous_shear
+    fits = isinstance(law, ExactContactLaw) and law.springs in PLUGIN_SPRINGS and law.viscous_shear
     return fits and (plugin.folder(plugin.wheel_version()) / plugin.NAME).exists()
 
 

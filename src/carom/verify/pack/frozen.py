@@ -21,7 +21,7 @@ from carom.quantities.arrays import Array
 
 VERSION = "1"
 ACCURACY = 1e-10  # of psi_2, in max(1, |psi_1|); of forces and speeds in a history, in their scales
-COMPILED = "__pycache__"  # what an installer makes of scripts
+BYTECODE_FOLDER = "__pycache__"  # which installers add
 CASE, INPUTS, REFERENCE = "case.toml", "results.csv", "reference.csv"  # in the folder of a set
 
 
@@ -94,7 +94,7 @@ def _texts(folder: Traversable, prefix: str) -> dict[str, str]:
     for entry in folder.iterdir():
         path = f"{prefix}{entry.name}"
         if entry.is_dir():
-            texts |= {} if entry.name == COMPILED else _texts(entry, f"{path}/")
+            texts |= {} if entry.name == BYTECODE_FOLDER else _texts(entry, f"{path}/")
         else:
             texts[path] = entry.read_bytes().decode("utf-8")
     return texts

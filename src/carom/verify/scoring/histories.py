@@ -220,7 +220,7 @@ def forces_of(hit: Impact, samples: Samples) -> Forces:
         tangential_error=off_tangential / (pair.friction * scales.force),
         psi=exact.psi - impulse / (pair.tangential_mass * scales.tangential_speed),
         restitution=hit.normal_restitution + normal_impulse / (pair.normal_mass * hit.normal_speed),
-        duration_error=samples.time[-1] / hit.duration - 1.0,
+        duration_error=float(samples.time[-1]) / hit.duration - 1.0,
         peak_error=float(normal.max() - exact_normal.max()) / scales.force,
     )
 

@@ -16,7 +16,7 @@ from carom.verify.scoring import points as scored
 from carom.verify.scoring.cases import ScoredCase
 from carom.verify.scoring.points import FEWEST_POINTS, Scored, within
 
-UNITS = {  # by the ratio of the impulse in the spins to that in the speeds
+UNIT_MISTAKES = {  # by the ratio of the impulse in the spins to that in the speeds
     30.0 / pi: "in rpm; head the columns 'spin [rpm]' and 'spin_out [rpm]'",
     180.0 / pi: "in deg/s; head the columns 'spin [deg/s]' and 'spin_out [deg/s]'",
     0.5 / pi: "in turns/s; head the columns 'spin [turn/s]' and 'spin_out [turn/s]'",
@@ -155,7 +155,7 @@ def _constant_ratio(angular: Any, linear: Any, small: Any) -> float:
 
 
 def _refuse_units(ratio: float) -> None:
-    for factor, words in UNITS.items():
+    for factor, words in UNIT_MISTAKES.items():
         if abs(abs(ratio) / factor - 1.0) < CLOSE:
             wrong = "spins" if "spin" in words else "speeds"
             raise InputError(
