@@ -259,9 +259,8 @@ def _closest(law: Law, name: str, low: float, high: float, cost: Callable[[Law],
     def changed(value: float) -> Law:
         return replace(law, **{name: float(value)})
 
-    scan = (
-        np.geomspace(low, high, SCAN_POINTS) if low > 0.0 else np.linspace(low, high, SCAN_POINTS)
-    )
+    spaced = np.geomspace if low > 0.0 else np.linspace
+    scan = spaced(low, high, SCAN_POINTS)
     costs = [cost(changed(value)) for value in scan]
     minima = [(costs[0], scan[0]), (costs[-1], scan[-1])]
     for i in range(1, SCAN_POINTS - 1):

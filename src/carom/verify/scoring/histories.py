@@ -33,13 +33,15 @@ NAMES = ("time", "normal_force", "tangential_force", "contact_velocity")
 class Samples(NamedTuple):
     """Forces at times since the first touch, with the instants without force at either end.
 
-    `rows` are the places in the results, -1 for an instant that was added.
+    `rows` are the places in the results, -1 for an instant that was added; `touch` is the first
+    touch in the time of the results.
     """
 
     time: Array
     normal_force: Array
     tangential_force: Array
     rows: NDArray[np.int64]
+    touch: float
 
 
 def contact_samples(results: UserTable, hit: Impact) -> Samples:
@@ -77,6 +79,7 @@ def contact_samples(results: UserTable, hit: Impact) -> Samples:
     return Samples(
         time=np.concatenate([[touch], time[part], [end]]) - touch,
         rows=np.concatenate([[-1], np.arange(first, last + 1), [-1]]),
+        touch=touch,
         **framed,
     )
 
