@@ -22,7 +22,7 @@ from carom.verify.scoring import score
 STUDIES = Path(__file__).parents[2] / "studies"
 sys.path.insert(0, str(STUDIES))
 
-from pack_references import ERROR, references, uncertain  # noqa: E402
+from pack_references import ERROR, references, uncertain, unit_tests  # noqa: E402
 
 SETS = (
     "wall",
@@ -114,6 +114,18 @@ def test_frozen_numbers_are_those_computed():
             wide = frozen.numbers(name) - table.numbers(name)  # two digits, rounded up
             assert np.all(np.abs(wide) <= 0.1 * table.numbers(name)), (path, name)
     assert len(computed) == 18
+
+
+def test_frozen_tests_of_lammps_are_those_computed():
+    """Word by word, and numbers to a few units of their last digits: powers differ by machine."""
+    computed = unit_tests()
+    assert len(computed) == 7
+    for path, text in computed.items():
+        for word, frozen in zip(text.split(), frozen_files()[path].split(), strict=True):
+            try:
+                assert float(frozen) == pytest.approx(float(word), rel=1e-13, abs=1e-25), path
+            except ValueError:
+                assert frozen == word, path
 
 
 @pytest.mark.parametrize(("psi", "chi", "digits"), DIGITS)

@@ -186,7 +186,7 @@ def test_steps_cost_a_tenth_of_what_is_left(tuned):
 
 def test_record_and_table_hold_the_advice():
     tuning = tune([carom.dem.LinearSpring(), carom.dem.ThorntonLaw()], chi=CHI, psi=FEW)
-    record = tuning.as_record()
+    record = tuning.to_dict()
     assert record["psi_in"] == [FEW.min(), FEW.max()]
     for row, one in zip(record["laws"], tuning.advice, strict=True):
         assert row["value"] == one.value

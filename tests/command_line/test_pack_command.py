@@ -15,7 +15,7 @@ import pytest
 import typer
 
 import carom
-from carom.cli.verify.engines import pack_command
+from carom.cli.verify import pack_command
 from carom.quantities.refusals import InputError
 from carom.verify.engines.lammps import Lammps
 from carom.verify.pack import VERSION, write_pack

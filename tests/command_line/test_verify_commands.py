@@ -81,8 +81,8 @@ def test_laws_of_a_shell(run):
     assert (code, out) == (0, f"{expected}\n")
     assert out.splitlines()[0].endswith(", at 2 incidences, psi_1 from 0.5 to 2")
     record = json.loads(run("laws", *options, "--json")[1])
-    assert record == expected.as_record()
-    assert record["laws"] != rank(chi=1.0294, psi=(0.5, 2.0)).as_record()["laws"]
+    assert record == expected.to_dict()
+    assert record["laws"] != rank(chi=1.0294, psi=(0.5, 2.0)).to_dict()["laws"]
 
 
 def test_one_law_with_all_that_can_be_stored(run):
@@ -114,7 +114,7 @@ def test_figure_of_all_laws(run):
 
 def test_tune_without_bodies(run, few_laws):
     code, out, err = run("tune", "--chi", "1.4412", "--from", "0.5", "--to", "4", "--json")
-    expected = few_laws(chi=1.4412, psi=np.linspace(0.5, 4.0, 61)).as_record()
+    expected = few_laws(chi=1.4412, psi=np.linspace(0.5, 4.0, 61)).to_dict()
     record = json.loads(out)
     assert (code, err) == (0, "")
     assert {name: record[name] for name in expected} == expected
@@ -125,7 +125,7 @@ def test_tune_without_bodies(run, few_laws):
 def test_tune_by_another_measure_and_kappa(run, few_laws):
     options = ("--chi", "1.4412", "--kappa", "1.0", "--measure", "rms", "--json")
     record = json.loads(run("tune", *options)[1])
-    expected = few_laws(chi=1.4412, kappa=1.0, measure="rms").as_record()
+    expected = few_laws(chi=1.4412, kappa=1.0, measure="rms").to_dict()
     assert {name: record[name] for name in expected} == expected
 
 

@@ -1,6 +1,8 @@
 """What engines are asked for: experiments, how they are set up, and how results are read."""
 
+import sys
 from math import pi, sqrt
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,8 +11,11 @@ import carom
 from carom.dimensionless.numerics.hertz import DURATION
 from carom.verify.engines.arrangement import outcomes_of, placed, run_length, spring, touching
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
-from carom.verify.engines.lammps_unittest import exact
 from carom.verify.scoring import score
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "studies"))
+
+from lammps_unittest import exact
 
 BALL = carom.Sphere(radius=5e-3, material="steel")
 BEAD = carom.Sphere(radius=3e-3, material="aluminium")

@@ -10,9 +10,9 @@ import pytest
 import xarray as xr
 
 import carom
-from carom.dem.status import LawStatus
 from carom.quantities.refusals import flag, one_of
 from carom.quantities.units import counted, whole
+from carom.status import LawStatus
 
 UNITS = pint.get_application_registry()
 BALL = carom.Sphere(radius="5 mm", material="steel")

@@ -96,8 +96,8 @@ def sources(tmp_path):
     (src / "dump_mesh_vtk.cpp").write_text("#include <vtk.h>\n")
     (src / "lammps.cpp").write_text(
         '#include "carom/contact.hpp"\n#include "utils.h"\n'
-        f'int main() {{ return text(1) != "1"; }}  // {liggghts.MARK.decode()}\n'
-        f'extern const char *said; const char *said = "{liggghts.MARK.decode()}";\n'
+        f'int main() {{ return text(1) != "1"; }}  // {liggghts.MODEL_MARK.decode()}\n'
+        f'extern const char *said; const char *said = "{liggghts.MODEL_MARK.decode()}";\n'
     )
     (src / "Makefile").write_text(
         "stubs:\n\t@true\n"

@@ -175,7 +175,7 @@ def test_dataset_is_stored_and_read_to_the_last_bit(ranking, dataset, tmp_path):
 
 
 def test_record_is_json(ranking):
-    record = json.loads(json.dumps(ranking.as_record(), allow_nan=False))
+    record = json.loads(json.dumps(ranking.to_dict(), allow_nan=False))
     assert [law["law"] for law in record["laws"]] == [s.entry.label for s in ranking.standings]
     assert [law["max_error"] for law in record["laws"]] == [s.max_error for s in ranking.standings]
     assert all(law["source"] and law["used_by"] for law in record["laws"])

@@ -16,8 +16,8 @@ from carom.dimensionless.rebounds import lossy_rebounds, rebound
 from carom.explorer.limits import LAW_SECONDS, MOST_FOLLOWERS
 from carom.explorer.scenes import Scene
 from carom.quantities.arrays import Array
-from carom.verify.entries import named
-from carom.verify.errors import damped, losses_of
+from carom.verify.entries import damped, named
+from carom.verify.errors import losses_of
 
 POINTS, POINTS_WITH_LOSSES, POINTS_OF_LAWS = 241, 81, 61
 CURVE_TOLERANCE = 1e-8  # with losses, where a point takes 0.6 ms

@@ -134,6 +134,11 @@ def attributes(name: str) -> dict[str, str]:
     return {"units": entry.unit, "long_name": entry.meaning, "symbol": entry.symbol}
 
 
+def pure(meaning: str) -> dict[str, str]:
+    """Return the attributes of a pure number."""
+    return {"units": "1", "long_name": meaning}
+
+
 def _variable(name: str, entry: Any) -> tuple[Any, Any, dict[str, Any]]:
     if isinstance(entry, tuple):
         dims, values, *more = entry
