@@ -71,12 +71,10 @@ def away(found, expected, depths):
 @pytest.mark.parametrize(
     "path",
     [
-        *(
-            pytest.param(one, marks=pytest.mark.slow)
-            for one in (circle(0.3, 40), circle(0.9, 80, 0.5))
-        )
-    ]
-    + [spiral(100)],
+        pytest.param(circle(0.3, 40), marks=pytest.mark.slow),
+        pytest.param(circle(0.9, 80, 0.5), marks=pytest.mark.slow),
+        spiral(100),
+    ],
 )
 def test_boundary_elements_agree(path):
     """Within 0.002 of mu P on this grid."""

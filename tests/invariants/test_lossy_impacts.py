@@ -29,7 +29,16 @@ from carom.dimensionless.lossy.viscoelastic.record import new_record
 Array = NDArray[np.float64]
 
 PROMISED = 1e-8  # of psi_2, in max(1, psi_1)
-LAW, LAWS = LossNumbers(Loss.VISCOUS, 0.3), tuple(Loss)
+LAWS = tuple(Loss)
+MANY = {
+    "viscous": LossNumbers(Loss.VISCOUS, 0.3),
+    "hardly viscous": LossNumbers(Loss.VISCOUS, 0.05),
+    "yields late": LossNumbers(Loss.PLASTIC, 0.8),
+    "yields early": LossNumbers(Loss.PLASTIC, 0.4),
+    "relaxes fast": LossNumbers(Loss.RELAXING, 0.1, 2.0),
+    "relaxes slowly": LossNumbers(Loss.RELAXING, 3.0, 0.7),
+}
+CLOSE = {Loss.VISCOUS: PROMISED, Loss.PLASTIC: 1e-5, Loss.RELAXING: 1e-6}
 
 
 def impacts(seed: int, count: int) -> tuple[Array, Array, Array]:
@@ -145,40 +154,36 @@ def test_lawful_corners_are_solved(psi: float, chi: float) -> None:
     assert tiny.psi_out == pytest.approx(np.full(4, expected), abs=5e-8)
 
 
-def test_opposite_approach_rebounds_oppositely() -> None:
-    """To the last bit, and all else is the same."""
-    psi, chi, parameter = impacts(7, 60)
+@pytest.mark.parametrize("law", MANY)
+def test_opposite_approach_rebounds_oppositely(law: str) -> None:
+    """To the last bit, and all else is the same: phases at the same times, slip the other way."""
+    psi, chi, _ = impacts(7, 12)
     psi[:4] = 0.0, 1e-9, 1e-4, 1.0
-    forth, back = (solved(p, chi, parameter) for p in (psi, -psi))
+    forth, back = (lossy_rebounds(p, chi, MANY[law]) for p in (psi, -psi))
     assert np.array_equal(forth.psi_out, -back.psi_out)
     for one, other in zip(forth[1:], back[1:], strict=True):
         assert np.array_equal(one, other)
-    h, mirrored = (
-        solve_with_losses(p, 1.44, LossNumbers(Loss.VISCOUS, 0.3)).history(50) for p in (2.0, -2.0)
-    )
-    for name in ("psi", "displacement", "force"):
-        assert np.array_equal(getattr(h, name), -getattr(mirrored, name))
-    assert np.array_equal(h.dissipated, mirrored.dissipated)
+    for start in (0.7, 2.0, 6.0):
+        one, other = (solve_with_losses(p, 1.44, MANY[law]) for p in (start, -start))
+        assert {phase.sign for phase in one.phases} & {-1, 1}
+        assert [p._replace(sign=-p.sign) for p in one.phases] == list(other.phases)
+        h, mirrored = one.history(50), other.history(50)
+        for name in ("psi", "displacement", "force"):
+            assert np.array_equal(getattr(h, name), -getattr(mirrored, name))
+        assert np.array_equal(h.dissipated, mirrored.dissipated)
 
 
-@pytest.mark.parametrize("psi", [0.7, 2.0, 3.4, 6.0])
-def test_opposite_approach_slips_oppositely(psi: float) -> None:
-    """The same phases at the same times, every slip the other way."""
-    forth, back = (
-        solve_with_losses(p, 1.44, LossNumbers(Loss.VISCOUS, 0.3)).phases for p in (psi, -psi)
-    )
-    assert {phase.sign for phase in forth} & {-1, 1}
-    assert [phase._replace(sign=-phase.sign) for phase in forth] == list(back)
-
-
-def test_impacts_come_no_further_apart() -> None:
+@pytest.mark.parametrize("law", MANY)
+def test_impacts_come_no_further_apart(law: str) -> None:
     """A jump in psi_1, wherever the structure changes, would break the contraction."""
-    for chi, parameter in ((1.44, 0.2), (0.5, 0.35), (2.8, 0.05)):
-        for start, step, count in ((0.0, 0.04, 201), (0.95, 8e-4, 126), (2.0, 1e-5, 60)):
+    losses, few = MANY[law], MANY[law].loss is not Loss.VISCOUS
+    for chi in (1.44,) if few else (1.44, 0.5, 2.8):
+        for start, step, count in ((0.0, 0.1, 51), (0.95, 8e-4, 30), (2.0, 1e-5, 20)):
             psi = start + step * np.arange(count)
-            row = np.ones(count)
-            found = solved(psi, chi * row, parameter * row).psi_out
-            assert np.max(np.abs(np.diff(found)) - step) < 2.0 * PROMISED * (1.0 + psi[-1])
+            found = lossy_rebounds(psi, np.full(count, chi), losses)
+            assert np.all(found.status == Status.SOLVED)
+            apart = np.max(np.abs(np.diff(found.psi_out)) - step)
+            assert apart < 2.0 * CLOSE[losses.loss] * (1.0 + psi[-1])
 
 
 def test_small_changes_of_chi_and_loss_change_little() -> None:

@@ -29,7 +29,7 @@ def test_closed_form_is_one_at_yield() -> None:
 
 def test_restitution_is_the_closed_form() -> None:
     """From 3e4 times the yield velocity down to it."""
-    ratio = np.concatenate([10.0 ** np.linspace(-4.5, -0.01, 200), 1.0 - np.logspace(-2, -4, 40)])
+    ratio = np.concatenate([10.0 ** np.linspace(-4.5, -0.01, 60), 1.0 - np.logspace(-2, -4, 20)])
     assert np.max(np.abs(found(ratio) - closed_form(ratio))) < 1e-10
 
 
@@ -41,11 +41,11 @@ def test_restitution_just_above_yield() -> None:
     assert np.max(values) <= 1.0 + 3e-10
 
 
-@pytest.mark.parametrize("psi", [0.0, 1e-3, 0.4, 3.0, 9.0])
+@pytest.mark.parametrize("psi", [0.0, 0.4, 9.0])
 def test_restitution_does_not_depend_on_the_tangential_motion(psi: float) -> None:
-    ratio = 10.0 ** np.linspace(-3.5, -0.001, 60)
+    ratio = 10.0 ** np.linspace(-3.5, -0.001, 20)
     losses = LossNumbers(Loss.PLASTIC, ratio**0.4)
-    impacts = lossy_rebounds(np.full(60, psi), np.full(60, 1.44), losses)
+    impacts = lossy_rebounds(np.full(20, psi), np.full(20, 1.44), losses)
     assert np.max(np.abs(impacts.restitution - closed_form(ratio))) < 1e-10
 
 
