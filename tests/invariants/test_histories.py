@@ -146,9 +146,9 @@ def test_a_history_begins_and_ends_as_the_impact(hit):
         assert float(h[name][-1]) == pytest.approx(last, rel=1e-10, abs=1e-12 * size), name
 
 
-def test_without_friction_nothing_tangential_changes():
-    ball = Sphere(radius="5 mm", material="steel")
-    hit = carom.impact(Pair(ball, ball, 0), normal_speed=1, tangential_speed=0.7, spin=11, spin2=4)
+def test_without_friction_nothing_tangential_changes(steel_ball):
+    smooth = Pair(steel_ball, steel_ball, 0)
+    hit = carom.impact(smooth, normal_speed=1, tangential_speed=0.7, spin=11, spin2=4)
     h = hit.history(5)
     assert np.all(h.spin == 11.0)
     assert np.all(h.spin2 == 4.0)

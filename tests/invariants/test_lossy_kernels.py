@@ -76,11 +76,8 @@ def test_a_record_leaves_every_bit(impact: tuple[float, float, tuple[Loss, float
         assert getattr(kept, name) == getattr(bare, name)[0], name
 
 
-def test_rebound_solve_and_impact_are_one_solver() -> None:
+def test_rebound_solve_and_impact_are_one_solver(pair: carom.Pair) -> None:
     law = carom.KelvinVoigt(restitution=0.8)
-    pair = carom.Pair(
-        carom.Sphere(radius="5 mm", material="steel"), carom.HalfSpace(material="steel"), 0.3
-    )
     hit = carom.impact(pair, normal_speed=1.5, tangential_speed=1.0, losses=law)
     found = carom.rebound(hit.psi_in, pair.chi, losses=law)
     assert found == carom.solve(hit.psi_in, pair.chi, losses=law).psi_out

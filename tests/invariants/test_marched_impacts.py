@@ -168,9 +168,7 @@ def test_figures_and_wear_of_marched_impacts():
     assert np.all(np.abs(along.memory_q) <= along.memory_limit + rounding)
 
 
-def test_the_stress_below_a_yielded_contact_is_refused():
-    ball = carom.Sphere(radius="5 mm", material="steel")
-    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+def test_the_stress_below_a_yielded_contact_is_refused(pair):
     hit = carom.impact(pair, normal_speed=1.0, losses=carom.ElasticPlastic("0.1 m/s"))
     assert float(hit.fields(0.5 * hit.duration).pressure.max()) > 0.0
     for call in (lambda: hit.stress(0.5 * hit.duration), hit.peaks):

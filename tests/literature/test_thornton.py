@@ -79,13 +79,8 @@ def test_below_yield_bodies_are_elastic() -> None:
         assert impacts.restitution == pytest.approx(np.ones(40), abs=1e-9)
 
 
-def test_impacts_with_units() -> None:
+def test_impacts_with_units(pair: carom.Pair) -> None:
     """The yield velocity is where e leaves 1, and e depends on V_y/V_1 alone."""
-    pair = carom.Pair(
-        carom.Sphere(radius="5 mm", material="steel"),
-        carom.HalfSpace(material="steel"),
-        friction=0.2,
-    )
     law = carom.ElasticPlastic(yield_velocity="0.1 m/s")
     for speed in (0.05, 0.2, 1.0, 8.0):
         hit = carom.impact(pair, normal_speed=speed, tangential_speed=0.3 * speed, losses=law)
@@ -93,10 +88,8 @@ def test_impacts_with_units() -> None:
         assert hit.normal_restitution == pytest.approx(wanted, abs=1e-9)
 
 
-def test_largest_pressure_is_on_the_true_radius() -> None:
+def test_largest_pressure_is_on_the_true_radius(pair: carom.Pair) -> None:
     """(3/2) P/(pi a^2) at the turning point, a^2 = R* d, below Hertz's of that load."""
-    ball = carom.Sphere(radius="5 mm", material="steel")
-    pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
     law = carom.ElasticPlastic(yield_velocity="0.1 m/s")
     hit = carom.impact(pair, normal_speed=1.0, tangential_speed=0.3, losses=law)
     square = pair.effective_radius * hit.max_penetration
