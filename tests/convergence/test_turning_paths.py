@@ -73,7 +73,7 @@ def away(found, expected, depths):
     [
         pytest.param(circle(0.3, 40), marks=pytest.mark.slow),
         pytest.param(circle(0.9, 80, 0.5), marks=pytest.mark.slow),
-        spiral(100),
+        spiral(60),
     ],
 )
 def test_boundary_elements_agree(path):

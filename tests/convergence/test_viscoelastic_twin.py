@@ -39,10 +39,10 @@ def test_impacts_with_all_losses():
 
 
 @pytest.mark.parametrize(
-    ("psi", "chi", "e"), [(6.93, 4.14, 0.95), (1.06, 4.68, 0.9), (2.0, 1.44, 0.8), (5.0, 0.9, 0.55)]
+    ("psi", "chi", "e"), [(6.93, 4.14, 0.95), (2.0, 1.44, 0.8), (5.0, 0.9, 0.55)]
 )
 def test_impacts_of_the_law(psi, chi, e):
-    """KelvinVoigt(restitution=e) is the impact of the alpha of e; in two fronts come back."""
+    """KelvinVoigt(restitution=e) is the impact of the alpha of e; in one fronts come back."""
     found = carom.rebound(psi, chi, losses=carom.KelvinVoigt(restitution=e))
     assert found == pytest.approx(extrapolated(psi, chi, viscous_loss(e)), abs=1e-6)
 

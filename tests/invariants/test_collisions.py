@@ -4,19 +4,14 @@ from itertools import product
 
 import numpy as np
 import pytest
+from tests.closed_form.test_collisions import BALL, NAMES, PAIRS, SHELL, STEEL
 
 import carom
 
-STEEL = carom.Material(young=210e9, poisson=0.3, density=7850.0)
-GLASS = carom.Material(young=70e9, poisson=0.22, density=2500.0)
-BALL = carom.Sphere(radius=5e-3, material=STEEL)
-SHELL = carom.Sphere(radius=8e-3, material=GLASS, inner_radius=7e-3)
-PAIR = carom.Pair(BALL, SHELL, friction=0.2)
-WALL = carom.Pair(SHELL, carom.HalfSpace(material=STEEL), friction=0.3)
+PAIR, WALL = PAIRS["unequal"], PAIRS["half-space"]
 WALTON = carom.laws.WaltonLaw(friction=0.3, restitution=0.9, tangential_restitution=0.4)
 LOSSY = carom.laws.ReboundLaw(PAIR.chi, losses=carom.KelvinVoigt(restitution=0.8))
 LAWS = [None, carom.laws.SmoothLaw(), carom.laws.RoughLaw(), WALTON, LOSSY]
-NAMES = ("velocity1", "spin1", "velocity2", "spin2")
 EPS = np.finfo(float).eps
 
 

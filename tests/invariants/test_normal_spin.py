@@ -10,7 +10,7 @@ import carom
 from carom.bodies.kinematics import normal_inertia
 from carom.impacts.boundary_elements import spin_about_normal
 
-GRID = carom.BoundaryElements(elements=16, steps=75)
+GRID = carom.BoundaryElements(elements=14, steps=60)
 STEEL, GLASS = carom.material("steel"), carom.material("soda-lime-glass")
 
 

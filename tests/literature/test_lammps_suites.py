@@ -125,6 +125,7 @@ def test_sticking_case_of_lammps_as_recorded():
 
 
 @engine
+@pytest.mark.slow
 def test_lammps_passes(texts):
     """All thirty, the first set with room to spare."""
     for name, page in pages(texts, "unittest").items():
