@@ -130,7 +130,7 @@ def test_steps_are_straight_however_they_are_cut():
 
 def test_the_axes_do_not_matter():
     """A path turned or mirrored has its force turned or mirrored."""
-    depths, moved = spiral(10)
+    depths, moved = spiral(6)
     plain = pull(follow(depths, moved))
     for matrix in (np.array([[0.6, -0.8], [0.8, 0.6]]), np.diag([1.0, -1.0])):
         assert away(pull(follow(depths, moved @ matrix)), plain @ matrix, depths) < 1e-8
