@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import carom
-from carom.impacts.border_cells import is_plain, paired
 from carom.impacts.border_curves import border_curves
 from carom.plots.regions import area, frame_of, regions
 
@@ -213,20 +212,3 @@ def test_discs_and_strips_are_found_whole():
     strip = np.concatenate([b.points for b in borders if 2 in (b.left, b.right)])
     assert np.abs(np.abs(strip[:, 1] - 0.4 * strip[:, 0] - 2.9) - 0.02).max() < 1e-6
     assert np.ptp(strip[:, 0]) > 5.9
-
-
-def test_what_meets_in_several_ways_is_not_plain():
-    """Opposite corners alike can be joined in two ways; a strip from side to side in one."""
-    from carom.impacts.border_cells import Change
-
-    def outline(*labels):
-        around = [*labels, labels[0]]
-        return [Change((k, 0.0), *pair, side=k) for k, pair in enumerate(pairwise(around))]
-
-    assert is_plain(outline(0, 1))
-    assert is_plain(outline(0, 2, 1, 2))
-    assert not is_plain(outline(0, 1, 0, 1))
-    assert not is_plain(outline(0, 1, 2))
-    pairs, rest = paired(outline(0, 2, 1, 2))
-    assert [(a.before, a.after) for a, _ in pairs] == [(2, 0), (2, 1)] or len(pairs) == 2
-    assert rest == []

@@ -153,26 +153,6 @@ def test_unlike_materials_couple_and_the_result_does_not_warn_of_it():
     assert full.lost_energy == 0.0
 
 
-def test_bodies_swapped_leave_alike():
-    """Two spheres of unlike materials: the first and the second in turn."""
-    glass = carom.Sphere(radius="10 mm", material="glass")
-    steel = carom.Sphere(radius="10 mm", material="steel")
-    one, two = (
-        carom.impact(carom.Pair(*spheres, friction=0.2), speed=1.0, angle="20 deg", method=TINY)
-        for spheres in ((glass, steel), (steel, glass))
-    )
-    assert one.psi_out == pytest.approx(two.psi_out, abs=1e-9)
-    assert one.spin_out == pytest.approx(two.spin2_out, rel=1e-9)
-
-
-def test_a_bar_is_shown_when_asked_for(capsys, monkeypatch):
-    monkeypatch.setattr("carom.io.progress.SECONDS_BEFORE_BAR", 0.0)
-    carom.impact(against_wall(), speed=1.0, angle="20 deg", method=TINY, progress=True)
-    assert "35/35" in capsys.readouterr().err
-    carom.impact(against_wall(), speed=1.0, angle="20 deg", method=TINY)
-    assert capsys.readouterr().err == ""
-
-
 @pytest.mark.parametrize(
     ("change", "said"),
     [

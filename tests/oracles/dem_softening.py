@@ -1,31 +1,30 @@
-"""Laws that soften are what their papers define, integrated anew in SI units.
+"""Contact laws that soften, as their papers define them, integrated in SI units.
 
 Thornton & Yin (1991): dT = theta k_t dU +- (1 - theta) mu dN with turning points T*, T** that move
 by mu dN. Walton & Braun (1986): dT = K dU, K = K_0 (1 - (T - T*)/(mu N - T*))^(1/3), T* in
-proportion to N. Twins by SciPy's LSODA and Dormand-Prince, from event to event.
+proportion to N. By SciPy's LSODA and Dormand-Prince, from event to event.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
-import pytest
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-import carom
+from tests.oracles.dem_contact import (
+    DEEPEST,
+    FRICTION,
+    G_EFF,
+    HERTZ,
+    LEAST,
+    MASS,
+    RADIUS,
+    SLOWEST,
+    SPEED,
+)
 
-YOUNG, POISSON, DENSITY, RADIUS, FRICTION, SPEED = 210e9, 0.3, 7850.0, 5e-3, 0.2, 0.5
-MASS = DENSITY * 4 / 3 * np.pi * RADIUS**3
-E_STAR = YOUNG / (2 * (1 - POISSON**2))
-G_EFF = YOUNG / (2 * (1 + POISSON)) / (2 * (2 - POISSON))
-KAPPA = 4 * G_EFF / E_STAR
-SOLID, LIGHT = 3.5, 9.0  # m_n/m_t: of a solid sphere; of one that turns back more often
-HERTZ = 4 / 3 * E_STAR * np.sqrt(RADIUS)
-DEEPEST = (1.25 * MASS * SPEED**2 / HERTZ) ** 0.4
 TIME = DEEPEST / SPEED
 K_1 = 2 * HERTZ * np.sqrt(DEEPEST)  # of the linear law; no matter which
-SLOWEST = FRICTION * SPEED / KAPPA  # V_x of psi = 1
-LEAST = 1e-9  # penetration at touch, in units of the deepest
 FIRST, BACK, AGAIN = 0, 1, 2
 D, V, W, T, UPPER, LOWER = range(6)  # the state: penetration, speeds, force, T*, T**
 
@@ -163,31 +162,3 @@ def rebound(law, psi, ratio):
         else:
             branch = FIRST
     raise AssertionError("the twin does not part")
-
-
-CASES = [
-    (carom.dem.ThorntonLaw(), Thornton(), SOLID, (0.3, 0.8, 1.3, 3.0, 4.6)),
-    (carom.dem.ThorntonLaw(), Thornton(), LIGHT, (0.3, 0.8, 1.5, 3.5)),
-    (carom.dem.WaltonBraunLaw(), Walton(1.0, KAPPA * K_1), SOLID, (0.3, 0.8, 1.3, 3.0)),
-    (carom.dem.WaltonBraunLaw(), Walton(1.0, KAPPA * K_1), LIGHT, (0.3, 1.5, 3.5)),
-    (carom.dem.WaltonBraunLaw(restitution=0.7), Walton(0.7, KAPPA * K_1), SOLID, (0.3, 1.3, 3.0)),
-    (carom.dem.WaltonBraunLaw(0.5, 0.7), Walton(0.7, 0.5 * K_1), LIGHT, (0.3, 1.5)),
-]
-
-
-@pytest.mark.parametrize(
-    ("law", "twin", "ratio", "psi"), CASES, ids=[f"{case[0]}-{case[2]}" for case in CASES]
-)
-def test_law_is_what_the_paper_defines(law, twin, ratio, psi):
-    expected = [rebound(twin, each, ratio) for each in psi]
-    found = law.rebound(psi, KAPPA / 2 * ratio, kappa=KAPPA)
-    assert np.allclose(found, expected, rtol=0.0, atol=5e-8)
-
-
-@pytest.mark.parametrize("restitution", [1.0, 0.7])
-def test_walton_braun_all_but_slides(restitution):
-    """While N grows T keeps up with it: K_0 theta V_x = mu dN/dt, 1 - T/(mu N) = (cos t/psi)^3."""
-    psi, chi = 20.0, 1.4
-    missing = quad(lambda c: 2 * chi * (c / (psi - 2 * chi * (1 - c))) ** 3, 0, 1)[0]
-    out = carom.dem.WaltonBraunLaw(restitution=restitution).rebound(psi, chi)
-    assert out - (psi - 2 * chi * (1 + restitution)) == pytest.approx(missing, rel=0.01)
