@@ -9,11 +9,12 @@ from contextlib import suppress
 from threading import Thread
 
 SERVER = """
-import json, os, resource, socket, sys
+import atexit, ctypes, gc, json, os, resource, socket, sys
 import carom.cli.commands, carom.fitting, carom.plots.fits, carom.sweeps.stores, carom.verify
 import emcee, h5netcdf, lmfit, matplotlib.backends.backend_agg, matplotlib.figure, pandas, xarray
 from carom.cli import run
 asked = socket.socket(fileno=int(sys.argv[1]))
+gc.freeze()
 while True:
     words, streams, _, _ = socket.recv_fds(asked, 1 << 16, 3)
     if not words:
@@ -29,7 +30,13 @@ while True:
         limit = given["largest"] or resource.RLIM_INFINITY
         resource.setrlimit(resource.RLIMIT_FSIZE, (limit, resource.RLIM_INFINITY))
         exec(given["before"])
-        run()
+        try:
+            run()
+        except SystemExit as end:  # as Python ends, but for taking all modules apart
+            atexit._run_exitfuncs()
+            sys.stdout.flush()
+            sys.stderr.flush()
+            ctypes.CDLL(None).exit(end.code)
     for stream in streams:
         os.close(stream)
     code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])

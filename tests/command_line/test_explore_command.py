@@ -34,10 +34,7 @@ def page():
 @pytest.mark.parametrize(
     ("flags", "words"),
     [
-        (
-            ["--port", "99999"],
-            "port: '99999' cannot be used; must be a whole number from 0",
-        ),
+        (["--port", "99999"], "port: '99999' cannot be used; must be a whole number from 0"),
         (["--port", "-1"], "port: '-1' cannot be used"),
         (["--host", "203.0.113.7", "--port", "0"], "'203.0.113.7' cannot be used"),
         (["--host", "no such host", "--port", "0"], "'no such host' cannot be used"),

@@ -80,7 +80,10 @@ def test_files_are_stored(run, tmp_path):
     [
         ((), "give a CSV file, or --dataset"),
         (("data.csv", "--dataset", "kharaz2001"), "give a CSV file, or --dataset"),
-        (("data.csv",), "; give pair=carom.Pair(...) in Python or --case FILE in a shell, or write"),
+        (
+            ("data.csv",),
+            "; give pair=carom.Pair(...) in Python or --case FILE in a shell, or write",
+        ),
         (("none.csv", "--case", "ball.toml"), "cannot be read"),
         (("--dataset", "kharaz"), "did you mean 'kharaz2001'"),
         ((*GIVEN[1:], "--fix", "restitution"), "restitution=0.98"),

@@ -276,12 +276,7 @@ BAD = {
     ("lammps", *FALSE, "--steps", "9"): "steps: '9' .*at least 10",
     ("lammps", *FALSE, "--case", "smooth.toml"): "friction: 0.0 .*positive",
     ("lammps", *FALSE, "--case", "cup.toml"): "second body: .*DEM codes have no cups",
-    (
-        "lammps",
-        *FALSE,
-        "--law",
-        "rigid Coulomb",
-    ): "it has linear spring, .*; mindlin",
+    ("lammps", *FALSE, "--law", "rigid Coulomb"): "it has linear spring, .*; mindlin",
     ("lamps",): "No such command 'lamps'. Did you mean 'lammps'",
     ("laws", "--colour", "red"): "No such option: --colour",
 }
