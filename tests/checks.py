@@ -4,6 +4,7 @@ import itertools
 import re
 
 import pytest
+import xarray as xr
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
@@ -47,3 +48,18 @@ def is_legible(figure, least=11):
         high = min(box.y1, other.y1) - max(box.y0, other.y0)
         assert wide <= 0.5 or high <= 0.5, (first, second)
     return True
+
+
+def one_line(error, longest=10_000):
+    """Return the line that a refusal is; it begins with what is refused."""
+    assert re.fullmatch(r"[^\n:]+: .+", str(error)), error
+    assert len(str(error)) < longest
+    return str(error)
+
+
+def is_stored(result, folder):
+    """Assert that the file of a result gives it back, and that it is drawn and shown."""
+    dataset = result.to_dataset()
+    xr.testing.assert_identical(carom.read(carom.save(result, folder / "result.nc")), dataset)
+    result.plot(folder / "result.png")
+    assert "<table" in result._repr_html_()

@@ -271,9 +271,10 @@ def test_a_file_that_may_not_grow_leaves_nothing_behind(name, there, command):
 
 def test_a_store_that_may_not_grow_stays_whole(there, command):
     """Its first chunks are too large for the limit; nothing of them is left."""
+    (there / "sweep.toml").write_text(SWEEP.replace("400", "2000"))
     arguments = ["sweep", "sweep.toml", "--store", "sweep.zarr", "--resume"]
     arguments += ["--quantities", "psi_out"]
-    code, _, err = command(there, *arguments, largest=16 * 1024)
+    code, _, err = command(there, *arguments, largest=40 * 1024)
     assert code == 1
     assert re.fullmatch("carom: sweep.zarr: File too large; .* are safe in .*\n", err)
     assert not list(there.rglob("*.partial"))

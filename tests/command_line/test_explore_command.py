@@ -88,9 +88,8 @@ def test_an_address_of_ipv6():
     serving.join(timeout=10)
 
 
-@pytest.mark.parametrize(
-    "end", ["SIGINT", *(pytest.param(n, marks=pytest.mark.slow) for n in ("SIGTERM", "SIGKILL"))]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("end", ["SIGINT", "SIGTERM", "SIGKILL"])
 def test_an_end_is_one_at_once_and_leaves_no_process_behind(end):
     """Whatever is at work; those that fit and write files go even if nobody is left to end them."""
     psutil = pytest.importorskip("psutil")

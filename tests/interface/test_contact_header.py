@@ -428,32 +428,10 @@ def test_the_example_in_space_is_as_near_as_promised(folder, exact):
     assert off / flat == pytest.approx([-2.0, -2.0, -2.0], rel=0.02)
 
 
-LEVERS = """
-#include <carom/contact_in_space.hpp>
-#include <cstdio>
-int main() {
-    double young, poisson, others_young, others_poisson, radius, others_radius, depth;
-    while (std::scanf("%lf %lf %lf %lf %lf %lf %lf", &young, &poisson, &others_young,
-                      &others_poisson, &radius, &others_radius, &depth) == 7) {
-        const carom::Body one{{0, 0, radius + others_radius - depth}, {}, {}, radius};
-        const carom::Body other{{0, 0, 0}, {}, {}, others_radius};
-        const carom::Material stuff{young, poisson}, others_stuff{others_young, others_poisson};
-        const double share = carom::share_of(stuff, others_stuff);
-        const auto plain = carom::encounter(one, other, 1.0);
-        const auto seen = carom::encounter(one, other, 1.0, share);
-        std::printf("%.15g %.15g %.15g %.15g\\n", seen.arm, seen.other_arm, plain.arm,
-                    plain.other_arm);
-    }
-}
-"""
-
-
 def test_levers_end_where_hertz_puts_the_contact(folder):
     """R less the displacement of the surface in the middle of the contact, (1 - nu^2)/E times
     pi p_0 a/2: like bodies R - d/2, an elastic ball on a rigid wall R - d, a rigid ball R."""
-    source = folder / "levers.cpp"
-    source.write_text(LEVERS)
-    program = built(folder, source, name="levers")
+    program = built(folder, ROOT / "tests/cpp/levers.cpp", name="levers")
     inf, steel, glass = float("inf"), (210e9, 0.3), (70e9, 0.22)
     solids = [(steel, steel), (glass, steel), (steel, glass)]
     solids += [(steel, (inf, 0.3)), ((inf, 0.2), glass)]

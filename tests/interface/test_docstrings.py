@@ -181,7 +181,7 @@ def is_shown(label):
     return short(label) not in WITHOUT_EXAMPLE and (label in ASKED or not inner)
 
 
-@pytest.mark.parametrize("label", filter(is_shown, CALLED))
+@pytest.mark.parametrize("label", [*filter(is_shown, CALLED)])
 def test_there_is_an_example(label):
     """`test_doctests` runs them."""
     assert any(line.startswith(">>> ") for line in documented(label)["Examples"])

@@ -24,6 +24,7 @@ def checks_in(script):
     }
 
 
+@pytest.mark.slow  # together
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
 def test_example_holds_and_draws(script, tmp_path, monkeypatch, capsys):
     """A script prints one line when its checks have passed and stores a figure of its name."""

@@ -40,7 +40,7 @@ def words(figure):
     return [text.get_text().translate(SPACES) for text in figure.findobj(Text) if text.get_text()]
 
 
-@pytest.mark.parametrize("width", [178.0, 120.0, 86.0])
+@pytest.mark.parametrize("width", [178.0, pytest.param(120.0, marks=pytest.mark.slow), 86.0])
 @pytest.mark.parametrize("name", NAMES)
 def test_every_sequence_is_named_and_all_text_is_legible(maps, name, width):
     """In a label or below the map, those that only borders know too; and numbers are explained."""

@@ -93,32 +93,13 @@ def numbers():
 MAKERS = (history, slipping, contact, curve, patch, points, numbers)
 
 ROW = ("row", [1.0, 2.0, 3.0])
-CF = {
-    "missing_value": 1.0,
-    "scale_factor": 2.0,
-    "add_offset": 1.0,
-    "_Unsigned": "true",
-    "valid_range": np.array([0.0, 1.0]),
-    "units": "days since 2000-01-01",
-    "grid_mapping": "speed",
-    "calendar": "noleap",
-}
-ATTRIBUTES = {
-    "empty": "",
-    "lines": 'two\n"lines", # of µ',
-    "count": 3,
-    "small": np.int8(-3),
-    "large": 2**63,
-    "single": np.float32(0.1),
-    "gap": np.nan,
-    "most": np.inf,
-    "none": [],
-    "range": (1, 2),
-    "limits": np.array([0.1, np.inf]),
-    "words": ["a", "bä"],
-    "text": np.str_("x"),
-    "matrix": np.eye(2),
-}
+CF = {"missing_value": 1.0, "scale_factor": 2.0, "add_offset": 1.0, "_Unsigned": "true"}
+CF |= {"valid_range": np.array([0.0, 1.0]), "units": "days since 2000-01-01"}
+CF |= {"grid_mapping": "speed", "calendar": "noleap"}
+ATTRIBUTES = {"empty": "", "lines": 'two\n"lines", # of µ', "count": 3, "small": np.int8(-3)}
+ATTRIBUTES |= {"large": 2**63, "single": np.float32(0.1), "gap": np.nan, "most": np.inf}
+ATTRIBUTES |= {"none": [], "range": (1, 2), "limits": np.array([0.1, np.inf])}
+ATTRIBUTES |= {"words": ["a", "bä"], "text": np.str_("x"), "matrix": np.eye(2)}
 NAMES = ["a b", "ä", "1", "a.b", "a,b", 'a"b', ".a", "..", "[a]", "a:b", "a#b", " a", "__init__"]
 KINDS = ["?", "i1", "u8", "f2", "f4", ">f8"]
 PLAIN = {
@@ -321,13 +302,11 @@ def foreign(folder):
     whole = save(slipping(), folder / "whole.nc").read_bytes()
     flipped = bytearray(whole)
     flipped[len(whole) // 2] ^= 1
+    cut = {"few": 20, "head": 100, "half": len(whole) // 2, "end": -200}
     for name, content in {
         "empty": b"",
         "text": b"no NetCDF at all",
-        "few": whole[:20],
-        "head": whole[:100],
-        "half": whole[: len(whole) // 2],
-        "end": whole[:-200],
+        **{name: whole[:end] for name, end in cut.items()},
         "flipped": bytes(flipped),
         "noise": rng.bytes(5000),
         "head and noise": whole[:8] + rng.bytes(5000),
