@@ -37,7 +37,7 @@ def test_every_picture_is_written_in_both_modes(name, tmp_path, monkeypatch):
     monkeypatch.setattr("carom.plots.style.DPI", 150)  # sooner stored
     for picture in PICTURES:
         with Image.open(files.write(f"{picture}.png", STATES[name], 0.6, tmp_path)) as image:
-            assert min(image.size) >= 400
+            assert min(image.size) >= 200
             assert len(image.convert("RGB").getcolors(2**24)) > 50  # not an empty sheet
     for name, begin in {"curve.svg": b"<?xml", "contact.pdf": b"%PDF"}.items():
         assert files.write(name, BODIES, 0.6, tmp_path).read_bytes().startswith(begin)
