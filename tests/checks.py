@@ -17,7 +17,7 @@ def refused(words, function, *given, **named):
         function(*given, **named)
     line = str(error.value)
     assert "\n" not in line
-    assert len(line) < 3000
+    assert len(line) < 10_000
     assert re.search(words, line), line
     return line
 

@@ -276,5 +276,6 @@ def test_the_lines_are_those_of_the_link(visit):
         seen.page.keyboard.press(key)
         seen.page.wait_for_timeout(250)
     seen.linked("angle=50")
-    seen.page.wait_for_timeout(800)
-    assert 'angle="50.0 deg"' in seen.page.inner_text("#code")
+    seen.until(lambda: 'angle="50.0 deg"' in seen.page.inner_text("#code"))
+    seen.page.wait_for_timeout(300)
+    assert 'angle="50.0 deg"' in seen.page.inner_text("#code")  # and stays
