@@ -14,6 +14,8 @@ import pytest
 from xdist.scheduler import LoadFileScheduling
 
 import carom
+from carom.cli import main
+from tests.processes import Commands
 
 SOURCES = sorted(Path(carom.__file__).parent.rglob("*.py"))
 KEY = hashlib.sha256(b"".join(path.read_bytes() for path in SOURCES)).hexdigest()[:16]
@@ -71,6 +73,38 @@ def pair(steel_ball, plate):
 def hit(pair):
     """An impact that slides, sticks, slips at its edge and slides back."""
     return carom.impact(pair, speed=2.0, angle="30 deg")
+
+
+@pytest.fixture
+def run(capsys, monkeypatch, tmp_path):
+    """Run a command in an empty folder; returns the exit code, what is printed and told."""
+    monkeypatch.chdir(tmp_path)
+
+    def call(*arguments):
+        return main([*map(str, arguments)]), *capsys.readouterr()
+
+    return call
+
+
+@pytest.fixture
+def refusal(run):
+    """Run a command that is refused; returns the one line that says why."""
+
+    def call(*arguments, code=2):
+        ended, out, err = run(*arguments)
+        assert (ended, out, err.count("\n")) == (code, "", 1), err
+        assert err.startswith("carom: ")
+        return err
+
+    return call
+
+
+@pytest.fixture(scope="session")
+def command():
+    """Run a command as from a shell, in a process of its own."""
+    commands = Commands()
+    yield commands
+    commands.close()
 
 
 @pytest.fixture

@@ -21,12 +21,6 @@ CASES = (
 )
 
 
-@pytest.fixture(scope="module")
-def pair():
-    ball = carom.Sphere(radius="5 mm", material="steel")
-    return carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-
-
 @pytest.fixture
 def file(tmp_path):
     def store(text):

@@ -73,18 +73,18 @@ def test_what_a_link_says_to_the_page_alone_is_passed_over():
     assert view == View(angle=40.0)
 
 
+RIGID = View(against="sphere", second_material="rigid")
+HELD = "that a computer cannot hold"
+
+
 @pytest.mark.parametrize(
     ("view", "field", "says"),
     [
         (View(against="cup", second_radius=5.0), "second_radius", "must be above 5 mm: the ball"),
         (View(against="cup", second_radius=1.0), "second_radius", "fit into the cup"),
-        (
-            View(against="sphere", second_material="rigid"),
-            "second_material",
-            "must have a density, which a rigid one has not",
-        ),
-        (View(speed=1e300), "speed", "that a computer cannot hold"),
-        (View(given=NUMBERS, psi=np.inf), "psi", "that a computer cannot hold"),
+        (RIGID, "second_material", "must have a density, which a rigid one has not"),
+        (View(speed=1e300), "speed", HELD),
+        (View(given=NUMBERS, psi=np.inf), "psi", HELD),
     ],
 )
 def test_what_does_not_go_together_is_told_of_a_field(view, field, says):

@@ -49,14 +49,6 @@ def test_page_runs_and_prints_what_it_shows(page, tmp_path, monkeypatch):
     assert all((tmp_path / picture.name).exists() for picture in pictures(page))
 
 
-@pytest.mark.parametrize("page", [*PAGES, ACCURACY], ids=lambda page: str(page.relative_to(ROOT)))
-def test_page_shows_pictures_and_links_that_are_there(page):
-    text = page.read_text(encoding="utf-8")
-    for target in re.findall(r"\]\(([^)#:]+)[^)]*\)", text):
-        made = target.startswith("gallery/")  # by sphinx
-        assert made or (page.parent / target).exists(), target
-
-
 def test_accuracy_names_tests_that_are_there_and_times_of_the_table():
     text = ACCURACY.read_text(encoding="utf-8")
     named = re.findall(r"`((?:tests|studies|benchmarks|docs)/[\w/]+\.py)`", text)
