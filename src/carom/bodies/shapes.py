@@ -1,6 +1,7 @@
 """Shapes of bodies: a sphere, a half-space, a cup."""
 
 import math
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast
@@ -65,7 +66,7 @@ class Sphere:
             raise refusal("inner_radius", inner_radius, f"must be below the radius, {radius!r}")
         if self.material.density is None:
             raise refusal("density", None, "a sphere that moves needs a material with a density")
-        if not _representable(self):
+        if not sphere_fits(self):
             allowed = "floating point cannot hold its mass or inertia; check the units"
             raise refusal("radius", radius, allowed)
 
@@ -160,13 +161,12 @@ class Cup:
         return -1.0 / self.radius
 
 
-def _representable(ball: Sphere) -> bool:
+def sphere_fits(ball: Sphere) -> bool:
     """Return whether mass and inertia of a sphere are positive numbers."""
-    try:
+    with suppress(OverflowError, ZeroDivisionError):
         inertia = ball.mass * ball.gyration_ratio * ball.radius**2
         return all(0.0 < value < math.inf for value in (ball.mass, ball.gyration_ratio, inertia))
-    except (OverflowError, ZeroDivisionError):
-        return False
+    return False
 
 
 def describe(body: Sphere | HalfSpace | Cup) -> dict[str, Any]:

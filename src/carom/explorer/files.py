@@ -53,7 +53,7 @@ UNITS = {  # of what is told without units, as figures write them
 }
 SCALES = Scales(
     **dict.fromkeys(("length", "radius", "force", "pressure", "tangential_length"), 1.0),
-    **dict.fromkeys(("time", "energy", "tangential_speed"), 1.0),
+    **dict.fromkeys(("speed", "time", "energy", "tangential_speed"), 1.0),
     tangential_force=1.5,  # Q = (2/3) F_x/(mu F_max)
 )
 TANGENTIAL = {  # energies that psi_1 and chi tell, with the looks of what they are part of
@@ -80,14 +80,10 @@ MEANINGS = {  # of the columns of `Solution.history`
 
 
 class UnitBodies(NamedTuple):
-    """Bodies of which every scale is 1, and whose slip is along x alone."""
+    """Bodies whose slip is along x alone."""
 
     friction: float = 1.0
     lateral_ratio: float = 0.0
-
-    def scales(self, _: float) -> Scales:
-        """Return the scales of an impact of these bodies."""
-        return SCALES
 
 
 class NumbersImpact:
@@ -122,7 +118,7 @@ class NumbersImpact:
     def fields(self, time: float) -> xr.Dataset:
         """Return what the surface of the contact does at a time, in d_max/V_1."""
         bodies: Any = UnitBodies()
-        contact = contact_in_impact(bodies, 1.0, 0.0, self._solution, time, {})
+        contact = contact_in_impact(bodies, SCALES, 0.0, self._solution, time, {})
         return _in_theory(surface_fields(contact))
 
 

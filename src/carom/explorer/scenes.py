@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from carom.bodies.kinematics import Tangential
 from carom.dem.base import SOLID
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution, solve
@@ -134,13 +133,11 @@ def refusals(field: str) -> Iterator[None]:
 
 def _of_bodies(view: View) -> Scene:
     hit = impact_of(view)
-    before = Tangential(hit.tangential_speed, hit.spin, hit.spin2)
-    column = history_columns(hit.pair, hit.normal_speed, before, hit.solution, TIMES)
+    column, scales = history_columns(hit, TIMES), hit.scales
     seconds, unit = prefixed(hit.duration, "s")
     newtons, force_unit = prefixed(hit.pair.friction * hit.max_force or hit.max_force, "N")
     energies = {name: column[name] for name in ENERGIES}
     whole = sum(energies.values())
-    scales = hit.pair.scales(hit.normal_speed)
     return Scene(
         psi_in=hit.psi_in,
         psi_out=hit.psi_out,
