@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.impacts.border_cells import is_plain, paired
-from carom.impacts.border_curves import border_curves
+from carom.impacts.border_curves import Change, border_curves, is_plain, paired
 from carom.plots.regions import area, frame_of, regions
 
 PSI, CHI = np.linspace(0.02, 6.02, 61), np.linspace(0.103, 5.003, 50)
@@ -217,7 +216,6 @@ def test_discs_and_strips_are_found_whole():
 
 def test_what_meets_in_several_ways_is_not_plain():
     """Opposite corners alike can be joined in two ways; a strip from side to side in one."""
-    from carom.impacts.border_cells import Change
 
     def outline(*labels):
         around = [*labels, labels[0]]

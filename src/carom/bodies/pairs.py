@@ -8,11 +8,12 @@ from operator import and_
 from typing import Any
 
 from carom.bodies.materials import Material
-from carom.bodies.shapes import Cup, HalfSpace, Sphere
+from carom.bodies.shapes import Cup, HalfSpace, Sphere, named
 from carom.quantities.elementwise import quotient, sqrt, where
 from carom.quantities.keywords import known_keywords
 from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError, checked_type, refusal
+from carom.quantities.shown import Printed
 from carom.quantities.units import Value, not_negative
 
 Counterbody = Sphere | HalfSpace | Cup
@@ -119,7 +120,7 @@ def pair_fits(pair: "Pair") -> bool:
 
 
 @dataclass(frozen=True, init=False)
-class Pair:
+class Pair(Printed):
     """A sphere, the sphere, half-space or cup that it strikes, and the friction between them.
 
         1/E* = sum (1 - nu^2)/E, 1/G* = sum (2 - nu)/(4 G), 1/R* = sum 1/R
@@ -151,8 +152,8 @@ class Pair:
     >>> steel = carom.material("steel")
     >>> ball = carom.Sphere(radius="5 mm", material=steel)
     >>> pair = carom.Pair(ball, carom.HalfSpace(material=steel), friction=0.2)
-    >>> round(pair.chi, 4), round(pair.kappa, 4)
-    (1.4412, 0.8235)
+    >>> print(pair)
+    sphere (steel, R = 5 mm) on half-space (steel): friction 0.2, chi 1.441, kappa 0.8235
     """
 
     first: Sphere
@@ -261,9 +262,6 @@ class Pair:
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
         >>> round(pair.contact_scales(2e-6).radius * 1e6, 6)  # of the contact, in um
         100.0
         """
@@ -293,9 +291,6 @@ class Pair:
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
         >>> round(pair.scales(1.0).length * 1e6, 2)  # d_max in um
         11.74
         """
@@ -326,9 +321,6 @@ class Pair:
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
         >>> round(pair.psi(0.5, 1.0), 4)
         2.0588
         """
@@ -338,3 +330,7 @@ class Pair:
     @property
     def _materials(self) -> tuple[Material, Material]:
         return self.first.material, self.second.material
+
+    def __str__(self) -> str:
+        bodies = f"{named(self.first)} on {named(self.second)}"
+        return f"{bodies}: friction {self.friction:g}, chi {self.chi:.4g}, kappa {self.kappa:.4g}"

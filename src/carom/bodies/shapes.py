@@ -8,6 +8,7 @@ from typing import Any, cast
 
 from carom.bodies.materials import VALUES, Material, as_material, set_fields
 from carom.quantities.keywords import known_keywords
+from carom.quantities.prefixes import text
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import Value, not_negative, positive
 
@@ -17,6 +18,8 @@ class Sphere:
     """A sphere, solid or hollow, or with a given radius of gyration.
 
         M = (4/3) pi rho (R^3 - R_i^3), K^2 = (2/5) (R^5 - R_i^5)/(R^3 - R_i^3)
+
+    All is given by name, as a bare length could be a radius or a diameter.
 
     Parameters
     ----------
@@ -107,14 +110,14 @@ class HalfSpace:
     Examples
     --------
     >>> import carom
-    >>> carom.HalfSpace(material="rigid").material.is_rigid
+    >>> carom.HalfSpace("rigid").material.is_rigid
     True
     """
 
     material: Material
 
     @known_keywords
-    def __init__(self, *, material: Material | str) -> None:
+    def __init__(self, material: Material | str) -> None:
         set_fields(self, material=as_material(material))
 
     @property
@@ -183,3 +186,14 @@ def describe(body: Sphere | HalfSpace | Cup) -> dict[str, Any]:
         if getattr(stuff, name) is not None and getattr(stuff, name) != math.inf
     }
     return entries
+
+
+def named(body: Sphere | HalfSpace | Cup) -> str:
+    """Return a body in a few words: its kind, material and sizes."""
+    stuff = body.material
+    words = [stuff.name or f"E = {text(stuff.young, 'Pa')}"]
+    sizes = {"R": "radius", "R_i": "inner_radius", "K": "gyration_radius"}
+    known = {symbol: getattr(body, name, None) for symbol, name in sizes.items()}
+    words += [f"{symbol} = {text(size, 'm')}" for symbol, size in known.items() if size]
+    kind = "half-space" if isinstance(body, HalfSpace) else type(body).__name__.lower()
+    return f"{kind} ({', '.join(words)})"

@@ -44,10 +44,6 @@ class InContact(ABC):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
         >>> round(hit.contact(0.5 * hit.duration).penetration, 12)  # of the largest
         1.0
         >>> path = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
@@ -103,10 +99,6 @@ class InContact(ABC):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
         >>> patch = hit.fields(0.6 * hit.duration)
         >>> sorted({int(zone) for zone in patch.zone.values.flat})  # outside, stick, slip
         [0, 1, 2]
@@ -164,8 +156,6 @@ class InContact(ABC):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
         >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.0)
         >>> hit = carom.impact(pair, speed=2.0, angle=0.0)
         >>> below = hit.stress(0.5 * hit.duration, points=[[0.0, 0.0, 0.48 * hit.max_radius]])
@@ -200,10 +190,6 @@ class InContact(ABC):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
         >>> along = hit.radial(0.5 * hit.duration, n=11)
         >>> bool((abs(along.traction_x) <= 1.000001 * along.friction_limit).all())
         True

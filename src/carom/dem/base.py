@@ -17,6 +17,7 @@ from carom.dimensionless.numerics.threads import available_cores
 from carom.dimensionless.rebounds import warn_of_unsolved
 from carom.quantities.arrays import Array, along_the_same, pure_numbers, together
 from carom.quantities.refusals import flag, refusal
+from carom.quantities.shown import Shown
 from carom.quantities.units import counted, finite, not_negative, positive, threads_or_none
 
 SOLID = 4.0 / 7.0  # kappa/chi of solid spheres, and of one on a half-space
@@ -31,7 +32,7 @@ READERS = {  # of the parameters that laws have
 
 
 @dataclass(frozen=True)
-class Law(ABC):
+class Law(Shown, ABC):
     """A law of impact that stands for the exact one."""
 
     name: ClassVar[str]

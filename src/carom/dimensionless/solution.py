@@ -367,14 +367,15 @@ def solve(
     times, moved, changed = np.zeros(steps), np.zeros((steps + 1, 2)), np.zeros(len(record.changes))
     dense.tabulate(record.nodes, record.series, record.changes, chi, times, moved, changed)
     mirror = -1 if np.signbit(psi) else 1
-    phases = _phases(record.changes, changed, mirror)
+    phases = phases_of(record.changes, changed, mirror)
     psi_out = float("nan")
     if status is Status.SOLVED:
         psi_out = mirror * min(1.0, abs(psi) / LINEAR) * float(work.series[0, PSI])
     return Solution(psi, chi, psi_out, status, phases, record, times, moved)
 
 
-def _phases(changes: Array, times: Array, mirror: int) -> tuple[Phase, ...]:
+def phases_of(changes: Array, times: Array, mirror: int) -> tuple[Phase, ...]:
+    """Return the phases between changes at these times; slip is as recorded, or mirrored by -1."""
     found: list[Phase] = []
     for i in range(len(changes) - 1):
         kind = states.KIND_NAMES[Kind(int(changes[i, KIND]))]

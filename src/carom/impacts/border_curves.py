@@ -5,40 +5,60 @@ A cell in which they could be joined in several ways, as three regions meet ther
 """
 
 from bisect import bisect_left, bisect_right, insort
-from collections import defaultdict
-from collections.abc import Callable, Iterable
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable, Iterator
 from itertools import pairwise
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.impacts.border_cells import (
-    WHOLE,
-    Cell,
-    Change,
-    Edge,
-    Line,
-    Node,
-    corners,
-    edges,
-    is_plain,
-    pieces,
-    quarters,
-    wholes_beside,
-)
-from carom.impacts.joined_curves import Border, Segment, joined
 from carom.quantities.arrays import Array
 
+Point: TypeAlias = tuple[float, float]
+Node: TypeAlias = tuple[int, int]  # where lines cross, in smallest cells
+Cell: TypeAlias = tuple[int, int, int]  # its lower left node, and its side in smallest cells
+Line: TypeAlias = tuple[int, int]  # 0 along x or 1 along y, and its place in smallest cells
+Edge: TypeAlias = tuple[Line, int, int]  # from one place on a line to another
 Labels: TypeAlias = NDArray[np.int64]
 Tell: TypeAlias = Callable[[Array, Array], Labels]
 Bracket: TypeAlias = tuple[tuple[float, int], tuple[float, int]]  # places with their labels
 
+WHOLE = 64  # a cell of the grid, in smallest cells
 FINER = 8.0  # than the tolerance: what is found thinner than that between two others is left out
 MOST = 5, 2_000  # points told for each of the grid, and besides: more would not be seen on it
 FINEST = 3, 15_000  # the same to quarter cells
 FLAT = 3e-4  # of an axis: how far a curve may be from the straight pieces that are its picture
 SHIFT = 0.07  # of new lines, in cells of the grid
+
+
+class Segment(NamedTuple):
+    """A straight piece of a border, with the labels on its left and right."""
+
+    start: Point
+    end: Point
+    left: int
+    right: int
+
+
+class Border(NamedTuple):
+    """A curve between two regions, points of shape (n, 2), with the labels on its left and right.
+
+    It ends where it meets another border or the rim of the map, or where it began.
+    """
+
+    left: int
+    right: int
+    points: Array
+
+
+class Change(NamedTuple):
+    """Where the label changes along the outline of a cell, anticlockwise, and on which side."""
+
+    place: Point
+    before: int
+    after: int
+    side: int
 
 
 def border_curves(
@@ -234,3 +254,92 @@ class Plane:
                 for at in [a != b]
             ]
             numbers, ends, sides = (np.concatenate(both) for both in zip(*halves, strict=True))
+
+
+def corners(cell: Cell) -> Iterator[Node]:
+    """Yield the corners of a cell."""
+    i, j, size = cell
+    yield from ((i, j), (i + size, j), (i + size, j + size), (i, j + size))
+
+
+def edges(cell: Cell) -> Iterator[Edge]:
+    """Yield the edges of a cell, anticlockwise; the last two are walked backwards then."""
+    i, j, size = cell
+    yield from (((0, j), i, i + size), ((1, i + size), j, j + size))
+    yield from (((0, j + size), i, i + size), ((1, i), j, j + size))
+
+
+def quarters(cell: Cell) -> Iterator[Cell]:
+    """Yield the quarters of a cell."""
+    i, j, half = cell[0], cell[1], cell[2] // 2
+    yield from ((i + m * half, j + n * half, half) for m in (0, 1) for n in (0, 1))
+
+
+def wholes_beside(cell: Cell, shape: tuple[int, ...]) -> Iterator[Cell]:
+    """Yield the cells of a grid beside the one that a cell is in."""
+    i, j = cell[0] // WHOLE, cell[1] // WHOLE
+    for m, n in ((i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)):
+        if 0 <= m < shape[1] - 1 and 0 <= n < shape[0] - 1:
+            yield (WHOLE * m, WHOLE * n, WHOLE)
+
+
+def is_plain(outline: list[Change]) -> bool:
+    """Tell whether changes can be joined across a cell in one way only, from side to side."""
+    pairs, rest = paired(outline)
+    return not rest and all(first.side != second.side for first, second in pairs)
+
+
+def paired(outline: list[Change]) -> tuple[list[tuple[Change, Change]], list[Change]]:
+    """Return the changes that border a region which touches the outline once, and the rest."""
+    rest, pairs = list(outline), []
+    while rest:
+        often = Counter(change.after for change in rest)
+        for k, first in enumerate(rest):
+            second = rest[(k + 1) % len(rest)]
+            if often[first.after] == 1 and first.before == second.after:
+                pairs.append((first, second))
+                rest = [change for change in rest if change not in (first, second)]
+                break
+        else:
+            break
+    return pairs, rest
+
+
+def pieces(outline: list[Change]) -> Iterator[Segment]:
+    """Yield what joins the changes on the outline of a cell; in its middle, where many meet."""
+    pairs, rest = paired(outline)
+    for first, second in pairs:
+        yield Segment(first.place, second.place, first.before, first.after)
+    if rest:
+        middle = np.mean([change.place for change in rest], axis=0).tolist()
+        for change in rest:
+            yield Segment(change.place, (middle[0], middle[1]), change.before, change.after)
+
+
+def joined(segments: Iterable[Segment]) -> list[Border]:
+    """Return the curves that segments make, those of the same two labels together."""
+    following: dict[tuple[int, int], dict[Point, list[Point]]] = defaultdict(dict)
+    for segment in segments:
+        start, end, left, right = segment
+        if left > right:
+            start, end, left, right = end, start, right, left
+        if start != end:
+            following[left, right].setdefault(start, []).append(end)
+    return [
+        Border(*sides, np.array(curve))
+        for sides, pieces in sorted(following.items())
+        for curve in chains(pieces)
+    ]
+
+
+def chains(following: dict[Point, list[Point]]) -> Iterator[list[Point]]:
+    """Yield lines of points, each given with those that follow it; open lines first."""
+    reached = {end for ends in following.values() for end in ends}
+    for start in [*(s for s in following if s not in reached), *following]:
+        while following[start]:
+            line = [start]
+            while following.get(line[-1]):
+                line.append(following[line[-1]].pop())
+                if line[-1] == start:
+                    break
+            yield line

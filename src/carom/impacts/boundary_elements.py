@@ -204,9 +204,6 @@ class HalfspaceImpact(ImpactResult):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
         >>> coarse = carom.BoundaryElements(elements=16, steps=75)
         >>> hit = carom.impact(pair, speed=2.0, angle="30 deg", method=coarse)
         >>> patch = hit.fields(0.6 * hit.duration)

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from carom.dimensionless.lossy.law import ScaleFreeLaw, scale_free
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.rebounds import rebound, regime_borders
-from carom.impacts.map_borders import border_variables
+from carom.impacts.border_curves import border_curves
 from carom.impacts.sequences import Sequences
 from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
@@ -32,6 +32,9 @@ REGIMES = (
     "gross slip through maximum penetration, then microslip",
     "gross slip throughout",
 )
+TOLERANCE = 1e-6  # of points of a border
+COARSE = 1e-3  # the same with losses, as such an impact takes a hundred times as long
+MORE, COARSE_MORE = 20.0, 0.5  # impacts to refine borders, to those that find them on the grid
 BORDER = {"units": "1", "long_name": "psi_in at which the regime changes"}
 
 
@@ -211,8 +214,40 @@ def regime_map(
                 {"units": "1", "long_name": "sequence of phases, its place in sequence_name"},
             ),
             "restitution": e,
-            **border_variables(incoming, chis, met, sequences, progress),
+            **_borders_of(incoming, chis, met, sequences, progress),
         },
         {"chi": chis, "psi_in": incoming, "sequence_name": ("sequence_name", names, {})},
         {"title": "map of regimes"},
     )
+
+
+def _borders_of(
+    psi: Array, chi: Array, numbers: NDArray[np.int64], sequences: Sequences, progress: Progress
+) -> dict[str, Any]:
+    """Return the borders on a map whose sequences have these numbers, shape (chi, psi)."""
+    (x, columns), (y, rows) = (np.unique(line, return_index=True) for line in (psi, chi))
+    plain = sequences.losses is None
+    tolerance, more = (TOLERANCE, MORE) if plain else (COARSE, COARSE_MORE)
+    shown = False if callable(progress) else progress  # which counts the rows of the map
+    with advancing("finding the borders of the regimes", None, shown, unit="impacts") as advance:
+
+        def tell(psis: Array, chis: Array) -> NDArray[np.int64]:
+            found = sequences.of(psis, chis)
+            advance(psis.size)
+            return found
+
+        with np.errstate(over="ignore", invalid="ignore"):  # where values are out of all proportion
+            curves = border_curves((x, y), numbers[np.ix_(rows, columns)], tell, tolerance, more)
+    points = np.concatenate([np.empty((0, 2)), *(curve.points for curve in curves)])
+    names = np.array(sequences.names, dtype=np.str_)
+    left, right = np.array([curve[:2] for curve in curves], dtype=np.int64).reshape(-1, 2).T
+    belongs = np.repeat(np.arange(len(curves)), [len(curve.points) for curve in curves])
+    side = "sequence of phases on the {} of a border, in the direction of its points"
+    return {
+        "border_psi": ("border_point", points[:, 0]),
+        "border_chi": ("border_point", points[:, 1]),
+        "border_number": ("border_point", belongs.astype(np.int32)),
+        "border_left": ("border_curve", names[left], {"long_name": side.format("left")}),
+        "border_right": ("border_curve", names[right], {"long_name": side.format("right")}),
+        "border_tolerance": tolerance,
+    }

@@ -136,10 +136,6 @@ class Impact(ImpactResult, InContact):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
         >>> worn = hit.wear(coefficient="1e-13 m^2/N")
         >>> round(float(worn.max_friction_work), 1), worn.friction_work.units
         (4515.6, 'J/m^2')
@@ -187,8 +183,6 @@ class Impact(ImpactResult, InContact):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
         >>> glass = carom.material("glass", flaw_size="20 um")
         >>> pair = carom.Pair(ball, carom.HalfSpace(material=glass), friction=0.2)
         >>> peaks = carom.impact(pair, speed=2.0, angle="30 deg").peaks().sel(body="second")
@@ -223,10 +217,6 @@ class Impact(ImpactResult, InContact):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
         >>> [line for line in hit.cite().splitlines() if line.startswith("@")]
         ['@software{carom,', '@article{barber1979,', '@article{maw1976,']
         """

@@ -123,10 +123,7 @@ class ImpactResult(Outcome, Result):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> history = carom.impact(pair, speed=2.0, angle="30 deg").history(5)
+        >>> history = hit.history(5)
         >>> history.normal_force.units, history.normal_force.shape
         ('N', (5,))
         >>> history.to_dataframe().phase_kind.tolist()
@@ -183,10 +180,6 @@ class ImpactResult(Outcome, Result):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
         >>> spectrum = hit.spectrum(max_frequency="100 kHz")
         >>> round(float(spectrum.normal_notch_frequency) * hit.duration, 4)  # sin^1.5: 1.75
         1.804
@@ -305,10 +298,7 @@ class ImpactResult(Outcome, Result):
 
         Examples
         --------
-        >>> import carom, tempfile
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-        >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+        >>> import tempfile
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     hit.animate(f"{folder}/hit.gif", frames=2).name
         'hit.gif'

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from math import isnan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -10,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from carom.io.version import __version__
 from carom.quantities.glossary import GLOSSARY
+from carom.quantities.shown import Printed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -37,7 +39,8 @@ class Finding(NamedTuple):
         return self.name if isnan(self.value) else f"{self.name} = {self.value:.3g}"
 
 
-class Validity(NamedTuple):
+@dataclass(frozen=True)
+class Validity(Printed):
     """All findings on one impact."""
 
     findings: tuple[Finding, ...]

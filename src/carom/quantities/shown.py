@@ -1,6 +1,7 @@
-"""What tab completion shows of an object: what users call."""
+"""What users see of an object: its names by tab completion, its text in a notebook."""
 
 from collections.abc import Iterable
+from html import escape
 
 INNER = frozenset(  # what the parts of Carom say to each other
     (
@@ -18,3 +19,10 @@ class Shown:
     def __dir__(self) -> Iterable[str]:
         names = super().__dir__()
         return [n for n in names if n not in INNER and (n[0] != "_" or n.startswith("__"))]
+
+
+class Printed:
+    """An object that a notebook shows as `print` does."""
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(str(self))}</pre>"
