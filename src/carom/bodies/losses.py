@@ -271,5 +271,5 @@ def _alphas(restitution: Any) -> Any:
         return _viscous_loss(float(restitution))
     unique, places = np.unique(restitution, return_inverse=True)
     good = (unique >= SMALLEST_RESTITUTION) & (unique <= 1.0)
-    found = [_viscous_loss(float(e)) if ok else np.nan for e, ok in zip(unique, good, strict=True)]
-    return np.array(found)[places].reshape(np.shape(restitution))
+    alphas = [_viscous_loss(float(e)) if ok else np.nan for e, ok in zip(unique, good, strict=True)]
+    return np.array(alphas)[places].reshape(np.shape(restitution))

@@ -193,7 +193,7 @@ def named(body: Sphere | HalfSpace | Cup) -> str:
     stuff = body.material
     words = [stuff.name or f"E = {text(stuff.young, 'Pa')}"]
     sizes = {"R": "radius", "R_i": "inner_radius", "K": "gyration_radius"}
-    known = {symbol: getattr(body, name, None) for symbol, name in sizes.items()}
-    words += [f"{symbol} = {text(size, 'm')}" for symbol, size in known.items() if size]
+    lengths = {symbol: getattr(body, name, None) for symbol, name in sizes.items()}
+    words += [f"{symbol} = {text(size, 'm')}" for symbol, size in lengths.items() if size]
     kind = "half-space" if isinstance(body, HalfSpace) else type(body).__name__.lower()
     return f"{kind} ({', '.join(words)})"

@@ -171,7 +171,7 @@ def _rebound(pair: Pair, given: Given, wanted: str) -> Rebound:
     """Return the rebound, with NaN for what is not known of it and not wanted."""
     normal, before = _before(pair, given, wanted)
     given = _resolved(given)
-    start = Rebound(pair, normal, before, _restitution(normal, given), 0.0)
+    start = Rebound(pair, normal, *before, _restitution(normal, given), 0.0)
     if wanted in BEFORE:
         return start
     ways = _one_of("the rebound", given, (*IMPULSE, SPEED)) if wanted not in NORMAL else ""

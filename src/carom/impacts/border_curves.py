@@ -87,9 +87,9 @@ def border_curves(
     cells = {(WHOLE * i, WHOLE * j, WHOLE) for j, i in differ.tolist()}
     plane.look_at(cells)
     quartered: set[Cell] = set()
-    if plane.told < plane.most:
-        plane.most = plane.told + min(more * plane.told, FINEST[0] * labels.size + FINEST[1])
-    while plane.told < plane.most:
+    if plane.asked < plane.most:
+        plane.most = plane.asked + min(more * plane.asked, FINEST[0] * labels.size + FINEST[1])
+    while plane.asked < plane.most:
         outlines = {cell: plane.outline(cell) for cell in cells if cell[2] > 1}
         coarse = {cell for cell, outline in outlines.items() if not is_plain(outline)}
         coarse |= plane.bent({c: o for c, o in outlines.items() if o and c not in coarse})
@@ -110,29 +110,29 @@ class Plane:
         self, axes: tuple[Array, Array], labels: Labels, tell: Tell, tolerance: float, most: float
     ) -> None:
         self.axes, self.labels, self.tell, self.tolerance = axes, labels, tell, tolerance
-        self.told, self.most = 0, most
+        self.asked, self.most = 0, most
         self.nodes: dict[Node, int] = {}
         self.places: dict[Line, list[float]] = defaultdict(list)
-        self.known: dict[Line, dict[float, int]] = defaultdict(dict)
+        self.label_at: dict[Line, dict[float, int]] = defaultdict(dict)
         self.crossed: dict[Line, set[float]] = defaultdict(set)
         self.straight: set[Segment] = set()
         self.low, self.high = (np.array([axis[k] for axis in axes]) for k in (0, -1))
 
     def look_at(self, cells: Iterable[Cell]) -> None:
         """Find the labels of the corners of cells, and where they change along their edges."""
-        found = list(cells)
-        nodes = {node for cell in found for node in corners(cell)} - self.nodes.keys()
-        given = {node for node in nodes if not (node[0] % WHOLE or node[1] % WHOLE)}
-        asked = sorted(nodes - given)
+        cells = set(cells)
+        nodes = {node for cell in cells for node in corners(cell)} - self.nodes.keys()
+        on_grid = {node for node in nodes if not (node[0] % WHOLE or node[1] % WHOLE)}
+        asked = sorted(nodes - on_grid)
         x, y = (np.array([self.coordinate(k, node[k]) for node in asked]) for k in (0, 1))
-        labels = {node: int(self.labels[node[1] // WHOLE, node[0] // WHOLE]) for node in given}
-        labels |= dict(zip(asked, self._told(x, y).tolist(), strict=True))
+        labels = {node: int(self.labels[node[1] // WHOLE, node[0] // WHOLE]) for node in on_grid}
+        labels |= dict(zip(asked, self._labels(x, y).tolist(), strict=True))
         for (i, j), label in labels.items():
             for line, place in (((0, j), self.coordinate(0, i)), ((1, i), self.coordinate(1, j))):
                 self._keep(line, place, label)
                 self.crossed[line].add(place)
         self.nodes |= labels
-        self._bisect({edge for cell in found for edge in edges(cell)})
+        self._bisect({edge for cell in cells for edge in edges(cell)})
 
     def bent(self, outlines: dict[Cell, list[Change]]) -> set[Cell]:
         """Return the cells in which a border is far from the straight piece that joins its ends.
@@ -154,7 +154,7 @@ class Plane:
         wrong = np.zeros(len(new), dtype=np.bool_)
         for other, away in ((sides[:, 1], across), (sides[:, 0], -across)):
             beside = np.clip(ends.mean(axis=1) + away, self.low, self.high)
-            wrong |= self._told(*beside.T) == other
+            wrong |= self._labels(*beside.T) == other
         self.straight |= {piece for (_, piece), bad in zip(new, wrong, strict=True) if not bad}
         return {cell for (cell, _), bad in zip(new, wrong, strict=True) if bad}
 
@@ -176,7 +176,7 @@ class Plane:
 
     def outline(self, cell: Cell) -> list[Change]:
         """Return the changes of label along the outline of a cell, anticlockwise."""
-        found = []
+        along = []
         for side, edge in enumerate(edges(cell)):
             axis, across = edge[0][0], self.coordinate(1 - edge[0][0], edge[0][1])
             changes = self._changes(*edge)
@@ -184,20 +184,20 @@ class Plane:
                 changes = [(place, after, before) for place, before, after in reversed(changes)]
             for place, before, after in changes:
                 point = (place, across) if axis == 0 else (across, place)
-                found.append(Change(point, before, after, side))
-        return found
+                along.append(Change(point, before, after, side))
+        return along
 
     def _changes(self, line: Line, start: int, end: int) -> list[tuple[float, int, int]]:
         """Return where the label changes along an edge, and from what to what, without slivers."""
-        found: list[tuple[float, int, int]] = []
+        changes: list[tuple[float, int, int]] = []
         for (low, before), (high, after) in self._brackets(line, start, end):
             place = 0.5 * (low + high)
-            if found and self._is_sliver(line, found[-1][0], place):
-                first, before, _ = found.pop()
+            if changes and self._is_sliver(line, changes[-1][0], place):
+                first, before, _ = changes.pop()
                 place = 0.5 * (first + place)
             if before != after:
-                found.append((place, before, after))
-        return found
+                changes.append((place, before, after))
+        return changes
 
     def _is_sliver(self, line: Line, low: float, high: float) -> bool:
         """Tell whether what lies between is thin, and no other line shows it."""
@@ -209,19 +209,19 @@ class Plane:
 
     def _brackets(self, line: Line, start: int, end: int) -> list[Bracket]:
         """Return the neighbours along an edge between which the label changes."""
-        places, labels = self.places[line], self.known[line]
+        places, labels = self.places[line], self.label_at[line]
         low, high = (self.coordinate(line[0], place) for place in (start, end))
         within = places[bisect_left(places, low) : bisect_right(places, high)]
         samples = [(place, labels[place]) for place in within]
         return [pair for pair in pairwise(samples) if pair[0][1] != pair[1][1]]
 
     def _keep(self, line: Line, place: float, label: int) -> None:
-        if place not in self.known[line]:
+        if place not in self.label_at[line]:
             insort(self.places[line], place)
-        self.known[line][place] = label
+        self.label_at[line][place] = label
 
-    def _told(self, x: Array, y: Array) -> Labels:
-        self.told += x.size
+    def _labels(self, x: Array, y: Array) -> Labels:
+        self.asked += x.size
         return self.tell(x, y) if x.size else np.zeros(0, dtype=np.int64)
 
     def _bisect(self, where: set[Edge]) -> None:
@@ -235,7 +235,7 @@ class Plane:
         ends, sides = pairs[:, :, 0], pairs[:, :, 1].astype(np.int64)
         while numbers.size:
             least = self.tolerance / FINER * np.maximum(1.0, abs(ends[:, 0]))
-            wide = (ends[:, 1] - ends[:, 0] > least) & (self.told < self.most)
+            wide = (ends[:, 1] - ends[:, 0] > least) & (self.asked < self.most)
             for number, places, labels in zip(
                 numbers[~wide], ends[~wide].tolist(), sides[~wide].tolist(), strict=True
             ):
@@ -244,7 +244,7 @@ class Plane:
             numbers, ends, sides = numbers[wide], ends[wide], sides[wide]
             middle = 0.5 * (ends[:, 0] + ends[:, 1])
             flat, other = along[numbers] == 0, across[numbers]
-            label = self._told(np.where(flat, middle, other), np.where(flat, other, middle))
+            label = self._labels(np.where(flat, middle, other), np.where(flat, other, middle))
             halves = [  # those with a change
                 (numbers[at], np.stack([ends_a[at], ends_b[at]], 1), np.stack([a[at], b[at]], 1))
                 for ends_a, ends_b, a, b in (

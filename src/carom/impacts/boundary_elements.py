@@ -24,6 +24,7 @@ from carom.impacts.validity import WEAK_COUPLING, judge_contact, judge_errors
 from carom.io.citations import ELEMENTS, bibtex
 from carom.io.labels import Validity, labelled_dataset
 from carom.io.progress import Progress, advancing
+from carom.old_names import with_old_keywords
 from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, counted
 
@@ -180,12 +181,13 @@ class HalfspaceImpact(ImpactResult):
         """Return what to cite for this result, as BibTeX."""
         return bibtex(*ELEMENTS)
 
-    def fields(self, time: Value) -> xr.Dataset:
+    @with_old_keywords
+    def fields(self, at: Value) -> xr.Dataset:
         """Return tractions, zones and slip velocities on the grid, at one of the stored steps.
 
         Parameters
         ----------
-        time : float or str
+        at : float or str
             Time since the first touch in s, 0 to `duration`; the nearest of some 60 stored steps is
             taken.
 
@@ -210,7 +212,7 @@ class HalfspaceImpact(ImpactResult):
         >>> bool((abs(patch.traction_y) > 0.0).any())
         True
         """
-        shot = self.solution.snapshot(self._instant(time) / self.scales.time)
+        shot = self.solution.snapshot(self._instant(at) / self.scales.time)
         step, grid = shot.step, self.solution.patch.grid
         friction, unit = self.pair.friction, self._pressure_unit
         traction = friction * unit * grid.whole_vector(step.state.traction)

@@ -111,7 +111,7 @@ def curve(
     outgoing = rebound(nonzero, rows, losses=losses)
     contact = outgoing / nonzero
     wide, border = ("chi", "psi_in"), regime_borders(chis, _restitution(losses))
-    told: dict[str, Any] = {} if losses is None else {"losses": repr(losses)}
+    attributes: dict[str, Any] = {} if losses is None else {"losses": repr(losses)}
     return labelled_dataset(
         {
             "psi_out": (wide, np.where(incoming == 0.0, 0.0, outgoing)),
@@ -128,7 +128,7 @@ def curve(
             "psi_in": incoming,
             "regime_border": ("regime_border", list(REGIMES[1:]), {}),
         },
-        {"title": "rebound curve"} | told,
+        {"title": "rebound curve"} | attributes,
     )
 
 
@@ -136,8 +136,8 @@ def _axes(chi: Any, psi: Any) -> tuple[Array, Array]:
     """Return the values along both axes, or raise InputError; also if the points are too many."""
     chis, incoming = positive_line("chi", chi), finite_line("psi", psi)
     if chis.size * incoming.size > MOST:
-        given = f"{chis.size} values of chi times {incoming.size} of psi"
-        raise refusal("psi", given, f"at most {MOST:,} points are solved at once")
+        points = f"{chis.size} values of chi times {incoming.size} of psi"
+        raise refusal("psi", points, f"at most {MOST:,} points are solved at once")
     return chis, incoming
 
 
@@ -232,9 +232,9 @@ def _borders_of(
     with advancing("finding the borders of the regimes", None, shown, unit="impacts") as advance:
 
         def tell(psis: Array, chis: Array) -> NDArray[np.int64]:
-            found = sequences.of(psis, chis)
+            labels = sequences.of(psis, chis)
             advance(psis.size)
-            return found
+            return labels
 
         with np.errstate(over="ignore", invalid="ignore"):  # where values are out of all proportion
             curves = border_curves((x, y), numbers[np.ix_(rows, columns)], tell, tolerance, more)

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Protocol, cast
 
-from carom.bodies.kinematics import Kinematics, Tangential
+from carom.bodies.kinematics import Kinematics
 from carom.bodies.losses import LossLaw
 from carom.bodies.pairs import Scales, scales_fit
 from carom.bodies.shapes import describe
@@ -109,16 +109,9 @@ def history_columns(outcome: "Outcome", n: int) -> dict[str, Any]:
 class Outcome(Kinematics):
     """How two bodies leave an impact; SI units. Every field but the bodies may be an array."""
 
-    tangential_speed: float
-    spin: float
-    spin2: float
     solution: Solved = field(repr=False)
     losses: LossLaw | None = None
     scales: Scales = field(kw_only=True, repr=False)
-
-    @property
-    def _before(self) -> Tangential:
-        return Tangential(self.tangential_speed, self.spin, self.spin2)
 
     @property
     def normal_restitution(self) -> float:

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from carom import plots
 from carom.dimensionless.states import Phase, SlipAngle
 from carom.impacts.outcome import RESULTS, InTime, Outcome, history_columns
-from carom.impacts.spectrum import Source, read_frequencies, spectrum_dataset
+from carom.impacts.spectrum import read_frequencies, spectrum_dataset
 from carom.io.labels import MARKS, Validity, labelled, phases_at
 from carom.plots.result import Result, card
 from carom.quantities.arrays import Array
@@ -185,15 +185,7 @@ class ImpactResult(Outcome, Result):
         1.804
         """
         asked = read_frequencies(frequencies, max_frequency, n, self.duration)
-        radius = self.pair.first.radius
-        source = Source(self.solution, self.scales, radius)
-        impulse = self.pair.normal_mass * self.normal_speed * (1.0 + self.normal_restitution)
-        more = {
-            "max_force": self.max_force,
-            "normal_impulse": impulse,
-            "tangential_impulse": self.tangential_impulse,
-        }
-        return spectrum_dataset(source, asked, more, self.inputs())
+        return spectrum_dataset(self, asked)
 
     def _columns(self, n: int) -> dict[str, Any]:
         return history_columns(self, n)

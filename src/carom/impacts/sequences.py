@@ -40,8 +40,8 @@ class Sequences:
         solved = np.flatnonzero(~slides).tolist()
         for place, name in zip(solved, self._solved(psi[~slides], chi[~slides]), strict=True):
             names[place] = name
-        found = [self.numbers.setdefault(name, len(self.numbers)) for name in names]
-        return np.array(found, dtype=np.int64)
+        numbers = [self.numbers.setdefault(name, len(self.numbers)) for name in names]
+        return np.array(numbers, dtype=np.int64)
 
     def _solved(self, psi: Array, chi: Array) -> list[str]:
         if self.losses is None:

@@ -88,8 +88,8 @@ def judge_losses(losses: LossNumbers, restitution: float, chi: float) -> Finding
     ratio = losses.parameter**-2.5
     off = f"off by up to {YIELDED:g}"
     studied = ratio <= FAST * (1.0 + 1e-9)
-    known = f"psi_2 is {off}" if studied else f"the error was not studied above {FAST:g}"
-    words = f"the yielded contact is modelled by springs that obey Coulomb's law; {known}"
+    error = f"psi_2 is {off}" if studied else f"the error was not studied above {FAST:g}"
+    words = f"the yielded contact is modelled by springs that obey Coulomb's law; {error}"
     return Finding("V_1/V_y", ratio, FAST, None, words)
 
 
