@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from carom.contacts.contact import Contact
 from carom.contacts.fields import radial_fields, stress_dataset, surface_fields
-from carom.old_names import with_old_keywords
+from carom.quantities.keywords import known_keywords
 from carom.quantities.units import Value, counted
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ MOST_RADII = 100_000
 class InContact(ABC):
     """A result with a contact at each time in s, or after each step of a load path."""
 
-    @with_old_keywords
+    @known_keywords
     def contact(self, at: Value | None = None) -> Contact:
         """Return the contact at an instant, from which fields and stresses are computed.
 
@@ -52,7 +52,7 @@ class InContact(ABC):
         """
         return self._contact(at)
 
-    @with_old_keywords
+    @known_keywords
     def fields(
         self,
         at: Value | None = None,
@@ -108,7 +108,7 @@ class InContact(ABC):
         """
         return surface_fields(self.contact(at), x, y, points=points)
 
-    @with_old_keywords
+    @known_keywords
     def stress(
         self,
         at: Value | None = None,
@@ -165,7 +165,7 @@ class InContact(ABC):
         self._refuse_stress()
         return stress_dataset(self.contact(at), x=x, z=z, points=points, body=body)
 
-    @with_old_keywords
+    @known_keywords
     def radial(self, at: Value | None = None, n: int = 401) -> xr.Dataset:
         """Return the pressure, the traction and the memory, g and q, along a radius.
 

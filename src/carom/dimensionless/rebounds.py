@@ -22,7 +22,7 @@ from carom.quantities.units import threads_or_none
 
 @overload
 def rebound(
-    psi: ArrayLike,
+    psi_1: ArrayLike,
     chi: ArrayLike,
     *,
     threads: int | None = ...,
@@ -33,7 +33,7 @@ def rebound(
 
 @overload
 def rebound(
-    psi: ArrayLike,
+    psi_1: ArrayLike,
     chi: ArrayLike,
     *,
     threads: int | None = ...,
@@ -44,7 +44,7 @@ def rebound(
 
 @known_keywords
 def rebound(
-    psi: ArrayLike,
+    psi_1: ArrayLike,
     chi: ArrayLike,
     *,
     threads: int | None = None,
@@ -62,11 +62,12 @@ def rebound(
 
     Parameters
     ----------
-    psi : array_like
+    psi_1 : array_like
         Dimensionless tangential velocity of the contact point before the impact,
         psi_1 = kappa V_x/(mu V_1), of any sign.
     chi : array_like
-        Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive; broadcast against `psi`.
+        Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive; broadcast against
+        `psi_1`.
     threads : int, optional
         Number of threads, by default all cores. The result does not depend on it.
     return_status : bool
@@ -98,8 +99,8 @@ def rebound(
     array([0.00384, 0.528  ])
     """
     threads, return_status = threads_or_none(threads), flag("return_status", return_status)
-    along_the_same(psi=psi, chi=chi)
-    given = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
+    along_the_same(psi_1=psi_1, chi=chi)
+    given = {"psi_1": pure_numbers("psi_1", psi_1), "chi": pure_numbers("chi", chi)}
     shape = together(given)
     flat_psi, flat_chi = (np.array(np.broadcast_to(x, shape)).ravel() for x in given.values())
     if losses is None:

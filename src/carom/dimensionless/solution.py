@@ -305,16 +305,16 @@ def solve_with(psi: float, chi: float, losses: LossNumbers) -> Solution | LossyS
 
 
 @overload
-def solve(psi: float, chi: float, *, losses: None = ...) -> Solution: ...
+def solve(psi_1: float, chi: float, *, losses: None = ...) -> Solution: ...
 
 
 @overload
-def solve(psi: float, chi: float, *, losses: ScaleFreeLaw) -> Solution | LossySolution: ...
+def solve(psi_1: float, chi: float, *, losses: ScaleFreeLaw) -> Solution | LossySolution: ...
 
 
 @known_keywords
 def solve(
-    psi: float, chi: float, *, losses: ScaleFreeLaw | None = None
+    psi_1: float, chi: float, *, losses: ScaleFreeLaw | None = None
 ) -> Solution | LossySolution:
     """Solve one oblique impact exactly, phase by phase.
 
@@ -325,7 +325,7 @@ def solve(
 
     Parameters
     ----------
-    psi : float
+    psi_1 : float
         Dimensionless tangential velocity psi_1 = kappa V_x/(mu V_1), any finite number.
     chi : float
         Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive.
@@ -353,25 +353,25 @@ def solve(
     slip       -1 until 2.4967: slip front reaches centre
     gross slip -1 until 2.9433: separation
     """
-    psi, chi = pure_number("psi", psi, ONE), pure_number("chi", chi, ONE)
+    psi_1, chi = pure_number("psi_1", psi_1, ONE), pure_number("chi", chi, ONE)
     if losses is not None:
-        return solve_with(psi, chi, scale_free(losses))
+        return solve_with(psi_1, chi, scale_free(losses))
     work, record = new_work(), new_record(True)
-    recorded = max(abs(psi), LINEAR) if psi != 0.0 else 0.0
+    recorded = max(abs(psi_1), LINEAR) if psi_1 != 0.0 else 0.0
     status = Status(run_phases(recorded, chi, TOLERANCE, work, record))
     if status in (Status.PSI_NOT_FINITE, Status.CHI_NOT_POSITIVE):
-        name, value = ("psi", psi) if status is Status.PSI_NOT_FINITE else ("chi", chi)
+        name, value = ("psi_1", psi_1) if status is Status.PSI_NOT_FINITE else ("chi", chi)
         raise refusal(name, value, f"not allowed: {status.message}")
     record = trimmed(record)
     steps = len(record.nodes)
     times, moved, changed = np.zeros(steps), np.zeros((steps + 1, 2)), np.zeros(len(record.changes))
     dense.tabulate(record.nodes, record.series, record.changes, chi, times, moved, changed)
-    mirror = -1 if np.signbit(psi) else 1
+    mirror = -1 if np.signbit(psi_1) else 1
     phases = phases_of(record.changes, changed, mirror)
     psi_out = float("nan")
     if status is Status.SOLVED:
-        psi_out = mirror * min(1.0, abs(psi) / LINEAR) * float(work.series[0, PSI])
-    return Solution(psi, chi, psi_out, status, phases, record, times, moved)
+        psi_out = mirror * min(1.0, abs(psi_1) / LINEAR) * float(work.series[0, PSI])
+    return Solution(psi_1, chi, psi_out, status, phases, record, times, moved)
 
 
 def phases_of(changes: Array, times: Array, mirror: int) -> tuple[Phase, ...]:

@@ -26,7 +26,7 @@ Bracket: TypeAlias = tuple[tuple[float, int], tuple[float, int]]  # places with 
 
 WHOLE = 64  # a cell of the grid, in smallest cells
 FINER = 8.0  # than the tolerance: what is found thinner than that between two others is left out
-MOST = 5, 2_000  # points told for each of the grid, and besides: more would not be seen on it
+MOST = 5, 2_000  # labels found for each point of the grid, and besides: no more can be seen on it
 FINEST = 3, 15_000  # the same to quarter cells
 FLAT = 3e-4  # of an axis: how far a curve may be from the straight pieces that are its picture
 SHIFT = 0.07  # of new lines, in cells of the grid
@@ -66,18 +66,10 @@ def border_curves(
 ) -> list[Border]:
     """Return the borders between the regions of points with the same label.
 
-    Parameters
-    ----------
-    axes : tuple of numpy.ndarray
-        x and y of the lines of a grid, rising.
-    labels : numpy.ndarray, shape (y, x)
-        The label of each point of the grid.
-    tell : callable
-        Returns the labels of points (x, y).
-    tolerance : float
-        Of the places of borders along lines, times the larger of 1 and the place.
-    more : float
-        How many times as many points may be told to quarter cells as those of the grid need.
+    `axes` are x and y of the lines of a grid, rising, `labels` those of its points, (y, x), and
+    `tell` returns the labels of other points. The `tolerance` of places along lines is times the
+    larger of 1 and the place. To quarter cells, `more` times as many points as the grid needs may
+    be labelled.
     """
     if min(labels.shape) < 2:
         return []

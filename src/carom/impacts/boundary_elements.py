@@ -24,7 +24,7 @@ from carom.impacts.validity import WEAK_COUPLING, judge_contact, judge_errors
 from carom.io.citations import ELEMENTS, bibtex
 from carom.io.labels import Validity, labelled_dataset
 from carom.io.progress import Progress, advancing
-from carom.old_names import with_old_keywords
+from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, counted
 
@@ -181,7 +181,7 @@ class HalfspaceImpact(ImpactResult):
         """Return what to cite for this result, as BibTeX."""
         return bibtex(*ELEMENTS)
 
-    @with_old_keywords
+    @known_keywords
     def fields(self, at: Value) -> xr.Dataset:
         """Return tractions, zones and slip velocities on the grid, at one of the stored steps.
 

@@ -67,7 +67,7 @@ def borders(chi: float) -> tuple[float, float, float]:
 
 @known_keywords
 def curve(
-    chi: float | Sequence[float], psi: ArrayLike, *, losses: ScaleFreeLaw | None = None
+    chi: float | Sequence[float], psi_1: ArrayLike, *, losses: ScaleFreeLaw | None = None
 ) -> xr.Dataset:
     """Return psi_2 and restitutions against psi_1, one row per chi, as a labelled dataset.
 
@@ -79,8 +79,8 @@ def curve(
     ----------
     chi : float or sequence of float
         Positive; one row for each.
-    psi : array_like
-        psi_1.
+    psi_1 : array_like
+        psi_1 of each column.
     losses : KelvinVoigt, optional
         What the impact loses energy to: a restitution e is given.
 
@@ -94,7 +94,7 @@ def curve(
     Raises
     ------
     InputError
-        If a chi is not positive, psi is empty, the points are more than a million, or the losses
+        If a chi is not positive, psi_1 is empty, the points are more than a million, or the losses
         depend on the speed.
 
     Examples
@@ -105,7 +105,7 @@ def curve(
     >>> carom.curve(1.44, [6.0], losses=carom.KelvinVoigt(restitution=0.9)).psi_out.values.round(4)
     array([[0.528]])
     """
-    chis, incoming = _axes(chi, psi)
+    chis, incoming = _axes(chi, psi_1)
     rows = chis[:, np.newaxis]
     nonzero = np.where(incoming == 0.0, 1e-12, incoming)
     outgoing = rebound(nonzero, rows, losses=losses)
@@ -132,12 +132,12 @@ def curve(
     )
 
 
-def _axes(chi: Any, psi: Any) -> tuple[Array, Array]:
+def _axes(chi: Any, psi_1: Any) -> tuple[Array, Array]:
     """Return the values along both axes, or raise InputError; also if the points are too many."""
-    chis, incoming = positive_line("chi", chi), finite_line("psi", psi)
+    chis, incoming = positive_line("chi", chi), finite_line("psi_1", psi_1)
     if chis.size * incoming.size > MOST:
-        points = f"{chis.size} values of chi times {incoming.size} of psi"
-        raise refusal("psi", points, f"at most {MOST:,} points are solved at once")
+        points = f"{chis.size} values of chi times {incoming.size} of psi_1"
+        raise refusal("psi_1", points, f"at most {MOST:,} points are solved at once")
     return chis, incoming
 
 
@@ -151,7 +151,11 @@ def _restitution(losses: ScaleFreeLaw | None) -> float:
 
 @known_keywords
 def regime_map(
-    psi: ArrayLike, chi: ArrayLike, *, losses: ScaleFreeLaw | None = None, progress: Progress = None
+    psi_1: ArrayLike,
+    chi: ArrayLike,
+    *,
+    losses: ScaleFreeLaw | None = None,
+    progress: Progress = None,
 ) -> xr.Dataset:
     """Return which phases follow which for every psi_1 and chi, and the borders between regimes.
 
@@ -162,7 +166,7 @@ def regime_map(
 
     Parameters
     ----------
-    psi, chi : array_like
+    psi_1, chi : array_like
         Values along either axis; chi positive.
     losses : KelvinVoigt, optional
         What the impacts lose energy to: a restitution is given.
@@ -183,7 +187,7 @@ def regime_map(
     Raises
     ------
     InputError
-        If a chi is not positive, a psi not finite, either is empty, or the points are more than a
+        If a chi is not positive, a psi_1 not finite, either is empty, or the points are more than a
         million.
 
     Examples
@@ -193,7 +197,7 @@ def regime_map(
     >>> print(found.sequence_name.values[found.sequence.values[0, 1]])
     gross slip +, stick, slip -, gross slip -
     """
-    chis, incoming = _axes(chi, psi)
+    chis, incoming = _axes(chi, psi_1)
     e = _restitution(losses)
     sequences, rows = Sequences(losses, e), []
     with advancing("computing the map of regimes", len(chis), progress, unit="rows") as advance:

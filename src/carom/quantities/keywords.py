@@ -5,6 +5,7 @@ from functools import wraps
 from inspect import Parameter, signature
 from typing import ParamSpec, TypeVar
 
+from carom.old_names import renamed
 from carom.quantities.refusals import InputError, hint
 
 Given = ParamSpec("Given")
@@ -35,10 +36,12 @@ def known_keywords(function: Callable[Given, Found]) -> Callable[Given, Found]:
 
     @wraps(function)
     def called(*args: Given.args, **kwargs: Given.kwargs) -> Found:
-        for name in kwargs:
-            if name not in known:
+        for name in list(kwargs):
+            new = renamed(name, title, known)
+            if new not in known:
                 words = hint(name, [word for word in known if word != "self"])
                 raise InputError(f"{name}: no keyword of {title}; {words}")
+            kwargs[new] = kwargs.pop(name)
         if most < len(args) <= most + len(named):
             nameless = zip(named, args[most:], strict=False)
             cure = ", ".join(f"{name}={value!r}" for name, value in nameless)
