@@ -127,7 +127,7 @@ class ImpactResult(Outcome, Result):
         >>> history.normal_force.units, history.normal_force.shape
         ('N', (5,))
         >>> history.to_dataframe().phase_kind.tolist()
-        ['gross slip', 'gross slip', 'stick', 'stick', 'gross slip']
+        ['gross slip', 'gross slip', 'slip', 'slip', 'gross slip']
         """
         columns = self._columns(counted("n", n, 2))
         columns |= phases_at(columns["time"], self.phases)
