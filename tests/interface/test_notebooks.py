@@ -140,7 +140,7 @@ def test_collisions_are_counted():
     ("shown", "text"),
     [
         (PAIR, "sphere (steel, R = 5 mm) on half-space (steel): friction 0.2, chi 1.441, "),
-        (carom.impact(PAIR, **MOTION).validity, "ok    a_max/R* = 0.0703: the contact is small"),
+        (carom.impact(PAIR, **MOTION).validity, "ok    a_max/R* = 0.0604: the contact is small"),
         (carom.results.Estimate("friction", 0.0921, 0.0914, 0.0928), "0.0921 (0.0914 to 0.0928)"),
     ],
     ids=["pair", "validity", "estimate"],
