@@ -50,7 +50,7 @@ def table(file):
     """Return the columns of a CSV file, by their names without units."""
     with file.open(encoding="utf-8", newline="") as rows:
         columns = zip(*csv.reader(rows), strict=True)
-        return {head.partition(" [")[0]: np.array(values, float) for head, *values in columns}
+        return {head.partition(" [")[0]: np.array(values) for head, *values in columns}
 
 
 def test_histories_and_pictures(visit, folder):
@@ -63,7 +63,8 @@ def test_histories_and_pictures(visit, folder):
         for column in ("time", "tangential_force", "stick_radius", "spin"):
             values = expected[column].values
             bound = tolerance * np.abs(values).max()
-            assert np.asarray(found[column]) == pytest.approx(values, rel=0.0, abs=bound), column
+            told = np.asarray(found[column], float)
+            assert told == pytest.approx(values, rel=0.0, abs=bound), column
     for picture in PICTURES:
         with Image.open(taken(seen, f"#{picture}-png", folder)) as image:
             assert image.format == "PNG"

@@ -122,8 +122,8 @@ def bodies_and_losses(calls):
 
 def rebounds(calls):
     solved, lost = carom.solve(0.5, 1.44), carom.solve(1.5, 1.44, losses=LOSSY)
-    one = {"psi": 0.5, "chi": 1.44}
-    calls.add("rebound", carom.rebound, psi=[0.5, 1.0], chi=1.44, threads=1, losses=None)
+    one = {"psi_1": 0.5, "chi": 1.44}
+    calls.add("rebound", carom.rebound, psi_1=[0.5, 1.0], chi=1.44, threads=1, losses=None)
     calls.add("rebound, status", carom.rebound, **one, return_status=True)
     calls.add("rebound, losses", carom.rebound, **one, losses=LOSSY)
     calls.add("solve", carom.solve, **one, losses=None)
@@ -136,8 +136,8 @@ def rebounds(calls):
     for name in ("traction", "slid"):
         calls.add(name, getattr(solved, name), time=1.0, radii=[0.0, 0.5])
     calls.add("slip_angles", solved.slip_angles, lateral_ratio=0.2)
-    calls.add("curve", carom.curve, chi=1.44, psi=[0.0, 1.0], losses=None)
-    calls.add("regime_map", carom.regime_map, psi=[0.5, 2.0], chi=1.44, progress=False)
+    calls.add("curve", carom.curve, chi=1.44, psi_1=[0.0, 1.0], losses=None)
+    calls.add("regime_map", carom.regime_map, psi_1=[0.5, 2.0], chi=1.44, progress=False)
 
 
 def tabulated(calls):
@@ -156,18 +156,18 @@ def tabulated(calls):
 
 
 def contact_laws(calls):
-    many, steps = {"psi": [0.5, 2.0], **AT_CHI}, {"steps": 50}
+    many, steps = {"psi_1": [0.5, 2.0], **AT_CHI}, {"steps": 50}
     for kind, given in LAWS.items():
         name = kind.__name__
         calls.add(name, kind, **given)
         calls.add(f"{name}.rebound", kind(**given).rebound, **many, **steps, threads=1)
         if kind is not dem.HardSphere:
-            calls.add(f"{name}.history", kind(**given).history, psi=0.5, **AT_CHI, **steps)
+            calls.add(f"{name}.history", kind(**given).history, psi_1=0.5, **AT_CHI, **steps)
     own = {"function": OWN.function, "name": "own"}  # a state may be anything
     own |= {"normal": "linear", "restitution": 0.9, "normal_speed": 0.1, "pair": PAIR}
     calls.add("FunctionLaw", dem.FunctionLaw, **own)
     calls.add("FunctionLaw.rebound", OWN.rebound, **many, **steps, threads=1)
-    calls.add("FunctionLaw.history", OWN.history, psi=0.5, **AT_CHI, **steps)
+    calls.add("FunctionLaw.history", OWN.history, psi_1=0.5, **AT_CHI, **steps)
     calls.add("FunctionRebound", dem.FunctionRebound, function=RULE.function, name="own")
     calls.add("FunctionRebound.rebound", RULE.rebound, **many, return_status=False)
     spring, speed = dem.LinearSpring(), {"pair": PAIR, "normal_speed": 1.0}

@@ -29,7 +29,7 @@ def test_a_text_of_pint_has_no_second_unit(unit):
 def test_arrays_along_different_dimensions(pair):
     one, other = (xr.DataArray([0.5, 1.0], dims=name) for name in "ab")
     match = "their dimensions are a and b; give arrays along the same ones"
-    refused(f"psi, chi: {match}", carom.rebound, one, other)
+    refused(f"psi_1, chi: {match}", carom.rebound, one, other)
     refused(match, carom.dem.LinearSpring().rebound, one, other)
     known = {"speed": one, "angle": other}
     refused(match, carom.convert_observables, pair, known=known, wanted="psi_in")

@@ -2,6 +2,7 @@
 
 import re
 from base64 import b64decode
+from html import unescape
 from html.parser import HTMLParser
 from io import BytesIO
 
@@ -129,6 +130,28 @@ def test_collisions_are_counted(pair):
     assert rows["collided"] == "2"
     assert rows["left alone: the bodies do not approach"] == "1"
     assert "4 collisions" in html
+
+
+@pytest.mark.parametrize(
+    ("of", "text"),
+    [
+        (
+            lambda hit: hit.pair,
+            "sphere (steel, R = 5 mm) on half-space (steel): friction 0.2, chi 1.441, ",
+        ),
+        (lambda hit: hit.validity, "ok    a_max/R* = 0.0604: the contact is small"),
+        (
+            lambda _: carom.results.Estimate("friction", 0.0921, 0.0914, 0.0928),
+            "0.0921 (0.0914 to 0.0928)",
+        ),
+    ],
+    ids=["pair", "validity", "estimate"],
+)
+def test_what_prints_as_text_is_that_text_in_notebooks_and_data_frames(hit, of, text):
+    shown = of(hit)
+    assert str(shown).startswith(text)
+    assert unescape(shown._repr_html_()) == f"<pre>{shown}</pre>"
+    assert text in pd.DataFrame({"it": [shown]}).to_string(max_colwidth=None)
 
 
 def test_cards_are_readable_on_any_ground(hit):

@@ -8,7 +8,10 @@ from importlib import import_module
 import pytest
 
 import carom
+from carom.quantities.shown import INNER
 
+BALL = carom.Sphere(radius="5 mm", material="steel")
+PAIR = carom.Pair(BALL, carom.HalfSpace("steel"), friction=0.2)
 BESIDE = {"carom": ["__version__"], "carom.plots": ["style"]}  # known to dir() alone
 STUBBED = (
     *("carom", "carom.plots", "carom.verify", "carom.dem"),
@@ -22,6 +25,24 @@ def test_dir_shows_the_public_names_and_nothing_else(package):
     module = import_module(package)
     assert sorted(dir(module)) == sorted([*module.__all__, *BESIDE.get(package, [])])
     assert all(getattr(module, name) is not None for name in dir(module))
+
+
+@pytest.mark.parametrize(
+    "thing",
+    [
+        carom.impact(PAIR, speed=2.0),
+        carom.load_path(PAIR, normal_force=1.0, tangential_force=0.0),
+        carom.KelvinVoigt(0.9),
+        carom.Grid({"angle": [0.1]}),
+        carom.dem.LinearSpring(),
+        carom.verify.Lammps(),
+    ],
+    ids=lambda thing: type(thing).__name__,
+)
+def test_completion_offers_what_users_call(thing):
+    names = [name for name in dir(thing) if not name.startswith("__")]
+    assert not [name for name in names if name.startswith("_") or name in INNER]
+    assert all(hasattr(thing, name) for name in names)
 
 
 @pytest.mark.parametrize("package", STUBBED)

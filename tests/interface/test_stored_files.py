@@ -40,7 +40,7 @@ def slip():
 
 
 def slipping():
-    return slip().history(400)
+    return slip().to_dataset()
 
 
 def contact():

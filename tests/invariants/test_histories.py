@@ -157,6 +157,19 @@ def test_without_friction_nothing_tangential_changes(steel_ball):
     assert np.allclose(h.displacement, hit.contact_velocity * h.time, rtol=1e-15, atol=0.0)
 
 
+def test_a_history_has_a_row_for_each_instant(hit):
+    """All of it is along time, with the phase of the instant, also as a data frame."""
+    history = hit.history(40)
+    assert set(history.dims) == {"time"}
+    frame = history.to_dataframe()
+    assert len(frame) == 40
+    for time, row in frame.iterrows():
+        phase = [each for each in hit.phases if each.start <= time][-1]
+        shown = row[["phase_kind", "phase_sign", "phase_start", "phase_end"]].tolist()
+        assert shown == list(phase[:4])
+    assert set(hit.to_dataset().dims) == {"time", "phase"}
+
+
 def sample_history():
     pair = Pair(Sphere(radius="5 mm", material="steel"), HalfSpace(material="glass"), 0.2)
     return carom.impact(pair, speed=2.0, angle="30 deg").history(20)

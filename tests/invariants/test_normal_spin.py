@@ -63,7 +63,7 @@ def test_fast_spin_slips_all_around():
     """M = (3 pi/16) mu P b throughout: taken are (15/16)(pi/4)(4/5) B(6/5, 1/2) lightnesses."""
     bodies = pair()
     found = hit(bodies, 3e5, angle="0 deg")
-    scaled = spin_about_normal(bodies, 1.0, 3e5)
+    scaled = spin_about_normal(bodies, found.scales, 3e5)
     taken = scaled.speed * (1.0 - found.normal_spin_out / 3e5)
     path = 0.8 * gamma(1.2) * sqrt(pi) / gamma(1.7)
     assert scaled.speed > 50.0

@@ -159,7 +159,7 @@ def impact_command(
     check_outputs({"plot": files.plot, "output": files.data, "spectrum": files.spectrum})
     if files.animation is not None:
         carom.plots.checked_animation(files.animation)
-    solver = _method(method, elements, steps)
+    solver: Any = _method(method, elements, steps)
     motion = motion_of(content) | ({} if normal_spin is None else {"normal_spin": normal_spin})
     hit = carom.impact(pair_of(content), **motion, losses=losses, method=solver)
     largest = _peaks(hit) if peaks else None

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 import carom
-from carom.cli.cases import check_outputs, named_values, store, stored, read_case_file
+from carom.cli.cases import check_outputs, named_values, read_case_file, store, stored
 from carom.cli.options import Commands, described, file_argument, file_option, whole_option
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.refusals import InputError

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.bodies.pairs import ContactScales, Pair
+from carom.bodies.pairs import ContactScales, Pair, Scales
 from carom.dimensionless.fields.profile import Profile
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution
@@ -65,14 +65,13 @@ class Contact:
 
 def contact_in_impact(
     pair: Pair,
-    normal_speed: float,
+    scales: Scales,
     drift: float,
     solution: Solution | LossySolution,
     time: float,
     attributes: Mapping[str, Any],
 ) -> Contact:
     """Return the contact at a time in s of an impact; `drift` is V_x where no friction acts."""
-    scales = pair.scales(normal_speed)
     instant = _at_change(time / scales.time, solution)
     phase = solution.phase_at(instant)
     kind, sign = ("gross slip", int(np.sign(drift))) if drift else (phase.kind, phase.sign)

@@ -105,9 +105,6 @@ class LoadPath(InContact, Result):
 
         Examples
         --------
-        >>> import carom
-        >>> ball = carom.Sphere(radius="5 mm", material="steel")
-        >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
         >>> pushed = carom.load_path(pair, normal_force="10 N", tangential_force=[0.0, 1.0])
         >>> moved = pushed.then(normal_force="10 N", displacement=0.0)
         >>> len(moved), bool(moved.tangential_force[-1] < 0.0)

@@ -170,7 +170,7 @@ def _rebound(pair: Pair, quantities: Quantities, wanted: str) -> Rebound:
     """Return the rebound, with NaN for what is not known of it and not wanted."""
     normal, before = _before(pair, quantities, wanted)
     quantities = _resolved(quantities)
-    start = Rebound(pair, normal, before, _restitution(normal, quantities), 0.0)
+    start = Rebound(pair, normal, *before, _restitution(normal, quantities), 0.0)
     if wanted in BEFORE:
         return start
     ways = _one_of("the rebound", quantities, (*IMPULSE, SPEED)) if wanted not in NORMAL else ""

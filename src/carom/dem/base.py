@@ -18,7 +18,9 @@ from carom.dem.stepping import HISTORY, PATIENCE, REMEMBERED, stepped
 from carom.dimensionless.numerics.threads import available_cores
 from carom.dimensionless.rebounds import warn_of_unsolved
 from carom.quantities.arrays import Array, along_the_same, pure_numbers, together
+from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import flag, refusal
+from carom.quantities.shown import Shown
 from carom.quantities.statuses import WordedStatus
 from carom.quantities.units import counted, finite, not_negative, positive, threads_or_none
 
@@ -101,7 +103,7 @@ def described(names: re.Match[str]) -> str:
 
 
 @dataclass(frozen=True)
-class Law(ABC):
+class Law(Shown, ABC):
     """A law of impact that stands for the exact one.
 
     In docstrings of laws a line with names of `PARAMETERS` alone stands for what is said there.
@@ -126,9 +128,10 @@ class Law(ABC):
     def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
         """Return psi_2 of impacts with one chi."""
 
+    @known_keywords
     def rebound(
         self,
-        psi: ArrayLike,
+        psi_1: ArrayLike,
         chi: ArrayLike,
         *,
         kappa: ArrayLike | None = None,
@@ -140,10 +143,10 @@ class Law(ABC):
 
         Parameters
         ----------
-        psi : array_like
+        psi_1 : array_like
             Dimensionless tangential velocity before the impact, psi_1 = kappa V_x/(mu V_1).
         chi : array_like
-            Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive; broadcast against `psi`.
+            Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive; broadcast against `psi_1`.
         kappa : array_like, optional
             Stiffness ratio G*/E*, by default that of solid spheres, 4 chi/7. It matters for laws
             with their own k_t/k_n or damping.
@@ -178,8 +181,8 @@ class Law(ABC):
         if steps is not None:
             steps = counted("steps", steps, FEWEST_STEPS, MOST_STEPS)
         threads, return_status = threads_or_none(threads), flag("return_status", return_status)
-        along_the_same(psi=psi, chi=chi, kappa=kappa)
-        inputs = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
+        along_the_same(psi_1=psi_1, chi=chi, kappa=kappa)
+        inputs = {"psi_1": pure_numbers("psi_1", psi_1), "chi": pure_numbers("chi", chi)}
         inputs["kappa"] = SOLID * inputs["chi"] if kappa is None else pure_numbers("kappa", kappa)
         shape = together(inputs)
         psis, chis, kappas = (np.broadcast_to(each, shape).ravel() for each in inputs.values())
@@ -265,14 +268,15 @@ class ContactLaw(Law):
     def _recorded(self, psi: float, chi: float, kappa: float, steps: int, record: Array) -> int:
         return self._stepped(psi, chi, kappa, steps, record)[0]
 
+    @known_keywords
     def history(
-        self, psi: float, chi: float, *, kappa: float | None = None, steps: int = 1000
+        self, psi_1: float, chi: float, *, kappa: float | None = None, steps: int = 1000
     ) -> dict[str, Array]:
         """Return the history of an impact in equal time steps, in the units of Hertz's impact.
 
         Parameters
         ----------
-        psi : float
+        psi_1 : float
             Dimensionless tangential velocity before the impact, psi_1 = kappa V_x/(mu V_1).
         chi : float
             Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive.
@@ -300,11 +304,11 @@ class ContactLaw(Law):
         0.8
         """
         counted("steps", steps, FEWEST_STEPS)
-        chi, psi = positive("chi", chi), finite("psi", psi, "1")
+        chi, psi_1 = positive("chi", chi), finite("psi_1", psi_1, "1")
         kappa = kappa_or_solid(kappa, chi)
         record = np.empty((PATIENCE * steps + 2, len(HISTORY)))
-        sign = float(np.copysign(1.0, psi)) if self.symmetric else 1.0
-        count = self._recorded(sign * psi, chi, kappa, steps, record)
+        sign = float(np.copysign(1.0, psi_1)) if self.symmetric else 1.0
+        count = self._recorded(sign * psi_1, chi, kappa, steps, record)
         if count < 0 or not np.all(np.isfinite(record[:count])):
             raise refusal("steps", steps, "the bodies do not part; take more steps")
         columns = {name: record[:count, i].copy() for i, name in enumerate(HISTORY)}

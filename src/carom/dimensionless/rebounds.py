@@ -138,7 +138,7 @@ def lossy_rebounds(
 
 @known_keywords
 def rebound(
-    psi: ArrayLike,
+    psi_1: ArrayLike,
     chi: ArrayLike,
     *,
     threads: int | None = None,
@@ -156,11 +156,12 @@ def rebound(
 
     Parameters
     ----------
-    psi : array_like
+    psi_1 : array_like
         Dimensionless tangential velocity of the contact point before the impact,
         psi_1 = kappa V_x/(mu V_1), of any sign.
     chi : array_like
-        Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive; broadcast against `psi`.
+        Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive; broadcast against
+        `psi_1`.
     threads : int, optional
         Number of threads, by default all cores. The result does not depend on it.
     return_status : bool
@@ -192,8 +193,8 @@ def rebound(
     array([0.00384, 0.528  ])
     """
     threads, return_status = threads_or_none(threads), flag("return_status", return_status)
-    along_the_same(psi=psi, chi=chi)
-    numbers = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
+    along_the_same(psi_1=psi_1, chi=chi)
+    numbers = {"psi_1": pure_numbers("psi_1", psi_1), "chi": pure_numbers("chi", chi)}
     shape = together(numbers)
     flat_psi, flat_chi = (np.array(np.broadcast_to(x, shape)).ravel() for x in numbers.values())
     if losses is None:

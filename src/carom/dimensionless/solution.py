@@ -275,16 +275,16 @@ class Solution(Trajectory):
 
 
 @overload
-def solve(psi: float, chi: float, *, losses: None = ...) -> Solution: ...
+def solve(psi_1: float, chi: float, *, losses: None = ...) -> Solution: ...
 
 
 @overload
-def solve(psi: float, chi: float, *, losses: ScaleFreeLaw) -> Solution | LossySolution: ...
+def solve(psi_1: float, chi: float, *, losses: ScaleFreeLaw) -> Solution | LossySolution: ...
 
 
 @known_keywords
 def solve(
-    psi: float, chi: float, *, losses: ScaleFreeLaw | None = None
+    psi_1: float, chi: float, *, losses: ScaleFreeLaw | None = None
 ) -> Solution | LossySolution:
     """Solve one oblique impact exactly, phase by phase.
 
@@ -295,7 +295,7 @@ def solve(
 
     Parameters
     ----------
-    psi : float
+    psi_1 : float
         Dimensionless tangential velocity psi_1 = kappa V_x/(mu V_1), any finite number.
     chi : float
         Ratio of inertia to stiffness, chi = (kappa/2)(m_n/m_t), positive.
@@ -323,8 +323,10 @@ def solve(
     slip       -1 until 2.4967: slip front reaches centre
     gross slip -1 until 2.9433: separation
     """
-    psi, chi = pure_number("psi", psi, ONE_NUMBER), pure_number("chi", chi, ONE_NUMBER)
-    return solve_elastic(psi, chi) if losses is None else solve_with(psi, chi, scale_free(losses))
+    psi_1, chi = pure_number("psi_1", psi_1, ONE_NUMBER), pure_number("chi", chi, ONE_NUMBER)
+    if losses is None:
+        return solve_elastic(psi_1, chi)
+    return solve_with(psi_1, chi, scale_free(losses))
 
 
 def solve_with(psi_1: float, chi: float, losses: LossNumbers) -> Solution | LossySolution:
@@ -351,7 +353,7 @@ def solve_elastic(psi_1: float, chi: float) -> Solution:
     steps = Steps(record.nodes, record.series, chi, np.zeros(count), np.zeros((count + 1, 2)))
     dense.tabulate(record.changes, steps, change_times)
     mirror = -1 if np.signbit(psi_1) else 1
-    phases = _phases(record.changes, change_times, mirror)
+    phases = phases_of(record.changes, change_times, mirror)
     psi_out = float("nan")
     if status is Status.SOLVED:
         psi_out = mirror * min(1.0, abs(psi_1) / LINEAR_PSI) * float(work.series[0, PSI])
@@ -360,11 +362,12 @@ def solve_elastic(psi_1: float, chi: float) -> Solution:
 
 def _refuse_unfit(psi_1: float, chi: float, status: Status) -> None:
     if status in (Status.PSI_NOT_FINITE, Status.CHI_NOT_POSITIVE):
-        name, value = ("psi", psi_1) if status is Status.PSI_NOT_FINITE else ("chi", chi)
+        name, value = ("psi_1", psi_1) if status is Status.PSI_NOT_FINITE else ("chi", chi)
         raise refusal(name, value, f"not allowed: {status.message}")
 
 
-def _phases(changes: Array, times: Array, mirror: int) -> tuple[Phase, ...]:
+def phases_of(changes: Array, times: Array, mirror: int) -> tuple[Phase, ...]:
+    """Return the phases between changes at these times; slip is as recorded, or mirrored by -1."""
     phases: list[Phase] = []
     for i in range(len(changes) - 1):
         kind = states.KIND_NAMES[Kind(int(changes[i, recorded.KIND]))]

@@ -51,7 +51,7 @@ from carom.verify.errors import losses_of
 
 SCALES = Scales(
     **dict.fromkeys(("length", "radius", "force", "pressure", "tangential_length"), 1.0),
-    **dict.fromkeys(("time", "energy", "tangential_speed"), 1.0),
+    **dict.fromkeys(("speed", "time", "energy", "tangential_speed"), 1.0),
     tangential_force=FORCE_SCALE,
 )
 TANGENTIAL = {  # energies that psi_1 and chi tell, with the looks of what they are part of
@@ -63,14 +63,10 @@ ENTRY_HEIGHT = 1.8  # mm that a law adds to the legend of the rebound curve
 
 
 class UnitBodies(NamedTuple):
-    """Bodies of which every scale is 1, and whose slip is along x alone."""
+    """Bodies whose slip is along x alone."""
 
     friction: float = 1.0
     lateral_ratio: float = 0.0
-
-    def scales(self, _: float) -> Scales:
-        """Return the scales of an impact of these bodies."""
-        return SCALES
 
 
 class NumbersImpact:
@@ -93,7 +89,7 @@ class NumbersImpact:
     def fields(self, time: float) -> xr.Dataset:
         """Return what the surface of the contact does at a time, in d_max/V_1."""
         bodies: Any = UnitBodies()
-        contact = contact_in_impact(bodies, 1.0, 0.0, self.solution, time, {})
+        contact = contact_in_impact(bodies, SCALES, 0.0, self.solution, time, {})
         return _in_theory(surface_fields(contact))
 
 

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from carom.bodies.kinematics import Tangential
 from carom.dem.base import SOLID
 from carom.dimensionless.lossy.solution import LossySolution
 from carom.dimensionless.solution import Solution, solve
@@ -119,9 +118,7 @@ def refusals(field: str) -> Iterator[None]:
 
 def _of_bodies(view: View) -> Scene:
     hit = impact_of(view)
-    pair, scales = hit.pair, hit.pair.scales(hit.normal_speed)
-    before = Tangential(hit.tangential_speed, hit.spin, hit.spin2)
-    column = history_columns(pair, hit.normal_speed, before, hit.solution, HISTORY_TIMES)
+    pair, scales, column = hit.pair, hit.scales, history_columns(hit, HISTORY_TIMES)
     seconds, unit = prefixed(hit.duration, "s")
     newtons, force_unit = prefixed(pair.friction * hit.max_force or hit.max_force, "N")
     return Scene(

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from carom.dimensionless.lossy.law import ScaleFreeLaw, scale_free
 from carom.dimensionless.rebounds import lossy_rebounds, rebound, regime_borders
-from carom.impacts.map_borders import border_variables
+from carom.impacts.border_curves import border_curves
 from carom.impacts.sequences import Sequences
 from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
@@ -31,6 +31,9 @@ REGIMES = (
     "gross slip through maximum penetration, then microslip",
     "gross slip throughout",
 )
+TOLERANCE = 1e-6  # of points of a border
+COARSE = 1e-3  # the same with losses, as such an impact takes a hundred times as long
+MORE, COARSE_MORE = 20.0, 0.5  # impacts to refine borders, to those that find them on the grid
 BORDER = {"units": "1", "long_name": "psi_in at which the regime changes"}
 
 
@@ -63,7 +66,7 @@ def borders(chi: float) -> tuple[float, float, float]:
 
 @known_keywords
 def curve(
-    chi: float | Sequence[float], psi: ArrayLike, *, losses: ScaleFreeLaw | None = None
+    chi: float | Sequence[float], psi_1: ArrayLike, *, losses: ScaleFreeLaw | None = None
 ) -> xr.Dataset:
     """Return psi_2 and restitutions against psi_1, one row per chi, as a labelled dataset.
 
@@ -75,8 +78,8 @@ def curve(
     ----------
     chi : float or sequence of float
         Positive; one row for each.
-    psi : array_like
-        psi_1.
+    psi_1 : array_like
+        psi_1 of each column.
     losses : KelvinVoigt, optional
         What the impact loses energy to: a restitution e is given.
 
@@ -90,7 +93,7 @@ def curve(
     Raises
     ------
     InputError
-        If a chi is not positive, psi is empty, the points are more than a million, or the losses
+        If a chi is not positive, psi_1 is empty, the points are more than a million, or the losses
         depend on the speed.
 
     Examples
@@ -101,13 +104,13 @@ def curve(
     >>> carom.curve(1.44, [6.0], losses=carom.KelvinVoigt(restitution=0.9)).psi_out.values.round(4)
     array([[0.528]])
     """
-    chis, incoming = _axes(chi, psi)
+    chis, incoming = _axes(chi, psi_1)
     rows = chis[:, np.newaxis]
     nonzero = np.where(incoming == 0.0, 1e-12, incoming)
     outgoing = rebound(nonzero, rows, losses=losses)
     contact = outgoing / nonzero
     wide, border = ("chi", "psi_in"), regime_borders(chis, _restitution(losses))
-    told: dict[str, Any] = {} if losses is None else {"losses": repr(losses)}
+    attributes: dict[str, Any] = {} if losses is None else {"losses": repr(losses)}
     return labelled_dataset(
         {
             "psi_out": (wide, np.where(incoming == 0.0, 0.0, outgoing)),
@@ -124,16 +127,16 @@ def curve(
             "psi_in": incoming,
             "regime_border": ("regime_border", list(REGIMES[1:]), {}),
         },
-        {"title": "rebound curve"} | told,
+        {"title": "rebound curve"} | attributes,
     )
 
 
-def _axes(chi: Any, psi: Any) -> tuple[Array, Array]:
+def _axes(chi: Any, psi_1: Any) -> tuple[Array, Array]:
     """Return the values along both axes, or raise InputError; also if the points are too many."""
-    chis, incoming = positive_line("chi", chi), finite_line("psi", psi)
+    chis, incoming = positive_line("chi", chi), finite_line("psi_1", psi_1)
     if chis.size * incoming.size > MOST:
-        given = f"{chis.size} values of chi times {incoming.size} of psi"
-        raise refusal("psi", given, f"at most {MOST:,} points are solved at once")
+        points = f"{chis.size} values of chi times {incoming.size} of psi_1"
+        raise refusal("psi_1", points, f"at most {MOST:,} points are solved at once")
     return chis, incoming
 
 
@@ -147,7 +150,11 @@ def _restitution(losses: ScaleFreeLaw | None) -> float:
 
 @known_keywords
 def regime_map(
-    psi: ArrayLike, chi: ArrayLike, *, losses: ScaleFreeLaw | None = None, progress: Progress = None
+    psi_1: ArrayLike,
+    chi: ArrayLike,
+    *,
+    losses: ScaleFreeLaw | None = None,
+    progress: Progress = None,
 ) -> xr.Dataset:
     """Return which phases follow which for every psi_1 and chi, and the borders between regimes.
 
@@ -158,7 +165,7 @@ def regime_map(
 
     Parameters
     ----------
-    psi, chi : array_like
+    psi_1, chi : array_like
         Values along either axis; chi positive.
     losses : KelvinVoigt, optional
         What the impacts lose energy to: a restitution is given.
@@ -179,7 +186,7 @@ def regime_map(
     Raises
     ------
     InputError
-        If a chi is not positive, a psi not finite, either is empty, or the points are more than a
+        If a chi is not positive, a psi_1 not finite, either is empty, or the points are more than a
         million.
 
     Examples
@@ -189,7 +196,7 @@ def regime_map(
     >>> print(found.sequence_name.values[found.sequence.values[0, 1]])
     gross slip +, stick, slip -, gross slip -
     """
-    chis, incoming = _axes(chi, psi)
+    chis, incoming = _axes(chi, psi_1)
     e = _restitution(losses)
     sequences, rows = Sequences(losses, e), []
     with advancing("computing the map of regimes", len(chis), progress, unit="rows") as advance:
@@ -210,8 +217,40 @@ def regime_map(
                 {"units": "1", "long_name": "sequence of phases, its place in sequence_name"},
             ),
             "restitution": e,
-            **border_variables(incoming, chis, met, sequences, progress),
+            **_borders_of(incoming, chis, met, sequences, progress),
         },
         {"chi": chis, "psi_in": incoming, "sequence_name": ("sequence_name", names, {})},
         {"title": "map of regimes"},
     )
+
+
+def _borders_of(
+    psi: Array, chi: Array, numbers: NDArray[np.int64], sequences: Sequences, progress: Progress
+) -> dict[str, Any]:
+    """Return the borders on a map whose sequences have these numbers, shape (chi, psi)."""
+    (x, columns), (y, rows) = (np.unique(line, return_index=True) for line in (psi, chi))
+    plain = sequences.losses is None
+    tolerance, more = (TOLERANCE, MORE) if plain else (COARSE, COARSE_MORE)
+    shown = False if callable(progress) else progress  # which counts the rows of the map
+    with advancing("finding the borders of the regimes", None, shown, unit="impacts") as advance:
+
+        def tell(psis: Array, chis: Array) -> NDArray[np.int64]:
+            labels = sequences.of(psis, chis)
+            advance(psis.size)
+            return labels
+
+        with np.errstate(over="ignore", invalid="ignore"):  # where values are out of all proportion
+            curves = border_curves((x, y), numbers[np.ix_(rows, columns)], tell, tolerance, more)
+    points = np.concatenate([np.empty((0, 2)), *(curve.points for curve in curves)])
+    names = np.array(sequences.names, dtype=np.str_)
+    left, right = np.array([curve[:2] for curve in curves], dtype=np.int64).reshape(-1, 2).T
+    belongs = np.repeat(np.arange(len(curves)), [len(curve.points) for curve in curves])
+    side = "sequence of phases on the {} of a border, in the direction of its points"
+    return {
+        "border_psi": ("border_point", points[:, 0]),
+        "border_chi": ("border_point", points[:, 1]),
+        "border_number": ("border_point", belongs.astype(np.int32)),
+        "border_left": ("border_curve", names[left], {"long_name": side.format("left")}),
+        "border_right": ("border_curve", names[right], {"long_name": side.format("right")}),
+        "border_tolerance": tolerance,
+    }

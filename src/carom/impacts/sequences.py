@@ -2,24 +2,21 @@
 
 from collections.abc import Iterable
 from functools import cached_property
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carom.dimensionless.elastic.integration import Work
-from carom.dimensionless.elastic.phases import Kind, Status, new_work, run_phases
-from carom.dimensionless.elastic.record import AT_B, AT_V, KIND, KIND_SIGN, Record, new_record
+from carom.dimensionless.elastic.phases import Status, new_work, run_phases
+from carom.dimensionless.elastic.record import AT_B, AT_V, Record, new_record
 from carom.dimensionless.lossy.law import ScaleFreeLaw
 from carom.dimensionless.numerics import hertz
 from carom.dimensionless.numerics.threads import in_blocks
 from carom.dimensionless.rebounds import LINEAR_PSI, STEP_TOLERANCE, regime_borders
-from carom.dimensionless.solution import SHORTEST_PHASE, solve
-from carom.dimensionless.states import KIND_NAMES
+from carom.dimensionless.solution import phases_of, solve
 from carom.quantities.arrays import Array
 
 SIGNS = {0: "", 1: " +", -1: " -"}
-NEAR = 1e-6  # in speed: phases that may be too short to be told
 BLOCK = 64  # impacts with losses that a thread takes at once
 
 
@@ -42,8 +39,8 @@ class Sequences:
         solved = np.flatnonzero(~slides).tolist()
         for place, name in zip(solved, self._solved(psi[~slides], chi[~slides]), strict=True):
             names[place] = name
-        found = [self.numbers.setdefault(name, len(self.numbers)) for name in names]
-        return np.array(found, dtype=np.int64)
+        numbers = [self.numbers.setdefault(name, len(self.numbers)) for name in names]
+        return np.array(numbers, dtype=np.int64)
 
     def _solved(self, psi: Array, chi: Array) -> list[str]:
         if self.losses is None:
@@ -74,22 +71,10 @@ class Sequences:
         record.counts[:] = 0
         if run_phases(max(abs(psi), LINEAR_PSI) if psi else 0.0, chi, STEP_TOLERANCE, work, record):
             return ""
-        rows = record.changes[: record.counts[2]].tolist()
-        mirror = -1 if np.signbit(psi) else 1
-        found: list[tuple[str, int]] = []
-        for row, after in pairwise(rows):
-            if abs(row[AT_V] - after[AT_V]) < NEAR and lasts(row, after) <= SHORTEST_PHASE:
-                continue
-            phase = KIND_NAMES[Kind(int(row[KIND]))], mirror * int(row[KIND_SIGN])
-            if not found or found[-1] != phase:
-                found.append(phase)
-        return in_words(found)
-
-
-def lasts(row: list[float], after: list[float]) -> float:
-    """Return how long the phase between two changes lasts."""
-    start, end = (hertz.time(change[AT_B] ** 2, change[AT_V]) for change in (row, after))
-    return end - start
+        changes = record.changes[: record.counts[2]]
+        times = np.array([hertz.time(row[AT_B] ** 2, row[AT_V]) for row in changes.tolist()])
+        phases = phases_of(changes, times, -1 if np.signbit(psi) else 1)
+        return in_words((phase.kind, phase.sign) for phase in phases)
 
 
 def in_words(phases: Iterable[tuple[str, int]]) -> str:

@@ -14,6 +14,7 @@ from carom.bodies.plausibility import doubts_of_values
 from carom.dimensionless.numerics.permutation import fractions, secrets
 from carom.quantities.arrays import Array, numbers
 from carom.quantities.refusals import InputError, one_of, refusal
+from carom.quantities.shown import Shown
 from carom.quantities.units import counted, number, without_unit
 from carom.sweeps.inputs import (
     CHOSEN,
@@ -159,7 +160,7 @@ MOST_SEED = 2**128 - 1
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Design(ABC):
+class Design(Shown, ABC):
     """What a sweep needs to know of its points: the names of their inputs, and how these vary.
 
     `choices` are what the codes of an input that has names stand for. Points are `sampled` if their

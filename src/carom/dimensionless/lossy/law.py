@@ -1,7 +1,7 @@
 """What an impact loses energy to, and what it then comes to, free of units."""
 
 from enum import IntEnum
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ from carom.dimensionless.numerics.kernels import kernel
 from carom.quantities.refusals import refusal
 
 LARGEST_CHI = 1000.0  # beyond, few impacts are solved
+Law = TypeVar("Law", bound="ScaleFreeLaw")
 LARGEST_PSI = 1e4  # that is solved: at every such chi all slides, and would beyond as well
 
 
@@ -33,6 +34,7 @@ class LossNumbers(NamedTuple):
     extra: Any = 0.0
 
 
+@runtime_checkable
 class ScaleFreeLaw(Protocol):
     """What an impact needs of a law of losses, free of units."""
 
@@ -54,18 +56,17 @@ class LossyRebounds(NamedTuple):
     status: NDArray[np.int8]
 
 
-def scale_free(losses: Any) -> LossNumbers:
+def scale_free(losses: ScaleFreeLaw) -> LossNumbers:
     """Return what is given as a law of losses in numbers, or raise InputError."""
-    return checked_law(losses, "scale_free")()  # type: ignore[no-any-return]
+    return checked_law(losses).scale_free()
 
 
-def checked_law(losses: Any, method: str) -> Any:
-    """Return a method of a law of losses, or raise InputError if this is none."""
-    called = getattr(losses, method, None)
-    if isinstance(losses, type) or not callable(called):
+def checked_law(losses: Law) -> Law:
+    """Return a law of losses, or raise InputError if this is none."""
+    if isinstance(losses, type) or not isinstance(losses, ScaleFreeLaw):
         allowed = "must be a law of losses, e.g. carom.KelvinVoigt(restitution=0.9)"
         raise refusal("losses", losses, allowed)
-    return called
+    return losses
 
 
 def named(numbers: Array, loss: int, status: Any) -> LossyRebounds:

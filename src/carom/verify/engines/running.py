@@ -20,6 +20,7 @@ import numpy as np
 
 from carom.dem.base import ContactLaw
 from carom.quantities.refusals import InputError, refusal
+from carom.quantities.shown import Shown
 from carom.quantities.units import positive
 from carom.verify.engines.arrangement import outcomes_of, read_dump
 from carom.verify.engines.experiments import Experiment, Outcomes
@@ -40,7 +41,7 @@ class EngineKilled(EngineError):
 
 
 @dataclass(frozen=True)
-class Engine(ABC):
+class Engine(Shown, ABC):
     """A DEM program that is driven by files and a command: the one at a path, else by its name.
 
     Parameters
