@@ -154,9 +154,10 @@ def regime_map(
     """Return which phases follow which for every psi_1 and chi, and the borders between regimes.
 
     Phases are those of the exact impact (Maw, Barber & Fawcett 1976). Beyond psi_1 =
-    2 chi (1 + e) - e, e = 1 without losses, the contact slips throughout. Borders are curves
-    through points that are found by bisection along lines of constant psi_1 or chi, of the given
-    values and between them. A region smaller than a cell of these lines may be missed.
+    2 chi (1 + e) - e, e = 1 without losses, the contact slips throughout. Borders are outlines of
+    an image of sequences, finer than the given values, through points that are found by bisection
+    along its lines. A region narrower than a cell of that image, of the order of a five-hundredth
+    of an axis or, with losses, a hundredth, may be missed.
 
     Parameters
     ----------
@@ -176,7 +177,9 @@ def regime_map(
         sign of slip, the commonest first; and the restitution. Borders between regimes: points
         border_psi, border_chi (border_point) in order, each on curve border_number, with an error
         of at most border_tolerance; border_left, border_right (border_curve), the sequences on
-        either side of a curve, seen along its points.
+        either side of a curve, seen along its points. Outlines of the regions: points outline_psi,
+        outline_chi (outline_point) in order, each on outline_number; outline_sequence (outline),
+        the sequence inside; outline_region, the same for a region and the holes in it.
 
     Raises
     ------

@@ -1,5 +1,6 @@
 """Legends above axes and figures, in as many columns as there is room: they cover no data."""
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from carom.plots.look import RC
 
 SPARE = 1.03  # letters on a screen are wider than their outlines
 SPACES = ("handlelength", "handletextpad", "columnspacing", "borderpad")  # of a legend
+HINTS = 1.1  # by which text can be wider on a screen than its outlines
 MARGIN = 5.0  # beside axes, for their labels, in sizes of the font
 
 
@@ -51,3 +53,32 @@ def fitting_columns(handles: list[Any], most: int, room: float, **options: Any) 
         if SPARE * (sum(wide) + beside * len(wide) + spaces) <= room:
             return columns
     return 1
+
+
+def font_size(size: str | float) -> float:
+    """Return the size of a font in points, of that of `small` text, for instance."""
+    return FontProperties(size=size).get_size_in_points()
+
+
+def text_width(text: str, size: str | float = "small") -> float:
+    """Return how wide a line of text may be, in points."""
+    family = str(RC["font.family"])
+    words = [_em_width(word, family) for word in text.split(" ")]
+    spaces = (len(words) - 1) * _em_width(" ", family)
+    return HINTS * font_size(size) * (sum(words) + spaces)
+
+
+@lru_cache(1024)
+def _em_width(word: str, family: str) -> float:
+    """Return how wide a word is in a family of fonts, in sizes of the font."""
+    ends = [TextPath((0, 0), text, size=100.0).get_extents().x1 for text in ("||", f"|{word}|")]
+    return float(ends[1] - ends[0]) / 100.0
+
+
+def wrapped(text: str, room: float) -> str:
+    """Return small text on lines that are no wider than some points."""
+    lines = [""]
+    for word in text.split(" "):
+        longer = f"{lines[-1]} {word}".strip()
+        lines = [*lines[:-1], longer] if text_width(longer) <= room else [*lines, word]
+    return "\n".join(lines)

@@ -80,6 +80,10 @@ GLOSSARY = {
     "border_psi": Quantity(r"$\psi_1$", "1", "psi_1 of the points of borders between regimes"),
     "border_chi": Quantity(r"$\chi$", "1", "chi of the points of borders between regimes"),
     "border_number": Quantity("$n$", "1", "number of the border that a point belongs to"),
+    "outline_psi": Quantity(r"$\psi_1$", "1", "psi_1 of the points of outlines of regimes"),
+    "outline_chi": Quantity(r"$\chi$", "1", "chi of the points of outlines of regimes"),
+    "outline_number": Quantity("$n$", "1", "number of the outline that a point belongs to"),
+    "outline_region": Quantity("$n$", "1", "number of the region that an outline is of"),
     "border_tolerance": Quantity(
         r"$\epsilon$", "1", "largest error of psi_1 or chi on a border, a share of it beyond 1"
     ),
