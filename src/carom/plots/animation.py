@@ -57,8 +57,6 @@ def animate(
     progress : bool or callable, optional
         Whether a bar is shown after two seconds, by default in a notebook and on a terminal; or
         what is called after every frame.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Returns
     -------

@@ -41,18 +41,6 @@ def plot_cone(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     ----------
     dataset : xarray.Dataset or result
         What `Impact.history` or `LoadPath.to_dataset` returns.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure, 86 mm wide, of one axis.
-
-    Raises
-    ------
-    InputError
-        If the dataset is another one.
 
     Examples
     --------

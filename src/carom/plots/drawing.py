@@ -1,14 +1,15 @@
 """What every function that draws shares: results or datasets as input, refusals, size and style."""
 
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager, nullcontext
 from functools import wraps
-from inspect import signature
+from inspect import cleandoc, signature
 from typing import Any, ParamSpec, TypeAlias, TypeVar
 
 import numpy as np
 
 from carom.plots import style
-from carom.plots.look import Look, quiet
+from carom.plots.look import Look, into, quiet
 from carom.quantities.refusals import InputError, hint
 
 P = ParamSpec("P")
@@ -18,6 +19,13 @@ Drawable: TypeAlias = Any  # a dataset, or the result that makes it
 Take: TypeAlias = Callable[[Any, Any], Any]  # makes a dataset of a result, at an instant
 
 LOOK = tuple(Look.__annotations__)
+LOOK_TEXT = """**look : width, font_size, style, ax
+    Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`. What
+    has one panel is drawn into `ax`, Axes of your own, if you give them."""
+FIGURE_TEXT = """matplotlib.figure.Figure
+    The figure, as wide as one column of a paper, 86 mm, or two, 178 mm."""
+REFUSED_TEXT = """InputError
+    If the dataset is another one."""
 
 
 def draws(
@@ -43,12 +51,10 @@ def draws(
         def read(given: Any, at: Any) -> Any:
             return checked_dataset(_dataset(given, take, at), f"{name} draws {what}", needed, dims)
 
-        @wraps(draw)
+        @wraps(documented(draw))
         def checked(*args: P.args, **kwargs: P.kwargs) -> T:
             given: dict[str, Any] = parameters.bind(*args, **kwargs).arguments
-            look: Any = given.pop("look", {})
-            check_look(look, name, parameters.parameters)
-            with style.style(**look), quiet():
+            with looking(given.pop("look", {}), name, parameters.parameters):
                 try:
                     if several and isinstance(given[first], list | tuple | dict):
                         pairs = _named(given[first], name)
@@ -67,12 +73,38 @@ def draws(
     return decorate
 
 
-def check_look(look: Any, name: str, known: Iterable[str]) -> None:
-    """Refuse keywords that a function which draws does not know."""
-    words = [*(word for word in known if word != "look"), *LOOK]
+@contextmanager
+def looking(look: Any, name: str, parameters: Iterable[str]) -> Iterator[None]:
+    """Let a function draw in the style that is wanted, or into a user's Axes as these are.
+
+    Keywords that it does not know are refused.
+    """
+    words = [*(word for word in parameters if word != "look"), *LOOK]
     for word in look:
         if word not in LOOK:
             raise InputError(f"{word}: no keyword of {name}; {hint(word, words)}")
+    axes = look.get("ax")
+    wanted = {word: value for word, value in look.items() if word != "ax" and value is not None}
+    if axes is not None and "width" in wanted:
+        raise InputError("width: the figure that ax belongs to has its own; leave one of both out")
+    own = nullcontext() if axes is not None and not wanted else style.style(**wanted)
+    with own, into(axes), quiet():
+        yield
+
+
+def documented(draw: Callable[P, T]) -> Callable[P, T]:
+    """Add to the docstring of a function that draws what all of them take, return and refuse."""
+    text, title, examples = cleandoc(draw.__doc__ or "").partition("\nExamples\n")
+    text, _, raises = text.partition("\nRaises\n------\n")
+    text, _, returns = text.partition("\nReturns\n-------\n")
+    sections = (
+        f"{text.rstrip()}\n{LOOK_TEXT}",
+        f"Returns\n-------\n{returns.strip() or FIGURE_TEXT}",
+        f"Raises\n------\n{raises.strip() or REFUSED_TEXT}",
+        f"{title.strip()}\n{examples}" if examples else "",
+    )
+    draw.__doc__ = "\n\n".join(sections).rstrip() + "\n"
+    return draw
 
 
 def _dataset(given: Any, take: str | Take, at: Any) -> Any:

@@ -29,8 +29,6 @@ def plot_drops(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     ----------
     dataset : xarray.Dataset or result
         What `carom.fit(...).to_dataset()` returns, of impacts of which none is oblique.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Examples
     --------

@@ -40,8 +40,6 @@ def plot_fit(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     ----------
     dataset : xarray.Dataset or result
         What `carom.fit(...)` returns, or its `to_dataset()`.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
 
     Examples
     --------
@@ -81,8 +79,6 @@ def plot_corner(samples: Drawable, **look: Unpack[Look]) -> Figure:
     ----------
     samples : xarray.Dataset
         What `carom.fit(...).posterior()` returns.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
     """
     corner = extra("corner", "a corner plot", "fit")
     names = [str(name) for name in samples.data_vars if name != "chi"]  # not beside kappa

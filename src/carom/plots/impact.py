@@ -51,18 +51,6 @@ def plot_impact(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     dataset : xarray.Dataset, result, or list or dictionary of them
         What `Impact.history` returns, or the impact itself. The keys of a dictionary name the
         impacts in the legend.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure, 178 mm wide, of four axes.
-
-    Raises
-    ------
-    InputError
-        If the dataset is another one.
 
     Examples
     --------
@@ -102,18 +90,6 @@ def plot_forces(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     dataset : xarray.Dataset, result, or list or dictionary of them
         What `Impact.history` returns, or the impact itself. The keys of a dictionary name the
         impacts in the legend.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure, 86 mm wide, of one axis.
-
-    Raises
-    ------
-    InputError
-        If the dataset is another one.
 
     Examples
     --------
@@ -136,18 +112,6 @@ def plot_radii(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     dataset : xarray.Dataset, result, or list or dictionary of them
         What `Impact.history` returns, or the impact itself. The keys of a dictionary name the
         impacts in the legend.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure, 86 mm wide, of one axis.
-
-    Raises
-    ------
-    InputError
-        If the dataset is another one.
 
     Examples
     --------

@@ -60,18 +60,6 @@ def plot_laws(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     ----------
     dataset : xarray.Dataset or result
         What `carom.verify.rank(...).to_dataset()` returns.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-
-    Raises
-    ------
-    InputError
-        If the dataset is another one.
 
     Examples
     --------
@@ -177,13 +165,6 @@ def plot_error_map(dataset: Drawable, limit: float | None = None, **look: Unpack
         What `carom.verify.error_map` returns.
     limit : float, optional
         End of the colour scale; by default the largest |error|.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
 
     Raises
     ------

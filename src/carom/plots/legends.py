@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextPath
 
-from carom.plots.look import RC
+from carom.plots.look import AXES, RC, own_figure
 
 SPARE = 1.03  # letters on a screen are wider than their outlines
 SPACES = ("handlelength", "handletextpad", "columnspacing", "borderpad")  # of a legend
@@ -25,15 +25,21 @@ def legend_above(axis: Axes, columns: int, **options: Any) -> None:
     handles = options.pop("handles", None) or axis.get_legend_handles_labels()[0]
     grid = axis.get_subplotspec()
     across = grid.get_gridspec().ncols / len(grid.colspan) if grid else 1
-    figure: Any = axis.figure
-    room = figure.get_figwidth() * 72.0 / across - MARGIN * RC["font.size"]
+    room = own_figure(axis).get_figwidth() * 72.0 / across - MARGIN * RC["font.size"]
     columns = fitting_columns(handles, columns, room, **options)
     place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (-0.02, 1.0)}
     axis.legend(handles=handles, ncols=columns, **place, **options)
 
 
 def legend_outside(figure: Figure, handles: list[Any], columns: int, **options: Any) -> None:
-    """Put a legend above all axes of a figure, in as many columns as there is room."""
+    """Put a legend above all axes of a figure, in as many columns as there is room.
+
+    Above a user's Axes, if that is what is drawn into.
+    """
+    axis = AXES.get()
+    if axis is not None:
+        legend_above(axis, columns, handles=handles, **options)
+        return
     columns = fitting_columns(handles, columns, 72.0 * figure.get_figwidth(), **options)
     figure.legend(handles=handles, loc="outside upper center", ncols=columns, **options)
 

@@ -13,7 +13,7 @@ from matplotlib.patches import Patch, PathPatch
 from carom.plots import style
 from carom.plots.drawing import Drawable, draws
 from carom.plots.legends import fitting_columns, wrapped
-from carom.plots.look import Look
+from carom.plots.look import AXES, Look
 from carom.plots.regimes import draw_borders
 from carom.plots.region_labels import SMALLEST, Label, Labels, find_labels, in_letters, signed
 from carom.plots.regions import Region, limits, regions
@@ -31,6 +31,7 @@ ENDS = "ends in {}, reversals of slip:"
 SHORT = "Colours: the last phase, and how often slip reverses. Labels:"
 EDGE: Any = {"ec": "0.2", "lw": 0.4}
 SPACING: Any = {"handlelength": 1.6, "handletextpad": 0.5, "columnspacing": 1.0}
+ABOVE = 1.1  # where the key to a user's Axes begins, above the names of borders
 UNDER = 0.8  # of the way from the middle of a label to its edge: where a leader line ends
 LISTED = 40  # sequences below a map, of those that are not marked
 TALL = 0.42  # the map, in widths of the figure
@@ -68,18 +69,6 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     ----------
     dataset : xarray.Dataset
         What `carom.regime_map` returns.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure, 178 mm wide by default.
-
-    Raises
-    ------
-    InputError
-        If the dataset is another one.
 
     Examples
     --------
@@ -136,7 +125,10 @@ def _add_key(figure: Figure, groups: list[Group], colours: dict[Group, Any]) -> 
         handle.set_label(" ")
     place: Any = {"loc": "outside upper left", "alignment": "left", "title_fontsize": "small"}
     title = wrapped(key, room)
-    figure.legend(handles=handles, ncols=columns, title=title, **place, **SPACING)
+    if AXES.get() is not None:
+        place |= {"loc": "lower left", "bbox_to_anchor": (0.0, ABOVE)}
+    where: Any = AXES.get() or figure
+    where.legend(handles=handles, ncols=columns, title=title, **place, **SPACING)
 
 
 def _label_regions(figure: Figure, axis: Axes, found: list[Region], names: list[str]) -> None:
@@ -155,6 +147,8 @@ def _label_regions(figure: Figure, axis: Axes, found: list[Region], names: list[
 
 def _set_height(figure: Figure, axis: Axes) -> None:
     """Make a figure as high as its map needs, and what is around it."""
+    if AXES.get() is not None:
+        return
     wanted, (_, height) = TALL * figure.get_figwidth(), _laid_out(figure, axis)[0]
     figure.set_figheight(figure.get_figheight() + wanted - height / 25.4)
 
@@ -182,8 +176,11 @@ def _list(figure: Figure, labels: Labels) -> None:
         counted[LISTED:] = [f"and {len(counted) - LISTED} more"] if len(counted) > LISTED else []
         parts.append(f"Not marked, {reason}: {'; '.join(counted)}" if names else "")
     text = "\n".join(wrapped(part, _room(figure)) for part in parts if part)
-    if text:
+    axis = AXES.get()
+    if text and axis is None:
         figure.supxlabel(text, x=0.01, ha="left", fontsize="small")
+    elif text and axis is not None:
+        axis.set_xlabel(f"{axis.get_xlabel()}\n{text}", fontsize="small")
 
 
 def _room(figure: Figure) -> float:

@@ -39,18 +39,6 @@ def plot_score(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     ----------
     dataset : xarray.Dataset or result
         What `carom.verify.score(...).to_dataset()` returns.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-
-    Raises
-    ------
-    InputError
-        If the dataset is another one.
 
     Examples
     --------

@@ -34,13 +34,6 @@ def plot_strength(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     ----------
     dataset : xarray.Dataset
         What `strength` returns: one panel for each of its speeds.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure, 86 mm wide with one panel and 178 mm with more.
 
     Raises
     ------

@@ -31,18 +31,6 @@ def plot_wear(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     dataset : xarray.Dataset or result
         What `Impact.wear` returns, or `carom.wear` for impacts on one spot, of which there is no
         map.
-    **look : width, font_size, style
-        Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure, 178 mm wide with a map and 86 mm without.
-
-    Raises
-    ------
-    InputError
-        If the dataset is another one.
 
     Examples
     --------
@@ -94,9 +82,7 @@ def _map(figure: Figure, axis: Axes, dataset: xr.Dataset, name: str) -> None:
     axis.set(xlabel=style.label("x", unit), ylabel=style.label("y", unit))
     reach = MARGIN * edge
     style.span(axis, np.clip(x, -reach, reach), np.clip(y, -reach, reach))
-    label = _label(name, unit_of_values)
-    bar = figure.colorbar(shading, ax=axis, label=label, pad=0.02, aspect=28)
-    bar.outline.set_linewidth(0.6)
+    figure.colorbar(shading, ax=axis, label=_label(name, unit_of_values), pad=0.02, aspect=28)
 
 
 def _label(name: str, unit: str) -> str:
