@@ -37,11 +37,6 @@ def plot_cone(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     The parts of an impact are marked by phase; arrows point on in time. A load path of two
     directions is drawn along the contact, F_y against F_x in units of mu F_z.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset or result
-        What `Impact.history` or `LoadPath.to_dataset` returns.
-
     Examples
     --------
     >>> import carom

@@ -19,6 +19,10 @@ Drawable: TypeAlias = Any  # a dataset, or the result that makes it
 Take: TypeAlias = Callable[[Any, Any], Any]  # makes a dataset of a result, at an instant
 
 LOOK = tuple(Look.__annotations__)
+SEVERAL_TEXT = (
+    "xarray.Dataset, result, or list or dictionary of them",
+    "\n    The keys of a dictionary name the impacts in the legend.",
+)
 LOOK_TEXT = """**look : width, font_size, style, ax
     Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`. What
     has one panel is drawn into `ax`, Axes of your own, if you give them."""
@@ -51,7 +55,10 @@ def draws(
         def read(given: Any, at: Any) -> Any:
             return checked_dataset(_dataset(given, take, at), f"{name} draws {what}", needed, dims)
 
-        @wraps(documented(draw))
+        kind, more = SEVERAL_TEXT if several else ("xarray.Dataset or result", "")
+        described = f"{first} : {kind}\n    {what[0].upper()}{what[1:]}.{more}"
+
+        @wraps(documented(draw, described))
         def checked(*args: P.args, **kwargs: P.kwargs) -> T:
             given: dict[str, Any] = parameters.bind(*args, **kwargs).arguments
             with looking(given.pop("look", {}), name, parameters.parameters):
@@ -92,13 +99,20 @@ def looking(look: Any, name: str, parameters: Iterable[str]) -> Iterator[None]:
         yield
 
 
-def documented(draw: Callable[P, T]) -> Callable[P, T]:
-    """Add to the docstring of a function that draws what all of them take, return and refuse."""
+def documented(draw: Callable[P, T], drawn: str = "") -> Callable[P, T]:
+    """Add to the docstring of a function that draws what all of them take, return and refuse.
+
+    `drawn` describes the first parameter, if the docstring does not.
+    """
     text, title, examples = cleandoc(draw.__doc__ or "").partition("\nExamples\n")
     text, _, raises = text.partition("\nRaises\n------\n")
     text, _, returns = text.partition("\nReturns\n-------\n")
+    text, _, parameters = text.partition("\nParameters\n----------\n")
+    described = drawn if drawn.split(" :")[0] + " :" not in parameters else ""
+    every = (described, parameters.strip(), LOOK_TEXT)
     sections = (
-        f"{text.rstrip()}\n{LOOK_TEXT}",
+        text.rstrip(),
+        "Parameters\n----------\n" + "\n".join(filter(None, every)),
         f"Returns\n-------\n{returns.strip() or FIGURE_TEXT}",
         f"Raises\n------\n{raises.strip() or REFUSED_TEXT}",
         f"{title.strip()}\n{examples}" if examples else "",

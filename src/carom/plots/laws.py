@@ -56,11 +56,6 @@ def plot_laws(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     A row holds up to five different rebounds on the left and, in the same colours, their largest
     errors as bars on the right; the dark part is the root mean square.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset or result
-        What `carom.verify.rank(...).to_dataset()` returns.
-
     Examples
     --------
     >>> import carom
@@ -161,8 +156,6 @@ def plot_error_map(dataset: Drawable, limit: float | None = None, **look: Unpack
 
     Parameters
     ----------
-    dataset : xarray.Dataset
-        What `carom.verify.error_map` returns.
     limit : float, optional
         End of the colour scale; by default the largest |error|.
 

@@ -43,8 +43,6 @@ def plot_patch(
 
     Parameters
     ----------
-    dataset : xarray.Dataset or result
-        Fields on a grid of x and y.
     variable : str
         What the shading tells: "traction_x" or "pressure".
     at : float or str, optional

@@ -32,8 +32,6 @@ def plot_profiles(dataset: Drawable, *, at: Any = None, **look: Unpack[Look]) ->
 
     Parameters
     ----------
-    dataset : xarray.Dataset or result
-        Fields on a grid or at points of the line y = 0, or a contact's radial profile.
     at : float or str, optional
         Of a result: the time in s of an impact, by default that of the largest normal force, or the
         step of a load path, by default the last.

@@ -65,11 +65,6 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     that is explained below the map. Regions narrower than 0.2 mm are listed there. A dataset
     without outlines, of an older version or of a single chi, is drawn by its points.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        What `carom.regime_map` returns.
-
     Examples
     --------
     >>> import carom

@@ -40,11 +40,6 @@ def plot_curve(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     Of a single chi the regimes are bands, told by how the impact begins; of several, marks on the
     lines are the borders.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        What `carom.curve` returns.
-
     Examples
     --------
     >>> import carom

@@ -35,11 +35,6 @@ def plot_score(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     their errors against time, the phases of the exact impact as bands. The legend names code and
     law, if the dataset tells them, and the largest error of each.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset or result
-        What `carom.verify.score(...).to_dataset()` returns.
-
     Examples
     --------
     >>> import carom

@@ -35,11 +35,6 @@ def plot_spectrum(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     line at the first minimum of the normal force. The frequency zero is left out. The spectrum of
     the moment has the shape of that of the tangential force.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset or result
-        What `Impact.spectrum` returns.
-
     Raises
     ------
     InputError

@@ -30,11 +30,6 @@ SPEEDS = tuple(f"{name}_{body}" for name in TITLES for body in ("first", "second
 def plot_strength(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw the speeds from which on bodies yield or crack: lines, or maps of many frictions.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        What `strength` returns: one panel for each of its speeds.
-
     Raises
     ------
     InputError

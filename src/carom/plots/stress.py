@@ -32,8 +32,6 @@ def plot_stress(
 
     Parameters
     ----------
-    dataset : xarray.Dataset or result
-        Stresses on a grid of z and x.
     variable : str
         Which stress, e.g. "von_mises", "max_shear", "principal_1", "sigma_xx".
     at : float or str, optional

@@ -26,11 +26,7 @@ WORK, DEPTH = "friction_work", "wear_depth"
 def plot_wear(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw the depth of wear, or else the work of friction per area, around and over the contact.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset or result
-        What `Impact.wear` returns, or `carom.wear` for impacts on one spot, of which there is no
-        map.
+    Of impacts on one spot, what `carom.wear` returns, there is no map.
 
     Examples
     --------
