@@ -57,8 +57,11 @@ def words(figure):
 
 @pytest.mark.parametrize("width", WIDTHS)
 @pytest.mark.parametrize("name", NAMES)
-def test_every_sequence_is_named(maps, name, width):
-    """In a label or below the map, those that only borders know too; and numbers are explained."""
+def test_every_sequence_is_named_by_text_that_is_clear_of_other_text(maps, name, width):
+    """In a label or below the map, those that only outlines know too; and numbers are explained.
+
+    Labels, names of borders, the legend and what is below are neither cut off nor overlapping.
+    """
     given = maps[name]
     figure = plot_regime_map(given, width=width)
     labels = {text.get_text().translate(SPACES) for text in figure.axes[0].texts}
@@ -71,13 +74,6 @@ def test_every_sequence_is_named(maps, name, width):
     assert numbers == list(range(1, len(numbers) + 1))
     for number in numbers:
         assert f"{number} = " in below
-
-
-@pytest.mark.parametrize("width", WIDTHS)
-@pytest.mark.parametrize("name", NAMES)
-def test_text_is_neither_cut_off_nor_overlapping(maps, name, width):
-    """Labels, names of borders, the legend, what is below."""
-    figure = plot_regime_map(maps[name], width=width)
     FigureCanvasAgg(figure).draw()
     page = figure.bbox
     boxes = [(text.get_text(), text.get_window_extent()) for text in seen(figure)]

@@ -35,7 +35,7 @@ SHARE = 0.49  # of the way to the next line: halfway, where values may be specia
 class Fineness(NamedTuple):
     """How fine borders are: lines of the image, those with points, the error of these.
 
-    Pieces of the image with fewer points than `smallest` are left out: beads of narrow strips.
+    Pieces of regions with fewer points than `smallest` are left out: beads of narrow strips.
     """
 
     columns: int
@@ -45,7 +45,7 @@ class Fineness(NamedTuple):
     tolerance: float
 
 
-ELASTIC = Fineness(480, 320, 24, 4, 1e-6)
+ELASTIC = Fineness(480, 240, 24, 4, 1e-6)
 LOSSY = Fineness(100, 60, 12, 4, 1e-3)  # such an impact takes a hundred times as long
 
 
@@ -134,13 +134,15 @@ def refined(
 
 
 def without_specks(labels: Labels, smallest: int) -> Labels:
-    """Return labels with those of the next larger piece where pieces have too few points."""
+    """Return labels with those of what is around them where pieces of a region have few points.
+
+    The largest piece of each region stays.
+    """
     specks = np.zeros(labels.shape, dtype=np.bool_)
     for each in np.unique(labels):
         pieces, _ = label(labels == each, np.ones((3, 3)))
-        specks |= (pieces > 0) & (np.bincount(pieces.ravel())[pieces] < smallest)
-    if specks.all():
-        return labels
+        sizes = np.bincount(pieces.ravel())
+        specks |= (pieces > 0) & (sizes[pieces] < min(smallest, sizes[1:].max()))
     rows, columns = distance_transform_edt(specks, return_distances=False, return_indices=True)
     return np.asarray(labels[rows, columns])
 

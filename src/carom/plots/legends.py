@@ -47,11 +47,8 @@ def legend_outside(figure: Figure, handles: list[Any], columns: int, **options: 
 def fitting_columns(handles: list[Any], most: int, room: float, **options: Any) -> int:
     """Return how many columns of a legend fit into a width in points."""
     settings = {n: options.get(n, RC[f"legend.{n}"]) for n in SPACES}
-    size = FontProperties(size=options.get("fontsize", RC["legend.fontsize"]))
-    em = size.get_size_in_points()
-    widths = [
-        TextPath((0, 0), h.get_label() or " ", prop=size).get_extents().width for h in handles
-    ]
+    em = font_size(options.get("fontsize", RC["legend.fontsize"]))
+    widths = [TextPath((0, 0), h.get_label() or " ", size=em).get_extents().width for h in handles]
     beside = em * (settings["handlelength"] + settings["handletextpad"])
     for columns in range(min(most, len(handles)), 1, -1):
         wide = [part.max() for part in np.array_split(widths, columns)]

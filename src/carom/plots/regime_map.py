@@ -16,7 +16,7 @@ from carom.plots.legends import fitting_columns, wrapped
 from carom.plots.look import AXES, Look
 from carom.plots.regimes import draw_borders
 from carom.plots.region_labels import SMALLEST, Label, Labels, find_labels, in_letters, signed
-from carom.plots.regions import Region, limits, regions
+from carom.plots.regions import Region, area, limits, regions
 from carom.quantities.arrays import Array
 
 HUES = {"gross slip +": "Oranges", "gross slip -": "Blues"}
@@ -33,6 +33,7 @@ EDGE: Any = {"ec": "0.2", "lw": 0.4}
 SPACING: Any = {"handlelength": 1.6, "handletextpad": 0.5, "columnspacing": 1.0}
 ABOVE = 1.1  # where the key to a user's Axes begins, above the names of borders
 UNDER = 0.8  # of the way from the middle of a label to its edge: where a leader line ends
+UNSEEN = 1e-6  # of the area of the largest region: colours that the key leaves out
 LISTED = 40  # sequences below a map, of those that are not marked
 TALL = 0.42  # the map, in widths of the figure
 MARGIN = 11.0  # of text beside a figure's edges, in points
@@ -82,7 +83,9 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     axis.set(xlim=limits(dataset, "psi_in"), ylim=limits(dataset, "chi"))
     axis.set(xlabel=style.label("psi_in"), ylabel=style.label("chi"))
     draw_borders(axis, float(dataset.get("restitution", 1.0)))
-    _add_key(figure, sorted({group_of(region.name) for region in found if region.name}), colours)
+    least = UNSEEN * area(found[0].rings[0])
+    shown = {group_of(one.name) for one in found if one.name and area(one.rings[0]) > least}
+    _add_key(figure, sorted(shown), colours)
     _label_regions(figure, axis, found, dataset["sequence_name"].values.tolist())
     return figure
 
