@@ -9,7 +9,8 @@ from itertools import groupby
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt, label, maximum_filter, minimum_filter
+from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt, label
 
 from carom.impacts.sequences import Sequences
 from carom.io.progress import Progress, advancing
@@ -28,25 +29,24 @@ from carom.quantities.arrays import Array
 
 Tell: TypeAlias = Callable[[Array, Array], Labels]
 
-FINER = 4.0  # than the tolerance: brackets of borders, which may be slanted
 SHARE = 0.49  # of the way to the next line: halfway, where values may be special
 
 
 class Fineness(NamedTuple):
-    """How fine borders are: lines of the image, those with points, the error of these.
+    """How many lines an image has along psi_1 and chi at least, and the error of its borders.
 
-    Pieces of regions with fewer points than `smallest` are left out: beads of narrow strips.
+    Where regions meet, lines are as close as `closest`, a share of an axis. Pieces of regions with
+    fewer points than `smallest` are left out: beads of narrow strips.
     """
 
-    columns: int
-    rows: int
+    lines: tuple[int, int]
+    closest: float
     smallest: int
-    every: int
     tolerance: float
 
 
-ELASTIC = Fineness(480, 240, 24, 4, 1e-6)
-LOSSY = Fineness(100, 60, 12, 4, 1e-3)  # such an impact takes a hundred times as long
+ELASTIC = Fineness((48, 30), 5e-4, 24, 1e-6)
+LOSSY = Fineness((40, 30), 2e-3, 12, 1e-3)  # such an impact takes a hundred times as long
 
 
 def border_variables(
@@ -67,8 +67,9 @@ def border_variables(
                 return sequences.of(psis, chis)
 
             with np.errstate(over="ignore", invalid="ignore"):  # values out of all proportion
-                x, y, labels = refined(x, y, numbers[np.ix_(rows, columns)], tell, fineness)
-                rings += outlines(labels, *bisected(lattice(x, y), labels, tell, fineness))
+                image = Image(x, y, numbers[np.ix_(rows, columns)], tell)
+                image.refine(fineness)
+                rings += outlines(image.labels, *bisected(image, fineness))
     names = np.array(sequences.names, dtype=np.str_)
     borders = [border for ring in rings for border in _borders(ring)]
     sides = np.array([border[:2] for border in borders], dtype=np.int64).reshape(-1, 2)
@@ -109,28 +110,69 @@ def _borders(ring: Ring) -> Iterator[tuple[int, int, Array]]:
             yield ring.label, beyond, ring.points[turned[first : last + 1]]
 
 
-def refined(
-    x: Array, y: Array, labels: Labels, tell: Tell, fineness: Fineness
-) -> tuple[Array, Array, Labels]:
-    """Return a finer image than a map; of its new points those are solved that are near borders.
+class Image:
+    """Labels at columns x and rows y, some of which are whole: solved wherever labels differ.
 
-    The others have the label that is all around them.
+    Elsewhere those points are solved that are around meetings of three regions. The others have
+    the label of the point before them.
     """
-    lines, solved = [x, y], np.ones(labels.shape, dtype=np.bool_)
-    while lines[0].size < fineness.columns or lines[1].size < fineness.rows:
-        for k in (k for k in (0, 1) if lines[k].size < fineness[k]):
-            old, new = np.divmod(np.arange(2 * lines[k].size - 1), 2)
-            lines[k] = np.interp(old + SHARE * new, np.arange(lines[k].size), lines[k])
-            labels, solved = labels.take(old, 1 - k), solved.take(old, 1 - k)
-            np.moveaxis(solved, 1 - k, 0)[1::2] = False
+
+    def __init__(self, x: Array, y: Array, labels: Labels, tell: Tell) -> None:
+        self.lines, self.labels, self.tell = [x, y], labels, tell
+        self.solved = np.ones(labels.shape, dtype=np.bool_)
+        self.whole = [np.ones(line.size, dtype=np.bool_) for line in self.lines]
+
+    def refine(self, fineness: Fineness) -> None:
+        """Insert lines everywhere until there are enough, then more where three regions meet."""
+        whole, least = True, [fineness.closest * np.ptp(line) for line in self.lines]
         while True:
-            mixed = maximum_filter(labels, 3) != minimum_filter(labels, 3)
-            row, column = np.nonzero(mixed & ~solved)
+            if whole:
+                fill = [np.array(self.lines[k].size < fineness.lines[k]) for k in (0, 1)]
+                whole = any(fill)
+            if not whole:
+                meeting = changes(self.labels)[1::2, 1::2] > 2
+                fill = [meeting.any(axis=k) & (np.diff(self.lines[k]) > least[k]) for k in (0, 1)]
+            for k in (0, 1):
+                new = self.lines[k][:-1] + SHARE * np.diff(self.lines[k])
+                self.insert(k, new[np.broadcast_to(fill[k], new.shape)], whole)
+            if not any(part.any() for part in fill):
+                break
+            self.solve()
+
+    def insert(self, k: int, places: Array, whole: bool) -> None:
+        """Insert columns or rows with the labels of those before them."""
+        at = np.searchsorted(self.lines[k], places)
+        self.lines[k] = np.insert(self.lines[k], at, places)
+        self.labels = np.insert(self.labels, at, self.labels.take(at - 1, 1 - k), 1 - k)
+        self.solved = np.insert(self.solved, at, False, 1 - k)
+        self.whole[k] = np.insert(self.whole[k], at, whole)
+
+    def kept(self) -> tuple[Labels, NDArray[np.bool_]]:
+        """Return on how many edges labels change, and what of it outlines keep.
+
+        They keep what is on whole lines, and all around where three regions meet.
+        """
+        count = changes(self.labels)
+        kept = np.zeros(count.shape, dtype=np.bool_)
+        for i, j in np.ndindex(3, 3):
+            kept[i : i - 2 or None : 2, j : j - 2 or None : 2] |= count[1::2, 1::2] > 2
+        kept[::2][self.whole[1]] = kept[:, ::2][:, self.whole[0]] = True
+        return count, kept
+
+    def solve(self) -> None:
+        """Solve points until all are that borders lie between where outlines keep these."""
+        while True:
+            count, kept = self.kept()
+            edges = kept & (count > 0)
+            ends = np.zeros_like(self.solved)
+            for part, edge in ((ends, edges[::2, 1::2]), (ends.T, edges[1::2, ::2].T)):
+                part[:, :-1] |= edge
+                part[:, 1:] |= edge
+            row, column = np.nonzero(ends & ~self.solved)
             if not row.size:
                 break
-            labels[row, column] = tell(lines[0][column], lines[1][row])
-            solved[row, column] = True
-    return lines[0], lines[1], without_specks(labels, fineness.smallest)
+            self.labels[row, column] = self.tell(self.lines[0][column], self.lines[1][row])
+            self.solved[row, column] = True
 
 
 def without_specks(labels: Labels, smallest: int) -> Labels:
@@ -147,27 +189,27 @@ def without_specks(labels: Labels, smallest: int) -> Labels:
     return np.asarray(labels[rows, columns])
 
 
-def bisected(places: Array, labels: Labels, tell: Tell, fineness: Fineness) -> tuple[Array, Labels]:
-    """Return a lattice with the places of borders on some lines and all around junctions.
+def bisected(image: Image, fineness: Fineness) -> tuple[Array, Labels]:
+    """Return a lattice with the places of borders on whole lines and all around meetings.
 
     Also which of its places these are, for `outlines`.
     """
-    count, step = changes(labels), 2 * fineness.every
-    kept = maximum_filter(count > 2, 3).astype(np.int64)
-    kept[::step] = kept[:, ::step] = kept[-1] = kept[:, -1] = KEPT
+    image.labels = labels = without_specks(image.labels, fineness.smallest)
+    places, (count, known) = lattice(*image.lines), image.kept()
+    kept = known.astype(np.int64)
     row, column = np.nonzero((kept == KEPT) & (count == 1))
     low, high = (
         places[row - row % 2, column - column % 2],
         places[row + row % 2, column + column % 2],
     )
     before, after = labels[row // 2, column // 2], labels[(row + 1) // 2, (column + 1) // 2]
-    other, least = after.copy(), fineness.tolerance / FINER
+    other, least = after.copy(), fineness.tolerance
     while True:
         wide = np.any(high - low > least * np.maximum(1.0, np.abs(low)), axis=1)
         if not wide.any():
             break
         middle = 0.5 * (low[wide] + high[wide])
-        met = tell(*middle.T)
+        met = image.tell(*middle.T)
         same = met == before[wide]
         low[wide] = np.where(same[:, np.newaxis], middle, low[wide])
         high[wide] = np.where(same[:, np.newaxis], high[wide], middle)

@@ -1,7 +1,7 @@
 """Which phases an impact goes through, as one line of words, and a number for each such line."""
 
 from collections.abc import Callable, Iterable
-from functools import partial
+from functools import lru_cache, partial
 from itertools import groupby, pairwise
 
 import numpy as np
@@ -52,7 +52,7 @@ class Sequences:
             name = _elastic() if self.losses is None else partial(_lossy, self.losses)
             names[part] = map(name, psi[part].tolist(), chi[part].tolist())
 
-        in_blocks(block, psi.size, BLOCK, 1, None)
+        in_blocks(block, psi.size, BLOCK, BLOCK if self.losses is None else 1, None)
         return names
 
 
@@ -74,13 +74,18 @@ def _elastic() -> Callable[[float, float], str]:
         rows = record.changes[: record.counts[2]].tolist()
         mirror = -1 if np.signbit(psi) else 1
         phases = [
-            (KIND_NAMES[Kind(int(row[KIND]))], mirror * int(row[KIND_SIGN]))
+            (int(row[KIND]), mirror * int(row[KIND_SIGN]))
             for row, after in pairwise(rows)
             if abs(row[AT_V] - after[AT_V]) >= NEAR or lasts(row, after) > SHORTEST
         ]
-        return in_words(phase for phase, _ in groupby(phases))
+        return _elastic_words(tuple(phase for phase, _ in groupby(phases)))
 
     return name
+
+
+@lru_cache(1024)
+def _elastic_words(phases: tuple[tuple[int, int], ...]) -> str:
+    return in_words((KIND_NAMES[Kind(kind)], sign) for kind, sign in phases)
 
 
 def lasts(row: list[float], after: list[float]) -> float:
