@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import carom
-from carom.impacts.map_borders import ELASTIC, bisected, refined
+from carom.impacts.map_borders import ELASTIC, Image, bisected
 from carom.plots.outlines import lattice, outlines
 from carom.plots.regions import area, limits, regions
 
-PSI, CHI = np.linspace(0.02, 4.02, 81), np.linspace(0.103, 5.003, 50)
+PSI, CHI = np.linspace(0.02, 6.02, 61), np.linspace(0.103, 5.003, 50)
 
 
 @pytest.fixture(scope="module")
@@ -192,24 +192,32 @@ def test_with_losses_sliding_begins_at_2_chi_1_plus_e_less_e():
         assert np.abs(psi - (start + slope * chi)).max() <= slope * tolerance * psi.max()
 
 
-def test_discs_and_strips_are_found_whole():
-    """A disc, a strip narrower than a cell that a point has met, and sides that are straight."""
+@pytest.mark.parametrize("above", [3, 0])
+def test_discs_and_strips_are_found_whole(above):
+    """A disc, a strip narrower than a cell that a point has met, and sides that are straight.
+
+    A strip between two regions is followed to its end; one inside a region is if lines of the image
+    are closer than it is wide.
+    """
 
     def tell(x, y):
-        disc = np.hypot(x - 3.0, y - 2.0) < 1.5
-        strip = np.abs(y - 0.4 * x - 2.9) < 0.02
-        return np.where(disc, 1, np.where(strip, 2, 0)).astype(np.int64)
+        disc, height = np.hypot(x - 3.0, y - 2.0) < 1.5, y - 0.4 * x - 2.9
+        beside = np.where(height > 0.0, above, 0)
+        return np.where(disc, 1, np.where(np.abs(height) < 0.02, 2, beside)).astype(np.int64)
 
     x, y = np.linspace(0.0, 6.0, 16), np.linspace(0.0, 6.0, 17)
     labels = tell(*np.meshgrid(x, y))
     assert 0 < np.sum(labels == 2) < 6
-    x, y, labels = refined(x, y, labels, tell, ELASTIC)
-    rings = [*outlines(labels, *bisected(lattice(x, y), labels, tell, ELASTIC))]
+    fineness = ELASTIC if above else ELASTIC._replace(lines=(240, 240))
+    image = Image(x, y, labels, tell)
+    image.refine(fineness)
+    rings = [*outlines(image.labels, *bisected(image, fineness.tolerance))]
     (ring,) = [ring for ring in rings if ring.label == 1]
     disc = ring.points
     assert np.abs(np.hypot(*(disc[ring.beyond >= 0] - (3.0, 2.0)).T) - 1.5).max() < 1e-6
     assert area(disc) == pytest.approx(np.pi * 1.5**2, rel=2e-3)
-    (strip,) = [ring.points[ring.beyond == 0] for ring in rings if ring.label == 2]
+    (ring,) = [ring for ring in rings if ring.label == 2]
+    strip = ring.points[ring.beyond >= 0]
     assert np.abs(np.abs(strip[:, 1] - 0.4 * strip[:, 0] - 2.9) - 0.02).max() < 1e-6
     assert np.ptp(strip[:, 0]) > 5.9
 

@@ -9,7 +9,6 @@ from itertools import groupby
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt, label
 
 from carom.impacts.sequences import Sequences
@@ -29,7 +28,9 @@ from carom.quantities.arrays import Array
 
 Tell: TypeAlias = Callable[[Array, Array], Labels]
 
+FINER = 2.0  # than the tolerance: brackets of borders, which may be slanted
 SHARE = 0.49  # of the way to the next line: halfway, where values may be special
+ENOUGH = 40  # lines on which borders are found
 
 
 class Fineness(NamedTuple):
@@ -45,8 +46,8 @@ class Fineness(NamedTuple):
     tolerance: float
 
 
-ELASTIC = Fineness((48, 30), 5e-4, 24, 1e-6)
-LOSSY = Fineness((40, 30), 2e-3, 12, 1e-3)  # such an impact takes a hundred times as long
+ELASTIC = Fineness((48, 30), 1e-3, 24, 1e-6)
+LOSSY = Fineness((30, 20), 1e-3, 12, 1e-3)  # such an impact takes a hundred times as long
 
 
 def border_variables(
@@ -69,7 +70,7 @@ def border_variables(
             with np.errstate(over="ignore", invalid="ignore"):  # values out of all proportion
                 image = Image(x, y, numbers[np.ix_(rows, columns)], tell)
                 image.refine(fineness)
-                rings += outlines(image.labels, *bisected(image, fineness))
+                rings += outlines(image.labels, *bisected(image, fineness.tolerance))
     names = np.array(sequences.names, dtype=np.str_)
     borders = [border for ring in rings for border in _borders(ring)]
     sides = np.array([border[:2] for border in borders], dtype=np.int64).reshape(-1, 2)
@@ -120,24 +121,26 @@ class Image:
     def __init__(self, x: Array, y: Array, labels: Labels, tell: Tell) -> None:
         self.lines, self.labels, self.tell = [x, y], labels, tell
         self.solved = np.ones(labels.shape, dtype=np.bool_)
-        self.whole = [np.ones(line.size, dtype=np.bool_) for line in self.lines]
+        self.whole = [np.arange(n) % max(1, n // ENOUGH) == 0 for n in (x.size, y.size)]
 
     def refine(self, fineness: Fineness) -> None:
         """Insert lines everywhere until there are enough, then more where three regions meet."""
-        whole, least = True, [fineness.closest * np.ptp(line) for line in self.lines]
+        least = [fineness.closest * np.ptp(line) for line in self.lines]
         while True:
-            if whole:
-                fill = [np.array(self.lines[k].size < fineness.lines[k]) for k in (0, 1)]
-                whole = any(fill)
-            if not whole:
-                meeting = changes(self.labels)[1::2, 1::2] > 2
-                fill = [meeting.any(axis=k) & (np.diff(self.lines[k]) > least[k]) for k in (0, 1)]
-            for k in (0, 1):
-                new = self.lines[k][:-1] + SHARE * np.diff(self.lines[k])
-                self.insert(k, new[np.broadcast_to(fill[k], new.shape)], whole)
+            gaps, meeting = [np.diff(line) for line in self.lines], changes(self.labels) > 2
+            few = [self.lines[k].size < fineness.lines[k] for k in (0, 1)]
+            fill = [np.full(gaps[k].size, few[k]) for k in (0, 1)]
+            if not any(few):
+                fill = [meeting[1::2, 1::2].any(axis=k) & (gaps[k] > least[k]) for k in (0, 1)]
             if not any(part.any() for part in fill):
                 break
+            for k in (0, 1):
+                new = self.lines[k][:-1] + SHARE * gaps[k]
+                self.insert(k, new[fill[k]], whole=any(few))
             self.solve()
+        labels = without_specks(self.labels, fineness.smallest)
+        self.solved &= labels == self.labels
+        self.labels = labels
 
     def insert(self, k: int, places: Array, whole: bool) -> None:
         """Insert columns or rows with the labels of those before them."""
@@ -147,23 +150,20 @@ class Image:
         self.solved = np.insert(self.solved, at, False, 1 - k)
         self.whole[k] = np.insert(self.whole[k], at, whole)
 
-    def kept(self) -> tuple[Labels, NDArray[np.bool_]]:
-        """Return on how many edges labels change, and what of it outlines keep.
-
-        They keep what is on whole lines, and all around where three regions meet.
-        """
+    def kept(self) -> tuple[Labels, Labels]:
+        """Return on how many edges labels change, and which of it outlines keep."""
         count = changes(self.labels)
-        kept = np.zeros(count.shape, dtype=np.bool_)
+        kept = np.zeros_like(count)
         for i, j in np.ndindex(3, 3):
-            kept[i : i - 2 or None : 2, j : j - 2 or None : 2] |= count[1::2, 1::2] > 2
-        kept[::2][self.whole[1]] = kept[:, ::2][:, self.whole[0]] = True
+            kept[i : i - 2 or None : 2, j : j - 2 or None : 2][count[1::2, 1::2] > 2] = KEPT
+        kept[::2][self.whole[1]] = kept[:, ::2][:, self.whole[0]] = KEPT
         return count, kept
 
     def solve(self) -> None:
         """Solve points until all are that borders lie between where outlines keep these."""
         while True:
             count, kept = self.kept()
-            edges = kept & (count > 0)
+            edges = (kept > 0) & (count > 0)
             ends = np.zeros_like(self.solved)
             for part, edge in ((ends, edges[::2, 1::2]), (ends.T, edges[1::2, ::2].T)):
                 part[:, :-1] |= edge
@@ -189,21 +189,19 @@ def without_specks(labels: Labels, smallest: int) -> Labels:
     return np.asarray(labels[rows, columns])
 
 
-def bisected(image: Image, fineness: Fineness) -> tuple[Array, Labels]:
+def bisected(image: Image, tolerance: float) -> tuple[Array, Labels]:
     """Return a lattice with the places of borders on whole lines and all around meetings.
 
     Also which of its places these are, for `outlines`.
     """
-    image.labels = labels = without_specks(image.labels, fineness.smallest)
-    places, (count, known) = lattice(*image.lines), image.kept()
-    kept = known.astype(np.int64)
+    labels, places, (count, kept) = image.labels, lattice(*image.lines), image.kept()
     row, column = np.nonzero((kept == KEPT) & (count == 1))
     low, high = (
         places[row - row % 2, column - column % 2],
         places[row + row % 2, column + column % 2],
     )
     before, after = labels[row // 2, column // 2], labels[(row + 1) // 2, (column + 1) // 2]
-    other, least = after.copy(), fineness.tolerance
+    other, least = after.copy(), tolerance / FINER
     while True:
         wide = np.any(high - low > least * np.maximum(1.0, np.abs(low)), axis=1)
         if not wide.any():
@@ -215,5 +213,6 @@ def bisected(image: Image, fineness: Fineness) -> tuple[Array, Labels]:
         high[wide] = np.where(same[:, np.newaxis], high[wide], middle)
         other[wide] = np.where(same, other[wide], met)
     places[row, column] = 0.5 * (low + high)
-    kept[row, column] = np.where(other == after, KEPT, MEETING)  # a third region between
+    sure = image.solved[row // 2, column // 2] & image.solved[(row + 1) // 2, (column + 1) // 2]
+    kept[row, column] = np.where(sure & (other == after), KEPT, MEETING)  # a third region between
     return places, kept
