@@ -156,8 +156,9 @@ def regime_map(
     Phases are those of the exact impact (Maw, Barber & Fawcett 1976). Beyond psi_1 =
     2 chi (1 + e) - e, e = 1 without losses, the contact slips throughout. Borders are outlines of
     an image of sequences, finer than the given values, through points that are found by bisection
-    along its lines. A region narrower than a cell of that image, of the order of a five-hundredth
-    of an axis or, with losses, a hundredth, may be missed.
+    along its lines. It is finest, to a thousandth of an axis, where three regimes meet, so that
+    strips between two others are followed to their ends. A regime between the given values that
+    is nowhere wider than a thirtieth of an axis, a twentieth with losses, may be missed.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
 """The regions of a map of psi_1 and chi and the borders between them, as variables of its dataset.
 
-An image of sequences, finer than the map, is solved where they differ; contourpy outlines its
-regions, and bisection finds where outlines cross lines of the image.
+An image of sequences, finer than the map where three regions meet, is solved where they differ;
+contourpy outlines its regions, and bisection finds where outlines cross lines of the image.
 """
 
 from collections.abc import Callable, Iterator
