@@ -38,9 +38,9 @@ DATASETS = {
     "Fields along the radius": "hit.radial(0.6 * hit.duration)",
     "Stress below the surface": "hit.stress(0.6 * hit.duration)",
     "Largest stresses of an impact": "hit.peaks()",
-    "Speeds that bodies bear": "carom.strength(pair, angle=[0.3, 0.8])",
+    "Speeds that bodies bear": "carom.bearable_speeds(pair, angle=[0.3, 0.8])",
     "Wear by one impact": 'hit.wear(coefficient="1e-13 m^2/N")',
-    "Wear by many impacts": "carom.wear(pair, speed=2.0, angle=[0.3, 0.8], coefficient=1e-13)",
+    "Wear by many impacts": "carom.wear_of_many(pair, speed=2.0, angle=[0.3, 0.8])",
     "Load path": "path.to_dataset()",
     "Curve": "carom.curve([1.0, 1.44], [0.5, 1.0, 2.0, 6.0])",
     "Map of regimes": "carom.regime_map([0.5, 2.0, 6.0], [1.0, 1.44])",
@@ -49,9 +49,9 @@ DATASETS = {
     "Fit": 'carom.fit(carom.datasets.load("kharaz2001")).to_dataset()',
     "Score": "carom.verify.score(results, chi=1.44).to_dataset()",
     "Ranking of contact laws": "carom.verify.rank().to_dataset()",
-    "Error of a contact law": "carom.verify.error_map(carom.LinearSpring(), [1.0, 6.0], [1.44])",
+    "Error of a contact law": "carom.verify.error_map(carom.dem.LinearSpring(), [1, 6], [1.44])",
 }
-FILES = {"results.csv": "psi_1,psi_2\n0.5,0.05\n1.0,-0.06\n2.0,-0.84\n4.0,-1.51\n"}
+SCORED = "psi_1,psi_2\n0.5,0.05\n1.0,-0.06\n2.0,-0.84\n4.0,-1.51\n"  # results.csv
 COMMANDS = (
     "carom impact steel_ball.toml",
     "carom curve --chi 1.44 --points 3",
@@ -75,18 +75,15 @@ def datasets() -> dict[str, Any]:
 
 def printed(command: str) -> Any:
     """Return what a command prints with --json, lists and tables cut."""
-    said = StringIO()
-    with TemporaryDirectory() as folder, chdir(folder):
-        for name in ("steel_ball.toml", "sweep.toml"):
-            Path(name).write_text((EXAMPLES / name).read_text(encoding="utf-8"), encoding="utf-8")
-        for name, text in FILES.items():
-            Path(name).write_text(text, encoding="utf-8")
-        measured = carom.datasets.path("kharaz2001")
-        Path(measured.name).write_text(measured.read_text(encoding="utf-8"), encoding="utf-8")
-        with redirect_stdout(said), redirect_stderr(StringIO()):
-            told = main([*command.split()[1:], "--json"])
-    if told not in (0, 1) or not said.getvalue():  # 1: a score that fails
-        raise RuntimeError(f"{command}: exit code {told}")
+    measured = carom.datasets.path("kharaz2001")
+    with TemporaryDirectory() as folder, chdir(folder), redirect_stdout(StringIO()) as said:
+        for file in (EXAMPLES / "steel_ball.toml", EXAMPLES / "sweep.toml", measured):
+            Path(file.name).write_bytes(file.read_bytes())
+        Path("results.csv").write_text(SCORED, encoding="utf-8")
+        with redirect_stderr(StringIO()):
+            code = main([*command.split()[1:], "--json"])
+    if code not in (0, 1) or not said.getvalue():  # 1: a score that fails
+        raise RuntimeError(f"{command}: exit code {code}")
     return cut(json.loads(said.getvalue()))
 
 
@@ -111,7 +108,6 @@ def commands(group: Any = None, path: tuple[str, ...] = ()) -> Iterator[tuple[st
 
 def help_of(words: tuple[str, ...]) -> str:
     """Return what a command prints with --help."""
-    said = StringIO()
-    with redirect_stdout(said):
+    with redirect_stdout(StringIO()) as said:
         get_command(app).main([*words, "--help"], prog_name="carom", standalone_mode=False)
     return said.getvalue().strip()

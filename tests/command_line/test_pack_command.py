@@ -15,12 +15,12 @@ import pytest
 import typer
 
 import carom
-from carom.cli.verify.pack import pack_command
+from carom.cli.verify.engines import pack_command
 from carom.quantities.refusals import InputError
 from carom.verify.engines.lammps import Lammps
 from carom.verify.pack import VERSION, write_pack
 from carom.verify.pack.collect import collect
-from carom.verify.pack.tables import read_table
+from carom.verify.pack.frozen import read_table
 from carom.verify.scoring import score
 
 SETS = (
@@ -216,7 +216,7 @@ def test_from_a_pack_to_a_verdict_on_lammps(copy):
     assert done.returncode == 1, done.stderr[-1000:]
     assert "FAIL: max |error in psi_2| = 0.579" in done.stdout
     result = score(script.with_name("results.csv"), case=copy / "wall" / "case.toml")
-    law = carom.LammpsMindlin().rebound(result.points.psi_in, result.points.chi)
+    law = carom.dem.LammpsMindlin().rebound(result.points.psi_in, result.points.chi)
     assert np.max(np.abs(result.points.psi_out - law)) < 1e-3
 
 

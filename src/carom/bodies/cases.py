@@ -5,7 +5,6 @@ import tomllib
 from collections import Counter
 from collections.abc import Callable, Container, Iterable, Mapping
 from contextlib import suppress
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,12 +12,15 @@ from carom.bodies.kinematics import slope
 from carom.bodies.materials import VALUES, Material, as_material, material
 from carom.bodies.pairs import Counterbody, Pair
 from carom.bodies.shapes import Cup, HalfSpace, Sphere, describe
-from carom.io.files import read_text
+from carom.io.files import read_dataset, read_text
+from carom.io.paths import checked_path
 from carom.quantities.faults import TOLD, Faults
-from carom.quantities.refusals import InputError, clipped, hint, refusal
+from carom.quantities.refusals import InputError, checked_type, clipped, hint, one_of, refusal
 from carom.quantities.units import finite, finite_or_text, not_negative, number, positive
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from carom.bodies.losses import LossLaw
 
 Case = dict[str, Any]
@@ -52,23 +54,26 @@ SHAPES = (HalfSpace, Sphere, Cup)
 DEEP = re.compile(r"(?<![\w\"'-])(?:[\w\"'-]++\s*+\.\s*+){20}")  # a dotted key of that many tables
 
 
-def read_case(path: Path, *, losses: bool = False) -> Case:
+def read_case(path: str | Path, *, losses: bool = False) -> Case:
     """Return the content of a case file after checking its keys; `losses` as in `check_case`."""
     try:
         text = read_text("case file", path)
         if DEEP.search(text):  # which takes memory with the square of the depth
             raise RecursionError
         case = tomllib.loads(text, parse_float=finite_or_text)
-    except UnicodeDecodeError:
-        raise InputError(f"case file: {str(path)!r} is not text; give a TOML file") from None
     except InputError:
         raise
+    except UnicodeDecodeError:
+        raise InputError(f"case file: {str(path)!r} is not text; give a TOML file") from None
     except ValueError as error:  # of tomllib; for integers of many digits Python's own
         raise InputError(f"case file: {str(path)!r} is not TOML; {error}") from None
     except RecursionError:
         raise refusal("case file", str(path), "its tables are nested too deeply") from None
-    where = partial(_place, path, text)
-    check_case(case, where, losses=losses)
+
+    def place(key: str, table: str) -> str:
+        return f" in {path}, line {line_of(key, text, table)}"
+
+    check_case(case, place, losses=losses)
     return case
 
 
@@ -90,8 +95,7 @@ def check_case(
         for key in unknown[TOLD:]:  # which are counted, not told
             faults.add(f"{key}: unknown key")
 
-    if not isinstance(case, Mapping):
-        raise refusal("case", case, "must be a mapping with friction, speeds, first and second")
+    checked_type("case", case, Mapping, "must be a mapping with friction, speeds, first and second")
     with Faults() as faults:
         for key in () if losses else (*LOSSES, RATIO):
             if key in case:
@@ -100,15 +104,12 @@ def check_case(
         check(case, ("friction", *MOTION, *LOSSES, RATIO, *TABLES), "")
         for name, allowed in TABLES.items():
             table = case.get(name, {})
-            if not isinstance(table, Mapping):
-                raise refusal(name, table, f"must be a table, [{name}], with {', '.join(allowed)}")
+            checked_type(
+                name, table, Mapping, f"must be a table, [{name}], with {', '.join(allowed)}"
+            )
             check(table, allowed, name)
             if isinstance(table.get("material"), Mapping):
                 check(table["material"], MATERIAL, name)
-
-
-def _place(path: Path, text: str, key: str, table: str) -> str:
-    return f" in {path}, line {line_of(key, text, table)}"
 
 
 def line_of(key: str, text: str, table: str) -> int:
@@ -155,14 +156,7 @@ def motion_of(case: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def losses_of(case: Mapping[str, Any]) -> "LossLaw | None":
-    """Return the law by which the normal motion of a case loses energy, or None.
-
-    Raises InputError if it is given in two ways, or out of range.
-
-    >>> from carom.bodies.cases import losses_of
-    >>> losses_of({"restitution": 0.9}), losses_of({"speed": "2 m/s"})
-    (KelvinVoigt(restitution=0.9, loss_time=None), None)
-    """
+    """Return the law by which the normal motion of a case loses energy, or None."""
     given = [name for name in LOSSES if case.get(name) is not None]
     if len(given) > 1:
         raise InputError(f"{given[1]}: give it or {given[0]}, not both; {ONE_LOSS}")
@@ -192,7 +186,10 @@ def refuse_half(given: Container[str]) -> None:
 
 
 def read_loss(name: str, value: Any) -> float | None:
-    """Return the value of a loss in SI units, None for that of the strengths, or InputError."""
+    """Return the value of a loss or ratio in SI units, None for that of the strengths."""
+    if name == RATIO:
+        law_of("relaxation_time", 0.0, value)
+        return number(RATIO, value)
     if name == "yield_velocity" and isinstance(value, str) and value.strip().isalpha():
         if value.strip() == FROM_STRENGTH:
             return None
@@ -203,46 +200,34 @@ def read_loss(name: str, value: Any) -> float | None:
     return read
 
 
-def read_ratio(value: Any) -> float:
-    """Return the modulus at once over the relaxed one, or raise InputError."""
-    law_of("relaxation_time", 0.0, value)
-    return number(RATIO, value)
-
-
-def as_kind(kind: Any) -> str:
-    """Return the kind of a second body, or raise InputError if there is none of that name."""
-    if not isinstance(kind, str) or kind not in KINDS:
-        raise refusal("kind", kind, f"must be {', '.join(KINDS[:-1])} or {KINDS[-1]}")
-    return str(kind)
-
-
 def _second(table: Mapping[str, Any], first: Sphere) -> Counterbody:
-    kind = as_kind(table.get("kind", KINDS[0]))
-    same = {"material": first.material, "radius": first.radius}
+    kind = one_of("kind", table.get("kind", KINDS[0]), KINDS)
     if kind == "sphere":
+        same = {"material": first.material, "radius": first.radius}
         return _sphere("second", "second-", table, same)
+    for name in reversed(SIZES):
+        if name in table and (kind, name) != ("cup", "radius"):
+            raise refusal(name, table[name], f"a {kind} has none; leave it out")
     stuff = read_material(table.get("material", first.material))
-    for name in ("gyration_radius", "inner_radius"):
-        if name in table:
-            raise refusal(name, table[name], f"a {kind} has none; it belongs to a sphere")
-    if kind == "cup":
-        if "radius" not in table:
-            raise InputError("radius: missing for the cup; give --second-radius, e.g. '10 mm'")
-        return Cup(radius=table["radius"], material=stuff)
-    if "radius" in table:
-        raise refusal("radius", table["radius"], "a half-space has none; set kind to sphere or cup")
-    return HalfSpace(material=stuff)
+    if kind == "half-space":
+        return HalfSpace(material=stuff)
+    return Cup(radius=_needed(table, "second", "second-", "radius", "10 mm"), material=stuff)
 
 
 def _sphere(name: str, prefix: str, table: Mapping[str, Any], default: Mapping[str, Any]) -> Sphere:
     values = {**default, **table}
     values.pop("kind", None)
-    for key, example in (("radius", "5 mm"), ("material", "steel")):
-        if values.get(key) is None:
-            raise InputError(
-                f"{key}: missing for the {name} body; give --{prefix}{key}, e.g. '{example}'"
-            )
-    return Sphere(**{**values, "material": read_material(values["material"])})
+    _needed(values, name, prefix, "radius", "5 mm")
+    stuff = read_material(_needed(values, name, prefix, "material", "steel"))
+    return Sphere(**{**values, "material": stuff})
+
+
+def _needed(table: Mapping[str, Any], body: str, prefix: str, key: str, example: str) -> Any:
+    """Return what a table must have, or raise InputError."""
+    if table.get(key) is None:
+        words = f"missing for the {body} body; give --{prefix}{key}, e.g. '{example}'"
+        raise InputError(f"{key}: {words}")
+    return table[key]
 
 
 def read_material(value: Any) -> Material:
@@ -300,3 +285,39 @@ def _entry(part: str) -> tuple[str, str]:
         example = "write e.g. young=210 GPa, poisson=0.3, density=7850 with decimal points"
         raise refusal("material", part.strip(), example)
     return key.strip(), text.strip()
+
+
+def read(path: str | Path) -> "xr.Dataset | dict[str, Any]":
+    """Return a dataset that Carom stored as .nc or .zarr, or the case of a .toml file.
+
+    Parameters
+    ----------
+    path : str or Path
+        A NetCDF file (.nc) that `save` or the option `--output` of a command has written, the store
+        of a sweep (.zarr), whose values are read only when they are used, or a case file (.toml).
+
+    Returns
+    -------
+    xarray.Dataset or dict
+        Variables and coordinates exactly as they were stored, with units and meanings as
+        attributes. For a case file, its content as `sweep` accepts it.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, damaged, changed or not stored by Carom, or a case has an unknown
+        key.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> import carom
+    >>> with TemporaryDirectory() as folder:
+    ...     stored = carom.save(carom.curve(1.44, [0.5, 2.0]), folder + "/curve.nc")
+    ...     carom.read(stored).psi_out.values.round(4)
+    array([[ 0.0471, -0.839 ]])
+    """
+    source = checked_path("file", path)
+    if source.suffix.lower() == ".toml":
+        return read_case(source, losses=True)
+    return read_dataset(source)

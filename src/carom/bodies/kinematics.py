@@ -4,14 +4,14 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import zip_longest
-from math import inf, nan, pi
+from math import nan, pi
 from typing import Any, NamedTuple
 
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
 from carom.quantities.elementwise import arctan2, cos, hypot, quotient, sin, where
 from carom.quantities.refusals import InputError, refusal
-from carom.quantities.units import Value, finite, number, positive
+from carom.quantities.units import APPROACH, Value, finite, positive
 
 
 def approach(
@@ -20,12 +20,7 @@ def approach(
     normal_speed: Value | None,
     tangential_speed: Value | None,
 ) -> tuple[float, float]:
-    """Return normal and tangential speed from either way of giving them, in m/s.
-
-    V_1 = speed cos(angle), v_t = speed sin(angle).
-
-    Raises InputError if one is missing, given twice, out of range, or the bodies do not approach.
-    """
+    """Return normal and tangential speed from either way of giving them, in m/s."""
     if speed is not None:
         if normal_speed is not None or tangential_speed is not None:
             raise InputError("speed: give speed and angle, or normal_speed and tangential_speed")
@@ -34,12 +29,8 @@ def approach(
         raise InputError("speed: missing; give speed and angle, or normal_speed")
     if angle is not None:
         raise InputError("angle: give it with speed; with normal_speed give tangential_speed")
-    normal = number("normal_speed", normal_speed)
-    if not 0.0 < normal < inf:
-        raise refusal(
-            "normal_speed", normal_speed, "must be positive and finite: the bodies must approach"
-        )
-    return normal, finite("tangential_speed", 0.0 if tangential_speed is None else tangential_speed)
+    tangential = finite("tangential_speed", 0.0 if tangential_speed is None else tangential_speed)
+    return positive("normal_speed", normal_speed), tangential
 
 
 def components(speed: float, angle: float) -> tuple[float, float]:
@@ -52,9 +43,9 @@ def slope(angle: Value) -> float:
     result = finite("angle", angle)
     if abs(result) < pi / 2:
         return result
-    if isinstance(angle, str) and any(c.isalpha() or c == "°" for c in angle):
-        raise refusal("angle", angle, "must be below 90 deg: the bodies must approach")
-    raise refusal("angle", angle, f"a bare angle is in radians, below pi/2; write '{angle} deg'")
+    bare = not isinstance(angle, str) or not any(c.isalpha() or c == "°" for c in angle)
+    hint = f"; a bare angle is in radians, below pi/2; write '{angle} deg'" if bare else ""
+    raise refusal("angle", angle, f"must be below 90 deg{APPROACH}{hint}")
 
 
 class Tangential(NamedTuple):
@@ -188,21 +179,7 @@ class Kinematics(ABC):
 
 @dataclass(frozen=True)
 class Rebound(Kinematics):
-    """An impact of which the motion before and the two impulses are known.
-
-    The tangential impulse J_t acts on the first body against +x. The normal impulse is
-    J_n = m_n (1 + e) V_1.
-
-    Examples
-    --------
-    >>> import carom
-    >>> from carom.bodies.kinematics import Rebound, Tangential
-    >>> ball = carom.Sphere(radius="2.5 mm", material="alumina")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="soda-lime-glass"), friction=0.092)
-    >>> rebound = Rebound(pair, 2.0, Tangential(2.0, 0.0, 0.0), restitution=0.98, impulse=0.0)
-    >>> rebound.tangential_restitution, round(rebound.contact_rebound_angle, 4)
-    (1.0, 0.7955)
-    """
+    """An impact of which the motion before, e and the tangential impulse against +x are known."""
 
     normal_speed: Any
     before: Tangential

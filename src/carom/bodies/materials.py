@@ -8,7 +8,7 @@ from importlib.resources import files
 from typing import Any, TypeVar
 
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import InputError, hint, nearest, refusal
+from carom.quantities.refusals import InputError, checked_type, hint, nearest, refusal
 from carom.quantities.units import Value, number, positive
 
 STRENGTHS = ("yield_strength", "tensile_strength", "fracture_toughness", "flaw_size")
@@ -92,17 +92,13 @@ class Material:
         ratio = number("poisson", poisson)
         if not -1.0 < ratio <= 0.5:
             raise refusal("poisson", poisson, "must be above -1 and at most 0.5, e.g. 0.3")
-        set_fields(
-            self,
-            young=_stiffness(young),
-            poisson=ratio,
-            density=_positive_or_none("density", density),
-            yield_strength=_positive_or_none("yield_strength", yield_strength),
-            tensile_strength=_positive_or_none("tensile_strength", tensile_strength),
-            fracture_toughness=_positive_or_none("fracture_toughness", fracture_toughness),
-            flaw_size=_positive_or_none("flaw_size", flaw_size),
-            name=_text_or_none(name),
-        )
+        set_fields(self, young=_stiffness(young), poisson=ratio)
+        given = (density, yield_strength, tensile_strength, fracture_toughness, flaw_size)
+        for key, value in zip(VALUES[2:], given, strict=True):
+            set_fields(self, **{key: None if value is None else positive(key, value)})
+        if name is not None:
+            checked_type("name", name, str, "must be a text")
+        set_fields(self, name=name)
 
     @property
     def shear_modulus(self) -> float:
@@ -114,21 +110,23 @@ class Material:
         """Whether the material does not deform."""
         return math.isinf(self.young)
 
+    @property
+    def sources(self) -> dict[str, str]:
+        """Sources of the values that are those of the catalogue, each by its name.
+
+        >>> import carom
+        >>> sorted(carom.material("steel").sources)
+        ['density', 'poisson', 'yield_strength', 'young']
+        """
+        entry = _catalogue().get(self.name or "", {})
+        texts: dict[str, str] = entry.get("sources", {})
+        return {key: text for key, text in texts.items() if getattr(self, key) == entry[key]}
+
 
 def _stiffness(young: Any) -> float:
     """Return a positive modulus, infinite for what does not deform, or raise InputError."""
     rigid = isinstance(young, float) and young == math.inf
     return math.inf if rigid else positive("young", young)
-
-
-def _positive_or_none(name: str, value: Value | None) -> float | None:
-    return None if value is None else positive(name, value)
-
-
-def _text_or_none(name: Any) -> str | None:
-    if name is None or isinstance(name, str):
-        return name
-    raise refusal("name", name, "must be a text")
 
 
 @lru_cache(maxsize=1)
@@ -141,7 +139,7 @@ def _catalogue() -> dict[str, dict[str, Any]]:
 def materials() -> dict[str, Material]:
     """Return the catalogue of materials by name, without "rigid".
 
-    The values are typical of room temperature; `material_sources` names the source of each.
+    The values are typical of room temperature; `sources` of each names where they are from.
 
     Returns
     -------
@@ -187,8 +185,7 @@ def material(name: str, **values: Value) -> Material:
     >>> carom.material("glass", flaw_size="20 um").flaw_size
     2e-05
     """
-    if not isinstance(name, str):
-        raise refusal("material", name, "give a name, or carom.Material(young=..., poisson=...)")
+    checked_type("material", name, str, "give a name, or carom.Material(young=..., poisson=...)")
     for key in values:
         if key not in VALUES:
             raise InputError(f"{key}: unknown in a material; {hint(key, VALUES)}")
@@ -203,33 +200,6 @@ def material(name: str, **values: Value) -> Material:
     known = [alias for key, entry in entries for alias in (key, *entry.get("aliases", ()))]
     near = nearest(wanted, [*known, "rigid"]) or "'carom materials' lists them all"
     raise refusal("material", name, f"there is no material of that name; {near}")
-
-
-def material_sources(name: str) -> dict[str, str]:
-    """Return the source of each value of a material of the catalogue.
-
-    Parameters
-    ----------
-    name : str
-        A name that `material` accepts.
-
-    Returns
-    -------
-    dict
-        The source of each value by its name; empty for "rigid".
-
-    Raises
-    ------
-    InputError
-        If there is no material of that name.
-
-    Examples
-    --------
-    >>> import carom
-    >>> sorted(carom.material_sources("steel"))
-    ['density', 'poisson', 'yield_strength', 'young']
-    """
-    return dict(_catalogue().get(material(name).name or "", {}).get("sources", {}))
 
 
 def as_material(value: Material | str) -> Material:

@@ -8,18 +8,17 @@ from carom.cli.curve import curve_command
 from carom.cli.explore import explore_command
 from carom.cli.fit import fit_command
 from carom.cli.impact import impact_command
-from carom.cli.lammps import app as lammps_app
-from carom.cli.liggghts import app as liggghts_app
 from carom.cli.materials import materials_command
-from carom.cli.once import Commands, Interrupted
+from carom.cli.options import Commands, Interrupted
+from carom.cli.programs import lammps_app, liggghts_app
 from carom.cli.sweep import sweep_command
 from carom.cli.verify import app as verify_app
 from carom.quantities.refusals import InputError, nearest
 from carom.quantities.symbols import meant, remark
 
 app = Commands(
-    name="carom",
-    help="Carom computes how an elastic sphere leaves an oblique impact, and what happens inside "
+    "carom",
+    "Carom computes how an elastic sphere leaves an oblique impact, and what happens inside "
     "the contact.\n\n"
     "Begin with carom impact for one impact, carom sweep for many, carom fit for measured "
     "rebounds, carom verify for contact laws of DEM codes, or carom explore for a page in the "
@@ -27,10 +26,6 @@ app = Commands(
     "cannot be used, 1 for a failure, or 130 after Ctrl-C.\n\n\b\n"
     'Example: carom impact --radius "5 mm" --material steel --friction 0.2 --speed 2 '
     '--angle "30 deg"',
-    no_args_is_help=True,
-    add_completion=False,
-    rich_markup_mode=None,
-    pretty_exceptions_enable=False,
 )
 app.command("impact")(impact_command)
 app.command("curve")(curve_command)

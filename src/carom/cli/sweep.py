@@ -5,24 +5,21 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from math import degrees
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
 import carom
 from carom.cli.cases import (
-    Column,
-    Json,
     check_outputs,
-    file_argument,
     named_values,
     outputs,
     require_some,
     stored,
     tell,
     told_case,
-    whole_option,
 )
+from carom.cli.options import described, file_argument, whole_option
 from carom.quantities.glossary import GLOSSARY
 from carom.quantities.prefixes import shared
 from carom.quantities.refusals import refusal
@@ -30,46 +27,36 @@ from carom.quantities.units import or_none, whole
 
 if TYPE_CHECKING:
     from carom.bodies.cases import Case
-    from carom.sweeps.summaries import Summary
+    from carom.sweeps.records import Summary
 
 
+OPTIONS = {
+    "case": file_argument("Case file with a table [sweep], which says what to vary."),
+    "store": "Store the results in a Zarr folder while they are computed, e.g. sweep.zarr.",
+    "resume": typer.Option("--resume", help="Continue the sweep in --store, or begin it."),
+    "quantities": "Quantities to compute, separated by commas, e.g. 'rebound_angle, "
+    "yield_speed_second' (default: those that the case file names, or all).",
+    "output": "Store the results at the end: .nc or .csv.",
+    "scheduler": "Address of a dask cluster to use, e.g. tcp://host:8786.",
+    "workers": whole_option("Number of threads (default: one for each core)."),
+    "progress": typer.Option(
+        "--progress/--no-progress", help="Show a progress bar (default: only on a terminal)."
+    ),
+}
+
+
+@described(OPTIONS)
 def sweep_command(
-    case: Annotated[
-        Path, file_argument("Case file with a table [sweep], which says what to vary.")
-    ],
-    column: Column = None,
-    store: Annotated[
-        str | None,
-        typer.Option(
-            help="Store the results in a Zarr folder while they are computed, e.g. sweep.zarr."
-        ),
-    ] = None,
-    resume: Annotated[
-        bool, typer.Option("--resume", help="Continue the sweep in --store, or begin it.")
-    ] = False,
-    quantities: Annotated[
-        str | None,
-        typer.Option(
-            help="Quantities to compute, separated by commas, e.g. 'rebound_angle, "
-            "yield_speed_second' (default: those that the case file names, or all)."
-        ),
-    ] = None,
-    output: Annotated[
-        str | None, typer.Option(help="Store the results at the end: .nc or .csv.")
-    ] = None,
-    scheduler: Annotated[
-        str | None, typer.Option(help="Address of a dask cluster to use, e.g. tcp://host:8786.")
-    ] = None,
-    workers: Annotated[
-        str | None, whole_option("Number of threads (default: one for each core).")
-    ] = None,
-    as_json: Json = False,
-    progress: Annotated[
-        bool | None,
-        typer.Option(
-            "--progress/--no-progress", help="Show a progress bar (default: only on a terminal)."
-        ),
-    ] = None,
+    case: str,
+    column: list[str] | None = None,
+    store: str | None = None,
+    resume: bool = False,
+    quantities: str | None = None,
+    output: str | None = None,
+    scheduler: str | None = None,
+    workers: str | None = None,
+    as_json: bool = False,
+    progress: bool | None = None,
 ) -> None:
     """Solve many impacts: a grid, a Latin hypercube or a table.
 
@@ -84,14 +71,13 @@ def sweep_command(
     The speeds above which the second body yields:
       carom sweep examples/sweep.toml --quantities yield_speed_second
     """
-    from carom.io.files import TABLES
-    from carom.sweeps.plans import plan
-    from carom.sweeps.summaries import summary
+    from carom.sweeps.records import summary
+    from carom.sweeps.tables import plan
 
     content = told_case(case, losses=True, swept=True)
     file = _file(content) if output is None else output
-    check_outputs((file, TABLES))
-    design, chosen = plan(content, case, named_values("column", column, "omega=spin"))
+    check_outputs({"output": file})
+    design, chosen = plan(content, Path(case), named_values("column", column, "omega=spin"))
     if quantities is not None:
         chosen = [name.strip() for name in quantities.split(",")]
     tell(design.doubts())
@@ -136,7 +122,6 @@ def _stopping() -> Iterator[None]:
 
 
 def _record(result: "Summary", store: str | None, output: str | None) -> dict[str, Any]:
-    """Return the summary as what JSON can hold; what is not a number becomes null."""
     ranges = {
         name: {"min": or_none(low), "max": or_none(high), "units": GLOSSARY[name].unit}
         for name, (low, high) in result.ranges.items()

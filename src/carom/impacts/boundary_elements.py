@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.bodies.kinematics import Tangential, normal_inertia
-from carom.bodies.pairs import Pair
+from carom.bodies.pairs import Pair, with_friction
 from carom.contacts.fields import OUTSIDE, SLIP, STICK, ZONES
 from carom.dimensionless import solution as theory
 from carom.dimensionless.states import SlipAngle
@@ -24,7 +24,7 @@ from carom.impacts.validity import WEAK_COUPLING, judge_contact, judge_errors
 from carom.io.citations import ELEMENTS, bibtex
 from carom.io.labels import Validity, labelled_dataset
 from carom.io.progress import Progress, advancing
-from carom.quantities.refusals import InputError, refusal
+from carom.quantities.refusals import refusal
 from carom.quantities.units import Value, counted
 
 if TYPE_CHECKING:
@@ -149,7 +149,6 @@ class HalfspaceImpact(ImpactResult):
 
     @property
     def slip_angles(self) -> tuple[SlipAngle, ...]:
-        """Angle of slip against the direction of motion in each phase, in rad."""
         return tuple(
             SlipAngle(*self.solution.slip_angles(phase.start, phase.end))
             for phase in self.solution.phases
@@ -159,9 +158,8 @@ class HalfspaceImpact(ImpactResult):
     def validity(self) -> Validity:
         """Whether the remaining assumptions hold, and whether the grid is fine enough."""
         psi = self.psi_in if isfinite(self.psi_in) else 0.0
-        strength = judge_strength(
-            struck_bodies(self.pair, self.scales, theory.solve(psi, self.pair.chi))
-        )
+        solution = theory.solve(psi, self.pair.chi)
+        strength = judge_strength(struck_bodies(self.pair, self.scales, solution))
         if abs(self.pair.dundurs_beta) > WEAK_COUPLING:
             strength = tuple(
                 finding._replace(holds=None, verdict=f"{finding.verdict}; {BY_THEORY}")
@@ -171,13 +169,11 @@ class HalfspaceImpact(ImpactResult):
         return Validity((*assumed, *judge_errors(self.psi_out_error, self.energy_error)))
 
     def scalars(self) -> dict[str, float]:
-        """Return the numbers of the result by name."""
         errors = {"psi_out_error": self.psi_out_error, "energy_error": self.energy_error}
         names = ("normal_spin_out", "contact_velocity_across") if self.normal_spin else ()
         return super().scalars() | {name: getattr(self, name) for name in names} | errors
 
     def inputs(self) -> dict[str, Any]:
-        """Return what the impact was made from, as plain numbers and words."""
         return super().inputs() | {"method": "halfspace", **self.solution.resolution._asdict()}
 
     def cite(self) -> str:
@@ -293,11 +289,7 @@ def solve_by_elements(
     progress: Progress,
 ) -> HalfspaceImpact:
     """Return an impact solved by boundary elements, on three grids; see `carom.impact`."""
-    if pair.friction == 0.0:
-        raise InputError(
-            "friction: without it there is no tangential force to solve for; leave method out, the "
-            "theory is exact then"
-        )
+    with_friction(pair, "without friction the theory is exact; leave method out")
     if pair.chi > LARGEST_CHI:
         allowed = f"boundary elements solve chi up to {LARGEST_CHI:g}; leave method out"
         raise refusal("chi", pair.chi, allowed)
@@ -308,10 +300,8 @@ def solve_by_elements(
     materials = Materials(pair.kappa, pair.dundurs_beta, pair.friction)
     spin = spin_about_normal(pair, normal_speed, normal_spin)
     if not abs(spin.speed) <= LARGEST_SPIN:
-        most = LARGEST_SPIN * abs(normal_spin / spin.speed)
-        allowed = (
-            f"boundary elements solve up to {most:.3g} rad/s here, {LARGEST_SPIN:g} mu V_1/a_max"
-        )
+        most = f"{LARGEST_SPIN * abs(normal_spin / spin.speed):.3g} rad/s here"
+        allowed = f"boundary elements solve up to {most}, {LARGEST_SPIN:g} mu V_1/a_max"
         raise refusal("normal_spin", normal_spin, allowed)
     fine = Resolution(method.elements, method.steps)
     grids = (fine.half.half, fine.half, fine)

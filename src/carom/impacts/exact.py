@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import isfinite, nan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,9 +16,10 @@ from carom.bodies.pairs import Pair
 from carom.contacts.contact import Contact, contact_in_impact
 from carom.contacts.in_contact import InContact
 from carom.dimensionless.elastic.phases import Status
-from carom.dimensionless.lossy.law import LossNumbers, checked_law
+from carom.dimensionless.lossy.law import Loss, LossNumbers, checked_law
 from carom.dimensionless.lossy.marched_solution import MarchedSolution
 from carom.dimensionless.lossy.solution import LossySolution
+from carom.dimensionless.lossy.viscoelastic_solution import ViscoelasticSolution
 from carom.dimensionless.solution import Solution, solve, solve_with
 from carom.dimensionless.states import SlipAngle
 from carom.impacts.peaks import judge_strength, peaks_dataset, struck_bodies
@@ -57,8 +58,6 @@ class Impact(ImpactResult, InContact):
 
     solution: Solution | LossySolution = field(repr=False)
 
-    _told_by = "time : float or str", "Time since the first touch in s, 0 to `duration`."
-
     @property
     def validity(self) -> Validity:
         """Whether the assumptions of the theory hold, as numbers with limits and verdicts."""
@@ -86,36 +85,12 @@ class Impact(ImpactResult, InContact):
             return (SlipAngle(0.0, 0.0),)
         return self.solution.slip_angles(self.pair.lateral_ratio)
 
-    def contact(self, time: Value) -> Contact:
+    def _contact(self, at: Any) -> Contact:
         drift = 0.0 if isfinite(self.psi_in) else self.contact_velocity
         inputs = {"inputs": self.inputs()}
         return contact_in_impact(
-            self.pair, self.normal_speed, drift, self.solution, self._instant(time), inputs
+            self.pair, self.normal_speed, drift, self.solution, self._instant(at), inputs
         )
-
-    def fields(
-        self,
-        time: Value,
-        x: ArrayLike | None = None,
-        y: ArrayLike | None = None,
-        *,
-        points: ArrayLike | None = None,
-    ) -> xr.Dataset:
-        return super().fields(time, x, y, points=points)
-
-    def stress(
-        self,
-        time: Value,
-        x: ArrayLike | None = None,
-        z: ArrayLike | None = None,
-        *,
-        points: ArrayLike | None = None,
-        body: str = "second",
-    ) -> xr.Dataset:
-        return super().stress(time, x, z, points=points, body=body)
-
-    def radial(self, time: Value, n: int = 401) -> xr.Dataset:
-        return super().radial(time, n)
 
     def wear(
         self,
@@ -152,15 +127,15 @@ class Impact(ImpactResult, InContact):
             distance max_wear_radius; and work_error, the relative difference between it and the
             work per area summed over the contact. It is 1e-8 for elastic bodies up to chi = 6
             and 2e-7 beyond; for viscous ones it is about 1e-5, and more near normal incidence, as
-            their energies are known to some 1e-7 only. With a coefficient also mean_wear_depth,
+            their energies are known to some 1e-7 only; for those that yield or relax it is some
+            1e-3. With a coefficient also mean_wear_depth,
             wear_depth, max_wear_depth in m and worn_volume in m^3, which is computed from the work
             per area where work_error is above 1e-4.
 
         Raises
         ------
         InputError
-            If n is out of range, the coefficient is negative, positions are not finite, or the
-            bodies yield or are standard linear solids, whose pressure is not known.
+            If n is out of range, the coefficient is negative, or positions are not finite.
 
         Examples
         --------
@@ -223,8 +198,9 @@ class Impact(ImpactResult, InContact):
         >>> round(float(peaks.peak_tension) / 1e6), round(float(peaks.toughness_ratio), 2)  # MPa
         (1234, 6.92)
         """
+        self._refuse_stress()
         from_depth = None if depth is None else not_negative("depth", depth, "m")
-        if from_depth == 0.0 and isinstance(self.solution, LossySolution):
+        if from_depth == 0.0 and isinstance(self.solution, ViscoelasticSolution):
             allowed = "viscous bodies have infinite stresses at the surface; give a positive depth"
             raise refusal("depth", depth, allowed)
         deepest = FARTHEST * self.max_radius
@@ -233,6 +209,12 @@ class Impact(ImpactResult, InContact):
             raise refusal("depth", depth, allowed)
         bodies = struck_bodies(self.pair, self.scales, self.solution, from_depth)
         return peaks_dataset(self.pair, bodies, {"inputs": self.inputs()})
+
+    def _refuse_stress(self) -> None:
+        if isinstance(self.solution, LossySolution) and self.solution.losses.loss == Loss.PLASTIC:
+            unknown = "what stress a yielded contact leaves below it is not known"
+            cure = "take KelvinVoigt, or leave losses out"
+            raise refusal("losses", self.losses, f"{unknown}; {cure}")
 
     def cite(self) -> str:
         """Return what to cite for this result, as BibTeX.
@@ -279,19 +261,16 @@ def solve_exactly(
 def _solution(
     pair: Pair, normal_speed: float, psi: float, losses: LossLaw | None
 ) -> Solution | LossySolution:
-    given = pair, normal_speed, psi
-    found = solve(psi, pair.chi) if losses is None else _with_losses(*given, losses)
+    found: Solution | LossySolution
+    if losses is None:
+        found = solve(psi, pair.chi)
+    else:
+        loss, *numbers = checked_law(losses, "loss")(pair, normal_speed)
+        if any(map(np.ndim, numbers)):
+            raise refusal("losses", losses, "an impact takes one number; carom.sweep takes many")
+        found = solve_with(psi, pair.chi, LossNumbers(loss, *map(float, numbers)))
     if found.status is not Status.SOLVED:
         name, value = ("chi", pair.chi) if losses is None else ("losses", losses)
         what = f"the impact at psi_1 = {psi:g}, chi = {pair.chi:g} is {found.status.message}"
         raise refusal(name, value, what)
     return found
-
-
-def _with_losses(
-    pair: Pair, normal_speed: float, psi: float, losses: LossLaw
-) -> Solution | LossySolution:
-    loss, *numbers = checked_law(losses, "loss")(pair, normal_speed)
-    if any(map(np.ndim, numbers)):
-        raise refusal("losses", losses, "an impact takes one number; carom.sweep takes many")
-    return solve_with(psi, pair.chi, LossNumbers(loss, *map(float, numbers)))

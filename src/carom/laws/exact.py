@@ -21,7 +21,7 @@ from carom.laws.panels import LARGEST_CHI, panel_ends, panels
 from carom.laws.portable import applied, lost
 from carom.laws.rules import DEGREE, Rule, frozen
 from carom.quantities.arrays import Array, pure_numbers
-from carom.quantities.keywords import renamed_keyword
+from carom.quantities.keywords import known_keywords
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import positive
 
@@ -63,12 +63,12 @@ class ReboundLaw:
     Examples
     --------
     >>> import carom
-    >>> law = carom.ReboundLaw(1.44)
+    >>> law = carom.laws.ReboundLaw(1.44)
     >>> law([0.5, 1.5, -3.5, 6.0]).round(6)
     array([ 0.047131, -0.429967,  1.477247,  0.24    ])
     >>> law.nbytes < 4000
     True
-    >>> lossy = carom.ReboundLaw(1.44, losses=carom.KelvinVoigt(restitution=0.9))
+    >>> lossy = carom.laws.ReboundLaw(1.44, losses=carom.KelvinVoigt(restitution=0.9))
     >>> lossy([0.5, 6.0]).round(5), round(lossy.duration, 4)
     (array([0.00384, 0.528  ]), 2.9186)
     """
@@ -78,7 +78,7 @@ class ReboundLaw:
     edges: Array
     coefficients: Array
 
-    @renamed_keyword("normal", "losses")
+    @known_keywords
     def __init__(self, chi: float, *, losses: KelvinVoigt | None = None) -> None:
         value, e = positive("chi", chi), _restitution_of(losses)
         if value > LARGEST_CHI:
@@ -125,7 +125,7 @@ class ReboundLaw:
         Examples
         --------
         >>> import carom
-        >>> carom.ReboundLaw(1.44).impulse([0.5, 6.0]).round(3)
+        >>> carom.laws.ReboundLaw(1.44).impulse([0.5, 6.0]).round(3)
         array([0.079, 1.   ])
         """
         bound = self._rule.sliding
@@ -153,7 +153,7 @@ class ReboundLaw:
         Examples
         --------
         >>> import carom
-        >>> carom.ReboundLaw(1.44).dissipation([0.5, 6.0]).round(3)
+        >>> carom.laws.ReboundLaw(1.44).dissipation([0.5, 6.0]).round(3)
         array([ 0.248, 35.942])
         """
 
@@ -244,8 +244,8 @@ class ReboundLaw:
         Examples
         --------
         >>> import carom
-        >>> law = carom.ReboundLaw(1.44)
-        >>> carom.ReboundLaw.from_dict(law.to_dict())(0.5) == law(0.5)
+        >>> law = carom.laws.ReboundLaw(1.44)
+        >>> carom.laws.ReboundLaw.from_dict(law.to_dict())(0.5) == law(0.5)
         True
         """
         try:

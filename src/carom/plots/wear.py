@@ -18,7 +18,7 @@ WORK, DEPTH = "friction_work", "wear_depth"
 
 
 @draws(
-    "the wear of one spot, what Impact.wear, or carom.wear without an area, returns",
+    "the wear of one spot, what Impact.wear, or carom.wear_of_many without an area, returns",
     *("mean_friction_work", "distance", "max_wear_radius"),
     along="distance",
     take="wear",
@@ -26,7 +26,7 @@ WORK, DEPTH = "friction_work", "wear_depth"
 def plot_wear(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     """Draw the depth of wear, or else the work of friction per area, around and over the contact.
 
-    Of impacts on one spot, what `carom.wear` returns, there is no map.
+    Of impacts on one spot, what `carom.wear_of_many` returns, there is no map.
 
     Examples
     --------

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from carom.bodies.pairs import Pair
+from carom.bodies.cases import case_of
+from carom.bodies.pairs import Pair, checked_pair
 from carom.impacts.peaks import UNCOUPLED
 from carom.impacts.validity import WEAK_COUPLING
 from carom.io.progress import Progress
 from carom.quantities.keywords import known_keywords
-from carom.quantities.refusals import refusal
+from carom.quantities.refusals import InputError
 from carom.sweeps import sweep
 from carom.sweeps.designs import Grid
-from carom.sweeps.strength import speeds_known, unit_case
+from carom.sweeps.points import SPEEDS, WANTED, needed_by
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,7 +28,7 @@ ANGLES = np.linspace(0.0, 85.0, 18) * (pi / 180.0)  # where none are given
 
 
 @known_keywords
-def strength(
+def bearable_speeds(
     pair: Pair,
     *,
     angle: ArrayLike | None = None,
@@ -80,22 +82,37 @@ def strength(
     >>> import carom
     >>> ball = carom.Sphere(radius="5 mm", material="bearing steel")
     >>> pair = carom.Pair(ball, carom.HalfSpace(material="bearing steel"), friction=0.2)
-    >>> found = carom.strength(pair, angle=["0 deg", "60 deg"])
+    >>> found = carom.bearable_speeds(pair, angle=["0 deg", "60 deg"])
     >>> found.yield_speed_second.round(2).values
     array([[0.87, 1.62]])
     """
-    if not isinstance(pair, Pair):
-        raise refusal("pair", pair, "must be a Pair of bodies; make one with carom.Pair")
-    outputs = speeds_known(pair)
+    checked_pair(pair)
+    outputs = _speeds_known(pair)
     axes = {
         "friction": pair.friction if friction is None else friction,
         "angle": ANGLES if angle is None else angle,
     }
-    grid = Grid({name: _listed(values) for name, values in axes.items()})
-    found = sweep(unit_case(pair), grid, outputs=list(outputs), workers=workers, progress=progress)
+    case = {**case_of(pair), "speed": 1.0}  # the speeds that bodies bear are multiples of it
+    lists = {n: [v] if isinstance(v, int | float | str) else v for n, v in axes.items()}
+    found = sweep(case, Grid(lists), outputs=outputs, workers=workers, progress=progress)
     notes = [BOUNDS] + [UNCOUPLED] * (abs(pair.dundurs_beta) > WEAK_COUPLING)
     return found.assign_attrs(title="speeds that bodies bear", notes="; ".join(notes))
 
 
-def _listed(values: ArrayLike) -> ArrayLike:
-    return [values] if isinstance(values, int | float | str) else values
+def _speeds_known(pair: Pair) -> list[str]:
+    """Return which speeds the strengths of a pair give, or raise InputError if none."""
+    known = [
+        name
+        for name, (quantity, body) in WANTED.items()
+        if quantity in SPEEDS and _bears(getattr(pair, body).material, needed_by(name))
+    ]
+    if not known:
+        raise InputError(
+            "strength: no strength of either body is known; give yield_strength, tensile_strength, "
+            "or fracture_toughness with flaw_size, to carom.Material or carom.material(name, ...)"
+        )
+    return known
+
+
+def _bears(material: Any, needed: Sequence[str]) -> bool:
+    return not material.is_rigid and all(getattr(material, name) is not None for name in needed)

@@ -10,25 +10,16 @@ from numpy.typing import ArrayLike
 
 from carom.bodies.cases import case_of
 from carom.bodies.pairs import Pair
-from carom.bodies.shapes import HalfSpace, Sphere
+from carom.dem.base import ContactLaw, Law
+from carom.dem.contact_step import steel_on_steel
 from carom.io.progress import Progress, advancing
-from carom.io.tables import CASE
-from carom.laws.dem import ContactLaw, Law
+from carom.io.user_table import CASE
 from carom.quantities.arrays import finite_line
-from carom.quantities.refusals import InputError, refusal
-from carom.verify.catalogue import CATALOGUE, EXACT, Entry, as_entry
+from carom.quantities.refusals import InputError, checked_type, refusal
 from carom.verify.engines.experiments import Experiment, Outcomes, psi_out, results_csv
 from carom.verify.engines.running import Engine, EngineError, EngineKilled, run
-from carom.verify.errors import (
-    INCIDENCES,
-    exact_rebound,
-    in_words,
-    largest,
-    law_rebound,
-    laws_of,
-    left_restitution,
-    root_mean_square,
-)
+from carom.verify.entries import CATALOGUE, EXACT, Entry, as_entry
+from carom.verify.errors import INCIDENCES, Impacts, in_words, largest, laws_of, root_mean_square
 
 STEPS = 2000  # per duration of Hertz's contact
 OVERLAP = 1e-6  # d_max/R*: so small that the turning of a normal costs some 2e-5 in psi_2
@@ -105,11 +96,6 @@ class Bench:
         )
 
 
-def steel_on_steel() -> Pair:
-    """Return the pair of the published comparison: nu = 0.3, hence chi = 1.4412."""
-    return Pair(Sphere(radius=0.005, material="steel"), HalfSpace(material="steel"), friction=0.2)
-
-
 def bench(
     engine: Engine,
     entries: Sequence[Entry | Law] = CATALOGUE,
@@ -161,8 +147,7 @@ def bench(
     carom.InputError: LAMMPS: '/nowhere/lmp' is not an executable; give another path
     """
     bodies, psis = steel_on_steel() if pair is None else pair, finite_line("psi", psi)
-    if not isinstance(engine, Engine):
-        raise refusal("engine", engine, "must be a DEM program, e.g. carom.verify.Lammps()")
+    checked_type("engine", engine, Engine, "must be a DEM program, e.g. carom.verify.Lammps()")
     if engine.executable() is None:
         raise InputError(f"{engine.name}: {engine.remedy}")
     known = _supported(engine, [as_entry(given) for given in laws_of("entries", entries)])
@@ -217,13 +202,11 @@ def _supported(engine: Engine, entries: Sequence[Entry]) -> list[Entry]:
 
 
 def _measured(entry: Entry, experiment: Experiment, outcomes: Outcomes, seconds: float) -> Measured:
-    psi, pair = experiment.psi_in, experiment.pair
-    given = psi_out(experiment, outcomes)
-    left = left_restitution(entry.law, pair.chi, pair.kappa)
-    error = given - exact_rebound(psi, pair.chi, left)
-    same = law_rebound(entry.law, psi, pair.chi, pair.kappa, experiment.steps)
-    worst = float(psi[int(np.argmax(np.abs(error)))])
-    off = largest(given - same)
+    pair, given = experiment.pair, psi_out(experiment, outcomes)
+    met = Impacts(experiment.psi_in, pair.chi, pair.kappa)
+    error = given - met.exact(met.restitution(entry.law))
+    off = largest(given - met.rebound(entry.law, experiment.steps))
+    worst = float(met.psi[int(np.argmax(np.abs(error)))])
     return Measured(entry, largest(error), worst, root_mean_square(error), off, seconds, None)
 
 

@@ -6,16 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from carom.quantities.units import counted, positive
-from carom.verify.errors import (
-    INCIDENCES,
-    LawOrFunction,
-    as_law,
-    checked_chi,
-    incidences,
-    kappa_or_solid,
-    largest,
-    law_rebound,
-)
+from carom.verify.errors import INCIDENCES, Impacts, LawOrFunction, as_law, largest
 
 FEWEST, MOST = 10, 2_000_000
 GROWTH = 2.0**0.5
@@ -50,7 +41,7 @@ def step_error(
     Parameters
     ----------
     law : Law or callable
-        A contact law, e.g. `carom.LinearSpring()`, or a function as of `carom.FunctionLaw`.
+        A contact law, e.g. `carom.dem.LinearSpring()`, or a function as of `carom.dem.FunctionLaw`.
     steps : int
         Time steps per t_c, from 10 to two million.
     psi : array_like
@@ -73,14 +64,12 @@ def step_error(
     Examples
     --------
     >>> import carom
-    >>> carom.verify.step_error(carom.LammpsMindlin("mindlin"), 100) < 1e-3
+    >>> carom.verify.step_error(carom.dem.LammpsMindlin("mindlin"), 100) < 1e-3
     True
     """
     counted("steps", steps, FEWEST, MOST)
-    law, psis, ratio = as_law(law), incidences(psi), checked_chi(chi)
-    own = kappa_or_solid(kappa, ratio)
-    converged = law_rebound(law, psis, ratio, own)
-    return largest(law_rebound(law, psis, ratio, own, steps) - converged)
+    law, met = as_law(law), Impacts.of(psi, chi, kappa)
+    return largest(met.rebound(law, steps) - met.rebound(law))
 
 
 def advised_steps(
@@ -100,7 +89,7 @@ def advised_steps(
     Parameters
     ----------
     law : Law or callable
-        A contact law, e.g. `carom.LinearSpring()`, or a function as of `carom.FunctionLaw`.
+        A contact law, e.g. `carom.dem.LinearSpring()`, or a function as of `carom.dem.FunctionLaw`.
     allowed : float
         Largest |error in psi_2| that the steps may cause.
     psi : array_like
@@ -123,20 +112,19 @@ def advised_steps(
     Examples
     --------
     >>> import carom
-    >>> carom.verify.advised_steps(carom.LinearSpring(), 0.01).steps
+    >>> carom.verify.advised_steps(carom.dem.LinearSpring(), 0.01).steps
     28
     """
     bound = positive("allowed", allowed, "1")
-    law, psis, ratio = as_law(law), incidences(psi), checked_chi(chi)
-    own = kappa_or_solid(kappa, ratio)
-    converged = law_rebound(law, psis, ratio, own)
+    law, met = as_law(law), Impacts.of(psi, chi, kappa)
+    converged = met.rebound(law)
     if not np.all(np.isfinite(converged)):
         return None
     held: list[TimeSteps] = []
     wanted = float(FEWEST)
     while wanted <= min(MOST, law.most_steps):
         steps = round(wanted)
-        error = largest(law_rebound(law, psis, ratio, own, steps) - converged)
+        error = largest(met.rebound(law, steps) - converged)
         held = [*held, TimeSteps(steps, error)] if error <= bound else []
         if len(held) == 3:
             return held[0]

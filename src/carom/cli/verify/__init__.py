@@ -1,20 +1,17 @@
 """`carom verify`: contact laws and DEM codes against the exact impact."""
 
-from carom.cli.once import Commands
-from carom.cli.verify.engines import COMMANDS, engine_command
+from carom.cli.options import Commands
+from carom.cli.verify.engines import COMMANDS, engine_command, pack_command
 from carom.cli.verify.laws import laws_command
-from carom.cli.verify.pack import pack_command
 from carom.cli.verify.score import score_command
 from carom.cli.verify.tune import tune_command
 
 app = Commands(
-    name="verify",
-    help="Test contact laws and DEM codes against the exact impact.\n\n"
+    "verify",
+    "Test contact laws and DEM codes against the exact impact.\n\n"
     "Begin with carom verify laws, which ranks the contact laws in use. carom verify score judges "
     "your own results, and carom verify tune finds the least wrong stiffness of a law.\n\n\b\n"
     "Example: carom verify laws",
-    no_args_is_help=True,
-    rich_markup_mode=None,
 )
 app.command("laws")(laws_command)
 for name, words in COMMANDS.items():

@@ -11,9 +11,9 @@ import numpy as np
 
 from carom.bodies.pairs import Pair
 from carom.bodies.shapes import Sphere
-from carom.laws.dem import LinearSpring
-from carom.laws.dem.coefficients import SPRING
-from carom.laws.dem.damping import damping_ratio
+from carom.dem import LinearSpring
+from carom.dem.coefficients import SPRING
+from carom.dem.damping import damping_ratio
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import refusal
 from carom.verify.engines.experiments import Experiment, Outcomes
@@ -105,10 +105,7 @@ def placed(experiment: Experiment) -> list[Placed]:
 
 
 def share_of_first(pair: Pair) -> float:
-    """Return the part of a relative velocity that the first body has, the centre of mass resting.
-
-    A half-space is as good as infinitely heavy.
-    """
+    """Return the first body's part of a relative velocity; the centre of mass is at rest."""
     if not isinstance(pair.second, Sphere):
         return 1.0
     return pair.second.mass / (pair.first.mass + pair.second.mass)

@@ -10,9 +10,10 @@ from typing import ClassVar
 
 from carom.adapters import liggghts
 from carom.bodies.shapes import Sphere
-from carom.laws.dem import ContactLaw, LiggghtsHertz, LinearSpring, MemoryLaw
+from carom.dem import ExactContactLaw, LiggghtsHertz, LinearSpring
+from carom.dem.base import ContactLaw
 from carom.verify.engines import arrangement
-from carom.verify.engines.experiments import Experiment, Outcomes
+from carom.verify.engines.experiments import Experiment
 from carom.verify.engines.running import Engine
 
 INPUT, SPHERES, RESULT = "in.liggghts", "spheres.data", "results.dump"
@@ -71,8 +72,8 @@ class Liggghts(Engine):
     --------
     >>> import carom
     >>> engine = carom.verify.Liggghts()
-    >>> hertz = carom.LiggghtsHertz(restitution=0.9)
-    >>> engine.supports(hertz), engine.supports(carom.LammpsMindlin())
+    >>> hertz = carom.dem.LiggghtsHertz(restitution=0.9)
+    >>> engine.supports(hertz), engine.supports(carom.dem.LammpsMindlin())
     (True, False)
     """
 
@@ -83,6 +84,7 @@ class Liggghts(Engine):
     advice: ClassVar[str] = "install Debian's package liggghts, or carom liggghts build"
     greeting: ClassVar[str] = r"LIGGGHTS-PUBLIC ([\w.]+)"
     builder: ClassVar[str] = "carom liggghts build"
+    result: ClassVar[str] = RESULT
 
     def executable(self) -> Path | None:
         """Return where LIGGGHTS is, or None."""
@@ -91,7 +93,7 @@ class Liggghts(Engine):
 
     def supports(self, law: ContactLaw) -> bool:
         """Tell whether the program has this law; the exact one where it was built with it."""
-        if isinstance(law, MemoryLaw):
+        if isinstance(law, ExactContactLaw):
             fits = law.springs in liggghts.SPRINGS and law.restitution == 1.0
             executable = self.executable() if fits else None
             return executable is not None and liggghts.has_model(executable)
@@ -103,14 +105,9 @@ class Liggghts(Engine):
         """Return complete inputs: text by file name."""
         return {INPUT: _script(experiment), SPHERES: arrangement.data_file(experiment)}
 
-    def outcomes(self, folder: Path, experiment: Experiment) -> Outcomes:
-        """Return what a run has left in its folder; ValueError or OSError if it is not there."""
-        return arrangement.outcomes_of(experiment, arrangement.read_dump(folder / RESULT))
-
 
 def _words(law: ContactLaw) -> tuple[str, str]:
-    """Return the models of a law, and their options."""
-    if isinstance(law, MemoryLaw):
+    if isinstance(law, ExactContactLaw):
         return "hertz tangential carom", f"springs {law.springs}"
     if isinstance(law, LinearSpring):
         return "hooke/stiffness tangential history", "tangential_damping off"
@@ -134,7 +131,6 @@ def _script(experiment: Experiment) -> str:
 
 
 def _properties(experiment: Experiment) -> Iterator[str]:
-    """Yield the material properties of both types of bodies."""
     pair, law = experiment.pair, experiment.law
 
     def each(name: str, one: float, two: float) -> str:

@@ -1,0 +1,87 @@
+"""Commands and their options, which are given once, but for lists; typer takes the last."""
+
+from collections import Counter
+from collections.abc import Callable, Mapping
+from typing import Annotated, Any, TypeVar
+
+import typer
+from typer.core import TyperCommand, TyperOption
+
+from carom.quantities.refusals import InputError
+
+Command = TypeVar("Command", bound=Callable[..., None])
+
+COMMON: dict[str, Any] = {
+    "as_json": typer.Option("--json", help="Print JSON instead of a table."),
+    "column": "The quantity in a column of your table that has another name, e.g. omega=spin, or "
+    "'w=spin [rpm]' with its unit. You can repeat this option.",
+    "plot": "Store a figure of the result: .png, .pdf or .svg.",
+}
+
+
+class Interrupted(Exception):
+    """A command was interrupted, as by Ctrl-C; typer drops what such an exception says."""
+
+
+class Once(TyperCommand):
+    """A command that refuses an option given twice, unless it is one of several values."""
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the command; raises Interrupted for a KeyboardInterrupt."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt as error:
+            raise Interrupted(*error.args) from None
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Read the arguments, after a look at how often each option is among them."""
+        order = self.make_parser(ctx).parse_args(list(args))[2]
+        for option, count in Counter(order).items():
+            if count > 1 and isinstance(option, TyperOption) and not option.multiple:
+                names = "/".join((*option.opts, *option.secondary_opts))
+                raise InputError(f"{names}: it is given {count} times; leave all but one out")
+        return super().parse_args(ctx, args)
+
+
+class Commands(typer.Typer):
+    """Commands of this kind, with help as plain text, which comes where no command is given."""
+
+    def __init__(self, name: str, words: str) -> None:
+        plain: dict[str, Any] = {"rich_markup_mode": None, "pretty_exceptions_enable": False}
+        super().__init__(name=name, help=words, no_args_is_help=True, add_completion=False, **plain)
+
+    def command(self, name: str | None = None, **more: Any) -> Callable[..., Any]:
+        """Return what registers a function as a command."""
+        return super().command(name, cls=Once, **more)
+
+
+def described(options: Mapping[str, Any]) -> Callable[[Command], Command]:
+    """Return a decorator that gives parameters of a command their help, or their option of typer.
+
+    The signature then has names, types and defaults alone. Some options are the same everywhere.
+    """
+
+    def decorate(command: Command) -> Command:
+        of_typer = {**COMMON, **options}
+        for name in of_typer.keys() & command.__annotations__.keys():
+            option = of_typer[name]
+            option = typer.Option(help=option) if isinstance(option, str) else option
+            command.__annotations__[name] = Annotated[command.__annotations__[name], option]
+        return command
+
+    return decorate
+
+
+def file_option(words: str) -> Any:
+    """Return the option of a file that is read; it is a text, as "" is a folder for `Path`."""
+    return typer.Option(help=words, metavar="FILE")
+
+
+def file_argument(words: str) -> Any:
+    """Return the argument of a file that is read."""
+    return typer.Argument(help=words, metavar="FILE")
+
+
+def whole_option(words: str) -> Any:
+    """Return an option whose text `carom.quantities.units.whole` reads."""
+    return typer.Option(help=words, metavar="INTEGER")
