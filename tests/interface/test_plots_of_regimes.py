@@ -14,7 +14,7 @@ from carom.plots import plot_regime_map, save_figure
 from carom.plots.legends import wrapped
 from carom.plots.regime_map import group_of
 from carom.plots.region_labels import SMALLEST, find_labels, in_letters
-from carom.plots.regions import limits, regions
+from carom.plots.regions import area, limits, regions
 
 SPACES = str.maketrans({"\n": " ", "\u00a0": " "})
 WIDTHS = (178.0, 120.0, 86.0)
@@ -22,13 +22,14 @@ WIDTHS = (178.0, 120.0, 86.0)
 
 @pytest.fixture(scope="module")
 def maps():
-    """Many regimes, few, those that end in stick or slip on a line, mirror images, no outlines."""
+    """Many regimes, few, ends in stick or slip on a line, mirror images; no outlines, borders."""
     line = np.linspace
     many = carom.regime_map(line(0.02, 6.02, 61), line(0.103, 5.003, 50))
     fine = [name for name in many.variables if name.startswith(("border_", "outline_"))]
     return {
         "many": many,
         "points": many.drop_vars(fine),
+        "old": many.drop_vars([name for name in many.variables if name.startswith("outline_")]),
         "few": carom.regime_map(line(0.05, 3.0, 20), line(0.05, 3.0, 20)),
         "half": carom.regime_map(line(0.0, 2.0, 21), line(0.3, 0.6, 13)),
         "mirrored": carom.regime_map(line(-6.0, 6.0, 40), line(0.1, 4.0, 30)),
@@ -36,7 +37,7 @@ def maps():
     }
 
 
-NAMES = ("many", "points", "few", "half", "mirrored", "row")
+NAMES = ("many", "points", "old", "few", "half", "mirrored", "row")
 
 
 def seen(figure):
@@ -75,7 +76,11 @@ def test_every_sequence_is_named_by_text_that_is_clear_of_other_text(maps, name,
     for number in numbers:
         assert f"{number} = " in below
     FigureCanvasAgg(figure).draw()
-    page = figure.bbox
+    page, axis = figure.bbox, figure.axes[0]
+    for line in (line for line in axis.lines if line.get_marker() == "o"):
+        end = axis.transAxes.transform(line.get_xydata()[1])
+        ends_in = [text for text in axis.texts if text.get_window_extent().contains(*end)]
+        assert len(ends_in) == 1, "a leader line ends at its label"
     boxes = [(text.get_text(), text.get_window_extent()) for text in seen(figure)]
     assert len(boxes) > 10
     for text, box in boxes:
@@ -146,16 +151,34 @@ def test_colours_tell_groups_apart(maps):
 
 
 def test_edges_are_curves_and_not_pixels(maps, tmp_path):
-    """There is no picture in a vector file; and steps only where a dataset has no outlines."""
+    """There is no picture in a vector file; and steps only where a dataset has no borders.
+
+    Steps are horizontal or vertical, but for corners that are cut by at most half a cell.
+    """
     stored = save_figure(plot_regime_map(maps["many"]), tmp_path / "map.svg")
     assert "<image" not in stored.read_text(encoding="utf-8")
-    slopes = {}
-    for name in ("many", "points"):
+    slopes, cells = {}, np.array([0.1, 0.1])
+    for name in ("many", "old", "points"):
         rings = [ring for region in regions(maps[name]) for ring in region.rings]
         steps = np.concatenate([np.diff(ring, axis=0) for ring in rings])
         slopes[name] = len(np.unique(np.round(np.arctan2(steps[:, 1], steps[:, 0]), 6)))
-    assert slopes["many"] > 200
-    assert slopes["points"] < 20
+    assert min(slopes["many"], slopes["old"]) > 200
+    slanted = np.abs(steps[np.all(np.abs(steps) > 1e-9, axis=1)] / cells)
+    assert slanted.size
+    assert slanted.max() < 0.5 + 1e-9
+
+
+def test_maps_of_version_0_2_are_drawn_by_their_borders(maps):
+    """As finely as with outlines: a sequence's share of the map is the same to a thousandth."""
+    share = {}
+    for name in ("many", "old"):
+        for region in regions(maps[name]):
+            key = name, region.name
+            share[key] = share.get(key, 0.0) + sum(area(ring) for ring in region.rings)
+    whole = np.prod([np.ptp(limits(maps["many"], axis)) for axis in ("psi_in", "chi")])
+    for name in maps["many"].sequence_met.values.tolist():
+        apart = share.get(("many", name), 0.0) - share.get(("old", name), 0.0)
+        assert abs(apart) < 1e-3 * whole, name
 
 
 def test_what_is_not_resolved_is_said_to_be(maps):

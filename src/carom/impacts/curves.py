@@ -157,7 +157,8 @@ def regime_map(
     an image of sequences, finer than the given values, through points that are found by bisection
     along its lines. It is finest, to a thousandth of an axis, where three regimes meet, so that
     strips between two others are followed to their ends. A regime between the given values that
-    is nowhere wider than a thirtieth of an axis, a twentieth with losses, may be missed.
+    is nowhere wider than a thirtieth of an axis, a twentieth with losses, may be missed; what was
+    met and is too narrow for an outline is among sequence_met.
 
     Parameters
     ----------
@@ -179,7 +180,8 @@ def regime_map(
         of at most border_tolerance; border_left, border_right (border_curve), the sequences on
         either side of a curve, seen along its points. Outlines of the regions: points outline_psi,
         outline_chi (outline_point) in order, each on outline_number; outline_sequence (outline),
-        the sequence inside; outline_region, the same for a region and the holes in it.
+        the sequence inside; outline_region, the same for a region and the holes in it. Sequences
+        that any impact on the way had: sequence_met (met).
 
     Raises
     ------
@@ -216,6 +218,11 @@ def regime_map(
             ),
             "restitution": e,
             **border_variables(incoming, chis, met, sequences, progress),
+            "sequence_met": (
+                "met",
+                np.array([name for name in sequences.names if name], dtype=np.str_),
+                {"long_name": "sequence of phases of one impact of the map or more"},
+            ),
         },
         {"chi": chis, "psi_in": incoming, "sequence_name": ("sequence_name", names, {})},
         {"title": "map of regimes"},

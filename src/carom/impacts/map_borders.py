@@ -201,18 +201,28 @@ def bisected(image: Image, tolerance: float) -> tuple[Array, Labels]:
         places[row + row % 2, column + column % 2],
     )
     before, after = labels[row // 2, column // 2], labels[(row + 1) // 2, (column + 1) // 2]
-    other, least = after.copy(), tolerance / FINER
+    sides, least = [before, after], tolerance / FINER
     while True:
-        wide = np.any(high - low > least * np.maximum(1.0, np.abs(low)), axis=1)
-        if not wide.any():
+        wide = np.flatnonzero(np.any(high - low > least * np.maximum(1.0, np.abs(low)), axis=1))
+        if not wide.size:
             break
         middle = 0.5 * (low[wide] + high[wide])
         met = image.tell(*middle.T)
-        same = met == before[wide]
+        same = met == sides[0][wide]
+        third = ~same & (met != sides[1][wide])  # which may hide others, so as to meet them too
+        low, high = (
+            np.concatenate([low, middle[third]]),
+            np.concatenate([high, high[wide][third]]),
+        )
+        sides = [
+            np.concatenate([sides[0], met[third]]),
+            np.concatenate([sides[1], sides[1][wide][third]]),
+        ]
         low[wide] = np.where(same[:, np.newaxis], middle, low[wide])
         high[wide] = np.where(same[:, np.newaxis], high[wide], middle)
-        other[wide] = np.where(same, other[wide], met)
-    places[row, column] = 0.5 * (low + high)
+        sides[1][wide] = np.where(same, sides[1][wide], met)
+    places[row, column] = 0.5 * (low + high)[: row.size]
+    other = sides[1][: row.size]
     sure = image.solved[row // 2, column // 2] & image.solved[(row + 1) // 2, (column + 1) // 2]
     kept[row, column] = np.where(sure & (other == after), KEPT, MEETING)  # a third region between
     return places, kept

@@ -1,7 +1,7 @@
 """The map of regimes over psi_1 and chi: regions in colours, each with its sequence of phases."""
 
 from collections import Counter
-from itertools import groupby
+from itertools import chain, groupby
 from typing import Any, NamedTuple, Unpack
 
 import matplotlib
@@ -12,10 +12,18 @@ from matplotlib.patches import Patch, PathPatch
 
 from carom.plots import style
 from carom.plots.drawing import Drawable, draws
-from carom.plots.legends import fitting_columns, wrapped
+from carom.plots.legends import fitting_columns, font_size, wrapped
 from carom.plots.look import AXES, Look
 from carom.plots.regimes import draw_borders
-from carom.plots.region_labels import SMALLEST, Label, Labels, find_labels, in_letters, signed
+from carom.plots.region_labels import (
+    PITCH,
+    SMALLEST,
+    Label,
+    Labels,
+    find_labels,
+    in_letters,
+    signed,
+)
 from carom.plots.regions import Region, area, limits, regions
 from carom.quantities.arrays import Array
 
@@ -23,6 +31,7 @@ HUES = {"gross slip +": "Oranges", "gross slip -": "Blues"}
 OTHER = "Greys"  # of what ends in stick or a slip ring, as few impacts do
 PALEST, DARKEST = 0.08, 0.62  # of the colours of a map of matplotlib
 MANY = 5  # reversals of slip, of which the colour is the darkest at least
+NAMED = "sequence_met", "sequence_name", "border_left", "border_right"  # of which all are listed
 KEY = (
     "G gross slip, S stick, s slip in a ring around a stick region; "
     "+ and \u2212: sign of the slip velocity"
@@ -64,7 +73,8 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     The colour of a region shows how the impact ends and how often slip reverses. Its label is the
     sequence of phases in letters, at the end of a line where it has no room inside, or a number
     that is explained below the map. Regions narrower than 0.2 mm are listed there. A dataset
-    without outlines, of an older version or of a single chi, is drawn by its points.
+    without outlines is drawn by its borders, to a thousandth of its width, if it is of version 0.2,
+    else by its points.
 
     Examples
     --------
@@ -86,7 +96,8 @@ def plot_regime_map(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     least = UNSEEN * area(found[0].rings[0])
     shown = {group_of(one.name) for one in found if one.name and area(one.rings[0]) > least}
     _add_key(figure, sorted(shown), colours)
-    _label_regions(figure, axis, found, dataset["sequence_name"].values.tolist())
+    lists = [dataset[name].values.tolist() for name in NAMED if name in dataset]
+    _label_regions(figure, axis, found, list(dict.fromkeys(chain.from_iterable(lists))))
     return figure
 
 
@@ -177,6 +188,10 @@ def _list(figure: Figure, labels: Labels) -> None:
     axis = AXES.get()
     if text and axis is None:
         figure.supxlabel(text, x=0.01, ha="left", fontsize="small")
+        lines = PITCH * font_size("small") * (text.count("\n") + 1)
+        figure.set_figheight(
+            figure.get_figheight() + lines / 72.0
+        )  # which leaves room for a layout
     elif text and axis is not None:
         axis.set_xlabel(f"{axis.get_xlabel()}\n{text}", fontsize="small")
 
@@ -209,9 +224,7 @@ def _write(axis: Axes, label: Label, size: Array) -> None:
     text.set_in_layout(False)
     if label.start is not None:
         text.set_bbox({"boxstyle": "square,pad=0.12", "fc": "white", "ec": "none"})
-        half = 0.5 * np.array([label.block.width, label.block.height])
-        end = np.clip(label.start, label.at - half, label.at + half)
-        under = label.at + UNDER * (end - label.at)  # the box, which hides the end
+        under = label.at + UNDER * (label.end - label.at)  # the box, which hides the end
         ends = np.array([label.start, under]) / size
         (line,) = axis.plot(*ends.T, transform=axis.transAxes, color="black", lw=0.5, zorder=4)
         line.set(marker="o", markevery=[0], ms=1.5)

@@ -1,5 +1,6 @@
 """Labels of a map's regions: sequences of phases in letters, and where each of them goes."""
 
+from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any, NamedTuple, TypeAlias
 
@@ -17,11 +18,14 @@ Mask: TypeAlias = NDArray[np.bool_]
 
 PIXEL, PIXELS = 0.15, 1000  # mm, and how many across a large map
 SMALLEST = 0.2  # width in mm of a region that has a label
-APART = 0.8  # of labels and of what is around them, in mm
+APART = 0.6  # of labels and of what is around them, in mm
 LEADER, LONGEST = 2.5, 40.0  # leader lines, in mm
-STRIDE = 5  # of the places for a label with a leader line, of which each is tried
-DOT = 4  # pixels around the beginning of a leader line, which others keep clear of
-FEW = 16  # leader lines that have sequences at their ends; more have numbers
+SPOTS = 2400  # places for labels with leader lines that are compared
+TRIALS, SWEEPS, CHANCE, IN_THE_WAY = 8, 80, 15.0, 400.0
+NUMBER, LOST = 200.0, 1000.0  # cost of a number instead of words, and of no label, in mm
+ON_BORDER = 3.0  # by how much more a leader line costs where it is on a border
+BY_OTHER, CLOSE = 6.0, 0.9  # the same for a line that is close to where another begins, in mm
+DOT = 4  # pixels around the beginning of a leader line, which labels keep clear of
 CENTRAL = 0.25  # of the distance from the middle of a region, against that from its edge
 PITCH = 1.2  # of lines of text, in sizes of the font
 MM = 25.4 / 72.0  # a point
@@ -43,6 +47,21 @@ class Label(NamedTuple):
     block: Block
     at: Array
     start: Array | None = None
+
+    @property
+    def end(self) -> Array:
+        """Where a leader line meets the label."""
+        if self.start is None:
+            return self.at
+        half = 0.5 * np.array([self.block.width, self.block.height])
+        return np.clip(self.start, self.at - half, self.at + half)
+
+
+class Spot(NamedTuple):
+    """A place for a label, and what it costs, in mm of leader lines."""
+
+    cost: float
+    label: Label
 
 
 class Labels(NamedTuple):
@@ -83,24 +102,32 @@ def find_labels(
         for n, (pole, width) in enumerate(poles)
         if width >= SMALLEST and regions[n].holds([(pole - to_mm[1]) / to_mm[0]])[0]
     ]
-    blocks = {n: _blocks(names[n]) for n in wide}
-    placed = {n: sheet.inside(n, blocks[n]) for n in wide}
-    outside = sorted((n for n in wide if not placed[n]), key=lambda n: -poles[n][0][1])
-    for n in outside:
-        sheet.keep_lines_off(poles[n][0])
-    few, numbered = len(outside) <= FEW, list[str]()
-    for n in outside:
-        label = sheet.beside(poles[n][0], blocks[n][:2]) if few else None
-        if not label:
-            number = numbered.index(names[n]) if names[n] in numbered else len(numbered)
-            short = [_block([str(number + 1)])]
-            label = sheet.inside(n, short) or sheet.beside(poles[n][0], short)
-            numbered += [names[n]] if label and number == len(numbered) else []
-        placed[n] = label
+    inside = {n: sheet.inside(n, _blocks(names[n])) for n in wide}
+    placed = {n: label for n, label in inside.items() if label}
+    for label in placed.values():
+        sheet.occupy(label)
+    marked = sorted(inside.keys() - placed.keys(), key=lambda n: -poles[n][0][1])
+    anchors = np.array([poles[n][0] for n in marked]).reshape(-1, 2)
+    number = _block(["0" * len(str(len(marked)))])
+    within = [sheet.inside(n, [number]) for n in marked]
+    sheet.keep_off_starts(anchors)
+    spots = [
+        [
+            *sheet.beside(anchors, k, _blocks(names[n])[:-1]),
+            *sheet.beside(anchors, k, [number], NUMBER),
+            *(Spot(NUMBER, label) for label in within[k : k + 1] if label),
+        ]
+        for k, n in enumerate(marked)
+    ]
+    chosen = dict(zip(marked, without_overlaps(spots), strict=True))
+    placed |= {n: label for n, label in chosen.items() if label}
+    short = [n for n in marked if n in placed and placed[n].block == number]
+    numbered = list(dict.fromkeys(names[n] for n in short))
+    for n in short:
+        placed[n] = placed[n]._replace(block=_block([str(numbered.index(names[n]) + 1)]))
     seen = {names[n] for n in wide}
     narrow = [name for name in names if name not in seen]
-    lost = [names[n] for n in wide if not placed[n]]
-    return Labels({n: label for n, label in placed.items() if label}, numbered, narrow, lost)
+    return Labels(placed, numbered, narrow, [names[n] for n in wide if n not in placed])
 
 
 def _blocks(name: str) -> list[Block]:
@@ -110,7 +137,7 @@ def _blocks(name: str) -> list[Block]:
         _block([" ".join(part) for part in np.array_split(letters, lines)])
         for lines in range(1, min(4, len(letters) + 1))
     ]
-    upright = [Block(one.text, one.height, one.width, turned=True) for one in flat[:2]]
+    upright = [Block(one.text, one.height, one.width, turned=True) for one in flat[:1]]
     return [*flat, *upright]
 
 
@@ -140,10 +167,10 @@ class Sheet:
         for start, end in pairwise(points):
             self.lines[self._along(start, end)] = True
 
-    def keep_lines_off(self, point: Array) -> None:
-        """Keep labels and leader lines off a point in mm, where such a line begins."""
-        column, row = (point / self.pixel).astype(int).tolist()
-        self.busy[max(0, row - DOT) : row + DOT + 1, max(0, column - DOT) : column + DOT + 1] = True
+    def keep_off_starts(self, anchors: Array) -> None:
+        """Keep labels off points in mm, where leader lines begin."""
+        for column, row in (anchors / self.pixel).astype(int).tolist():
+            self.lines[max(0, row - DOT) : row + DOT, max(0, column - DOT) : column + DOT] = True
 
     def pole(self, number: int) -> tuple[Array, float]:
         """Return the point of a region that is farthest from its edge, and how wide it is there."""
@@ -164,27 +191,35 @@ class Sheet:
             fits = self._fits(free, block)
             if fits.any():
                 best = np.where(fits, depth - CENTRAL * away, -np.inf).argmax()
-                return self._put(Label(block, self._place(window, best)))
+                return Label(block, self._place(window, best))
         return None
 
-    def beside(self, start: Array, blocks: list[Block]) -> Label | None:
-        """Place the first block for which there is free room at the end of a short leader line."""
-        low = np.maximum(0, (start[::-1] - LONGEST) / self.pixel).astype(int)
-        high = ((start[::-1] + LONGEST) / self.pixel).astype(int)
-        window = slice(low[0], high[0]), slice(low[1], high[1])
+    def beside(
+        self, anchors: Array, k: int, blocks: list[Block], extra: float = 0.0
+    ) -> Iterator[Spot]:
+        """Yield places for a label in free room, at the end of a short leader line to its anchor.
+
+        Lines cost their length, more on borders and where they pass the anchors of others closely.
+        """
+        most = SPOTS // (3 * len(anchors))
+        stride = int(np.ceil((_block([""]).height + APART) / self.pixel / 2.0))
+        start, others = anchors[k], np.delete(anchors, k, axis=0)
         for block in blocks:
-            fits = self._fits(~self.busy[window] & ~self.lines[window], block)
             half = 0.5 * np.array([block.width, block.height])
-            places = (np.argwhere(fits)[:, ::-1] + low[::-1] + 0.5) * self.pixel
+            fits = np.argwhere(self._fits(~self.busy & ~self.lines, block))
+            fits = fits[np.all(fits % stride == 0, axis=1)]
+            places = (fits[:, ::-1] + 0.5) * self.pixel
             ends = np.clip(start, places - half, places + half)
             length = np.hypot(*(ends - start).T)
-            near = np.argsort(np.where(length < LEADER, np.inf, length))
-            for k in near[: np.sum((length >= LEADER) & (length <= LONGEST)) : STRIDE]:
-                line = self._along(start, ends[k])
-                if not self.busy[line][3 * DOT :].any():
-                    self.busy[line] = self.busy[line[0], line[1] - 1] = True
-                    return self._put(Label(block, places[k], start))
-        return None
+            allowed = (length >= LEADER) & (length <= LONGEST)
+            for i in np.argsort(np.where(allowed, length, np.inf))[: min(most, allowed.sum())]:
+                line = self._along(start, ends[i])
+                if not self.busy[line].any():
+                    cost = length[i] * (1.0 + ON_BORDER * self.lines[line].mean())
+                    points = np.column_stack(line[::-1]) * self.pixel
+                    close = np.hypot(*(points[:, np.newaxis] - others).T).min(axis=-1) < CLOSE
+                    cost += BY_OTHER * close.sum() + extra
+                    yield Spot(cost, Label(block, places[i], start))
 
     def _fits(self, free: Mask, block: Block) -> Mask:
         size = [int(np.ceil((side + APART) / self.pixel)) for side in (block.height, block.width)]
@@ -196,12 +231,15 @@ class Sheet:
         row, column = np.unravel_index(index, shape)
         return self.pixel * np.array([window[1].start + column + 0.5, window[0].start + row + 0.5])
 
-    def _put(self, label: Label) -> Label:
+    def occupy(self, label: Label) -> None:
+        """Keep other labels and leader lines off a label."""
+        self.busy[self._box(label)] = True
+
+    def _box(self, label: Label) -> tuple[slice, slice]:
         half = 0.5 * np.array([label.block.width, label.block.height]) + 0.5 * APART
         low, high = ((label.at + side) / self.pixel for side in (-half, half))
         column, row = np.maximum(0, low).astype(int)
-        self.busy[row : int(high[1]) + 1, column : int(high[0]) + 1] = True
-        return label
+        return slice(row, int(high[1]) + 1), slice(column, int(high[0]) + 1)
 
     def _along(self, start: Array, end: Array) -> tuple[Any, Any]:
         """Return rows and columns of the pixels of a straight line."""
@@ -210,3 +248,67 @@ class Sheet:
         return np.clip(rows, 0, self.owner.shape[0] - 1), np.clip(
             columns, 0, self.owner.shape[1] - 1
         )
+
+
+def without_overlaps(spots: list[list[Spot]]) -> list[Label | None]:
+    """Return a label of each list or none, no two of which meet, at the least cost on the whole.
+
+    By simulated annealing: each in turn moves to where it costs least, by some chance elsewhere.
+    """
+    every = [spot for choice in spots for spot in choice]
+    ends = np.cumsum([0, *map(len, spots)])
+    own = [slice(*pair) for pair in pairwise(ends) if pair[0] < pair[1]]
+    if not own:
+        return [None] * len(spots)
+    meet = _meeting([spot.label for spot in every])
+    costs, rng = np.array([spot.cost for spot in every]), np.random.default_rng(0)
+    kept = [_annealed(rng, own, costs, meet) for _ in range(TRIALS)]
+    best = min(kept, key=lambda chosen: costs[chosen].sum() - LOST * len(chosen))
+    taken = {int(np.searchsorted(ends, k, side="right")) - 1: every[k].label for k in best}
+    return [taken.get(k) for k in range(len(spots))]
+
+
+def _meeting(labels: list[Label]) -> Mask:
+    """Tell which labels overlap, or have leader lines that cross each other or a label.
+
+    A line that passes a label crosses one of its diagonals.
+    """
+    at, end = (np.array([getattr(label, name) for label in labels]) for name in ("at", "end"))
+    start = np.array([one.at if one.start is None else one.start for one in labels])
+    half = 0.5 * np.array([one.block[1:3] for one in labels])
+    meet = np.all(np.abs(at[:, np.newaxis] - at) < half[:, np.newaxis] + half + APART, axis=-1)
+    for sense in (1.0, -1.0):
+        corner = (half + 0.5 * APART) * (1.0, sense)
+        cross = _crossing(start, end, at - corner, at + corner)
+        meet |= cross | cross.T
+    return np.asarray(meet | _crossing(start, end, start, end))
+
+
+def _crossing(a: Array, b: Array, c: Array, d: Array) -> Mask:
+    """Tell which of the lines from a to b cross which of those from c to d."""
+    apart = [_sides(a, b, c) * _sides(a, b, d), (_sides(c, d, a) * _sides(c, d, b)).T]
+    return np.asarray((apart[0] < 0.0) & (apart[1] < 0.0))
+
+
+def _sides(start: Array, end: Array, points: Array) -> Array:
+    """Return on which side of lines points lie, by sign, shape (lines, points)."""
+    (x, y), (u, v) = (end - start).T, start.T
+    lines = np.stack([-y, x, y * u - x * v], axis=-1)
+    return np.asarray(lines @ np.append(points, np.ones((len(points), 1)), axis=1).T)
+
+
+def _annealed(rng: np.random.Generator, own: list[slice], costs: Array, meet: Mask) -> list[int]:
+    """Return the spots of most labels, each among its own, of which no two meet."""
+    chosen = [part.start + int(costs[part].argmin()) for part in own]
+    hits = meet[chosen].sum(axis=0)
+    for late in np.linspace(0.0, 1.0, SWEEPS):
+        chance, in_the_way = CHANCE * (1.0 - late), IN_THE_WAY * (0.2 + late)
+        for i in rng.permutation(len(own)).tolist():
+            hits -= meet[chosen[i]]
+            cost = costs[own[i]] + in_the_way * hits[own[i]]
+            cost -= chance * rng.gumbel(size=cost.size)
+            chosen[i] = own[i].start + int(cost.argmin())
+            hits += meet[chosen[i]]
+    while (often := meet[np.ix_(chosen, chosen)].sum(axis=0)).max() > 1:
+        chosen.pop(int(often.argmax()))
+    return chosen
