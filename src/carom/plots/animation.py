@@ -71,10 +71,6 @@ def animate(
 
     Examples
     --------
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     frames = (hit.fields(time) for time in (6e-6, 21e-6))

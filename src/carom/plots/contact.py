@@ -63,10 +63,6 @@ def plot_contact(
 
     Examples
     --------
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> figure = carom.plots.plot_contact(hit, count=3)
     >>> len(figure.axes)  # patches, profiles below them, the force, and the key to the colours
     8
@@ -156,7 +152,8 @@ def _draw(course: xr.Dataset, shown: list[xr.Dataset]) -> Figure:
     for i, fields in enumerate(shown):
         shading = _patch(patches[i], fields, course, scale, reach, largest)
         profile_panel(below[i], fields, reach, scale)
-        _letter(patches[i], ascii_lowercase[i])
+        at_corner: Any = {"transform": patches[i].transAxes, "va": "top", "weight": "bold"}
+        patches[i].text(0.0, 1.0, ascii_lowercase[i], **at_corner)
         below[i].tick_params(labelleft=i == 0)
     below[0].set_ylabel(style.label("traction_x", unit))
     below[0].set_ylim(-ROOM * largest * scale, ROOM * largest * scale)
@@ -180,10 +177,6 @@ def _patch(
     for side in axis.spines.values():
         side.set_visible(False)
     return shading
-
-
-def _letter(axis: Axes, letter: str) -> None:
-    axis.text(0.0, 1.0, letter, transform=axis.transAxes, va="top", weight="bold")
 
 
 def _scale_bar(axis: Axes, reach: float, unit: str) -> None:

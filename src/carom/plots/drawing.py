@@ -26,8 +26,16 @@ SEVERAL_TEXT = (
 LOOK_TEXT = """**look : width, font_size, style, ax
     Width in mm, size of labels in points, style of matplotlib; see `carom.plots.style.style`. What
     has one panel is drawn into `ax`, Axes of your own, if you give them."""
+AT_TEXT = """at : float or str, optional
+    Of a result: the time in s of an impact, by default that of the largest normal force, or the
+    step of a load path, by default the last."""
 FIGURE_TEXT = """matplotlib.figure.Figure
     The figure, as wide as one column of a paper, 86 mm, or two, 178 mm."""
+IMPACT_TEXT = """>>> import carom
+>>> ball = carom.Sphere(radius="5 mm", material="steel")
+>>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
+>>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
+"""
 REFUSED_TEXT = """InputError
     If the dataset is another one."""
 
@@ -102,20 +110,23 @@ def looking(look: Any, name: str, parameters: Iterable[str]) -> Iterator[None]:
 def documented(draw: Callable[P, T], drawn: str = "") -> Callable[P, T]:
     """Add to the docstring of a function that draws what all of them take, return and refuse.
 
-    `drawn` describes the first parameter, if the docstring does not.
+    `drawn` describes the first parameter, if the docstring does not. Examples that draw an impact,
+    `hit`, begin with one.
     """
-    text, title, examples = cleandoc(draw.__doc__ or "").partition("\nExamples\n")
+    text, _, examples = cleandoc(draw.__doc__ or "").partition("\nExamples\n--------\n")
     text, _, raises = text.partition("\nRaises\n------\n")
     text, _, returns = text.partition("\nReturns\n-------\n")
     text, _, parameters = text.partition("\nParameters\n----------\n")
+    begin = IMPACT_TEXT if "(hit" in examples else ""
     described = drawn if drawn.split(" :")[0] + " :" not in parameters else ""
-    every = (described, parameters.strip(), LOOK_TEXT)
+    at = AT_TEXT if "at" in signature(draw).parameters else ""
+    every = (described, parameters.strip(), at, LOOK_TEXT)
     sections = (
         text.rstrip(),
         "Parameters\n----------\n" + "\n".join(filter(None, every)),
         f"Returns\n-------\n{returns.strip() or FIGURE_TEXT}",
         f"Raises\n------\n{raises.strip() or REFUSED_TEXT}",
-        f"{title.strip()}\n{examples}" if examples else "",
+        f"Examples\n--------\n{begin}{examples}" if examples else "",
     )
     draw.__doc__ = "\n\n".join(sections).rstrip() + "\n"
     return draw

@@ -99,8 +99,7 @@ def plot_drops(dataset: Drawable, **look: Unpack[Look]) -> Figure:
         **style.POINTS,
         label="measured",
     )
-    axis.set_xlabel(style.label("normal_speed"))
-    axis.set_ylabel(style.label("normal_restitution"))
+    axis.set(xlabel=style.label("normal_speed"), ylabel=style.label("normal_restitution"))
     axis.legend(loc="best")
     return figure
 

@@ -108,10 +108,6 @@ def plot_impact(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Examples
     --------
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> len(carom.plots.plot_impact(hit).axes)
     4
     >>> steeper = carom.impact(pair, speed=2.0, angle="10 deg")
@@ -141,10 +137,6 @@ def plot_forces(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Examples
     --------
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> len(carom.plots.plot_forces(hit.history(50)).axes)
     1
     """
@@ -157,10 +149,6 @@ def plot_radii(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Examples
     --------
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> len(carom.plots.plot_radii(hit.history(50)).axes)
     1
     """

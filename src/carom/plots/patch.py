@@ -45,9 +45,6 @@ def plot_patch(
     ----------
     variable : str
         What the shading tells: "traction_x" or "pressure".
-    at : float or str, optional
-        Of a result: the time in s of an impact, by default that of the largest normal force, or the
-        step of a load path, by default the last.
 
     Raises
     ------
@@ -56,10 +53,6 @@ def plot_patch(
 
     Examples
     --------
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> carom.plots.plot_patch(hit.fields("21 us")).axes[0].get_title().splitlines()[1]
     'longest arrow: 277\\xa0mm/s'
     """

@@ -30,12 +30,6 @@ def plot_profiles(dataset: Drawable, *, at: Any = None, **look: Unpack[Look]) ->
 
     Of a profile along the radius also the memory: g = -dq/ds, and the deflection q of the springs.
 
-    Parameters
-    ----------
-    at : float or str, optional
-        Of a result: the time in s of an impact, by default that of the largest normal force, or the
-        step of a load path, by default the last.
-
     Raises
     ------
     InputError
@@ -43,10 +37,6 @@ def plot_profiles(dataset: Drawable, *, at: Any = None, **look: Unpack[Look]) ->
 
     Examples
     --------
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> len(carom.plots.plot_profiles(hit.radial("21 us")).axes)
     3
     """

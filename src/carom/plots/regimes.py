@@ -57,8 +57,7 @@ def plot_curve(dataset: Drawable, **look: Unpack[Look]) -> Figure:
     ends = dataset["border"].values[0] if regimes and single else None
     bands = shade_regimes(axis, ends, psi.min(), psi.max())
     style.span(axis, psi)
-    axis.set_xlabel(style.label("psi_in"))
-    axis.set_ylabel(style.label("psi_out"))
+    axis.set(xlabel=style.label("psi_in"), ylabel=style.label("psi_out"))
     entries = [*lines, *bands]
     legend_above(axis, 2 if single or len(entries) < 5 else 3, handles=entries)
     return figure

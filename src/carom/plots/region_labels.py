@@ -105,7 +105,7 @@ def find_labels(
     inside = {n: sheet.inside(n, _blocks(names[n])) for n in wide}
     placed = {n: label for n, label in inside.items() if label}
     for label in placed.values():
-        sheet.occupy(label)
+        sheet.keep_lines_off(label)
     marked = sorted(inside.keys() - placed.keys(), key=lambda n: -poles[n][0][1])
     anchors = np.array([poles[n][0] for n in marked]).reshape(-1, 2)
     number = _block(["0" * len(str(len(marked)))])
@@ -231,15 +231,12 @@ class Sheet:
         row, column = np.unravel_index(index, shape)
         return self.pixel * np.array([window[1].start + column + 0.5, window[0].start + row + 0.5])
 
-    def occupy(self, label: Label) -> None:
+    def keep_lines_off(self, label: Label) -> None:
         """Keep other labels and leader lines off a label."""
-        self.busy[self._box(label)] = True
-
-    def _box(self, label: Label) -> tuple[slice, slice]:
         half = 0.5 * np.array([label.block.width, label.block.height]) + 0.5 * APART
         low, high = ((label.at + side) / self.pixel for side in (-half, half))
         column, row = np.maximum(0, low).astype(int)
-        return slice(row, int(high[1]) + 1), slice(column, int(high[0]) + 1)
+        self.busy[row : int(high[1]) + 1, column : int(high[0]) + 1] = True
 
     def _along(self, start: Array, end: Array) -> tuple[Any, Any]:
         """Return rows and columns of the pixels of a straight line."""

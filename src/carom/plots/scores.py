@@ -72,8 +72,7 @@ def _points(dataset: xr.Dataset) -> Figure:
     bands = _bands(upper, dataset)
     _bands(lower, dataset)
     upper.set_ylabel(style.label("psi_out"))
-    lower.set_ylabel(r"error in $\psi_2$")
-    lower.set_xlabel(style.label("psi_in"))
+    lower.set(xlabel=style.label("psi_in"), ylabel=r"error in $\psi_2$")
     legend_outside(figure, upper.get_legend_handles_labels()[0], 2)
     if bands:
         legend_above(upper, 2, handles=bands)

@@ -42,10 +42,6 @@ def plot_spectrum(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Examples
     --------
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> carom.plots.plot_spectrum(hit.spectrum()).axes[0].get_xscale()
     'log'
     """

@@ -34,9 +34,6 @@ def plot_stress(
     ----------
     variable : str
         Which stress, e.g. "von_mises", "max_shear", "principal_1", "sigma_xx".
-    at : float or str, optional
-        Of a result: the time in s of an impact, by default that of the largest normal force, or the
-        step of a load path, by default the last.
 
     Raises
     ------
@@ -45,10 +42,6 @@ def plot_stress(
 
     Examples
     --------
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> figure = carom.plots.plot_stress(hit.stress("21 us"), "max_shear")
     >>> figure.axes[0].get_ylabel()
     '$z$\\xa0(µm)'

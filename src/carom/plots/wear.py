@@ -30,10 +30,6 @@ def plot_wear(dataset: Drawable, **look: Unpack[Look]) -> Figure:
 
     Examples
     --------
-    >>> import carom
-    >>> ball = carom.Sphere(radius="5 mm", material="steel")
-    >>> pair = carom.Pair(ball, carom.HalfSpace(material="steel"), friction=0.2)
-    >>> hit = carom.impact(pair, speed=2.0, angle="30 deg")
     >>> carom.plots.plot_wear(hit.wear()).axes[0].get_ylabel()
     '$\\\\bar W_A$\\xa0(kJ/m²)'
     """
@@ -62,8 +58,7 @@ def _profile(axis: Axes, dataset: xr.Dataset, name: str) -> None:
         axis.set_title(f"largest at {where}" if beside else "largest in the centre")
     style.span(axis, distance)
     axis.set_ylim(bottom=0.0)
-    axis.set_xlabel(style.label("distance", unit))
-    axis.set_ylabel(_label(name, unit_of_values))
+    axis.set(xlabel=style.label("distance", unit), ylabel=_label(name, unit_of_values))
 
 
 def _map(figure: Figure, axis: Axes, dataset: xr.Dataset, name: str) -> None:
