@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 import carom
 from carom.fitting.comparison import plastic, viscous
 from carom.fitting.reading import AIR, DRAG, GRAVITY, taken_by_air
-from carom.plots.drops import plot_drops
+from carom.plots.fits import plot_drops
 
 SEED = 20261124
 BALL = carom.Sphere(radius="5 mm", material="steel")

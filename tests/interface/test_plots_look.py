@@ -3,8 +3,10 @@
 import matplotlib
 import numpy as np
 import pytest
+from matplotlib import pyplot
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
 from matplotlib.text import Text
 from tests.checks import refused
 
@@ -190,3 +192,65 @@ def test_boundary_elements_are_drawn_along_the_line_between_their_rows(pair):
 
 def test_a_figure_is_a_picture_in_a_notebook(hit):
     assert plots.plot_forces(hit)._repr_png_().startswith(b"\x89PNG")
+
+
+SEVERAL = {"plot_impact", "plot_wear", "plot_contact", "plot_laws", "plot_score", "plot_strength"}
+
+
+def test_what_is_one_panel_is_drawn_into_axes_of_a_user(drawers):
+    """As it is without; the rest of the figure, its size and a user's settings stay."""
+    for name, given in drawers.items():
+        if name in SEVERAL:
+            continue
+        figure, (left, right) = pyplot.subplots(1, 2, figsize=(9.0, 4.0), layout="constrained")
+        if name == "plot_profiles":
+            given = given.fields("21 us")
+        assert getattr(plots, name)(given, ax=right) is figure, name
+        alone = getattr(plots, name)(given).axes[0]
+        assert not left.has_data(), name
+        for kind in ("lines", "patches", "collections", "texts"):
+            kinds = [len(getattr(axis, kind)) for axis in (right, alone)]
+            assert kinds[0] == kinds[1] or (name, kind) in OTHER_SIZE, (name, kind)
+        assert right.get_ylabel() == alone.get_ylabel(), name
+        assert right.get_xlim() == pytest.approx(alone.get_xlim()), name
+        assert figure.get_size_inches() == pytest.approx([9.0, 4.0]), name
+        texts(figure)
+        pyplot.close(figure)
+
+
+OTHER_SIZE = {("plot_regime_map", "lines"), ("plot_regime_map", "texts")}  # labels find other room
+
+
+def test_several_panels_take_no_axes(drawers, hit):
+    axis = Figure().subplots()
+    several = [(getattr(plots, name), drawers[name]) for name in sorted(SEVERAL)]
+    for draw, given in [*several, (plots.plot_profiles, hit)]:
+        with pytest.raises(carom.InputError, match=r"^ax: this figure has several panels, and"):
+            draw(given, ax=axis)
+    assert not axis.has_data()
+    with pytest.raises(carom.InputError, match=r"^ax: 5 cannot be used; must be Axes"):
+        plots.plot_forces(hit, ax=5)
+    with pytest.raises(carom.InputError, match=r"^width: the figure that ax belongs to has its"):
+        plots.plot_forces(hit, ax=axis, width=100.0)
+
+
+def test_a_style_with_axes_is_that_of_what_is_drawn(hit):
+    """Without one the user's settings hold."""
+    with matplotlib.rc_context({"font.size": 13.0, "axes.labelsize": 13.0}):
+        sizes = []
+        for look in ({}, {"font_size": 9.5}):
+            axis = Figure().subplots()
+            plots.plot_forces(hit, ax=axis, **look)
+            sizes.append(axis.yaxis.label.get_fontsize())
+            sizes.append(axis.get_legend().get_texts()[0].get_fontsize())
+    assert sizes[1] == 13.0
+    assert sizes[3] == pytest.approx(9.0)
+
+
+def test_every_docstring_says_what_all_figures_take(drawers):
+    for name in (*drawers, "animate"):
+        text = getattr(plots, name).__doc__
+        parts = ["Parameters\n", "**look : width, font_size, style, ax\n", "Returns\n", "Raises\n"]
+        places = [text.index(part) for part in (*parts, "Examples\n")]
+        assert places == sorted(places), name
+        assert text.count("**look") == 1, name

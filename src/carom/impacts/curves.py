@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from carom.dimensionless.lossy.law import ScaleFreeLaw, scale_free
 from carom.dimensionless.rebounds import lossy_rebounds, rebound, regime_borders
-from carom.impacts.border_curves import border_curves
+from carom.impacts.map_borders import border_variables
 from carom.impacts.sequences import Sequences
 from carom.io.labels import labelled_dataset
 from carom.io.progress import Progress, advancing
@@ -159,9 +159,12 @@ def regime_map(
     """Return which phases follow which for every psi_1 and chi, and the borders between regimes.
 
     Phases are those of the exact impact (Maw, Barber & Fawcett 1976). Beyond psi_1 =
-    2 chi (1 + e) - e, e = 1 without losses, the contact slips throughout. Borders are curves
-    through points that are found by bisection along lines of constant psi_1 or chi, of the given
-    values and between them. A region smaller than a cell of these lines may be missed.
+    2 chi (1 + e) - e, e = 1 without losses, the contact slips throughout. Borders are outlines of
+    an image of sequences, finer than the given values, through points that are found by bisection
+    along its lines. It is finest, to a thousandth of an axis, where three regimes meet, so that
+    strips between two others are followed to their ends. A regime between the given values that
+    is nowhere wider than a thirtieth of an axis, a twentieth with losses, may be missed; what was
+    met and is too narrow for an outline is among sequence_met.
 
     Parameters
     ----------
@@ -181,7 +184,10 @@ def regime_map(
         sign of slip, the commonest first; and the restitution. Borders between regimes: points
         border_psi, border_chi (border_point) in order, each on curve border_number, with an error
         of at most border_tolerance; border_left, border_right (border_curve), the sequences on
-        either side of a curve, seen along its points.
+        either side of a curve, seen along its points. Outlines of the regions: points outline_psi,
+        outline_chi (outline_point) in order, each on outline_number; outline_sequence (outline),
+        the sequence inside; outline_region, the same for a region and the holes in it. Sequences
+        that any impact on the way had: sequence_met (met).
 
     Raises
     ------
@@ -217,40 +223,13 @@ def regime_map(
                 {"units": "1", "long_name": "sequence of phases, its place in sequence_name"},
             ),
             "restitution": e,
-            **_borders_of(incoming, chis, met, sequences, progress),
+            **border_variables(incoming, chis, met, sequences, progress),
+            "sequence_met": (
+                "met",
+                np.array([name for name in sequences.names if name], dtype=np.str_),
+                {"long_name": "sequence of phases of one impact of the map or more"},
+            ),
         },
         {"chi": chis, "psi_in": incoming, "sequence_name": ("sequence_name", names, {})},
         {"title": "map of regimes"},
     )
-
-
-def _borders_of(
-    psi: Array, chi: Array, numbers: NDArray[np.int64], sequences: Sequences, progress: Progress
-) -> dict[str, Any]:
-    """Return the borders on a map whose sequences have these numbers, shape (chi, psi)."""
-    (x, columns), (y, rows) = (np.unique(line, return_index=True) for line in (psi, chi))
-    plain = sequences.losses is None
-    tolerance, more = (TOLERANCE, MORE) if plain else (COARSE, COARSE_MORE)
-    shown = False if callable(progress) else progress  # which counts the rows of the map
-    with advancing("finding the borders of the regimes", None, shown, unit="impacts") as advance:
-
-        def tell(psis: Array, chis: Array) -> NDArray[np.int64]:
-            labels = sequences.of(psis, chis)
-            advance(psis.size)
-            return labels
-
-        with np.errstate(over="ignore", invalid="ignore"):  # where values are out of all proportion
-            curves = border_curves((x, y), numbers[np.ix_(rows, columns)], tell, tolerance, more)
-    points = np.concatenate([np.empty((0, 2)), *(curve.points for curve in curves)])
-    names = np.array(sequences.names, dtype=np.str_)
-    left, right = np.array([curve[:2] for curve in curves], dtype=np.int64).reshape(-1, 2).T
-    belongs = np.repeat(np.arange(len(curves)), [len(curve.points) for curve in curves])
-    side = "sequence of phases on the {} of a border, in the direction of its points"
-    return {
-        "border_psi": ("border_point", points[:, 0]),
-        "border_chi": ("border_point", points[:, 1]),
-        "border_number": ("border_point", belongs.astype(np.int32)),
-        "border_left": ("border_curve", names[left], {"long_name": side.format("left")}),
-        "border_right": ("border_curve", names[right], {"long_name": side.format("right")}),
-        "border_tolerance": tolerance,
-    }
