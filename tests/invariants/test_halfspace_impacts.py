@@ -176,7 +176,7 @@ def test_what_cannot_be_solved_is_refused(change, said):
 
 def test_normal_and_tangential_contact_that_do_not_agree_are_told(monkeypatch):
     """With too few exchanges, as with too strong a coupling: no result, and a reason."""
-    monkeypatch.setattr("carom.halfspace.quasistatic.EXCHANGES", 2)
+    monkeypatch.setattr("carom.halfspace.quasistatic.MOST_EXCHANGES", 2)
     with pytest.raises(RuntimeError, match=r"friction times Dundurs' beta is 0\.1"):
         carom.impact(against_wall(STEEL, CORK, 0.2), speed=1.0, angle=0.3, method=TINY)
 
