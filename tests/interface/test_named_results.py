@@ -93,11 +93,11 @@ def test_a_ranking_of_any_names_can_be_drawn(tmp_path):
 def test_comments_of_a_file_name_what_columns_do_not(tmp_path):
     comments = "# code: LAMMPS 22 Jul\n# law: mindlin, 2/3\n"
     result = score(written(tmp_path / "results.csv", one(), comments), chi=CHI)
-    assert result.origins.known == (("LAMMPS 22 Jul", "mindlin, 2/3"),)
+    assert result.origins.distinct == (("LAMMPS 22 Jul", "mindlin, 2/3"),)
     result = score(written(tmp_path / "results.csv", both(), comments), chi=CHI)
-    assert [origin.law for origin in result.origins.known] == ["mindlin", "exact"]
+    assert [origin.law for origin in result.origins.distinct] == ["mindlin", "exact"]
     result = score(written(tmp_path / "results.csv", both()), chi=CHI, code="own", law="new")
-    assert result.origins.known == (("own", "new"),)
+    assert result.origins.distinct == (("own", "new"),)
 
 
 def test_names_are_kept_in_stored_scores(tmp_path):
@@ -141,7 +141,7 @@ def test_more_names_than_a_figure_tells_apart_are_left_out():
     psi = np.linspace(0.1, 6.0, 40)
     table = {"psi_1": psi, "psi_2": carom.rebound(psi, CHI), "law": [f"run {i}" for i in range(40)]}
     result = score(table, chi=CHI, code="own")
-    assert result.origins.known == (("own", ""),)
+    assert result.origins.distinct == (("own", ""),)
     assert "40 of them" in result.notes[0]
 
 

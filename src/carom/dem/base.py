@@ -117,7 +117,7 @@ class Law(Shown, ABC):
     def __init_subclass__(cls) -> None:
         text, count = NAMES_ALONE.subn(described, cleandoc(cls.__doc__ or ""))
         if count:
-            cls.__doc__ = text.replace("Examples\n---", f"{RAISES}\n\nExamples\n---", 1)
+            cls.__doc__ = text.replace("Examples\n---", f"{RAISES}\n\nExamples\n---", 1) + "\n"
 
     def __post_init__(self) -> None:
         for name, parameter in PARAMETERS.items():

@@ -266,6 +266,7 @@ class BilinearLaw(ContactLaw):
     restitution: float = 1.0
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
+        """Return the law as numbers in the units of Hertz's impact."""
         return linear(chi, kappa, self.stiffness_ratio, unloading=self.restitution**-2)
 
 
