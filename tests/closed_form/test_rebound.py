@@ -130,7 +130,7 @@ def test_refuses_a_number_of_threads_that_is_none(threads):
         carom.rebound(0.5, 1.44, threads=threads)
 
 
-@pytest.mark.parametrize(("psi", "chi", "name"), [(np.nan, 1.0, "psi"), (0.5, -2.0, "chi")])
+@pytest.mark.parametrize(("psi", "chi", "name"), [(np.nan, 1.0, "psi_1"), (0.5, -2.0, "chi")])
 def test_solve_refuses_what_is_out_of_range(psi, chi, name):
     with pytest.raises(ValueError, match=f"^{name}: .*not allowed"):
         carom.solve(psi, chi)
@@ -139,7 +139,7 @@ def test_solve_refuses_what_is_out_of_range(psi, chi, name):
 @pytest.mark.parametrize(
     ("psi", "chi", "name"),
     [
-        *[([1, 2], 1.44, "psi"), ("a", 1.44, "psi"), (np.zeros((3, 40)), 1.44, "psi")],
+        *[([1, 2], 1.44, "psi_1"), ("a", 1.44, "psi_1"), (np.zeros((3, 40)), 1.44, "psi_1")],
         *[(0.5, None, "chi"), (0.5, [1.0, 2.0], "chi")],
     ],
 )
