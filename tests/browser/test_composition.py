@@ -6,7 +6,7 @@ import pytest
 from tests.browser.scripts import script
 
 pytestmark = pytest.mark.browser
-WIDTHS = (400, 1024, 1440, 1920)
+WIDTHS = [400, *(pytest.param(wide, marks=pytest.mark.slow) for wide in (1024, 1440)), 1920]
 THEMES = ("light", "dark")
 CHARTS = ("rebounds", "forces", "energies")
 STATES = {

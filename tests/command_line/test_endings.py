@@ -26,6 +26,7 @@ material = "steel"
 angle = {from = "1 deg", to = "85 deg", points = 400}
 spin = {from = -10.0, to = 10.0, points = 200}
 """
+SMALL = SWEEP.replace("400", "40").replace("200", "20")
 RUN = "from carom.cli import run; run()"
 AT_IMPORT = """
 import os, signal, sys
@@ -49,7 +50,7 @@ CODES = {"SIGINT": 130, "SIGTERM": 143, "SIGHUP": 129}
 
 @pytest.fixture
 def there(tmp_path):
-    (tmp_path / "sweep.toml").write_text(SWEEP)
+    (tmp_path / "sweep.toml").write_text(SMALL)
     return tmp_path
 
 
@@ -80,10 +81,15 @@ MODULES = {
 }
 
 
-@pytest.mark.parametrize(
-    ("number", "module"),
-    [*(("SIGINT", module) for module in MODULES), ("SIGTERM", "unicodedata"), ("SIGTERM", "h5py")],
-)
+LIKE_OTHERS = ("numpy", "xarray", "matplotlib", "pandas")
+AT_MODULES = [("SIGTERM", "unicodedata"), ("SIGTERM", "h5py")]
+AT_MODULES += [
+    pytest.param("SIGINT", module, marks=[pytest.mark.slow] * (module in LIKE_OTHERS))
+    for module in MODULES
+]
+
+
+@pytest.mark.parametrize(("number", "module"), AT_MODULES)
 def test_a_signal_at_an_import_ends_in_one_line(number, module, there):
     program = AT_IMPORT.format(module=module, number=number)
     code, out, err = ended(there, program, MODULES[module])
@@ -116,7 +122,7 @@ def test_a_signal_leaves_no_temporary_file(number, arguments, there, command):
     assert code == CODES[number]
     assert err == (STOPPED if number == "SIGINT" else "")
     assert left(there) == before
-    assert all((there / name).read_text() in ("older", SWEEP) for name in before)
+    assert all((there / name).read_text() in ("older", SMALL) for name in before)
 
 
 def test_ctrl_c_in_sampling_is_told_in_one_line(there):
@@ -155,6 +161,7 @@ carom.fitting.result.sample = sample
 )
 def test_a_signal_at_any_time_ends_in_one_line(arguments, number, there):
     """From when Python runs `run`, which is told, through the first seconds."""
+    (there / "sweep.toml").write_text(SWEEP)
     program = "import carom.cli as c; print('ready', flush=True); c.run()"
     for delay in (0.0, 0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.5, 0.8, 1.2, 1.7, 2.3, 3.0):
         process = subprocess.Popen(

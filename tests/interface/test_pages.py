@@ -18,7 +18,15 @@ from speed import PAGE, lines, read  # noqa: E402
 import carom  # noqa: E402
 
 ACCURACY = ROOT / "docs" / "accuracy.md"
-SLOW = ("fitting", "halfspace", "normal_spin", "glass", "dem-codes")
+SLOW = (
+    "fitting",
+    "halfspace",
+    "normal_spin",
+    "glass",
+    "dem-codes",
+    "contact-mechanics",
+    "drop-test",
+)
 
 
 def run_as(page):
