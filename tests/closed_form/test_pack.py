@@ -38,7 +38,7 @@ SETS = (
 HISTORIES = ("normal", "stick_first", "slip_then_stick", "slip_back", "gross_slip")
 NUMBERS = ("reference.csv", "results.csv", "case.toml")
 DIGESTS = {"1": "779e70d5676c3fe238efa871ab6f371b1da69c3ed07638c87d5383ff87faaa88"}
-# psi_1, chi, psi_2: computed with 52 digits by tests/high_precision/impact_solver.py
+# psi_1, chi, psi_2: computed with 52 digits by tests/oracles/impact_solver.py
 DIGITS = [
     (0.5, 0.875, "-0.35191335345597793398"),
     (0.95, 1.0, "-0.59316152455702849548"),
