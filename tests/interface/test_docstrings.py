@@ -145,9 +145,8 @@ def written_at(label):
     owner, _, name = label.rpartition(".")
     if not inspect.isclass(PUBLIC.get(owner)):
         return f"carom.{label}"
-    home = next(
-        base for base in PUBLIC[owner].__mro__ if getattr(vars(base).get(name), "__doc__", None)
-    )
+    homes = (base for base in PUBLIC[owner].__mro__ if name in vars(base))
+    home = next(base for base in homes if vars(base)[name].__doc__)
     return f"{home.__module__}.{home.__qualname__}.{name}"
 
 
