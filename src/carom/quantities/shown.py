@@ -5,7 +5,16 @@ from html import escape
 
 INNER = frozenset(  # what the parts of Carom say to each other
     (
-        *("arguments", "builder", "called", "coefficients", "command", "coords", "describe"),
+        *(
+            "arguments",
+            "before",
+            "builder",
+            "called",
+            "coefficients",
+            "command",
+            "coords",
+            "describe",
+        ),
         *("description", "doubts", "executable", "files", "greeting", "inputs", "largest_chi"),
         *("loss", "most_steps", "outcomes", "remedy", "result", "rule", "sampled", "scale_free"),
         *("supports", "symmetric", "versions", "written"),
