@@ -3,13 +3,12 @@
 from collections.abc import Iterable
 from html import escape
 
-INNER = frozenset(  # what the parts of Carom say to each other
-    """
-    arguments before builder called coefficients command coords describe description doubts
-    executable files greeting inputs largest_chi loss most_steps outcomes remedy result rule
-    sampled scale_free supports symmetric versions written
-    """.split()
-)
+WORDS = """
+arguments before builder called coefficients command coords describe description doubts
+executable files greeting inputs largest_chi loss most_steps outcomes remedy result rule
+sampled scale_free supports symmetric versions written
+"""
+INNER = frozenset(WORDS.split())  # what the parts of Carom say to each other
 
 
 class Shown:
