@@ -50,3 +50,12 @@ def test_bad_axes_are_refused_by_name(psi, chi, named):
     with pytest.raises(carom.InputError, match=f"^{named}: ") as refused:
         regime_map(psi, chi)
     assert "\n" not in str(refused.value)
+
+
+def test_what_holds_on_a_side_of_the_map_alone_is_no_region():
+    """At psi_1 = 0 and at chi = 1/2 impacts stick throughout: two lines, which have no area."""
+    chi = np.linspace(0.5, 3.0, 26)
+    drawn = carom.regime_map(np.linspace(0.0, 6.0, 31), chi)
+    assert drawn.sequence_name.values[drawn.sequence.values[0, 0]] == "stick"
+    assert "stick" not in drawn.outline_sequence.values
+    assert drawn.outline_psi.values.min() == pytest.approx(0.0, abs=1e-5)

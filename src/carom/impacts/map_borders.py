@@ -30,6 +30,7 @@ Tell: TypeAlias = Callable[[Array, Array], Labels]
 
 FINER = 2.0  # than the tolerance: brackets of borders, which may be slanted
 SHARE = 0.49  # of the way to the next line: halfway, where values may be special
+INSIDE = 0.2  # of the tolerance: how far within the map its image ends
 ENOUGH = 40  # lines on which borders are found
 
 
@@ -69,8 +70,11 @@ def border_variables(
 
             with np.errstate(over="ignore", invalid="ignore"):  # values out of all proportion
                 image = Image(x, y, numbers[np.ix_(rows, columns)], tell)
+                image.move_sides(INSIDE * fineness.tolerance)
                 image.refine(fineness)
-                rings += outlines(image.labels, *bisected(image, fineness.tolerance))
+                places, kept = bisected(image, fineness.tolerance)
+                places[:, [0, -1], 0], places[[0, -1], :, 1] = x[[0, -1]], y[[0, -1], np.newaxis]
+                rings += outlines(image.labels, places, kept)
     names = np.array(sequences.names, dtype=np.str_)
     borders = [border for ring in rings for border in _borders(ring)]
     sides = np.array([border[:2] for border in borders], dtype=np.int64).reshape(-1, 2)
@@ -119,9 +123,17 @@ class Image:
     """
 
     def __init__(self, x: Array, y: Array, labels: Labels, tell: Tell) -> None:
-        self.lines, self.labels, self.tell = [x, y], labels, tell
+        self.lines, self.labels, self.tell = [x.copy(), y.copy()], labels, tell
         self.solved = np.ones(labels.shape, dtype=np.bool_)
         self.whole = [np.arange(n) % max(1, n // ENOUGH) == 0 for n in (x.size, y.size)]
+
+    def move_sides(self, share: float) -> None:
+        """Move the outer lines inside by a share: at psi_1 = 0, or chi = 1/2, all sticks."""
+        for line in self.lines:
+            line[[0, -1]] += share * (line[[-1, 0]] - line[[0, -1]])
+        x, y = np.meshgrid(*self.lines)
+        for side in (np.s_[0], np.s_[-1], np.s_[:, 0], np.s_[:, -1]):
+            self.labels[side] = self.tell(x[side], y[side])
 
     def refine(self, fineness: Fineness) -> None:
         """Insert lines everywhere until there are enough, then more where three regions meet."""
