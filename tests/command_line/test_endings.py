@@ -125,14 +125,14 @@ def test_ctrl_c_in_sampling_is_told_in_one_line(there):
     program = AT_IMPORT.format(module="", number="SIGINT").replace(
         "sys.addaudithook(hook)",
         """\
-import carom.dimensionless.interpolation as rebounds
+import carom.fitting.laws as laws
 from carom.fitting import posterior
-sampled, read = posterior.sample, rebounds.table
+sampled, read = posterior.sample, laws.stored
 def interrupted():
     signal.raise_signal(signal.SIGINT)
     return read()
 def sample(*given):
-    rebounds.table = interrupted
+    laws.stored = interrupted
     return sampled(*given)
 posterior.sample = sample
 import carom.fitting.result

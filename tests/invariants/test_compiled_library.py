@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.dimensionless import interpolation
+from carom.dimensionless import rebound_tables
 from carom.dimensionless.lossy.law import Loss, LossNumbers
 from carom.dimensionless.lossy.rebounds import lossy_rebounds
 from carom.dimensionless.lossy.solving import solve_with_losses
@@ -146,9 +146,9 @@ def numbers(rng):
     for t in rng.uniform(0.0, 1.0, 20):
         hertz.time(t * t, t)
         hertz.elapsed(t)
-        interpolation.cubic(t)
         chebyshev.evaluate(rng.normal(size=9), 0.0, 1.0, t)
-    interpolation.psi_out(rng.uniform(-5, 5, (4, 9)), np.full(4, 1.3), np.full(4, 0.9))
+    psi, numbers = rng.uniform(-5, 5, (4, 9)), (np.full(4, 1.3), np.full(4, 0.9))
+    rebound_tables.psi_out(rebound_tables.stored(), psi, *numbers)
 
 
 @pytest.mark.slow

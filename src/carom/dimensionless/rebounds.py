@@ -19,6 +19,8 @@ from carom.quantities.keywords import renamed_keyword
 from carom.quantities.refusals import flag
 from carom.quantities.units import threads_or_none
 
+THROUGHOUT = 3  # place of the regime of gross slip throughout
+
 
 @overload
 def rebound(
@@ -125,6 +127,12 @@ def regime_borders(chi: ArrayLike, restitution: ArrayLike = 1.0) -> Array:
         twice, e = 2.0 * given[0], given[1]
         borders = np.ones_like(twice), twice, twice * (1.0 + e) - e
     return np.asarray(np.maximum(np.stack(borders, axis=-1), 1.0))
+
+
+def regimes(psi: Array, chi: float, restitution: float) -> NDArray[np.int8]:
+    """Return the place of the regime of each psi_1 in `carom.impacts.curves.REGIMES`."""
+    borders = regime_borders(chi, restitution)
+    return np.searchsorted(borders, np.abs(psi), side="right").astype(np.int8)
 
 
 def warn_of_unsolved(

@@ -15,7 +15,8 @@ from carom.dimensionless.numerics.threads import available_cores
 from carom.dimensionless.rebounds import rebound
 from carom.explorer.limits import FOLLOWERS, LAW_SECONDS
 from carom.explorer.scenes import Scene
-from carom.laws.dem.base import ContactLaw, Law
+from carom.laws.base import Law
+from carom.laws.dem.base import ContactLaw
 from carom.quantities.arrays import Array
 from carom.verify.catalogue import named
 from carom.verify.errors import damped, losses_of

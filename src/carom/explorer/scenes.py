@@ -21,7 +21,7 @@ from carom.explorer.views import View
 from carom.impacts.exact import Impact
 from carom.impacts.history import history_columns
 from carom.impacts.solve import impact
-from carom.laws.dem.base import SOLID
+from carom.laws.base import SOLID
 from carom.quantities.arrays import Array
 from carom.quantities.prefixes import prefixed
 from carom.quantities.refusals import InputError

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.special import ndtri, stdtrit
 
-from carom.dimensionless.interpolation import THROUGHOUT
+from carom.dimensionless.rebounds import THROUGHOUT
 from carom.fitting.best import WEAK, Best, Information
 from carom.fitting.errors import RobustLoss
 from carom.fitting.estimation import estimate

@@ -8,7 +8,8 @@ import numpy as np
 
 from carom.bodies.kinematics import Rebound, Tangential
 from carom.bodies.pairs import Pair
-from carom.dimensionless.interpolation import LEAST_CHI, LEAST_E, MOST_CHI, psi_out
+from carom.dimensionless.rebound_tables import STORED_CHI, STORED_E, psi_out, stored
+from carom.laws.rigid import rigid_rebound
 from carom.quantities.arrays import Array
 
 Values = Mapping[str, Array]  # of parameters by name, each of shape (batch, 1)
@@ -91,7 +92,7 @@ def exact(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> A
     """Return V_x' = mu V_n psi_2/kappa, psi_1 = kappa V_x/(mu V_n), chi = (kappa/2)(m_n/m_t)."""
     unit = values["friction"] * normal_speed / values["kappa"]
     chi = half_ratio(pair) * values["kappa"][:, 0]
-    return unit * psi_out(velocity / unit, chi, values["restitution"][:, 0])
+    return unit * psi_out(stored(), velocity / unit, chi, values["restitution"][:, 0])
 
 
 def untouched(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> Array:
@@ -108,12 +109,12 @@ def rigid(pair: Pair, normal_speed: Array, velocity: Array, values: Values) -> A
     stuck = 1.0 + values.get("tangential_restitution", 0.0)
     whole = values["friction"] * (1.0 + values["restitution"]) * normal_speed
     bound = 2.0 * half_ratio(pair) * whole
-    return velocity - np.copysign(np.minimum(stuck * np.abs(velocity), bound), velocity)
+    return rigid_rebound(velocity, stuck, bound)
 
 
 FRICTION = Parameter("friction", 1e-3, 10.0, None)
 KAPPA = Parameter("kappa", 0.1, 4.0, None)
-RESTITUTION = Parameter("restitution", LEAST_E, 1.0)
+RESTITUTION = Parameter("restitution", *STORED_E)
 BETA = Parameter("tangential_restitution", -1.0, 1.0)
 
 ANY_RESTITUTION = RESTITUTION._replace(low=1e-3)  # where the table of psi_2 is not asked
@@ -131,5 +132,6 @@ def ranged(parameter: Parameter, pair: Pair) -> Parameter:
     if parameter.name != "kappa":
         return parameter
     half = half_ratio(pair)
-    low, high = max(parameter.low, LEAST_CHI / half), min(parameter.high, MOST_CHI / half)
+    least, most = (chi / half for chi in STORED_CHI)
+    low, high = max(parameter.low, least), min(parameter.high, most)
     return parameter._replace(low=low * (1.0 + ROUNDING), high=high * (1.0 - ROUNDING))

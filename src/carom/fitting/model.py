@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.dimensionless.interpolation import regimes
+from carom.dimensionless.rebounds import regimes
 from carom.fitting.errors import RobustLoss, Weights
 from carom.fitting.laws import (
     OFFSET,

@@ -9,7 +9,7 @@ from carom.bodies.cases import check_case, pair_of
 from carom.bodies.kinematics import Tangential
 from carom.bodies.pairs import Pair, alike
 from carom.datasets.observables import BEFORE, FASTEST, INCIDENCE, OBSERVABLES, SCALED, SLOWEST
-from carom.dimensionless.interpolation import LEAST_CHI, MOST_CHI
+from carom.dimensionless.rebound_tables import STORED_CHI
 from carom.fitting.heights import HEIGHTS, with_speeds
 from carom.fitting.laws import IncomingMotion
 from carom.fitting.problem import NOTHING, FitProblem
@@ -110,10 +110,11 @@ def _bodies(pair: Pair | None, case: Mapping[str, Any] | None) -> tuple[Pair, bo
             "Python or --case FILE in a shell, or write the bodies as JSON into a comment "
             "'# case: {...}' of the file"
         )
-    if not LEAST_CHI <= bodies.chi <= MOST_CHI:
+    least, most = STORED_CHI
+    if not least <= bodies.chi <= most:
         raise InputError(
-            f"pair: a chi of {bodies.chi:.3g} cannot be fitted, only one from {LEAST_CHI:.2g} to "
-            f"{MOST_CHI:.2g}; check radii and gyration_radius"
+            f"pair: a chi of {bodies.chi:.3g} cannot be fitted, only one from {least:.2g} to "
+            f"{most:.2g}; check radii and gyration_radius"
         )
     known = bodies.friction > 0.0
     return bodies if known else Pair(bodies.first, bodies.second, START), known

@@ -113,7 +113,7 @@ def c_header(laws: Sequence[ReboundLaw]) -> str:
 
 
 def _suffix(law: ReboundLaw) -> str:
-    chi, e = _identifier(law.chi), law.restitution
+    chi, e = _identifier(law._one_chi()), law.restitution
     return chi if e == 1.0 else f"{chi}_e_{_identifier(e)}"
 
 

@@ -4,11 +4,24 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import inf
+from typing import Any
+
+import numpy as np
 
 from carom.bodies.pairs import Pair
 from carom.laws.rules import Rule, constant_rule
+from carom.quantities.arrays import Array
 from carom.quantities.refusals import refusal
 from carom.quantities.units import not_negative, number
+
+
+def rigid_rebound(before: Array, stuck: Any, sliding: Any) -> Array:
+    """Return the tangential velocity after an impact of rigid spheres, in any unit.
+
+    It loses its part `stuck`, 1 + beta_0, but not more than in sliding (Walton 1993).
+    """
+    lost = np.minimum(stuck * np.abs(before), sliding)
+    return np.asarray(before - np.copysign(lost, before))
 
 
 def _check_ratios(law: object, **least: float) -> None:

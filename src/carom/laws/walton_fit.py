@@ -10,7 +10,7 @@ from scipy.optimize import least_squares
 
 from carom.bodies.pairs import Pair
 from carom.laws.exact import law_of
-from carom.laws.rigid import WaltonLaw
+from carom.laws.rigid import WaltonLaw, rigid_rebound
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import refusal
 from carom.quantities.units import positive
@@ -89,7 +89,7 @@ def fit_walton(pair: Pair, span: float | None = None) -> WaltonFit:
 
     def residual(parameters: Array) -> Array:
         one_plus_beta, ratio = parameters
-        return np.asarray(psi - np.minimum(one_plus_beta * psi, limit * ratio) - exact)
+        return np.asarray(rigid_rebound(psi, one_plus_beta, limit * ratio) - exact)
 
     found = least_squares(residual, (1.3, 1.0), bounds=((0.0, 0.0), (2.0, inf)), x_scale=0.1)
     beta, ratio = float(found.x[0]) - 1.0, float(found.x[1])

@@ -1,7 +1,7 @@
 """How far a contact law is from the exact impact: in psi_2, in its forces, in energy."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import fields, replace
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -12,8 +12,8 @@ from carom.dimensionless.elastic.phases import Status
 from carom.dimensionless.rebounds import rebound
 from carom.dimensionless.solution import solve
 from carom.io.labels import labelled_dataset
+from carom.laws.base import SOLID
 from carom.laws.dem import ContactLaw, FunctionLaw, Law
-from carom.laws.dem.base import SOLID
 from carom.quantities.arrays import Array, finite_line, positive_line
 from carom.quantities.refusals import InputError, refusal
 from carom.quantities.units import finite, positive
@@ -133,7 +133,7 @@ def damped(law: Law, restitution: float) -> Law:
     """Return a law with the damping for a restitution, or raise InputError if it has none."""
     if not hasattr(law, "restitution"):
         raise refusal("restitution", restitution, f"{law.name} has no damping; leave it out")
-    return replace(law, restitution=restitution)  # type: ignore[call-arg]
+    return law.damped(restitution)
 
 
 def losses_of(restitution: float) -> KelvinVoigt | None:

@@ -1,27 +1,19 @@
-"""The base of all contact laws, with a name, a source and the rebound that follows from them."""
+"""The base of contact laws: the forces in a contact, and the rebound that follows from them."""
 
-from abc import ABC, abstractmethod
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from carom.dimensionless.numerics.threads import available_cores
-from carom.dimensionless.rebounds import warn_of_unsolved
+from carom.laws.base import FEWEST_STEPS, SOLID, Law
 from carom.laws.dem.adaptive import WORK, rebounds
 from carom.laws.dem.coefficients import Coefficients
 from carom.laws.dem.damping import damped_restitution
-from carom.laws.dem.status import OF_FUNCTIONS, Codes, LawStatus, status_of
 from carom.laws.dem.stepping import HISTORY, PATIENCE, REMEMBERED, stepped, stepped_rebounds
-from carom.quantities.arrays import Array, along_the_same, pure_numbers, together
-from carom.quantities.refusals import flag, refusal
-from carom.quantities.units import counted, finite, not_negative, positive, threads_or_none
+from carom.quantities.arrays import Array
+from carom.quantities.refusals import refusal
+from carom.quantities.units import counted, finite, not_negative, positive
 
-SOLID = 4.0 / 7.0  # kappa/chi of solid spheres, and of one on a half-space
-FEWEST_STEPS, MOST_STEPS = 4, 10_000_000
-BLOCK = 16  # impacts that a thread takes at once
 READERS = {  # of the parameters that laws have
     "stiffness_ratio": lambda name, value: None if value is None else positive(name, value),
     "stiffness": positive,
@@ -31,133 +23,16 @@ READERS = {  # of the parameters that laws have
 
 
 @dataclass(frozen=True)
-class Law(ABC):
-    """A law of impact that stands for the exact one."""
-
-    name: ClassVar[str]
-    source: ClassVar[str]
-    largest_chi: ClassVar[float] = np.inf
-    most_steps: ClassVar[int] = MOST_STEPS  # that are tried for a time step
-
-    def __post_init__(self) -> None:
-        for name, read in READERS.items():
-            if name in vars(self):
-                object.__setattr__(self, name, read(name, getattr(self, name)))
-
-    @abstractmethod
-    def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
-        """Return psi_2 of impacts with one chi."""
-
-    def rebound(
-        self,
-        psi: ArrayLike,
-        chi: ArrayLike,
-        *,
-        kappa: ArrayLike | None = None,
-        steps: int | None = None,
-        threads: int | None = None,
-        return_status: bool = False,
-    ) -> Any:
-        """Return the tangential velocity of the contact point after the impact, psi_2.
-
-        Parameters
-        ----------
-        psi : array_like
-            Dimensionless tangential velocity before the impact, psi_1 = kappa V_x/(mu V_1).
-        chi : array_like
-            Ratio of inertia to stiffness, (kappa/2)(m_n/m_t), positive; broadcast against `psi`.
-        kappa : array_like, optional
-            Stiffness ratio G*/E*, by default that of solid spheres, 4 chi/7. It matters for laws
-            with their own k_t/k_n or damping.
-        steps : int, optional
-            Number of equal time steps in the duration of Hertz's contact, as in DEM codes, from 4
-            to ten million; by default steps of adaptive size that reach an error of 1e-8.
-        threads : int, optional
-            Number of threads, by default all cores. The result does not depend on it.
-        return_status : bool
-            Whether to return also an array of `carom.laws.dem.LawStatus` values, one per impact.
-
-        Returns
-        -------
-        float or ndarray
-            psi_2, in the shape of the broadcast arguments. It is NaN where an argument is out of
-            range or masked, where chi is above a million, and where the bodies do not part. One
-            RuntimeWarning then says where and why, unless `return_status` is set.
-
-        Raises
-        ------
-        InputError
-            If an argument is not a pure number, the shapes do not fit, or `steps` or `threads` is
-            out of range.
-
-        Examples
-        --------
-        >>> import carom
-        >>> law = carom.LammpsMindlin("mindlin")
-        >>> round(law.rebound(0.75, 1.4412), 3), round(carom.rebound(0.75, 1.4412), 3)
-        (0.591, 0.014)
-        """
-        if steps is not None:
-            steps = counted("steps", steps, FEWEST_STEPS, MOST_STEPS)
-        threads, return_status = threads_or_none(threads), flag("return_status", return_status)
-        along_the_same(psi=psi, chi=chi, kappa=kappa)
-        given = {"psi": pure_numbers("psi", psi), "chi": pure_numbers("chi", chi)}
-        given["kappa"] = SOLID * given["chi"] if kappa is None else pure_numbers("kappa", kappa)
-        shape = together(given)
-        psis, chis, kappas = (np.broadcast_to(values, shape).ravel() for values in given.values())
-        result, status = self._solved(psis, chis, kappas, steps, threads)
-        psi_out = result.reshape(shape) if shape else float(result[0])
-        if return_status:
-            return psi_out, status.reshape(shape) if shape else int(status[0])
-        lost, reason = np.flatnonzero(status), ""
-        if lost.size and status[lost[0]] in OF_FUNCTIONS:
-            reason = self._why(*(float(each[lost[0]]) for each in (psis, chis, kappas)))
-        warn_of_unsolved(status.reshape(shape), LawStatus, reason)
-        return psi_out
-
-    def _why(self, psi: float, chi: float, kappa: float) -> str:
-        """Return what the function of a law did wrong in an impact, "" if nothing."""
-        return ""
-
-    def _solved(
-        self, psi: Array, chi: Array, kappa: Array, steps: int | None, threads: int | None
-    ) -> tuple[Array, Codes]:
-        """Return psi_2 and the status of impacts, in threads."""
-        status = status_of(psi, chi, kappa, self.largest_chi)
-        result, good = np.full(psi.size, np.nan), np.flatnonzero(status == LawStatus.SOLVED)
-
-        def solve(part: NDArray[np.intp]) -> None:
-            where = good[part]
-            bodies = float(chi[where[0]]), float(kappa[where[0]])
-            result[where] = self._rebound(psi[where], *bodies, steps)
-
-        parts = _parts(chi[good], kappa[good])
-        workers = min(threads or available_cores(), len(parts))
-        if workers <= 1:
-            list(map(solve, parts))
-        else:
-            with ThreadPoolExecutor(workers) as pool:
-                list(pool.map(solve, parts))
-        lost = good[~np.isfinite(result[good])]
-        result[lost], status[lost] = np.nan, LawStatus.UNRESOLVED
-        return result, status
-
-
-def _parts(chi: Array, kappa: Array) -> list[NDArray[np.intp]]:
-    """Return the places of impacts of the same bodies, some for each thread."""
-    bodies, members = np.unique(np.stack([chi, kappa]), axis=1, return_inverse=True)
-    members = members.ravel()  # NumPy 2.0 gives it two dimensions
-    order = np.argsort(members, kind="stable")
-    groups = np.split(order, np.cumsum(np.bincount(members, minlength=bodies.shape[1]))[:-1])
-    return [group[i : i + BLOCK] for group in groups for i in range(0, group.size, BLOCK)]
-
-
-@dataclass(frozen=True)
 class ContactLaw(Law):
     """A law of the forces in a contact, from the first touch to separation."""
 
     largest_chi: ClassVar[float] = 1e6  # which an adaptive impact takes a tenth of a second for
     symmetric: ClassVar[bool] = True  # in the sign of psi: it is solved for |psi|
+
+    def __post_init__(self) -> None:
+        for name, read in READERS.items():
+            if name in vars(self):
+                object.__setattr__(self, name, read(name, getattr(self, name)))
 
     def coefficients(self, chi: float, kappa: float) -> Coefficients:
         """Return the law as numbers in the units of Hertz's impact."""

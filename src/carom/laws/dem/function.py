@@ -11,7 +11,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.bodies.pairs import Pair, checked_scales
-from carom.laws.dem.base import ContactLaw, Law
+from carom.laws.base import Law
+from carom.laws.dem.base import ContactLaw
 from carom.laws.dem.coefficients import SPRING
 from carom.laws.dem.contact_step import (
     NORMAL,
@@ -23,8 +24,8 @@ from carom.laws.dem.contact_step import (
     stepped_by,
 )
 from carom.laws.dem.damping import damping_ratio, hertz_damping
-from carom.laws.dem.status import Codes, LawStatus, status_of
 from carom.laws.dem.stepping import HISTORY
+from carom.laws.status import Codes, LawStatus, status_of
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import InputError, clipped, one_of, refusal
 from carom.quantities.units import bears_unit, number, positive
@@ -50,7 +51,6 @@ class ByFunction(Law):
             raise refusal("name", self.name, "must be a text, e.g. name='my law'")
         own = str(getattr(self.function, "__name__", type(self.function).__name__))
         object.__setattr__(self, "name", clipped(self.name) or own)
-        super().__post_init__()
 
     @abstractmethod
     def _one(self, psi: float, chi: float, kappa: float, steps: int | None) -> float:
@@ -139,6 +139,7 @@ class FunctionLaw(ByFunction, ContactLaw):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        ContactLaw.__post_init__(self)
         one_of("normal", self.normal, NORMAL)
         try:
             deepcopy(self.initial_state)

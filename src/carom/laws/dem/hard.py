@@ -5,7 +5,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.laws.dem.base import Law
+from carom.laws.base import Law
+from carom.laws.dem.damping import damped_restitution
+from carom.laws.rigid import rigid_rebound
 from carom.quantities.arrays import Array
 from carom.quantities.refusals import refusal
 from carom.quantities.units import number
@@ -48,7 +50,8 @@ class HardSphere(Law):
     restitution: float = 1.0
 
     def __post_init__(self) -> None:
-        super().__post_init__()
+        e = damped_restitution("restitution", self.restitution)
+        object.__setattr__(self, "restitution", e)
         beta = number("tangential_restitution", self.tangential_restitution, "1")
         if not -1.0 <= beta <= 1.0:
             raise refusal("tangential_restitution", beta, "must lie between -1 and 1")
@@ -57,5 +60,4 @@ class HardSphere(Law):
     def _rebound(self, psi: Array, chi: float, kappa: float, steps: int | None) -> Array:
         most = 2.0 * chi * (1.0 + self.restitution)
         with np.errstate(over="ignore"):
-            lost = np.minimum(most, (1.0 + self.tangential_restitution) * np.abs(psi))
-        return np.asarray(psi - np.copysign(lost, psi))
+            return rigid_rebound(psi, 1.0 + self.tangential_restitution, most)

@@ -1,0 +1,220 @@
+"""psi_2 as a table over psi_1, chi and e: series of psi_2/psi_1 between the regime borders.
+
+psi_2/psi_1 is not smooth where the regime changes. So psi_1 is measured by its place, in which 0
+and the three borders lie at 0, 1, 2 and 3 for every chi and e; from 3 on the contact slides
+throughout and needs no table. The variables of a table are those of chi and e that have a range,
+and the place.
+"""
+
+from collections.abc import Callable, Sequence
+from functools import cache
+from importlib.resources import files
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.dimensionless.elastic.batch import solved
+from carom.dimensionless.elastic.phases import Status
+from carom.dimensionless.lossy.law import Loss, LossNumbers
+from carom.dimensionless.lossy.panels.plans import TOLERANCE
+from carom.dimensionless.lossy.panels.stages import viscous_loss
+from carom.dimensionless.lossy.rebounds import lossy_rebounds
+from carom.dimensionless.numerics.arrays import Array, Counts, Matrix, Vector
+from carom.dimensionless.numerics.chebyshev import evaluate
+from carom.dimensionless.numerics.kernels import entry_point, kernel
+from carom.dimensionless.numerics.patches import (
+    NARROWEST,
+    Patches,
+    Samples,
+    contract,
+    fitted,
+    leaf_at,
+    sections,
+)
+from carom.dimensionless.rebounds import regime_borders
+from carom.quantities.refusals import refusal
+
+STORED = "data/rebounds.npz"  # the table of `stored`, made by studies/rebound_table.py
+STORED_CHI, STORED_E = (0.248, 4.09), (0.3, 1.0)
+SMALLEST, SMALLEST_LOSSY = 1e-6, 1e-3  # psi_1: below, psi_2/psi_1 is taken as constant
+FOLD = 0.5  # chi up to which all borders are 1
+NARROW = 1e-7  # of a panel with losses: their kinks are too weak to be felt within
+
+
+class Accuracy(NamedTuple):
+    """How well a table is made: degrees of its series along chi, e and the place; their errors."""
+
+    degrees: tuple[int, int, int]
+    tolerance: float  # of the last terms of a series, as an error in psi_2
+    fading: float = np.inf  # chi beyond which errors may grow, by its eighth power
+    solved: float = TOLERANCE  # of a panel of time of a viscous impact
+
+
+def psi_at(place: Array, chi: Array, restitution: Array) -> Array:
+    """Return psi_1 of a place from 0 to 3, at borders to the bit."""
+    borders = regime_borders(chi, restitution)
+    starts = np.concatenate((np.zeros_like(borders[..., :1]), borders), axis=-1)
+    regime = np.clip(np.floor(place), 0, 2).astype(np.int64)
+    part = place - regime
+    low, high = (
+        np.take_along_axis(starts, regime[..., np.newaxis] + step, -1)[..., 0] for step in (0, 1)
+    )
+    return np.asarray((1.0 - part) * low + part * high)
+
+
+@kernel
+def place_of(psi: float, chi: float, restitution: float) -> float:
+    """Return the place of psi_1 >= 0; from 3 on the contact slides throughout."""
+    width = 2.0 * chi - 1.0
+    if psi < 1.0:
+        return psi
+    if width <= 0.0 or psi >= 2.0 * chi * (1.0 + restitution) - restitution:
+        return 3.0
+    beyond = psi - 2.0 * chi
+    return 1.0 + (psi - 1.0) / width if beyond < 0.0 else 2.0 + beyond / (restitution * width)
+
+
+@entry_point()
+def fill(
+    psi: Matrix,
+    chi: Vector,
+    restitution: Vector,
+    table: Patches,
+    work: Vector,
+    sections: Matrix,
+    row_of: Counts,
+    psi_out: Matrix,
+) -> None:
+    """Write psi_2 of rows of impacts, each row with its chi and e.
+
+    `sections` keeps the series of leaves at the chi and e of a row, `row_of` whose they are.
+    """
+    point, last = work[: table.terms.size], table.terms.size - 1
+    series = work[table.terms.size :]
+    for row in range(psi.shape[0]):
+        if last > 0:
+            point[0] = chi[row]
+        if last > 1:
+            point[1] = restitution[row]
+        sliding = 2.0 * chi[row] * (1.0 + restitution[row])
+        for column in range(psi.shape[1]):
+            size = abs(psi[row, column])
+            lost = sliding
+            place = place_of(size, chi[row], restitution[row])
+            if place < 3.0:
+                point[last] = place
+                leaf = leaf_at(table, point)
+                if row_of[leaf] != row:
+                    contract(table, leaf, point, series)
+                    for term in range(table.terms[last]):
+                        sections[leaf, term] = series[term]
+                    row_of[leaf] = row
+                low, high = table.corners[leaf, last, 0], table.corners[leaf, last, 1]
+                ratio = evaluate(sections[leaf], low, high, max(place, low))
+                lost = min(sliding, size * min(2.0, max(0.0, 1.0 - ratio)))
+            psi_out[row, column] = np.copysign(1.0, psi[row, column]) * (size - lost)
+
+
+def psi_out(table: Patches, psi: Array, chi: Array, restitution: Array) -> Array:
+    """Return psi_2 of shape (rows, impacts), from psi_1 of that shape, chi and e of shape (rows,).
+
+    chi and e must lie in the table. |psi_2| <= |psi_1|, and psi_2 is odd in psi_1.
+    """
+    leaves, terms = len(table.series), int(table.terms[-1])
+    work = np.empty(table.terms.size + table.series.shape[1])
+    held = np.empty((leaves, terms)), np.full(leaves, -1, dtype=np.int64)
+    result = np.empty(psi.shape)
+    chi, restitution, psi = map(np.ascontiguousarray, (chi, restitution, psi))
+    fill(psi, chi, restitution, table, work, *held, result)
+    return result
+
+
+def panels(table: Patches, chi: float, restitution: float) -> tuple[Array, Array]:
+    """Return the table at one chi and e: ends of panels in psi_1, and series of psi_2/psi_1.
+
+    Their shapes are (n + 1,) and (n, terms).
+    """
+    places, series = sections(table, *(chi, restitution)[: table.terms.size - 1])
+    ends = psi_at(places, *np.broadcast_arrays(chi, restitution, places)[:2])
+    wide = np.diff(ends) > 0.0  # for chi <= 1/2 the borders are one
+    return np.append(ends[:-1][wide], ends[-1]), series[wide]
+
+
+def tabulated(
+    chi: tuple[float, float],
+    restitution: tuple[float, float],
+    accuracy: Accuracy,
+    advance: Callable[[int], object] = lambda solved: None,
+) -> Patches:
+    """Return the table over ranges of chi and e, or one value of either, where the ends are one.
+
+    `advance` is called with the number of impacts that have been solved. Raises InputError if an
+    impact cannot be solved.
+    """
+    ranges, degrees = (chi, restitution), accuracy.degrees
+    wide = [i for i, (low, high) in enumerate(ranges) if low < high]
+    elastic = restitution[0] == 1.0
+    places = SMALLEST if elastic else SMALLEST_LOSSY, 3.0 if chi[1] > FOLD else 1.0
+
+    def ratio(*point: Array) -> Samples:
+        flat = [each.ravel() for each in point]
+        numbers = [np.full(flat[0].size, low) for low, _ in ranges]
+        for i, values in zip(wide, flat, strict=False):
+            numbers[i] = values
+        psi = psi_at(flat[-1], *numbers)
+        outgoing, branches = _solved(psi, numbers[0], numbers[1], accuracy.solved)
+        advance(psi.size)
+        faded = np.minimum(1.0, accuracy.fading / numbers[0]) ** 8
+        return Samples(outgoing / psi, psi * faded, branches)
+
+    return fitted(
+        ratio,
+        [*(ranges[i] for i in wide), places],
+        [*(degrees[i] for i in wide), degrees[-1]],
+        accuracy.tolerance,
+        cuts=_borders(chi, wide),
+        singular=1.0,
+        narrowest=NARROWEST if elastic else NARROW,
+    )
+
+
+def _borders(chi: tuple[float, float], wide: Sequence[int]) -> list[tuple[int, list[float]]]:
+    """Return where a table is cut in any case."""
+    cuts = [(len(wide), [1.0, 2.0])] if chi[1] > FOLD else []
+    return [(0, [FOLD]), *cuts] if chi[0] < FOLD < chi[1] else cuts
+
+
+def _solved(
+    psi: Array, chi: Array, restitution: Array, tolerance: float
+) -> tuple[Array, NDArray[np.int64]]:
+    """Return psi_2 and the branch of each impact: its phases, or one for all with losses.
+
+    With losses kinks are weak. Raises InputError where an impact is not solved.
+    """
+    branches = np.zeros(psi.size, dtype=np.int64)
+    if np.all(restitution == 1.0):
+        outgoing, status, branches = solved(psi, chi)
+    else:
+        values, which = np.unique(restitution, return_inverse=True)
+        alpha = np.array([_viscous_loss(e) for e in values.tolist()])[which]
+        losses = LossNumbers(Loss.VISCOUS, alpha)
+        found = lossy_rebounds(psi, chi, losses, tolerance=tolerance)
+        outgoing, status = found.psi_out, found.status
+    if np.any(status):
+        first = int(np.flatnonzero(status)[0])
+        message = Status(int(status[first])).message
+        raise refusal("chi", float(chi[first]), f"its rebounds are {message}")
+    return outgoing, branches
+
+
+_viscous_loss = cache(viscous_loss)
+
+
+@cache
+def stored() -> Patches:
+    """Return the table that is stored with the package, over all chi and e that are fitted."""
+    with files("carom").joinpath(STORED).open("rb") as stream, np.load(stream) as arrays:
+        kinds = (np.int64, np.float64, np.int64, np.float64, np.int64, np.float64)
+        parts = zip(Patches._fields, kinds, strict=True)
+        return Patches(*(arrays[name].astype(kind) for name, kind in parts))
