@@ -114,6 +114,7 @@ def fitted(
     for axis, values in cuts:
         waiting = [leaf for old in waiting for leaf in tree.cut(old, axis, values)]
     width, last = np.diff(tree.boxes[0])[:, 0], len(box) - 1
+    function = _remembering(function) if last == 0 else function
     while waiting:
         points = tree.points(waiting)
         samples = function(*points)
@@ -137,6 +138,21 @@ def fitted(
             later += tree.cut(leaf, axis, inside or [middle])
         waiting = later
     return tree.patches()
+
+
+def _remembering(function: Callable[..., Samples]) -> Callable[..., Samples]:
+    """Return a function of one variable that is asked once for the ends that panels share."""
+    known: dict[float, tuple[float, float, int]] = {}
+
+    def recall(x: Array) -> Samples:
+        asked = x.ravel().tolist()
+        new = [each for each in dict.fromkeys(asked) if each not in known]
+        if new:
+            answers = (part.tolist() for part in function(np.array(new)))
+            known.update(zip(new, zip(*answers, strict=True), strict=True))
+        return Samples(*map(np.array, zip(*(known[each] for each in asked), strict=True)))
+
+    return recall
 
 
 class _Tree:
@@ -168,6 +184,8 @@ class _Tree:
         grids = np.meshgrid(*map(extrema, self.degrees), indexing="ij")
         unit = np.array([grid.ravel() for grid in grids])
         points = 0.5 * (low + high) + 0.5 * (high - low) * unit
+        if len(self.degrees) == 1:  # to the bit, as panels share them
+            points[..., :1], points[..., -1:] = low, high
         return np.ascontiguousarray(np.moveaxis(np.clip(points, low, high), 1, 0))
 
     def series(self, values: Array) -> Array:
@@ -206,6 +224,8 @@ def _look_between(
 ) -> None:
     """Raise errors that seem small to those between the outer nodes, of leaves of one variable."""
     seem, degree = np.flatnonzero(errors <= tolerance), tree.degrees[0]
+    if not seem.size:
+        return
     angles = np.pi * np.array([0.5, degree - 0.5]) / degree
     low, high = np.array([tree.boxes[leaf][0] for leaf in leaves])[seem].T[..., np.newaxis]
     between = 0.5 * (low + high) - 0.5 * (high - low) * np.cos(angles)
