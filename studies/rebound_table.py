@@ -25,7 +25,7 @@ from carom.dimensionless.rebound_tables import (
 from carom.io.progress import advancing
 
 FILE = Path(carom.__file__).parent / STORED
-ACCURACY = Accuracy((6, 6, 8), tolerance=1e-5, fading=2.1, solved=1e-7)
+ACCURACY = Accuracy((6, 6, 8), tolerance=1e-5, fading=2.0, solved=1e-7)
 # Largest errors in psi_2 that are allowed between these chi and the next.
 ALLOWED = {0.248: 5e-5, 0.5: 5e-5, 1.75: 5e-5, 2.2: 1e-3, 3.0: 5e-3, 4.09: None}
 IMPACTS, SEED = 2000, 7

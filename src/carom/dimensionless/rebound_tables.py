@@ -47,7 +47,7 @@ class Accuracy(NamedTuple):
 
     degrees: tuple[int, int, int]
     tolerance: float  # of the last terms of a series, as an error in psi_2
-    fading: float = np.inf  # chi beyond which errors may grow, by its eighth power
+    fading: float = np.inf  # chi beyond which errors may grow, by its ninth power
     solved: float = TOLERANCE  # of a panel of time of a viscous impact
 
 
@@ -165,7 +165,7 @@ def tabulated(
         psi = psi_at(flat[-1], *numbers)
         outgoing, branches = _solved(psi, numbers[0], numbers[1], accuracy.solved)
         advance(psi.size)
-        faded = np.minimum(1.0, accuracy.fading / numbers[0]) ** 8
+        faded = np.minimum(1.0, accuracy.fading / numbers[0]) ** 9
         return Samples(outgoing / psi, psi * faded, branches)
 
     return fitted(
